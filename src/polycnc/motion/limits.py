@@ -138,6 +138,8 @@ def context_fields(
         context.lag_from,
         context.pace.rapid if context.pace is not None else 1.0,
         context.tolerance_mm or inf if context.corner_mode is CornerMode.ROUNDED_FROM else inf,
+        context.turn_tolerance_deg,
+        context.turn_distance_mm,
         *(a, b, c, d, e, f, g, h, i),
         *context.frame.t,
         *(context.offsets or [0.0] * axes),

@@ -62,6 +62,8 @@ class Context:
             direction 1, -1 or 0.
         corner_mode: How the path goes through the ends of blocks; `stop_window` what an exact stop waits for.
         tolerance_mm: Contour tolerance for the planner where a code names one, else 0.
+        turn_tolerance_deg: How far rotary axes may leave their way where two blocks meet, where a code names that
+            (OST), and `turn_distance_mm` how far from there they may (OSD); 0 for what holds for all axes.
         acceleration: How the axes take up speed; None for the control's own way.
         rapid_by_axis: On a rapid every axis runs alone, whatever the control's parameters say.
         rapid_speed: Speed of rapids along the path, or of each axis that runs alone, mm/s, where they have one of their
@@ -105,6 +107,8 @@ class Context:
     corner_mode: CornerMode = CornerMode.CONTINUOUS
     stop_window: StopWindow = StopWindow.FINE
     tolerance_mm: float = 0.0
+    turn_tolerance_deg: float = 0.0
+    turn_distance_mm: float = 0.0
     acceleration: AccelerationMode | None = None
     rapid_by_axis: bool = False
     rapid_speed: float = 0.0

@@ -15,7 +15,7 @@ from polycnc.machine.kinematics import Kinematics
 from polycnc.transformation.orientation.choice import nearest
 from polycnc.transformation.orientation.directions import angle_between, great_circle, unit_of
 from polycnc.transformation.orientation.solutions import pole_angle, solutions_for
-from polycnc.transformation.orientation.turning import Knot, follow
+from polycnc.transformation.orientation.turning import Course, Knot, Turning, follow
 
 if TYPE_CHECKING:
     from polycnc.geometry.frames import Vector
@@ -85,3 +85,16 @@ def test_a_way_that_the_axes_cannot_follow_has_no_knots() -> None:
     way = great_circle((0.0, 0.0, 1.0), (1.0, 0.0, 0.0))
     assert way is not None
     assert follow(MACHINES[0], way, {}, lambda angles: abs(angles["A"]) < 60.0, CONE) is None
+
+
+def test_a_course_at_the_start_ends_early() -> None:
+    turning = Turning((3,), (0.5, 1.0), ((10.0,), (40.0,)), Course(40.0, 8.0, both_ends=False))
+    assert turning.paced([0.0], 20.0) == Turning((3,), (0.125, 0.25, 1.0), ((10.0,), (40.0,), (40.0,)))
+    assert turning.paced([0.0], 5.0) == Turning((3,), (0.5, 1.0), ((10.0,), (40.0,)))
+
+
+def test_a_course_at_both_ends_rests_between() -> None:
+    turning = Turning((3,), (0.25, 1.0), ((10.0,), (40.0,)), Course(40.0, 4.0, both_ends=True))
+    paced = turning.paced([0.0], 20.0)
+    assert paced.shares == (0.125, 0.25, 0.75, 1.0)
+    assert paced.places == ((10.0,), (20.0,), (20.0,), (40.0,))

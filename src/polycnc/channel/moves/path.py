@@ -51,6 +51,8 @@ class Rank(IntEnum):
     NORMAL = auto()
     #: Rotary axes turn along the way so that the tool keeps to the way of its direction.
     TURNING = auto()
+    #: The history of the tool's direction is smoothed over several moves.
+    HISTORY = auto()
     #: Positions of the work become those of the axes.
     AXES = auto()
     #: Protection zones: they see where the machine would go.

@@ -41,6 +41,8 @@ class TurningStage(Stage):
             self.after.move(move)
             return
         path = MovePath(replace(move, turning=None), self._channel.coordinates.geometry)
+        if turning.course is not None:
+            turning = turning.paced([move.start[column] for column in turning.columns], path.length)
         within = self._through(move)
         before, start = 0.0, move.start
         for share, places in zip(turning.shares, turning.places, strict=True):

@@ -33,7 +33,7 @@ from polycnc.control.sinumerik.reset import reset, start_codes
 from polycnc.control.sinumerik.signals import interrupts, measuring
 from polycnc.control.sinumerik.tools import sides, stages
 from polycnc.control.sinumerik.tools.memory import Tools
-from polycnc.control.sinumerik.transformations import seat
+from polycnc.control.sinumerik.transformations import seat, smoothing
 from polycnc.control.sinumerik.transformations.point_to_point import PointToPoint
 from polycnc.control.sinumerik.variables import by_name, functions
 from polycnc.control.sinumerik.variables.registry import SystemVariables
@@ -74,6 +74,8 @@ NO_LIMIT_RPM = 1e8
 R_PARAMETERS = 1000
 #: Rotations of frames: RPY angles (1), or Euler angles, which polycnc does not execute.
 EULER_ANGLES = "$MN_FRAME_ANGLE_INPUT_MODE"
+#: The older way of CUTMOD (7.11), which polycnc does not execute: only an empty text is taken.
+CUTTING_DIRECTION = "$SC_CUTDIRMOD"
 #: What stands behind the name of a variable: the number of an R parameter, indices.
 _INDEX = re.compile(r"(?<=^R)\d+$|\[.*", re.IGNORECASE)
 
@@ -148,6 +150,8 @@ class Sinumerik:
         interrupts.watch(channel)
         if memory.data.integer(EULER_ANGLES) != 1:
             raise not_supported(EULER_ANGLES)
+        if memory.data.read(CUTTING_DIRECTION):
+            raise not_supported(CUTTING_DIRECTION)
         init_programs.call(channel)
 
     def begin(self, channel: SinumerikChannel) -> None:
@@ -330,6 +334,7 @@ class Sinumerik:
         shown = (positions.diameter_function(mode, i, memory.transverse) for i in range(len(channel.axes)))
         diameters = sum(1 << i for i, function in enumerate(shown) if function in positions.SHOWS_DIAMETERS)
         side = sides.SIDES.get(mode["compensation"], 0)
+        turn = smoothing.turn(channel, mode)
         return Context(
             plane=mode["plane"],
             inch=False,
@@ -347,7 +352,9 @@ class Sinumerik:
             spindle_limit_rpm=_limit(memory, spindle, mode["feed"]),
             corner_mode=_corner_mode(channel, mode),
             stop_window=tables.STOP_WINDOWS[mode["exact_stop"]],
-            tolerance_mm=_tolerance(channel, mode["path"]),
+            tolerance_mm=smoothing.contour(channel, mode, _tolerance(channel, mode["path"])),
+            turn_tolerance_deg=turn.tolerance_deg,
+            turn_distance_mm=turn.distance_mm,
             acceleration=tables.ACCELERATION_MODES[mode["acceleration"]],
             rapid_by_axis=mode["rapid"] == "RTLIOF",
             diameter_axes=diameters,
@@ -421,7 +428,9 @@ def _names_kept(channel: SinumerikChannel) -> set[str]:
 
 def _corner_mode(channel: SinumerikChannel, mode: Mode) -> CornerMode:
     """G9 holds for its block, else group 10."""
-    return CornerMode.EXACT_STOP if ExactStop.of(channel).block else tables.CORNER_MODES[mode["path"]]
+    if ExactStop.of(channel).block:
+        return CornerMode.EXACT_STOP
+    return smoothing.corner_mode(mode, tables.CORNER_MODES[mode["path"]])
 
 
 def _tolerance(channel: SinumerikChannel, path_mode: str) -> float:

@@ -130,6 +130,10 @@ class ContextRecord(Places):
     RAPID_SHARE = place()
     #: How far before and behind a corner its rounding reaches at most, mm (infinite: the tolerance alone counts).
     ROUNDING = place()
+    #: How far rotary axes may leave their way at a corner, degrees; how far before and behind it they may, mm. Zero for
+    #: both: the corner's own tolerance counts for them; for one of them: it bounds nothing.
+    TURN_TOLERANCE = place()
+    TURN_DISTANCE = place()
     #: Nine numbers by rows, then the shift.
     FRAME = place(12)
     OFFSETS = place(0)

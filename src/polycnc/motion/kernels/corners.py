@@ -58,9 +58,17 @@ def join(
     shorter = min(length, state.run.length)
     tolerance = contexts[record + ContextRecord.TOLERANCE]
     if state.run.smooth != 2.0:
-        own2 = jump2(n, limits, state, shorter)
+        angle, distance = (
+            contexts[record + ContextRecord.TURN_TOLERANCE],
+            contexts[record + ContextRecord.TURN_DISTANCE],
+        )
+        turns = not (angle > 0.0 or distance > 0.0)
+        own2 = jump2(turns, n, limits, state, shorter)
         if tolerance > 0.0:
-            own2 = rounded2(tolerance, contexts[record + ContextRecord.ROUNDING], n, limits, state, shorter)
+            rounding = contexts[record + ContextRecord.ROUNDING]
+            own2 = rounded2(tolerance, rounding, turns, n, limits, state, shorter)
+        if not turns:
+            own2 = min(own2, turned2(angle, distance, n, limits, state, shorter))
         cap2 = min(cap2, own2, stepped2(n, limits, state))
     if ramp > 0.0:
         cap2 = corner_hold2(contexts, record, n, limits, state, length, cap2)
@@ -79,8 +87,27 @@ def stepped2(n: int, limits: Limits, state: State) -> float:
     return inf if step <= SAME_DIRECTION or is_rapid(state) else (speed / step) ** 2
 
 
-def jump2(n: int, limits: Limits, state: State, shorter: float) -> float:
-    """Largest x at a corner that is passed without deviation.
+def turned2(angle: float, distance: float, n: int, limits: Limits, state: State, shorter: float) -> float:
+    """Largest x at a corner at which rotary axes leave their way by an angle, or within a distance of it.
+
+    A rotary axis changes its pace evenly as far around the corner as it may; on the way `touch` before and behind
+    it that takes it off by `step·touch/4`. No more than half of the shorter line is used up.
+    """
+    x2 = inf
+    for i in range(n):
+        step = abs(state.unit[i] - state.tangent[i])
+        if limits.rotary[i] != 0.0 and step > SAME_DIRECTION:
+            touch = 0.5 * shorter
+            if angle > 0.0:
+                touch = min(touch, 4.0 * angle / step)
+            if distance > 0.0:
+                touch = min(touch, distance)
+            x2 = min(x2, state.joint.ease * limits.acceleration[i] * 2.0 * touch / step)
+    return x2
+
+
+def jump2(turns: bool, n: int, limits: Limits, state: State, shorter: float) -> float:
+    """Largest x at a corner that is passed without deviation; of rotary axes too where that concerns them (`turns`).
 
     The velocity of each axis may step by its allowed jump. That alone would let a curve of ever shorter lines
     go ever faster: the step, spread over the shorter of the two lines, must also stay within the axis's
@@ -90,14 +117,20 @@ def jump2(n: int, limits: Limits, state: State, shorter: float) -> float:
     x2 = inf
     for i in range(n):
         step = abs(unit[i] - tangent[i])
-        if step > SAME_DIRECTION:
+        if step > SAME_DIRECTION and (turns or limits.rotary[i] == 0.0):
             jump = state.joint.ease * limits.jump[i] / step
             x2 = min(x2, jump * jump, state.joint.ease * limits.acceleration[i] * shorter / step)
     return x2
 
 
 def rounded2(
-    tolerance: float, rounding: float, n: int, limits: Limits, state: State, shorter: float
+    tolerance: float,
+    rounding: float,
+    turns: bool,
+    n: int,
+    limits: Limits,
+    state: State,
+    shorter: float,
 ) -> float:
     """Largest x at a corner that is rounded within a contour tolerance and a distance from the corner.
 
@@ -121,7 +154,7 @@ def rounded2(
     for i in range(n):
         if limits.rotary[i] != 0.0:
             step = abs(unit[i] - tangent[i])
-            if step > SAME_DIRECTION:
+            if turns and step > SAME_DIRECTION:
                 x2 = min(x2, state.joint.ease * limits.acceleration[i] * 2.0 * touch / step)
         elif radius < inf:
             a, b = tangent[i] / before, unit[i] / after

@@ -8,7 +8,7 @@ the way: it does not notice.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import radians
 from typing import TYPE_CHECKING
@@ -27,8 +27,27 @@ if TYPE_CHECKING:
 STEP, NEAR_DEG, CLOSEST = radians(1.5), 8.0, 0.1
 #: Between two knots the direction is as near as this to the wanted one.
 TOLERANCE = radians(0.02)
+#: Shares that differ by less are the same.
+SAME_SHARE = 1e-9
+#: Where a turn at both ends of a move is parted.
+HALF = 0.5
 #: Places at which the length of a way is looked at; steps of the search for the edge of a pole's cone.
 LOOKS, SEARCH = 16, 24
+
+
+@dataclass(frozen=True, slots=True)
+class Course:
+    """On which part of a move the tool turns, where it does not turn all along.
+
+    Attributes:
+        degrees: How far it turns.
+        rate: How far it turns along a millimetre of the way at most.
+        both_ends: One half of it turns at the start of the move and the other one at its end; else all at the start.
+    """
+
+    degrees: float
+    rate: float
+    both_ends: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,11 +58,43 @@ class Turning:
         columns: Columns of the axes.
         shares: Share of the move at each knot, the last one 1.
         places: Positions of the axes at each knot.
+        course: On which part of the move they turn; None for all of it.
     """
 
     columns: tuple[int, ...]
     shares: tuple[float, ...]
     places: tuple[tuple[float, ...], ...]
+    course: Course | None = None
+
+    def paced(self, start: Sequence[float], length_mm: float) -> Turning:
+        """The same turn by its course, on a move of a length; `start` are the positions in front of it.
+
+        A move too short for the rate turns the tool all along.
+        """
+        course = self.course
+        part = 1.0 if course is None else course.degrees / (course.rate * length_mm)
+        if course is None or part >= 1.0 - SAME_SHARE:
+            return replace(self, course=None)
+        if not course.both_ends:
+            shares, places = tuple(part * share for share in self.shares), self.places
+            return Turning(self.columns, (*shares, 1.0), (*places, places[-1]))
+        middle = self._at(tuple(start), HALF)
+        early = [(part * s, p) for s, p in zip(self.shares, self.places, strict=True) if s < HALF]
+        late = [
+            (1.0 - part * (1.0 - s), p) for s, p in zip(self.shares, self.places, strict=True) if s > HALF
+        ]
+        knots = [*early, (part * HALF, middle), (1.0 - part * HALF, middle), *late]
+        return Turning(self.columns, tuple(share for share, _ in knots), tuple(place for _, place in knots))
+
+    def _at(self, start: tuple[float, ...], share: float) -> tuple[float, ...]:
+        """Positions after a share of the turn."""
+        before, places = 0.0, start
+        for after, ahead in zip(self.shares, self.places, strict=True):
+            if share <= after:
+                part = (share - before) / (after - before)
+                return tuple(a + (b - a) * part for a, b in zip(places, ahead, strict=True))
+            before, places = after, ahead
+        return places
 
 
 @dataclass(frozen=True, slots=True)

@@ -29,7 +29,14 @@ from polycnc.control.sinumerik.oscillation import words as oscillation
 from polycnc.control.sinumerik.signals import measuring
 from polycnc.control.sinumerik.tools import online, selection, smooth_approach, stages
 from polycnc.control.sinumerik.tools.holders import active as carriers
-from polycnc.control.sinumerik.transformations import oblique, orientation, point_to_point, seat
+from polycnc.control.sinumerik.transformations import (
+    history,
+    oblique,
+    orientation,
+    point_to_point,
+    seat,
+    smoothing,
+)
 from polycnc.control.sinumerik.transformations.words import SECOND, SINGLE, TRIPLES
 from polycnc.language.bulk import Enter, Idle, Note, declare
 from polycnc.messages import AlarmError
@@ -250,7 +257,8 @@ def _is_bare_motion(block: Block, codes: dict[str, str]) -> bool:
 
 def _enter(mode: Mode, modal: list[tuple[str, str]], *, changes: bool) -> Step:
     """A step that brings the modal state about."""
-    matters = not modal or any(name in IN_CONTEXT for name, _ in modal)
+    compresses = mode["compressor"] != "COMPOF" and any(name == "motion" for name, _ in modal)
+    matters = not modal or compresses or any(name in IN_CONTEXT for name, _ in modal)
 
     def run(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
         channel.mode = mode
@@ -457,15 +465,6 @@ def _contour_is_in_force(channel: SinumerikChannel) -> bool:
     return stages.active_cutter(channel) is None
 
 
-def _smooth_direction(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
-    """ORISON: PC0015 where fewer than four blocks are kept for it (6.7). The direction stays the programmed one."""
-    least = 4
-    if channel.mode["orientation_profile"] == "ORISON":
-        kept = channel.memory.data.integer("$MC_MM_ORISON_BLOCKS")
-        if kept < least:
-            raise AlarmError("PC0015", count=kept, least=least)
-
-
 #: When functions of a group that are in force already change nothing.
 REPEATED: dict[str, Condition] = {
     "wcs": frames.is_in_force,
@@ -481,7 +480,7 @@ EFFECTS: dict[str, Step] = {
     "workpiece_frame": tool_frames.by_table,
     "feed": _feed_type,
     "diameter": _diameter,
-    "orientation_profile": _smooth_direction,
+    "orientation_profile": history.select,
     "working_area": _working_area,
     "working_area_wcs": _working_area,
 }
@@ -511,5 +510,6 @@ IN_CONTEXT = frozenset(
         "acceleration",
         "rapid",
         "curve_feed",
+        *smoothing.GROUPS,
     )
 )

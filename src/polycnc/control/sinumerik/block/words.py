@@ -26,6 +26,7 @@ from polycnc.control.sinumerik.signals import retraction
 from polycnc.control.sinumerik.tables import length_factor
 from polycnc.control.sinumerik.tools import sides, stages
 from polycnc.control.sinumerik.tools.holders import active as carriers
+from polycnc.control.sinumerik.transformations.posture import Orienting
 from polycnc.control.sinumerik.variables.stored import Stored
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.bulk import Note, declare
@@ -293,6 +294,15 @@ def depth(draft: Draft, position: int, _shape: WordShape) -> Step:
     return run
 
 
+def turning_rate(_draft: Draft, position: int, _shape: WordShape) -> Step:
+    """ORIS: degrees that the tool turns along a millimetre of the way under OSS and OSSE; 0 for all along the block."""
+
+    def run(channel: SinumerikChannel, values: Values) -> None:
+        Orienting.of(channel).rate = max(number(values, position), 0.0)
+
+    return run
+
+
 def disc(_draft: Draft, position: int, _shape: WordShape) -> Step:
     """DISC: how far the transition arc of G450 is raised, 0 to 100 (at most MD20220)."""
 
@@ -499,6 +509,7 @@ WORDS: dict[str, Maker] = {
     "OFFN": allowance,
     "DISC": disc,
     "ISD": depth,
+    "ORIS": turning_rate,
     "CHF": corner(Shape.CHAMFER_LENGTH),
     "CHR": corner(Shape.CHAMFER),
     "RND": corner(Shape.ROUNDING),

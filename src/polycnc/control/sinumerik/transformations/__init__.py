@@ -7,6 +7,8 @@
     posture        between work, basic system and rotary axes; what later blocks go on from
     orientation    where these words lead the rotary axes, at the end of a block and on the way
     directions     from the words to the way of the direction: great circle, cones, curves, relative to the path
+    smoothing      how far OSD, OST and the compressors let the axes leave the programmed way
+    history        ORISON
     spin           THETA, ORIROTA and the like
     start          ORIRESET
     point_to_point PTP, CP, STAT, TU

@@ -7,7 +7,8 @@ the axes go evenly.
 
 from __future__ import annotations
 
-from math import nan
+from itertools import pairwise
+from math import degrees, dist, nan
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.turning import TurningStage
@@ -27,7 +28,7 @@ from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 from polycnc.transformation.orientation.choice import nearest
 from polycnc.transformation.orientation.directions import angle_between, tangent_at_end, unit_of
-from polycnc.transformation.orientation.turning import Knot, Turning, follow
+from polycnc.transformation.orientation.turning import Course, Knot, Turning, follow
 
 if TYPE_CHECKING:
     from polycnc.channel.mode import Mode
@@ -41,10 +42,13 @@ if TYPE_CHECKING:
 POLE_LIMIT = 2.0
 #: Motions along which the direction has a way of its own; along splines and threads the axes go evenly.
 LEADS = ("G0", "G1", "G2", "G3", "CIP", "CT")
+CIRCLES = LEADS[2:]
 #: Angles that differ by less are the same, degrees.
 SAME_DEG = 1e-6
 #: Directions that differ by less are the same, radians.
 SAME = 1e-6
+#: Functions of group 34 that turn the tool at the start of a block, and whether also at its end.
+AT_ENDS = {"OSS": False, "OSSE": True}
 #: Functions of group 22 for which the tool keeps its direction, with or without a transformation.
 WITHOUT_TURNING = ("CUT3DFS", "CUT3DFF")
 
@@ -112,7 +116,9 @@ def _is_way(words: Words) -> bool:
 def _matters(mode: Mode, draft: Draft) -> bool:
     """Whether axes that are named themselves are led along a way of the direction."""
     return (
-        interpolation(mode, draft.channel, by_axes=True) != "ORIAXES" or mode["rotation_vector"] == "ORIROTC"
+        interpolation(mode, draft.channel, by_axes=True) != "ORIAXES"
+        or mode["rotation_vector"] == "ORIROTC"
+        or mode["orientation_smoothing"] in AT_ENDS
     )
 
 
@@ -167,7 +173,23 @@ def turn(
         knots = [Knot(1.0, posture.angles(end))]
     knots = _as_named(posture, words, end, knots)
     knots = spin.turned(posture, state, words, mode, values, ends, near, knots)
-    return _placed(channel, posture, knots, end)
+    course = _course(posture, mode, near, knots, ends)
+    return _placed(channel, posture, knots, end, course)
+
+
+def _course(
+    posture: Posture, mode: Mode, near: Angles, knots: list[Knot], ends: directions.Ends
+) -> Course | None:
+    """On which part of the block the tool turns: OSS, OSSE at the rate ORIS (7.6); None for all of it."""
+    both, rate = AT_ENDS.get(mode["orientation_smoothing"]), Orienting.of(posture.channel).rate
+    moves = dist(posture.tip(ends[0]), posture.tip(ends[1])) > 0.0 or mode["motion"] in CIRCLES
+    if both is None or rate <= 0.0 or not moves or mode["motion"] not in LEADS:
+        return None
+    angles = [near, *(knot.angles for knot in knots)]
+    tools = [posture.direction(each) for each in angles]
+    turned = degrees(sum(angle_between(a, b) for a, b in pairwise(tools)))
+    spun = max(abs(knots[-1].angles[axis] - near[axis]) for axis in posture.point.kinematics.axes)
+    return Course(turned if turned > SAME_DEG else spun, rate, both)
 
 
 def _along_path(
@@ -238,17 +260,19 @@ def _as_named(posture: Posture, words: Words, end: list[float], knots: list[Knot
     return [Knot(1.0, named)]
 
 
-def _placed(channel: SinumerikChannel, posture: Posture, knots: list[Knot], end: list[float]) -> list[float]:
-    """The end of the block with its rotary axes; several knots are the turning of its move."""
+def _placed(
+    channel: SinumerikChannel, posture: Posture, knots: list[Knot], end: list[float], course: Course | None
+) -> list[float]:
+    """The end of the block with its rotary axes; several knots, or a course of its own, are the turning of its move."""
     columns = tuple(posture.column(axis) for axis in posture.point.kinematics.axes)
     end = end.copy()
     for column, place in zip(columns, posture.places(knots[-1].angles), strict=True):
         end[column] = place
         channel.coordinates.pending[column] = 0.0
     channel.turning = None
-    if len(knots) > 1:
+    if len(knots) > 1 or course is not None:
         shares, places = zip(*((knot.share, posture.places(knot.angles)) for knot in knots), strict=True)
-        channel.turning = Turning(columns, shares, places)
+        channel.turning = Turning(columns, shares, places, course)
         if channel.path.find(TurningStage) is None:
             channel.path.put(TurningStage(channel))
     return end

@@ -33,6 +33,7 @@ class Orienting(State, lifetime=Lifetime.RESET):
         second: The second point of the tool (ORICURVE), work coordinates; None where none was programmed.
         theta: Angle of the tool about its axis, degrees.
         stat: STAT, the joint configuration.
+        rate: ORIS, degrees that the tool turns along a millimetre under OSS and OSSE; 0 for none.
     """
 
     lead: float = 0.0
@@ -43,6 +44,7 @@ class Orienting(State, lifetime=Lifetime.RESET):
     second: Vector | None = None
     theta: float = 0.0
     stat: int = 0
+    rate: float = 0.0
 
 
 class Posture(NamedTuple):

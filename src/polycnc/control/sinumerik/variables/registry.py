@@ -35,6 +35,7 @@ from polycnc.control.sinumerik.tables import MINUTE
 from polycnc.control.sinumerik.tools.online import OVERLAY_VARIABLES
 from polycnc.control.sinumerik.tools.sides import Contour
 from polycnc.control.sinumerik.tools.variables import IN_MAIN_RUN, TOOL_VARIABLES
+from polycnc.control.sinumerik.transformations import smoothing
 from polycnc.control.sinumerik.variables.clock import PARTS, part_of_clock
 from polycnc.control.sinumerik.variables.known import is_known
 from polycnc.control.sinumerik.variables.row import Indices, Reader, Writer
@@ -155,6 +156,9 @@ def _spindle_of(channel: SinumerikChannel, axis: str) -> Spindle | None:
 #: Data that polycnc knows by their names alone: these are texts.
 _TEXT_DATUM = re.compile(r"_(NAME|NAME_TAB|PATH|SERIAL_NUMBER|VERSION)$")
 
+#: Data that a program may only clear: what they switch on is not executed.
+NOT_EXECUTED = frozenset(("$SC_CUTDIRMOD",))
+
 
 def _machine_datum(name: str) -> SystemVariable:
     value = DELIVERED[name] if name in DELIVERED else "" if _TEXT_DATUM.search(name) else 0.0
@@ -173,10 +177,12 @@ def _machine_datum(name: str) -> SystemVariable:
         return found
 
     def write(channel: SinumerikChannel, indices: Indices, new: Any) -> None:
+        if name in NOT_EXECUTED and new:
+            raise not_supported(name)
         channel.memory.data.write(name, indices, new)
         if name in working_area.DATA:
             working_area.refresh(channel)
-        elif name in spindle_speed.DATA:
+        elif name in spindle_speed.DATA or name in smoothing.DATA:
             channel.context_changed()
 
     return SystemVariable(name, kinds.get(type(value), Type.REAL), read, write)

@@ -1,0 +1,87 @@
+"""How far smoothing may leave the programmed way: OSD and OST of the orientation (7.6), the compressors (4.4, 6.6).
+
+None of them makes blocks of its own: the rows stay those of the program, and the planner goes through their ends as
+fast as the tolerances allow. OSC turns the tool evenly along its block, as it turns without smoothing.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from polycnc.control.sinumerik.feed.tolerances import Smoothing, contour_tolerance
+from polycnc.control.sinumerik.transformations import seat
+from polycnc.control.sinumerik.transformations.words import BY_PATH, CONES
+from polycnc.toolpath.modes import CornerMode
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from polycnc.channel.mode import Mode
+    from polycnc.control.sinumerik.family import SinumerikChannel
+
+#: Setting data that the tolerances of a context are made of.
+DATA = frozenset(
+    ("$SC_COMPRESS_CONTUR_TOL", "$SC_COMPRESS_ORI_TOL", "$SC_ORI_SMOOTH_DIST", "$SC_ORI_SMOOTH_TOL")
+)
+#: Modal groups that they depend on.
+GROUPS = frozenset(("compressor", "orientation_smoothing", "orientation_motion"))
+#: Functions of group 51 whose ways of the direction no compressor takes (6.6).
+NOT_COMPRESSED = frozenset((*CONES, *BY_PATH, "ORICURVE"))
+#: Units of MD20482 by which setting data, not MD33100 of the axes, bound the contour and the orientation.
+BY_CONTOUR, BY_ORIENTATION = (1, 3), (2, 3)
+
+
+class Turn(NamedTuple):
+    """How the rotary axes may leave their way where two blocks meet; zero for no bound of that kind."""
+
+    tolerance_deg: float = 0.0
+    distance_mm: float = 0.0
+
+
+def is_compressed(mode: Mode) -> bool:
+    """Whether the compressor takes the blocks of a modal state: linear ones under continuous path."""
+    return mode["compressor"] != "COMPOF" and mode["motion"] == "G1" and mode["path"] != "G60"
+
+
+def corner_mode(mode: Mode, otherwise: CornerMode) -> CornerMode:
+    """How the ends of blocks are passed: the compressor rounds what continuous path alone would not."""
+    return CornerMode.ROUNDED if otherwise is CornerMode.CONTINUOUS and is_compressed(mode) else otherwise
+
+
+def contour(channel: SinumerikChannel, mode: Mode, otherwise: float) -> float:
+    """Tolerance of the contour, mm: that of the compressor where it is wider than the one of rounding."""
+    if not is_compressed(mode) or mode["path"] == "G641":
+        return otherwise
+    data = channel.memory.data
+    own = contour_tolerance(channel)
+    if not own and data.integer("$MC_COMPRESSOR_MODE") % 10 in BY_CONTOUR:
+        own = data.number("$SC_COMPRESS_CONTUR_TOL")
+    return max(otherwise, own or _of_axes(channel, (i for i in channel.coordinates.geometry if i >= 0)))
+
+
+def turn(channel: SinumerikChannel, mode: Mode) -> Turn:
+    """What group 34 and the compressor allow the rotary axes of the transformation that acts."""
+    if mode["path"] == "G60":
+        return Turn()
+    point = seat.centre_point(channel)
+    if point is None:
+        return Turn()
+    data, code = channel.memory.data, mode["orientation_smoothing"]
+    given = Smoothing.of(channel).tolerance.get("OTOL", 0.0)
+    if code == "OSD":
+        return Turn(distance_mm=data.number("$SC_ORI_SMOOTH_DIST"))
+    if code == "OST":
+        return Turn(given if given > 0.0 else data.number("$SC_ORI_SMOOTH_TOL"))
+    if not is_compressed(mode) or mode["orientation_motion"] in NOT_COMPRESSED:
+        return Turn()
+    if given > 0.0:
+        return Turn(given)
+    if data.integer("$MC_COMPRESSOR_MODE") % 10 in BY_ORIENTATION:
+        return Turn(data.number("$SC_COMPRESS_ORI_TOL"))
+    return Turn(_of_axes(channel, (point.axes.index(axis) for axis in point.kinematics.axes)))
+
+
+def _of_axes(channel: SinumerikChannel, columns: Iterable[int]) -> float:
+    """MD33100 of some axes, the smallest one."""
+    data = channel.memory.data
+    return min(data.number("$MA_COMPRESS_POS_TOL", channel.axes[column]) for column in columns)
