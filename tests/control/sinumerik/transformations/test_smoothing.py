@@ -11,7 +11,9 @@ from polycnc.toolpath.modes import CornerMode
 
 def context(text: str) -> Context:
     """The context of the last move of a program."""
-    result = polycnc.run(f"F1000 X1\n{text}\nX50 A5\nM30\n", control="sinumerik-840d", machine="mill5-ca-head")
+    result = polycnc.run(
+        f"F1000 X1\n{text}\nX50 A5\nM30\n", control="sinumerik-840d", machine="mill5-ca-head"
+    )
     assert not result.alarms, result.alarms
     moves = [row for row in result.toolpath.rows() if row.kind is not Kind.EVENT]
     return moves[-1].context
