@@ -69,6 +69,15 @@ def laid_of(real: Sequence[float], context: Context, geometry: Geometry) -> list
     return machine_of(context.transformation.to_work(work_of(real, context, geometry)), context, geometry)
 
 
+def with_axis(
+    laid: Sequence[float], context: Context, geometry: Geometry, column: int, place: float
+) -> list[float]:
+    """The position of the path at which one of the real axes stands elsewhere."""
+    real = real_of(laid, context, geometry)
+    real[column] = place
+    return laid_of(real, context, geometry)
+
+
 def carried(laid: Sequence[float], last: Context, context: Context, geometry: Geometry) -> list[float]:
     """A position of the path under another context, the real axes being the same."""
     if context.transformation is last.transformation:

@@ -92,7 +92,11 @@ class Axis:
 
     def counted(self, time: float) -> float:
         """The part that they do know of, but for the hand."""
-        return self.offset.pending + sum(source.at(time) for source in self._commands)
+        return self.offset.pending + self.commanded(time)
+
+    def commanded(self, time: float) -> float:
+        """How far commands have the axis from its path."""
+        return sum(source.at(time) for source in self._commands)
 
     def rebase(self) -> None:
         """The axis stands, and its path has it where it stands."""

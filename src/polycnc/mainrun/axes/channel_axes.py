@@ -57,6 +57,10 @@ class ChannelAxes:
         time = self._clock.time
         return [place + axis.counted(time) for place, axis in zip(path, self._axes, strict=True)]
 
+    def commanded(self) -> list[float]:
+        """How far commands have each axis from its path."""
+        return [axis.commanded(self._clock.time) for axis in self._axes]
+
     def rebase(self) -> None:
         """The axes stand, and the path has them where they stand, but for what coordinates do not know of."""
         for axis in self._axes:

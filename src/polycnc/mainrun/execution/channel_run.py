@@ -101,11 +101,14 @@ class ChannelRun:
     @property
     def work_position(self) -> list[float]:
         """Position in the work coordinate system, internal units, as far as its coordinates know."""
-        execution = self.execution
-        here = self.axes.path_at(self.machine_position)
-        if not self.axes.by_hand and execution.place.transformation is not None:
-            here = self.axes.counted(execution.machine)
-        return self.display.work_of(here, execution.place)
+        execution, display = self.execution, self.display
+        place, context = execution.place, execution.context
+        if self.axes.by_hand or place.transformation is context.transformation is None:
+            return display.work_of(self.axes.path_at(self.machine_position), place)
+        if place.transformation is context.transformation:
+            return display.work_of(self._known(execution.machine, place), place)
+        here = self._known(carried(execution.machine, place, context, display.geometry), context)
+        return display.work_of(here, context)
 
     def positions(self, locked: Mapping[int, float] | None = None) -> Positions:
         """Positions as the displays show them; `locked` axes stand there, and the displays run on."""
@@ -117,7 +120,7 @@ class ChannelRun:
             shown = display.positions(here, here, real, without_transformation(context))
         else:
             here, end = (
-                self.axes.counted(carried(place, execution.place, context, display.geometry))
+                self._known(carried(place, execution.place, context, display.geometry), context)
                 for place in (execution.machine, execution.row_end)
             )
             for column, _ in self.machine_axes.led_by_others(self.number, self.channel.group):
@@ -128,6 +131,15 @@ class ChannelRun:
         return replace(
             shown, machine=display.positions(axes, axes, real, without_transformation(context)).machine
         )
+
+    def _known(self, laid: Sequence[float], context: Context) -> list[float]:
+        """A position of the path with what coordinates know beside it: the axes that are commanded are real ones."""
+        ways = self.axes.commanded()
+        if context.transformation is None or not any(ways):
+            return self.axes.counted(laid)
+        moved = [place + way for place, way in zip(self.display.real(laid, context), ways, strict=True)]
+        known = self.axes.counted(self.display.laid(moved, context))
+        return [place - way for place, way in zip(known, ways, strict=True)]
 
     def take_in_hand(self, place: Sequence[float]) -> None:
         """An operator has the axes from now on, which stand at a place."""

@@ -109,7 +109,7 @@ class ChannelRuns:
             self._use(run)
             if number in under_way:
                 waits, wait = under_way[number]
-                run.preprocessing.go_on(waits, run.execution.position, wait)
+                run.preprocessing.go_on(waits, run.own_path, wait)
 
     def __iter__(self) -> Iterator[ChannelRun]:
         return iter(tuple(self._runs.values()))

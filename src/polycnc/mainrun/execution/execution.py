@@ -23,6 +23,7 @@ from polycnc.mainrun.preparation.items import (
     Rates,
     Standing,
 )
+from polycnc.motion.frames import with_axis
 from polycnc.motion.kernels.columns import Form, PieceRecord
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.events import Deed
@@ -549,8 +550,12 @@ class Execution:
 
     def place_axis(self, column: int, position: float) -> None:
         """An axis, which stands, is elsewhere than the path has led it; the path goes on from there."""
-        self.position[column] = position
+        self.lead_axis(column, position)
         self.preprocessing.place_axis(column, position)
+
+    def lead_axis(self, column: int, position: float) -> None:
+        """The path has a real axis elsewhere from now on; nothing moves on it."""
+        self.position = with_axis(self.position, self.place, self.preprocessing.geometry, column, position)
 
     # ---- beside the path -----------------------------------------------------------------------------------
 

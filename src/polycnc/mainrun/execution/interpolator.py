@@ -294,7 +294,8 @@ class ChannelInterpolator:
     def shift_path(self, column: int, place: float) -> None:
         """The path has an axis elsewhere from now on; the axis stays, and nothing moves on the path."""
         axis = self.commanded(column)
-        axis.base = self._run.execution.position[column] = place
+        self._run.execution.lead_axis(column, place)
+        axis.base = place
 
     def take_back(self, column: int) -> float:
         """The program has a commanded axis again, which stands: gives its machine position."""

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from polycnc.mainrun.preparation.layout import Before
 from polycnc.motion.compiled import kernels
+from polycnc.motion.frames import with_axis
 from polycnc.motion.kernels.alone import settle_alone
 from polycnc.motion.kernels.columns import MAIN_RUN, TAP, Form, Limits, PieceRecord, new_state, piece_width
 from polycnc.motion.kernels.jerk import window_s
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
     from polycnc.mainrun.preparation.layout import Laid, Layout
+    from polycnc.toolpath import Context
+    from polycnc.transformation.contract import Geometry
 
 
 ROOM = 256
@@ -75,9 +78,10 @@ class PieceBuffer:
         self.state.run.stop, self._rested = 1.0, True
         self.state.position[:] = array("d", position)
 
-    def move_axis(self, column: int, position: float) -> None:
-        """An axis is elsewhere than the rows have led it."""
-        self.state.position[column] = position
+    def move_axis(self, column: int, place: float, context: Context, geometry: Geometry) -> None:
+        """A real axis is elsewhere than the rows have led it; `context` is that of the last one."""
+        for i, value in enumerate(with_axis(self.position, context, geometry, column, place)):
+            self.state.position[i] = value
 
     def end_in_rest(self) -> None:
         """The axes come to rest behind the last row."""

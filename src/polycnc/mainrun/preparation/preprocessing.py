@@ -69,6 +69,7 @@ if TYPE_CHECKING:
     from polycnc.toolpath import Event
     from polycnc.toolpath.motion_settings import MotionSettings
     from polycnc.toolpath.table import Chunk
+    from polycnc.transformation.contract import Geometry
 
 #: Items that are prepared at most, and at how few the channel is asked for more.
 FULL, LOW = 512, 128
@@ -262,12 +263,17 @@ class Preprocessing:
 
     def place_axis(self, column: int, position: float) -> None:
         """An axis is elsewhere than the rows have led it."""
-        self._buffer.move_axis(column, position)
+        self._buffer.move_axis(column, position, self._last_context, self._geometry)
 
     @property
     def returns_to_path(self) -> bool:
         """Whether cycle start leads axes back that were moved by hand."""
         return self._settings.returns_to_path
+
+    @property
+    def geometry(self) -> Geometry:
+        """Columns of X, Y and Z of the machine."""
+        return self._geometry
 
     @property
     def position(self) -> list[float]:
@@ -355,7 +361,7 @@ class Preprocessing:
                 if stands:
                     self.end_in_rest()
                 for column, place in event.places if isinstance(event, Deed) else ():
-                    self._buffer.move_axis(column, place)
+                    self.place_axis(column, place)
                 self._stopped = self._stopped or isinstance(event, Stop)
             elif kind == Kind.DWELL:
                 self.end_in_rest()
@@ -366,7 +372,7 @@ class Preprocessing:
     def _take_over(self) -> None:
         """An axis that another channel has moved since is where that one has left it."""
         for column, position in self._machine_axes.taken_over(self._number, self.channel.group):
-            self._buffer.move_axis(column, position)
+            self.place_axis(column, position)
 
     def _end_waits(self) -> None:
         """The program is at its end: an exact stop in its last row waits for its window."""

@@ -41,12 +41,14 @@ class ActionAxes(State, lifetime=Lifetime.RESET):
         states: Who has an axis, by column, where it is not the program.
         speeds: FA of actions, mm/s or degrees/s, by column.
         held: Columns of axes that oscillate: they are not free, though they rest at reversal points.
+        along: Columns of what a positioned axis moves, by its column: several where a transformation makes it.
     """
 
     may_move: set[int] = field(default_factory=set)
     states: dict[int, int] = field(default_factory=dict)
     speeds: dict[int, float] = field(default_factory=dict)
     held: set[int] = field(default_factory=set)
+    along: dict[int, tuple[int, ...]] = field(default_factory=dict)
 
 
 def expect(channel: SinumerikChannel, columns: Iterable[int]) -> None:
@@ -105,25 +107,55 @@ def give_back(channel: SinumerikChannel, columns: Iterable[int]) -> None:
 
 
 def position_beside(channel: SinumerikChannel, column: int, end: list[float]) -> None:
-    """POS, POSA: where the program is executed in time, an axis goes to its place in `end` beside the path."""
+    """POS, POSA: where the program is executed in time, an axis goes to its place in `end` beside the path.
+
+    An axis that a transformation makes is several: they go together. One of them that oscillates meanwhile takes its
+    part with its next stroke.
+    """
     clocked, coordinates = channel.actual.clocked, channel.coordinates
     if clocked is None:
         return
     before, after = coordinates.machine, coordinates.to_machine(end)
     moved = [i for i, (a, b) in enumerate(zip(before, after, strict=True)) if abs(a - b) > NO_WAY]
-    if moved != [column]:
-        return  # none, or a frame turns the way of the axis into one of several: the path has it
-    expect(channel, (column,))
-    target, speed = after[column], speed_of(channel, column)
+    if moved != [column] and not _goes_straight(channel, end):
+        return  # a way that axes going evenly would leave: the path has it
+    if not moved:
+        return
+    expect(channel, moved)
+    ActionAxes.of(channel).along[column] = tuple(moved)
+    speed, way = speed_of(channel, column), abs(end[column] - coordinates.position[column])
+    goals = [(i, after[i], speed * abs(after[i] - before[i]) / way) for i in moved]
 
     def start() -> None:
-        clocked.position_beside(column, target, speed)
+        held = ActionAxes.of(channel).held
+        for axis, place, own_speed in goals:
+            if axis == column or axis not in held:
+                clocked.position_beside(axis, place, own_speed)
+            else:
+                clocked.shift_path(axis, place)
 
-    channel.event(Deed("POS", None, start, is_silent=False, places=((column, target),)))
+    places = tuple((axis, place) for axis, place, _ in goals)
+    channel.event(Deed("POS", None, start, is_silent=False, places=places))
 
 
-def await_rest(channel: SinumerikChannel, columns: Iterable[int]) -> None:
-    """The block ends when these axes stand."""
+def _goes_straight(channel: SinumerikChannel, end: list[float]) -> bool:
+    """Whether the axes of a transformation go evenly where the path goes straight to `end`."""
+    coordinates = channel.coordinates
+    if coordinates.transformation is None:
+        return False
+    middle = [0.5 * (a + b) for a, b in zip(coordinates.position, end, strict=True)]
+    ends = zip(coordinates.machine, coordinates.to_machine(end), strict=True)
+    between = coordinates.to_machine(middle)
+    return all(abs(0.5 * (a + b) - c) <= NO_WAY for (a, b), c in zip(ends, between, strict=True))
+
+
+def await_positioned(channel: SinumerikChannel, column: int) -> None:
+    """The block ends when a positioned axis stands, and what moves along with it."""
+    await_rest(channel, ActionAxes.of(channel).along.pop(column, (column,)), column)
+
+
+def await_rest(channel: SinumerikChannel, columns: Iterable[int], leading: int | None = None) -> None:
+    """The block ends when these axes stand; beside a leading one those that oscillate are not waited for."""
     clocked = channel.actual.clocked
     awaited = [column for column in columns if column in ActionAxes.of(channel).may_move]
     if clocked is None or not awaited:
@@ -131,7 +163,10 @@ def await_rest(channel: SinumerikChannel, columns: Iterable[int]) -> None:
 
     def moves() -> bool:
         held = ActionAxes.of(channel).held
-        return any(column in held or clocked.commanded(column).moves for column in awaited)
+        if leading is None:
+            return any(column in held or clocked.commanded(column).moves for column in awaited)
+        waited = (column for column in awaited if column == leading or column not in held)
+        return any(clocked.commanded(column).moves for column in waited)
 
     channel.event(Deed("WAITP", None, _nothing, is_silent=False, awaits=moves))
 

@@ -523,7 +523,8 @@ def positioning(draft: Draft) -> tuple[list[Step], list[Step]]:
         if not isinstance(word.index, Axis):
             raise WordAlarm("12040", position, text=str(word.index))
         column = draft.memory.column(word.index.name)
-        seat.check_positioning(draft.channel, column, by_axes=draft.mode["point_to_point"] != "CP")
+        by_axes = draft.mode["point_to_point"] != "CP"
+        seat.check_positioning(draft.channel, word.index.name, column, by_axes=by_axes)
         term = axis_term(draft.channel, draft.mode, position, column, word.modifier)
         steps.append(_in_parts(term) if word.address == "POSP" else _position_axis(term))
         if word.address != "POSA":
@@ -533,7 +534,7 @@ def positioning(draft: Draft) -> tuple[list[Step], list[Step]]:
 
 def _await_axis(column: int) -> Step:
     def run(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
-        action_axes.await_rest(channel, (column,))
+        action_axes.await_positioned(channel, column)
 
     return run
 

@@ -40,6 +40,7 @@ class Strokes:
         left: Single sparking-out strokes that are left; None before it is switched off.
         shall_stop: It has been switched off.
         dwells_until: When a dwell ends, s.
+        datum: The setting datum with the position that it goes to, of the work; `speed` how fast.
     """
 
     column: int
@@ -48,6 +49,8 @@ class Strokes:
     shall_stop: bool = False
     dwells_until: float = -1.0
     dwelt: bool = True
+    datum: str = REVERSAL[0]
+    speed: float = 0.0
 
     def step(self, channel: SinumerikChannel) -> bool:
         """Go on where the axis stands; whether the oscillation is over."""
@@ -58,6 +61,7 @@ class Strokes:
             self._begin_sparks(channel)
         if axis.moves:
             self.dwelt = False
+            self._follow(channel)
             return False
         if not self.dwelt and self.goes_to >= 0:
             self.dwelt = True
@@ -107,11 +111,22 @@ class Strokes:
 
     def _go(self, channel: SinumerikChannel, datum: str, goes_to: int) -> None:
         """To a position of the work."""
-        self.goes_to, self.dwelt = goes_to, False
+        self.goes_to, self.dwelt, self.datum = goes_to, False, datum
+        self.speed = self._number(channel, VELOCITY) / tables.MINUTE
+        channel.on_clock().commanded(self.column).move_to(self._target(channel), self.speed)
+
+    def _follow(self, channel: SinumerikChannel) -> None:
+        """Under a transformation other axes move the place of the work that the axis goes to."""
+        axis = channel.on_clock().commanded(self.column)
+        if channel.coordinates.transformation is not None and axis.left:
+            target = self._target(channel)
+            if abs(channel.actual.machine[self.column] + axis.left - target) > NO_WAY:
+                axis.move_to(target, self.speed)
+
+    def _target(self, channel: SinumerikChannel) -> float:
+        """Machine position of where it goes to."""
         offset = channel.actual.machine[self.column] - channel.actual.work[self.column]
-        target = self._number(channel, datum) + offset
-        speed = self._number(channel, VELOCITY) / tables.MINUTE
-        channel.on_clock().commanded(self.column).move_to(target, speed)
+        return self._number(channel, self.datum) + offset
 
     def _number(self, channel: SinumerikChannel, datum: str) -> float:
         return channel.memory.data.number(datum, channel.axes[self.column])
@@ -165,6 +180,8 @@ class Oscillations(State, lifetime=Lifetime.POWER):
     @property
     def is_quiet(self) -> bool:
         """Whether another look would find everything as it is, until an axis comes to rest."""
+        if self.axes and self.channel.coordinates.transformation is not None:
+            return False
         return not self.infeeds and not any(strokes.waits for strokes in self.axes.values())
 
     def block_begins(self) -> None:

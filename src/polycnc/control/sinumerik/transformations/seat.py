@@ -217,10 +217,16 @@ def refuse_transformed(channel: SinumerikChannel, columns: Iterable[int], code: 
             raise AlarmError(code, axis=channel.axes[column])
 
 
-def check_positioning(channel: SinumerikChannel, column: int, *, by_axes: bool) -> None:
-    """17610 for a positioning axis that the transformation uses up; of point to point travel for any of its axes."""
+def check_positioning(channel: SinumerikChannel, name: str, column: int, *, by_axes: bool) -> None:
+    """17610 for a positioning axis that the transformation uses up; of point to point travel for any of its axes.
+
+    The axes that it makes may be positioned: X of an inclined axis (6.8.3, example).
+    """
     build = Transformations.of(channel).build
-    if build is not None and (column in build.used or (by_axes and column in transformed(channel))):
+    if build is None:
+        return
+    is_made = name in channel.memory.columns
+    if (column in build.used and not is_made) or (by_axes and column in transformed(channel)):
         raise AlarmError("17610", axis=channel.axes[column])
 
 
