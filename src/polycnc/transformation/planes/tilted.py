@@ -54,6 +54,16 @@ def by_solid_angle(around: float, down: float) -> Frame:
     return rotation(2, around) @ rotation(1, down)
 
 
+def by_projections(about_y: float, about_x: float, spin: float) -> Frame | None:
+    """Through X turned about Y and Y turned about X, X along the first, turned about Z at last; degrees (G68.2 P4).
+
+    None where both lie on a line.
+    """
+    first, second = rotation(1, about_y).direct(1.0, 0.0, 0.0), rotation(0, about_x).direct(0.0, 1.0, 0.0)
+    upright = _unit(cross(first, second))
+    return None if upright is None else _of_axes((0.0, 0.0, 0.0), first, upright) @ rotation(2, spin)
+
+
 def by_rotary_axes(kinematics: Kinematics, angles: Angles) -> Frame:
     """As the rotary axes turn the tool against the work: those of the table turn back, then those of the head."""
     turned = IDENTITY

@@ -137,6 +137,8 @@ ROWS = table(
     GCode("G67", "macro", macro_calls.end_modal_call),
     GCode("G68", "rotation", frames.rotate, takes="R", axis_words=True),
     GCode("G68.2", "rotation", tilted_plane.tilt_plane, takes="P Q I J K", axis_words=True),
+    GCode("G68.3", "rotation", tilted_plane.tilt_by_tool, takes="R", axis_words=True),
+    GCode("G68.4", "rotation", tilted_plane.tilt_further, takes="P Q I J K", axis_words=True),
     GCode("G53.1", handler=tilted_plane.align_tool, takes="P", order=Order.MOTION),
     GCode("G53.6", handler=tilted_plane.align_tool_about_tip, takes="P", order=Order.MOTION),
     GCode("G69", "rotation", tilted_plane.end_tilt),
@@ -154,7 +156,7 @@ ROWS = table(
     GCode("G98", "return"),
     GCode("G99", "return"),
     not_yet(
-        "G5.4", "G54.2", "G54.4", "G68.3", "G68.4", "G10.9",
+        "G5.4", "G54.2", "G54.4", "G10.9",
     ),
 )  # fmt: skip
 G_CODES = with_aliases(ROWS, ALIASES)

@@ -1,4 +1,4 @@
-"""Tilted working planes: G68.2 sets a feature system, G53.1 stands the tool on it, G69 ends it (FANUC macro B §12).
+"""Tilted working planes: G68.2 to G68.4 set a feature system, G53.1 stands the tool on it, G69 ends it (macro B §12).
 
 A feature system is a frame inside the work system. On a machine whose table carries rotary axes the frame turns
 with the table when the tool is aligned; on one with a swivel head the length offset follows the tool.
@@ -15,12 +15,19 @@ from polycnc.control.word_address.coordinates import frames
 from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
 from polycnc.control.word_address.tools import length
 from polycnc.control.word_address.tools.length import LengthState
-from polycnc.geometry.frames import IDENTITY, Frame, translation
+from polycnc.geometry.frames import IDENTITY, Frame, rotation, translation
 from polycnc.machine.kinematics import Kinematics
-from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 from polycnc.transformation.orientation.solutions import angles_for
-from polycnc.transformation.planes.tilted import by_directions, by_euler, by_fixed_axes, by_points, table_turn
+from polycnc.transformation.planes.tilted import (
+    by_directions,
+    by_euler,
+    by_fixed_axes,
+    by_points,
+    by_projections,
+    square_on,
+    table_turn,
+)
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.block.words import Words
@@ -43,22 +50,70 @@ class TiltState(State, lifetime=Lifetime.RESET):
 
 
 def tilt_plane(channel: WordAddressChannel, words: Words) -> None:
-    """G68.2 [P0, P1 Q] X Y Z I J K: origin in the work system, and the turn of the plane; P2, P3 in several blocks."""
+    """G68.2 [P0, P1 Q, P4] X Y Z I J K: origin in the work system, and the turn; P2, P3 in several blocks."""
+    plane = _told(channel, words)
+    if plane is not None:
+        _tilt(channel, plane)
+
+
+def tilt_further(channel: WordAddressChannel, words: Words) -> None:
+    """G68.4 …: as G68.2, but in the feature system that acts."""
+    before = TiltState.of(channel).plane
+    if before is None:
+        raise words.fail("tilt_missing", "G68.4")
+    plane = _told(channel, words)
+    if plane is not None:
+        _tilt(channel, before @ plane)
+
+
+def tilt_by_tool(channel: WordAddressChannel, words: Words) -> None:
+    """G68.3 X Y Z R: the plane across the tool as it stands; without X Y Z its origin is where the tool is.
+
+    X of the plane is square on the tool and on Z of the machine; R turns it about the tool.
+    """
+    c, kinematics = channel.coordinates, Kinematics.of(channel.machine)
+    given = {axis for axis, _, _ in words.axes()}
+    if given and len(given & set(c.geometry)) < len(c.geometry):
+        raise words.fail("tilt_format", "G68.3")
+    angles = dict(zip(channel.axes, c.machine, strict=True))
+    tool, zero = kinematics.tool_on_machine(angles), _work_zero(channel)
+    turn = square_on(tool) @ rotation(2, words.angle("R") or 0.0)
+    table = table_turn(kinematics, angles, zero)
+    place = table.apply(*named_point(channel, words, "tilt_format"))
+    _renew(channel, translation(*place) @ turn, tool)
+    if not given:
+        here = tuple(c.position[axis] if axis >= 0 else 0.0 for axis in c.geometry)
+        place = (translation(*place) @ turn).apply(here[0], here[1], here[2])
+        _renew(channel, translation(*place) @ turn, tool)
+    TiltState.of(channel).plane = table.inverse() @ translation(*place) @ turn
+
+
+def _told(channel: WordAddressChannel, words: Words) -> Frame | None:
+    """The plane that a block tells, within the system it is told in; None before the last one of several."""
     way = words.integer("P") if "P" in words else EULER
     if way in BLOCKS:
-        _tell(channel, words, way)
-        return
-    if way == PROJECTION:
-        raise AlarmError("PC0001", address="P", hint="hint.not-supported", code=f"G68.2 P{way}")
-    if way not in (EULER, ROLL_PITCH_YAW):
-        raise words.fail("tilt_format", "P")
+        return _told_in_several(channel, words, way)
     i, j, k = (words.angle(letter) or 0.0 for letter in "IJK")
-    turn = by_euler(i, j, k) if way == EULER else _roll_pitch_yaw(words, (i, j, k))
-    plane = TiltState.of(channel).plane = translation(*named_point(channel, words, "tilt_format")) @ turn
+    if way == EULER:
+        turn: Frame | None = by_euler(i, j, k)
+    elif way == ROLL_PITCH_YAW:
+        turn = _roll_pitch_yaw(words, (i, j, k))
+    elif way == PROJECTION:
+        turn = by_projections(i, j, k)
+    else:
+        raise words.fail("tilt_format", "P")
+    if turn is None:
+        raise words.fail("tilt_format", "I")
+    return translation(*named_point(channel, words, "tilt_format")) @ turn
+
+
+def _tilt(channel: WordAddressChannel, plane: Frame) -> None:
+    """A plane of the work, with which the tool is not aligned yet."""
+    TiltState.of(channel).plane = plane
     _renew(channel, plane, None)
 
 
-def _tell(channel: WordAddressChannel, words: Words, way: int) -> None:
+def _told_in_several(channel: WordAddressChannel, words: Words, way: int) -> Frame | None:
     """One block of P2 (Q1 to Q3: origin, a point of X, a point on the side of Y) or P3 (Q1 origin and X, Q2 Z)."""
     state = TiltState.of(channel)
     number = words.integer("Q") if "Q" in words else 0
@@ -68,16 +123,15 @@ def _tell(channel: WordAddressChannel, words: Words, way: int) -> None:
     i, j, k = (words.length(letter) or 0.0 for letter in "IJK")
     state.told = [*told, (named_point(channel, words, "tilt_format"), (i, j, k))]
     if number < BLOCKS[way]:
-        return
+        return None
     (origin, first), (second, upright), *others = state.told
     state.told = []
     plane = (
         by_points(origin, second, others[0][0]) if way == POINTS else by_directions(origin, first, upright)
     )
     if plane is None:
-        raise words.fail("tilt_format", "G68.2")
-    state.plane = plane
-    _renew(channel, plane, None)
+        raise words.fail("tilt_format", "Q")
+    return plane
 
 
 def _roll_pitch_yaw(words: Words, angles: Vector) -> Frame:
@@ -121,7 +175,7 @@ def _align(channel: WordAddressChannel, words: Words, code: str, *, holds_tip: b
     angles = angles_for(kinematics, wanted, near)
     if angles is None or not set(angles) <= set(channel.axes):
         raise words.fail("tilt_unreachable", code)
-    zero = [c.offsets[axis] - ZeroState.of(channel).length[axis] if axis >= 0 else 0.0 for axis in c.geometry]
+    zero = _work_zero(channel)
     tip, end = c.position, c.machine
     for name, angle in angles.items():
         end[channel.axis_index[name]] = angle
@@ -133,6 +187,12 @@ def _align(channel: WordAddressChannel, words: Words, code: str, *, holds_tip: b
         for axis in c.geometry:
             c.pending[axis] = 0.0
     channel.straight(Kind.RAPID, goal, nan)
+
+
+def _work_zero(channel: WordAddressChannel) -> list[float]:
+    """The work zero on the machine, without the tool, mm."""
+    c, length_state = channel.coordinates, ZeroState.of(channel).length
+    return [c.offsets[axis] - length_state[axis] if axis >= 0 else 0.0 for axis in c.geometry]
 
 
 def end_tilt(channel: WordAddressChannel, words: Words) -> None:
