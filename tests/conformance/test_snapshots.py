@@ -89,6 +89,7 @@ CHANGED_BY = {
     "PolarState": "syntec-polar-diameter",
     "PostureState": "syntec-tip-frame",
     "ProgrammingFrames": "fanuc-m-mirrored-arc-turns-the-other-way",
+    "Preparations": "sinumerik-execute-goes-on-from-before",
     "Protection": "sinumerik-def-open",
     "RadiusState": "fanuc-0i-tf-rotation-ended-allows-all",
     "Ranges": "sinumerik-newconf-limit",

@@ -12,6 +12,7 @@
     tools/       tool memory, compensation, smooth approach
     oscillation/ axes that move to and fro
     limits/      working areas, protection zones
+    contours/    contour tables for stock removal
     signals/     measuring, interrupt routines, retraction
     channels/    several channels
     variables/   system variables

@@ -16,6 +16,7 @@ from polycnc.control.sinumerik.block import positions, procedures, single_block
 from polycnc.control.sinumerik.block.plain import SinumerikPlainBlocks
 from polycnc.control.sinumerik.block.plan import ExactStop, make_plan
 from polycnc.control.sinumerik.channels import axis_exchange, coordination
+from polycnc.control.sinumerik.contours import preparation
 from polycnc.control.sinumerik.data import access, init_programs
 from polycnc.control.sinumerik.data.machine_data import MachineData
 from polycnc.control.sinumerik.errors import not_supported
@@ -25,7 +26,7 @@ from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.feed.spindles import Spindle, Spindles
 from polycnc.control.sinumerik.frames import active as frames
 from polycnc.control.sinumerik.frames.memory import Frames, chain
-from polycnc.control.sinumerik.limits import protection, working_area
+from polycnc.control.sinumerik.limits import working_area
 from polycnc.control.sinumerik.m_functions import PROGRAM_ENDS
 from polycnc.control.sinumerik.memory import Memory
 from polycnc.control.sinumerik.modal_state import ModalState
@@ -210,7 +211,7 @@ class Sinumerik:
         if len(channel.stack) > 1:
             end_of_subprogram(channel)
         else:
-            protection.check_end(channel)
+            preparation.check_end(channel)
             channel.end()
 
     def plain_blocks(self, _channel: SinumerikChannel) -> SinumerikPlainBlocks:

@@ -13,6 +13,7 @@ from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.arguments import Arguments
 from polycnc.control.sinumerik.block.positions import DIAMETER_OF_AXIS, diameter_of_channel
 from polycnc.control.sinumerik.channels import axis_exchange, coordination
+from polycnc.control.sinumerik.contours import preparation, use
 from polycnc.control.sinumerik.data import archive
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed import axis_settings, pace, spindle_speed
@@ -242,6 +243,8 @@ PROCEDURES: dict[str, Callable[[SinumerikChannel, Arguments], None]] = {
     **retraction.PROCEDURES,
     **splines.PROCEDURES,
     **protection.PROCEDURES,
+    **preparation.PROCEDURES,
+    **use.PROCEDURES,
     **archive.PROCEDURES,
     **selection.PROCEDURES,
     **start.PROCEDURES,

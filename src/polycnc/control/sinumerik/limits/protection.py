@@ -17,7 +17,12 @@ from polycnc.channel.moves.path import Rank, Stage
 from polycnc.channel.states.state import Lifetime, State, lasting
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.arguments import Arguments
-from polycnc.control.sinumerik.motion.contour_reading import ContourReading, reading_from_here, without_away
+from polycnc.control.sinumerik.motion.contour_reading import (
+    ContourReading,
+    Readings,
+    reading_from_here,
+    without_away,
+)
 from polycnc.geometry import arcs, zones
 from polycnc.geometry.planes import PLANES
 from polycnc.language.sinumerik.names.frame import NcFrame
@@ -126,7 +131,7 @@ def begin(kind: str) -> Callable[[SinumerikChannel, Arguments], None]:
         arguments.whole(args[0])
         state = Protection.of(channel)
         memory = channel.memory
-        if state.open is not None:
+        if Readings.of(channel).open:
             raise AlarmError("PC0009", text=f"{kind}PROTDEF")
         if channel.mode["compensation"] != "G40":
             raise AlarmError("PC0009", text=channel.mode["compensation"])
@@ -370,7 +375,6 @@ def _common(bottom: float, top: float, low: float, high: float, rise: float) -> 
 PROCEDURES = {
     "CPROTDEF": begin(CHANNEL),
     "NPROTDEF": begin(MACHINE),
-    "EXECUTE": execute,
     "CPROT": switch(CHANNEL),
     "NPROT": switch(MACHINE),
 }

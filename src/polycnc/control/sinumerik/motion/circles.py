@@ -14,7 +14,7 @@ from polycnc.channel.moves.path import Move
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.block import plain
 from polycnc.control.sinumerik.block.positions import Dimension, is_diameter, number, target
-from polycnc.control.sinumerik.motion import moves
+from polycnc.control.sinumerik.motion import contour_reading, moves
 from polycnc.control.sinumerik.motion.last_move import ArcOfMove, LastMove
 from polycnc.control.sinumerik.motion.polar import Polar
 from polycnc.control.sinumerik.tables import length_factor
@@ -90,6 +90,9 @@ class Arc:
             center = self._by_angle(channel, values, begin, end)
         elif self.radius is not None:
             center = self._by_radius(values, begin, (end[u], end[v]), channel)
+        elif not self.centre and contour_reading.takes_lines_for_arcs(channel):
+            moves.line(channel, Kind.FEED, end, moves.checked_feed(channel.feed))
+            return
         else:
             center = self._programmed_centre(channel, values, begin)
         check_end(channel, begin, (end[u], end[v]), center)

@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 #: Before a contour is read the tool is thought this far away, mm: so the first block always is a move, and an axis
 #: that it does not name shows that.
 AWAY_MM = 1e6
-#: Feed of a contour where none was programmed.
-_ANY_FEED = 1.0
+#: Feed of a contour where none was programmed; no program means one like it.
+ANY_FEED = 1e-9
 
 
 def without_away(value: float) -> float:
@@ -43,6 +43,8 @@ class ContourReading:
         last: The last move before.
         modes: The modal functions before, where the contour may not change them.
         recorder: What catches the moves; the first one leads to the first point.
+        arcs_need_centre: Under a modal G2 or G3 a block with an end point alone is an error; else it is a straight
+            line, as the manual's example of CONTDCON has it (job planning 15.3).
     """
 
     position: list[float]
@@ -50,13 +52,14 @@ class ContourReading:
     last: LastMove
     modes: object = None
     recorder: Recorder = field(default_factory=Recorder)
+    arcs_need_centre: bool = True
 
     def begin(self, channel: SinumerikChannel, columns: Container[int]) -> None:
         """The tool is thought away in these columns (-1 for none), and moves are caught."""
         Readings.of(channel).open.append(self)
         away = [value + AWAY_MM if i in columns else value for i, value in enumerate(self.position)]
         channel.coordinates.arrive(away)
-        channel.feed = channel.feed if channel.feed > 0.0 else _ANY_FEED
+        channel.feed = channel.feed if channel.feed > 0.0 else ANY_FEED
         channel.path.divert(self.recorder)
 
     def end(self, channel: SinumerikChannel) -> list[Move]:
@@ -67,7 +70,7 @@ class ContourReading:
         if self.modes is not None:
             channel.control.restore(channel, self.modes)
             channel.feed = self.feed
-        elif isnan(self.feed) and channel.feed == _ANY_FEED:
+        elif isnan(self.feed) and channel.feed == ANY_FEED:
             channel.feed = self.feed
         channel.coordinates.arrive(self.position)
         last = LastMove.of(channel)
@@ -89,6 +92,11 @@ def reading_from_here(channel: SinumerikChannel, *, keeps_modes: bool) -> Contou
     return ContourReading(
         channel.coordinates.position.copy(), channel.feed, copy(LastMove.of(channel)), modes
     )
+
+
+def takes_lines_for_arcs(channel: SinumerikChannel) -> bool:
+    """Whether an arc without any word of its centre is a straight line now."""
+    return any(not reading.arcs_need_centre for reading in Readings.of(channel).open)
 
 
 def abandon(channel: SinumerikChannel) -> None:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik.block.arguments import Arguments
 from polycnc.control.sinumerik.block.positions import ModuloRange
+from polycnc.control.sinumerik.contours import use
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.frames import adding, codes
 from polycnc.control.sinumerik.frames.variables import frame_axis
@@ -138,6 +139,7 @@ FUNCTIONS: dict[str, Callable[[SinumerikChannel, Arguments], Any]] = {
     "CROTS": solid_rotation,
     "POSRANGE": in_window,
     "SPRINT": sprint,
+    **use.FUNCTIONS,
     "DELDL": d_numbers.delete_additive,
     "CHKDNO": d_numbers.check_numbers,
     "GETDNO": d_numbers.get_number,
