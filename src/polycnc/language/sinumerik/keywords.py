@@ -287,6 +287,7 @@ OWN_BLOCK = SINGLE_BLOCK | {
     "WAITM",
     "WAITMC",
     "WAITE",
+    "SETAL",
     "SETM",
     "CLEARM",
 }

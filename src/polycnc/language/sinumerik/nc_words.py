@@ -10,11 +10,13 @@ from polycnc.language.expressions.operators import TIGHTEST
 from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.emitter import Execution, provide
 from polycnc.language.sinumerik.errors import NcSyntaxError, unknown
+from polycnc.language.sinumerik.names.spindles import axis_of_spindle, spindle_number
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.language.sinumerik.words import WordAlarm, WordShape, block_of
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
     from polycnc.language.sinumerik.blocks import BlockCompiler
     from polycnc.language.sinumerik.lexer import Token
     from polycnc.language.sinumerik.words import Block
@@ -375,16 +377,18 @@ class WordReader:
         value: Code,
         attribute: Code | None = None,
     ) -> None:
+        indirect = address == "AX" and not isinstance(index, Axis)
         if address == "AX":
             if isinstance(index, Axis):
-                address, index, index_code = index.name, None, _NONE
+                address, index = axis_address(self.compiler.channel, index)
+                index_code = _NONE if index is None else index_code
             elif index is None:
                 raise self.compiler.error()
         shape = WordShape(address, index, modifier)
         self.shapes.append(shape)
         last = constant(modifier) if attribute is None else attribute
-        if address == "AX":
-            code = quoted("WordShape(axis_name({0}), None, {1})", index_code, last)
+        if indirect:
+            code = quoted("WordShape(*axis_address(channel, {0}), {1})", index_code, last)
         else:
             code = quoted("WordShape({0}, {1}, {2})", address, index_code, last)
         self.shape_codes.append(code)
@@ -413,14 +417,18 @@ def position_attribute(number: int, address: str) -> str:
     return attributes[number]
 
 
-def axis_name(index: object) -> str:
-    """The axis of `AX[…]`; alarm 12040 for another value."""
+def axis_address(channel: Channel, index: object) -> tuple[str, Axis | None]:
+    """Address and index that `AX[…]` means: those of the axis, `AX[S2]` for a spindle that is none.
+
+    Alarm 12040 for another value.
+    """
     if not isinstance(index, Axis):
         raise AlarmError("12040", text=str(index))
-    return index.name
+    axis = axis_of_spindle(channel, index)
+    return ("AX", axis) if spindle_number(axis) is not None else (axis.name, None)
 
 
-provide(position_attribute=position_attribute, axis_name=axis_name, Axis=Axis)
+provide(position_attribute=position_attribute, axis_address=axis_address, Axis=Axis)
 
 
 def _is_written(code: Code) -> bool:

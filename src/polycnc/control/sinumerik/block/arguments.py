@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from polycnc.language.sinumerik.names.spindles import spindle_number
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.messages import AlarmError
 
@@ -43,9 +44,8 @@ def spindle(value: Any) -> int | None:
     """Number of a spindle, by number or identifier; None where it is left out."""
     if value is None:
         return None
-    if isinstance(value, Axis) and value.name[:1] == "S" and value.name[1:].isdigit():
-        return int(value.name[1:])
-    return whole(value)
+    number = spindle_number(value) if isinstance(value, Axis) else None
+    return whole(value) if number is None else number
 
 
 def _shown(value: Any) -> str:

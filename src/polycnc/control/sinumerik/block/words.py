@@ -30,6 +30,7 @@ from polycnc.control.sinumerik.transformations.posture import Orienting
 from polycnc.control.sinumerik.variables.stored import Stored
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.bulk import Note, declare
+from polycnc.language.sinumerik.names.spindles import spindle_number as named_spindle
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError
@@ -97,8 +98,9 @@ def spindle_number(shape: WordShape, position: int) -> int | None:
     index = shape.index
     if index is None or isinstance(index, int):
         return index
-    if isinstance(index, Axis) and index.name[:1] == "S" and index.name[1:].isdigit():
-        return int(index.name[1:])
+    number = named_spindle(index) if isinstance(index, Axis) else None
+    if number is not None:
+        return number
     raise WordAlarm("12030", position, text=str(index))
 
 
@@ -155,6 +157,31 @@ def spindle_position(_draft: Draft, position: int, shape: WordShape) -> Step:
         spindle.position = modulo.shown(value + (spindle.position if shape.modifier == "IC" else 0.0))
         spindle.controlled = True
         spindle.direction = 0
+        channel.context_changed()
+
+    return run
+
+
+def spindle_as_axis(draft: Draft, position: int, shape: WordShape) -> Step:
+    """AX[SPI(n)]: a position of a spindle that is no axis of the channel; 14092 where it is under speed control.
+
+    The frames shift it as they shift axes (job planning 14.1).
+    """
+    wanted = spindle_number(shape, position)
+    incremental = shape.modifier == "IC" or (draft.mode["distance"] == "G91" and not shape.modifier)
+
+    def run(channel: SinumerikChannel, values: Values) -> None:
+        spindle = channel.memory.spindles.get(wanted)
+        name = f"S{spindle.number}"
+        if not spindle.controlled:
+            raise WordAlarm("14092", position, text=name)
+        value = number(values, position)
+        shift = channel.memory.frames.total().others.get(name)
+        if incremental:
+            value += spindle.position
+        elif shift is not None:
+            value += shift.coarse + shift.fine
+        spindle.position = ModuloRange.of(channel.memory.data, name).shown(value)
         channel.context_changed()
 
     return run
@@ -499,6 +526,7 @@ WORDS: dict[str, Maker] = {
     "LIMS": speed_limit,
     "SPOS": spindle_position,
     "SPOSA": spindle_position,
+    "AX": spindle_as_axis,
     "T": tool,
     "D": edge,
     "M": m_function,
@@ -536,12 +564,12 @@ WORDS: dict[str, Maker] = {
 }
 #: Addresses that take an extension or an index, and those that take something round their value.
 _EXTENDED = """
-S M H T D F FA LIMS SPOS SPOSA TOFFL TOFF OVRA ACC ACCLIMA VELOLIM VELOLIMA JERKLIM JERKLIMA SCPARA ATOL
+S M H T D F FA LIMS SPOS SPOSA AX TOFFL TOFF OVRA ACC ACCLIMA VELOLIM VELOLIMA JERKLIM JERKLIMA SCPARA ATOL
 FGREF FL POLF ADISPOSA
 """
 EXTENDED = frozenset((*_EXTENDED.split(), *oscillation.OSCILLATION_WORDS))
 MODIFIED = {
-    **dict.fromkeys(("SPOS", "SPOSA"), frozenset(("AC", "IC", "DC", "ACP", "ACN"))),
+    **dict.fromkeys(("SPOS", "SPOSA", "AX"), frozenset(("AC", "IC", "DC", "ACP", "ACN"))),
     **dict.fromkeys(("M", "H"), frozenset(("QU",))),
     "F": frozenset(("FPO",)),
     "POLF": frozenset(("AC", "IC")),

@@ -13,6 +13,7 @@ from polycnc.control.sinumerik.frames.memory import SYSTEM_FRAMES
 from polycnc.control.sinumerik.variables.row import Indices, Row
 from polycnc.control.sinumerik.variables.stored import Stored
 from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES, NcFrame
+from polycnc.language.sinumerik.names.spindles import axis_of_spindle
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.messages import AlarmError
 
@@ -40,7 +41,13 @@ def split(indices: Indices, name: str, *, numbered: bool) -> tuple[int, str, str
 
 
 def frame_axis(channel: SinumerikChannel, axis: str) -> str:
-    """The name by which frames know an axis: X, Y, Z for the geometry, else the channel's name."""
+    """The name by which frames know an axis: X, Y, Z for the geometry, else the channel's name.
+
+    A spindle goes by the axis that it is, or by its own name.
+    """
+    axis = axis_of_spindle(channel, Axis(axis)).name
+    if axis in (f"S{number}" for number in channel.memory.spindles.all):
+        return axis
     column = channel.memory.column(axis)
     geometry = channel.coordinates.geometry
     return GEOMETRY_AXES[geometry.index(column)] if column in geometry else channel.axes[column]

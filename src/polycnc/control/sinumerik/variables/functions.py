@@ -19,6 +19,7 @@ from polycnc.geometry import fit
 from polycnc.language.sinumerik.formatting import formatted
 from polycnc.language.sinumerik.keywords import CONTROL_FUNCTIONS
 from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES, NEUTRAL, NcFrame, crpl
+from polycnc.language.sinumerik.names.spindles import axis_of_spindle, spindle_number
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.messages import AlarmError
 
@@ -56,22 +57,31 @@ def is_axis(channel: SinumerikChannel, args: Arguments) -> bool:
 def modulo_position(channel: SinumerikChannel, args: Arguments) -> float:
     """MODAXVAL(axis, position): the position within the modulo range; unchanged for other axes."""
     memory = channel.memory
-    column = memory.column(args[0].name)
     position = float(args[1])
+    axis = axis_of_spindle(channel, args[0])
+    spindle = spindle_number(axis)
+    if spindle is not None:
+        channel.memory.spindles.get(spindle)
+        return ModuloRange.of(memory.data, axis.name).shown(position)
+    column = memory.column(axis.name)
     if not channel.memory.axes[column].modulo:
         return position
     return ModuloRange.of(memory.data, channel.axes[column]).shown(position)
 
 
-def spindle_of(_channel: SinumerikChannel, args: Arguments) -> int:
-    """AXTOSPI(axis): number of the spindle that an identifier means."""
-    name = args[0].name
-    if name[:1] != "S" or not name[1:].isdigit():
-        raise AlarmError("14020", text="AXTOSPI")
-    return int(name[1:])
+def spindle_of(channel: SinumerikChannel, args: Arguments) -> int:
+    """AXTOSPI(axis): number of the spindle that an identifier means, or that the axis is; 14092 for another axis."""
+    number = spindle_number(args[0])
+    if number is not None:
+        return channel.memory.spindles.get(number).number
+    name = channel.axes[channel.memory.column(args[0].name)]
+    numbers = [spindle.number for spindle in channel.machine.spindles if spindle.axis == name]
+    if not numbers:
+        raise AlarmError("14092", text=name)
+    return numbers[0]
 
 
-def axis_of_spindle(channel: SinumerikChannel, args: Arguments) -> Axis:
+def identifier_of_spindle(channel: SinumerikChannel, args: Arguments) -> Axis:
     """SPI(n): identifier of a spindle."""
     channel.memory.spindles.get(args[0])
     return Axis(f"S{args[0]}")
@@ -134,7 +144,7 @@ FUNCTIONS: dict[str, Callable[[SinumerikChannel, Arguments], Any]] = {
     "ADDFRAME": adding.add,
     "CALCPOSI": calcposi.calculate,
     "AXTOSPI": spindle_of,
-    "SPI": axis_of_spindle,
+    "SPI": identifier_of_spindle,
     "CRPL": rotation_in_plane,
     "CROTS": solid_rotation,
     "POSRANGE": in_window,

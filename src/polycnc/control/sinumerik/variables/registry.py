@@ -203,6 +203,8 @@ def _work_frame(channel: SinumerikChannel, outer: str) -> list[float]:
         inner = inner @ frame
     point = coordinates.image(inner.frame, coordinates.position)
     for axis, part in inner.others.items():
+        if axis not in memory.columns:  # a spindle
+            continue
         column = memory.column(axis)
         point = [*point[:column], point[column] + part.coarse + part.fine, *point[column + 1 :]]
     return point

@@ -22,11 +22,14 @@ MACHINE_DATUM, SYSTEM_VARIABLE, CYCLE, GLOBAL_VARIABLE, MACRO, LOCAL_VARIABLE, F
 )  # fmt: skip
 
 _AXIS_LETTERS = re.compile(r"[ABCEI-KQU-Z]\d*", re.ASCII)
-_FIXED_LETTERS = frozenset("DFHLMNOPST")
+_FIXED_LETTERS = frozenset("DFGHLMNOPST")
 _G = re.compile(r"G(\d+)", re.ASCII)
 _R = re.compile(r"\$?R\d*", re.ASCII)
 _DATUM = re.compile(r"\$\$?[MSO][NCA]?_?", re.ASCII)
 _VARIABLE = re.compile(r"\s*(\$?\$?\w+)\s*(?:\[([^\[\]]*)\])?\s*", re.ASCII)
+
+#: Alarms for indices that a variable does not take.
+_INDEX_ALARMS = frozenset({"12400", "17020", "17030", "17035"})
 
 _KEYWORDS = (
     keywords.MODIFIERS
@@ -103,7 +106,7 @@ def _is_system_variable(scope: Scope, name: str) -> bool:
     return True
 
 
-def is_variable(scope: Scope, text: str) -> bool:
+def is_variable(channel: Channel, scope: Scope, text: str) -> bool:
     """ISVAR: a variable with the right number of indices, each inside its dimension where it is written."""
     found = _VARIABLE.fullmatch(text)
     if found is None:
@@ -115,7 +118,11 @@ def is_variable(scope: Scope, text: str) -> bool:
         number = name[1:] or (indices or [""])[0]
         return number.isdecimal() and int(number) < len(scope.memory.r)
     if variable is None:
-        return name.startswith("$") and _is_system_variable(scope, name)
+        return (
+            name.startswith("$")
+            and _is_system_variable(scope, name)
+            and _takes(channel, scope, name, indices)
+        )
     if indices is None:
         return True
     return len(indices) == len(variable.dims) and all(
@@ -124,7 +131,23 @@ def is_variable(scope: Scope, text: str) -> bool:
     )
 
 
+def _takes(channel: Channel, scope: Scope, name: str, indices: list[str] | None) -> bool:
+    """Whether a system variable takes these indices; names of axes are not checked (job planning 14.5)."""
+    places = [
+        int(index) if index.isdecimal() else scope.memory.axes.get(index.upper()) for index in indices or ()
+    ]
+    if not places or None in places:  # an index is left out, or names no axis
+        return True
+    try:
+        variable = scope.control.system_variable(name)
+        if not variable.timed:
+            variable.read(channel, tuple(places))
+    except AlarmError as alarm:
+        return alarm.code not in _INDEX_ALARMS
+    return True
+
+
 def name_function(channel: NcChannel, name: str, args: tuple[Any, ...]) -> int | bool:
     """The value of STRINGIS or ISVAR where the channel stands."""
     scope = channel.level.code.whole.scope_of(channel)
-    return string_is(channel, scope, args[0]) if name == "STRINGIS" else is_variable(scope, args[0])
+    return string_is(channel, scope, args[0]) if name == "STRINGIS" else is_variable(channel, scope, args[0])
