@@ -144,7 +144,7 @@ INTERNAL_CODES = {"open_line": "", "feed_kept": "G94", "transformation": ""}
 
 #: Known functions that polycnc does not execute: the path would differ, so they raise an alarm.
 _NOT_EXECUTED = """
-OEMIPO1 OEMIPO2 INVCW INVCCW KONTT KONTC SON PON SONS PONS
+OEMIPO1 OEMIPO2 KONTT KONTC SON PON SONS PONS
 G291
 """
 NOT_EXECUTED = frozenset(_NOT_EXECUTED.split())

@@ -24,7 +24,7 @@ from polycnc.control.sinumerik.frames import active as frames
 from polycnc.control.sinumerik.frames import codes as frame_codes
 from polycnc.control.sinumerik.frames import tool_frames
 from polycnc.control.sinumerik.limits import working_area
-from polycnc.control.sinumerik.motion import circles, moves, repositioning, splines
+from polycnc.control.sinumerik.motion import circles, involutes, moves, repositioning, splines
 from polycnc.control.sinumerik.oscillation import words as oscillation
 from polycnc.control.sinumerik.signals import measuring
 from polycnc.control.sinumerik.tools import online, selection, smooth_approach, stages
@@ -62,6 +62,8 @@ MOTIONS: dict[str, Callable[[Draft], Step | None]] = {
     "CSPLINE": splines.through_points,
     "POLY": splines.polynomial,
     "CT": circles.tangential,
+    "INVCW": involutes.wind,
+    "INVCCW": involutes.wind,
     "G33": moves.thread,
     "G34": moves.thread,
     "G35": moves.thread,

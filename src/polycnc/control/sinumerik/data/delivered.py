@@ -81,6 +81,7 @@ DATA: dict[str, tuple[int, bool | float | str]] = {
     "$MC_SPF_END_TO_VDI": (20800, 1),
     "$MC_CIRCLE_ERROR_CONST": (21000, 0.01),
     "$MC_CIRCLE_ERROR_FACTOR": (21010, 0.001),
+    "$MC_INVOLUTE_RADIUS_DELTA": (21015, 0.01),
     "$MC_WORKAREA_WITH_TOOL_RADIUS": (21020, False),
     "$MC_ORIPATH_MODE": (21094, 0),
     "$MC_ORIENTATION_IS_EULER": (21100, True),

@@ -1,5 +1,5 @@
 """Motion of a block.
 
-`moves` (G0, G1, G33, G4 …), `polar` words, `circles`, `splines` with `spline_stage`, `indexing`, `repositioning`;
+`moves` (G0, G1, G33, G4 …), `polar` words, `circles`, `involutes`, `splines` with `spline_stage`, `indexing`, `repositioning`;
 `last_move` is where a move came from, for CT; `contour_reading` catches the moves of blocks that describe a contour.
 """
