@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+from itertools import pairwise
 from math import atan2, cos, degrees, hypot, pi, radians, sin, sqrt
 
 import pytest
@@ -36,7 +37,7 @@ def test_chords_keep_within_the_error_and_share_the_length() -> None:
     chords = curve.chords(0.001)
     assert chords[-1] == (curve.end, 1.0)
     points = [curve.at(0.0), *(point for point, _ in chords)]
-    length = sum(hypot(b[0] - a[0], b[1] - a[1]) for a, b in zip(points, points[1:], strict=False))
+    length = sum(hypot(b[0] - a[0], b[1] - a[1]) for a, b in pairwise(points))
     assert length == pytest.approx(5.0 * 36.0 / 2.0, rel=1e-3)
 
 

@@ -25,6 +25,8 @@ WORKING_MEMORY = "/_N_RAM"
 WORKPIECE = "_WPD"
 """Type of the directory of a workpiece."""
 
+#: Characters of a name of a program or file (job planning, glossary), and of its type: `_SPF`.
+LONGEST_NAME, TYPE_LENGTH = 24, 4
 #: Stored names that only definition files have: macros, user data and rights of Siemens, builder and user.
 _DEFINITION_FILE = re.compile(r"_N_(?:[A-Z](?:MAC|GUD|ACCESS)|GUD[4-9])_DEF")
 
@@ -47,6 +49,13 @@ def is_definition_file(name: str) -> bool:
 def bare_name(name: str) -> str:
     """`_N_SUB1_SPF` is `SUB1`: as a call names it that does not say the type."""
     return name.upper().removeprefix("_N_").removesuffix("_SPF").removesuffix("_MPF")
+
+
+def is_too_long(name: str) -> bool:
+    """Whether a stored name is longer than the control allows: 24 characters beside `_N_` and the type."""
+    bare = name.removeprefix("_N_")
+    has_type = len(bare) > TYPE_LENGTH and bare[-TYPE_LENGTH] == "_"
+    return len(bare) - (TYPE_LENGTH if has_type else 0) > LONGEST_NAME
 
 
 def stored_directory(directory: str) -> str:

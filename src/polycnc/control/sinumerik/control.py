@@ -326,6 +326,7 @@ class Sinumerik:
         mode, coordinates = channel.mode, channel.coordinates
         memory = channel.memory
         feed = tables.feed_type(mode)
+        speed_type = "G96" if feed.surface_speed else mode["feed"]
         leading = (
             PathFeed.of(channel).spindle
             if feed.mode is FeedMode.PER_REVOLUTION and PathFeed.of(channel).spindle
@@ -347,10 +348,10 @@ class Sinumerik:
             radius_mm=stages.distance(channel) if side else 0.0,
             side=side,
             spindle=leading,
-            spindle_rpm=_speed(memory, spindle, mode["feed"]),
+            spindle_rpm=_speed(memory, spindle, speed_type),
             spindle_direction=spindle.direction if spindle else 0,
             surface_speed=feed.surface_speed,
-            spindle_limit_rpm=_limit(memory, spindle, mode["feed"]),
+            spindle_limit_rpm=_limit(memory, spindle, speed_type),
             corner_mode=_corner_mode(channel, mode),
             stop_window=tables.STOP_WINDOWS[mode["exact_stop"]],
             tolerance_mm=smoothing.contour(channel, mode, _tolerance(channel, mode["path"])),

@@ -66,6 +66,8 @@ FEED_TYPES = {
 KEEP_FEED = frozenset(("G962", "G972"))
 #: S is a cutting speed.
 SURFACE_SPEEDS = frozenset(("G96", "G961", "G962"))
+#: They choose the linear or revolutional feed and keep how S was meant before.
+KEEP_SPEED = frozenset(("G942", "G952"))
 
 
 def length_factor(mode: Mode) -> float:
@@ -78,6 +80,8 @@ def feed_type(mode: Mode) -> FeedType:
     code = mode["feed"]
     if code in KEEP_FEED:
         return FEED_TYPES[mode["feed_kept"]]._replace(surface_speed=code == "G962")
+    if code in KEEP_SPEED:
+        return FEED_TYPES[code]._replace(surface_speed=mode["speed_kept"] in SURFACE_SPEEDS)
     return FEED_TYPES[code]
 
 

@@ -211,11 +211,14 @@ AXIS_DIAMETERS = {
 
 
 def _mode_after(before: Mode, modal: list[tuple[str, str]]) -> Mode:
-    """The mode with the modal functions of a block, and with the feed type that G962 and G972 keep."""
+    """The mode with the modal functions of a block, and with what G962, G972, G942 and G952 keep."""
     changes = [(name, code) for name, code in modal if before[name] != code]
     if not changes:
         return before
     mode = before.with_codes(changes)
+    if mode["feed"] in tables.KEEP_SPEED:
+        surface = tables.feed_type(before).surface_speed
+        mode = mode.with_code("speed_kept", "G96" if surface else "")
     if mode["feed"] in tables.KEEP_FEED and before["feed"] not in tables.KEEP_FEED:
         return mode.with_code("feed_kept", before["feed"])
     return mode

@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING
 from polycnc.compensation.corner import Shape
 from polycnc.control.machine_words import asking, plc_of
 from polycnc.control.sinumerik import auxiliary, replaced, tables
-from polycnc.control.sinumerik.block import plain
+from polycnc.control.sinumerik.block import outside_feeds, plain
 from polycnc.control.sinumerik.block.draft import axis_column
 from polycnc.control.sinumerik.block.positions import ModuloRange, number
 from polycnc.control.sinumerik.errors import not_supported
-from polycnc.control.sinumerik.feed import axis_settings, spindle_speed, tolerances, tooth_feed
+from polycnc.control.sinumerik.feed import axis_settings, spindle_speed, thread_ramps, tolerances, tooth_feed
 from polycnc.control.sinumerik.feed.pace import Overrides
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.motion import moves
@@ -27,7 +27,6 @@ from polycnc.control.sinumerik.tables import length_factor
 from polycnc.control.sinumerik.tools import sides, stages
 from polycnc.control.sinumerik.tools.holders import active as carriers
 from polycnc.control.sinumerik.transformations.posture import Orienting
-from polycnc.control.sinumerik.variables.stored import Stored
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.bulk import Note, declare
 from polycnc.language.sinumerik.names.spindles import spindle_number as named_spindle
@@ -48,9 +47,9 @@ Maker = Callable[["Draft", int, "WordShape"], "Step"]
 
 
 def feed(draft: Draft, position: int, shape: WordShape) -> Step:
-    """F: path feed in the units of the feed type; F0 is no feed."""
+    """F: path feed in the units of the feed type; F0 is no feed. F2= to F7= are feeds that inputs choose."""
     if shape.index is not None:
-        raise not_supported(f"F[{shape.index}]")
+        return outside_feeds.chosen_by_input(draft, position, shape)
     if draft.mode["feed"] == "G931":
         return _travel_time(position)
     factor = moves.feed_factor(draft)
@@ -439,15 +438,6 @@ def cutting_rate(_draft: Draft, position: int, _shape: WordShape) -> Step:
     return run
 
 
-def kept(_draft: Draft, position: int, shape: WordShape) -> Step:
-    """DITS, DITE: paths of acceleration; no effect on the path."""
-
-    def run(channel: SinumerikChannel, values: Values) -> None:
-        Stored.of(channel).values[shape.address, ()] = number(values, position)
-
-    return run
-
-
 def path_feed_of_axis(draft: Draft, position: int, shape: WordShape) -> Step:
     """FGREF, FL: reference radius of a rotary axis, limit of a synchronous axis; for the motion planner (`pace.py`)."""
     column = axis_column(draft, position, shape)
@@ -559,7 +549,8 @@ WORDS: dict[str, Maker] = {
     "ALF": retraction.direction_code,
     "DILF": retraction.length,
     "POLF": retraction.retraction_position,
-    **dict.fromkeys(("DITS", "DITE"), kept),
+    **dict.fromkeys(thread_ramps.RAMPS, thread_ramps.ramp),
+    **outside_feeds.WORDS,
     **dict.fromkeys(_PERCENT, percentage),
 }
 #: Addresses that take an extension or an index, and those that take something round their value.
@@ -567,7 +558,7 @@ _EXTENDED = """
 S M H T D F FA LIMS SPOS SPOSA AX TOFFL TOFF OVRA ACC ACCLIMA VELOLIM VELOLIMA JERKLIM JERKLIMA SCPARA ATOL
 FGREF FL POLF ADISPOSA
 """
-EXTENDED = frozenset((*_EXTENDED.split(), *oscillation.OSCILLATION_WORDS))
+EXTENDED = frozenset((*_EXTENDED.split(), *oscillation.OSCILLATION_WORDS)) | outside_feeds.EXTENDED
 MODIFIED = {
     **dict.fromkeys(("SPOS", "SPOSA", "AX"), frozenset(("AC", "IC", "DC", "ACP", "ACN"))),
     **dict.fromkeys(("M", "H"), frozenset(("QU",))),
@@ -581,7 +572,7 @@ ASKED = {"S": "S_CODE", "T": "T_CODE"}
 PASSES = "P"
 #: Words that only mean something together with others; alone they are a mistake of the block.
 COMPANIONS = frozenset(
-    "I J K I1 J1 K1 IP CR AR TURN AP RP RPL ANG SF FB FRC FP DISR DISCL FAD DISPR PO PW SD PL".split()  # noqa: SIM905 - a table
+    "I J K I1 J1 K1 IP CR AR TURN AP RP RPL ANG SF FB FD FRC FP DISR DISCL FAD DISPR PO PW SD PL".split()  # noqa: SIM905 - a table
 )
 
 

@@ -13,6 +13,7 @@ from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.block import plain
+from polycnc.control.sinumerik.block.outside_feeds import take_block_feed
 from polycnc.control.sinumerik.block.positions import Dimension, is_diameter, number, target
 from polycnc.control.sinumerik.motion import contour_reading, moves
 from polycnc.control.sinumerik.motion.last_move import ArcOfMove, LastMove
@@ -51,7 +52,7 @@ class Arc:
         self.columns = moves.plane_columns(draft)
         self.axes = PLANES[draft.mode["plane"]]
         self.factor = length_factor(draft.mode)
-        self.feed = draft.take("FB")
+        self.feed = take_block_feed(draft)
         self.feed_factor = moves.feed_factor(draft)
         self.polar = draft.take_shape("AP", "AC", "IC"), draft.take_shape("RP", "AC", "IC")
         self.radius, self.angle, self.turn = draft.take("CR"), draft.take("AR"), draft.take("TURN")

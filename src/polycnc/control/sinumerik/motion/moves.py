@@ -14,6 +14,7 @@ from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.actions import axes as action_axes
 from polycnc.control.sinumerik.block import plain
+from polycnc.control.sinumerik.block.outside_feeds import take_block_feed
 from polycnc.control.sinumerik.block.positions import AxisTerm, Dimension, axis_term, number, target
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.limits import working_area
@@ -70,7 +71,7 @@ def rapid(draft: Draft) -> Step | None:
 
 def linear(draft: Draft) -> Step | None:
     """G1: straight with path feed; FB for the block's own feed."""
-    block_feed = draft.take("FB")
+    block_feed = take_block_feed(draft)
     is_plain = draft.lead is None and not draft.by_axes and not draft.has("AP", "RP", "ANG")
     if block_feed is None and is_plain:
         return _plain_linear(draft)

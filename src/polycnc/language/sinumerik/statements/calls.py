@@ -13,6 +13,7 @@ from polycnc.language.sinumerik.names.places import ElementPlace
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.language.sinumerik.statements.sections import Section, count_levels, leave
 from polycnc.messages import AlarmError
+from polycnc.program.names import is_too_long, split_stored_path
 from polycnc.program.store import EXTERNAL
 
 if TYPE_CHECKING:
@@ -39,7 +40,9 @@ MAX_DIGITS = 7
 
 
 def find_program(channel: Channel, name: str) -> Program | None:
-    """The program that a call finds from where the channel stands (search order 1.25.1.4)."""
+    """The program that a call finds from where the channel stands (search order 1.25.1.4); none has too long a name."""
+    if is_too_long(split_stored_path(name)[1]):
+        return None
     memory: LanguageMemory = channel.memory.language
     directory = channel.level.code.program.directory
     if directory.startswith(EXTERNAL):  # a program from outside calls as the selected program does

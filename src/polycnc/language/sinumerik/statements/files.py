@@ -15,7 +15,7 @@ from polycnc.language.sinumerik.names.values import MAX_STRING, Type
 from polycnc.language.sinumerik.names.variables import Array, Reference
 from polycnc.messages import AlarmError
 from polycnc.program import Form, Program
-from polycnc.program.names import split_stored_path, stored_directory
+from polycnc.program.names import is_too_long, split_stored_path, stored_directory
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -47,7 +47,7 @@ def _place(channel: Channel, name: str) -> tuple[str, str]:
     if not name or len(name) > MAX_PATH or any(character <= " " for character in name):
         raise FileError(BAD_PATH)
     directory, stored = split_stored_path(name.removesuffix("/"))
-    if len(stored) > MAX_NAME or (directory and not name.startswith("/")):
+    if len(stored) > MAX_NAME or is_too_long(stored) or (directory and not name.startswith("/")):
         raise FileError(BAD_PATH)
     if len(stored) < 4 or stored[-4] != "_" or stored[-4:] == stored[2:6]:
         stored += "_MPF"
