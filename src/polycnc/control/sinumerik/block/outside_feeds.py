@@ -36,7 +36,9 @@ def chosen_by_input(draft: Draft, position: int, shape: WordShape) -> Step:
         if channel.memory.data.integer(INPUTS):
             raise not_supported(shape.address)
         if shape.address not in ("SR", "SRA") and number(values, position) < 0.0:
-            raise WordAlarm("14800" if shape.address in ("F", "FMA") else "12560", position, text=shape.address)
+            raise WordAlarm(
+                "14800" if shape.address in ("F", "FMA") else "12560", position, text=shape.address
+            )
 
     return run
 

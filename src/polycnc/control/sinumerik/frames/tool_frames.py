@@ -14,6 +14,8 @@ from typing import TYPE_CHECKING
 from polycnc.control.sinumerik.frames import active as frames
 from polycnc.control.sinumerik.frames.memory import BEFORE_BASE, chain
 from polycnc.control.sinumerik.tools.holders import active as carriers
+from polycnc.control.sinumerik.transformations import seat
+from polycnc.control.sinumerik.transformations.posture import Posture
 from polycnc.geometry.frames import Frame, Vector
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.vectors import axis_vector, cross, dot, minus, times
@@ -64,7 +66,13 @@ def by_table(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001
 
 
 def tool_direction(channel: SinumerikChannel) -> Vector:
-    """Direction along the tool in the basic coordinate system: the plane's third axis as the holder turns it."""
+    """Direction along the tool in the basic coordinate system.
+
+    An orientation transformation says it; else it is the plane's third axis as the holder turns it.
+    """
+    if seat.centre_point(channel) is not None:
+        posture = Posture.of(channel, channel.mode)
+        return posture.direction(posture.angles(channel.coordinates.position))
     across = axis_vector(PLANES[channel.mode["plane"]][2])
     carrier = channel.memory.tools.carrier
     return across if carrier is None else carrier.direct(*across)
