@@ -96,4 +96,5 @@ MODAL_GROUPS = {
     # ---- kept like a group, but by no code of its own
     "open_line": "a line whose end the next block tells",
     "feed_kept": "the feed type that G962 and G972 keep",
+    "speed_kept": "how S is meant, which G942 and G952 keep",
 }
