@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from polycnc.control.sinumerik.cycles import (
     contour,
     drilling,
+    grooves,
     high_speed_settings,
     milling,
     patterns,
@@ -122,10 +123,10 @@ CYCLES: dict[str, Cycle] = {
     "CYCLE90": Cycle(f"{_HOLE} DIATH KDIAM PIT FFR CDIR TYPTH CPA CPO", surfaces.thread),
     "CYCLE93": Cycle(
         "SPD SPL WIDG DIAG STA1 ANG1 ANG2 RCO1 RCO2 RCI1 RCI2 FAL1 FAL2 IDEP DTB VARI _VRT _DN",
-        turning.groove,
+        grooves.groove,
     ),
-    "CYCLE94": Cycle("SPD SPL FORM _VARI", turning.undercut),
-    "CYCLE96": Cycle("DIATH SPL FORM _VARI", turning.undercut),
+    "CYCLE94": Cycle("SPD SPL FORM _VARI", grooves.undercut),
+    "CYCLE96": Cycle("DIATH SPL FORM _VARI", grooves.undercut),
     "CYCLE95": Cycle("NPP MID FALZ FALX FAL FF1 FF2 FF3 VARI DT DAM _VRT", turning.stock_removal),
     "CYCLE97": Cycle(
         "PIT MPIT SPL FPL DM1 DM2 APP ROP TDEP FAL IANG NSP NRC NID VARI NUMT _VRT", turning.thread
@@ -133,6 +134,11 @@ CYCLES: dict[str, Cycle] = {
     "CYCLE98": Cycle(
         "PO1 DM1 PO2 DM2 PO3 DM3 PO4 DM4 APP ROP TDEP FAL IANG NSP NRC NID PP1 PP2 PP3 VARI NUMT _VRT",
         turning.thread_chain,
+    ),
+    "CYCLE99": Cycle(
+        "_SPL _DM1 _FPL _DM2 _APP _ROP _TDEP _FAL _IANG _NSP _NRC _NID _PIT _VARI _NUMT _SDIS _MID _GDEP _PIT1 _FDEP"
+        " _GST _GUD _IFLANK _PITA _PITM _PTAB _PTABA _DMODE _AMODE",
+        turning.thread_of_plane,
     ),
     "CYCLE800": Cycle(
         "_FR _TC _ST _MODE _X0 _Y0 _Z0 _A _B _C _X1 _Y1 _Z1 _DIR _FR_I _DMODE",

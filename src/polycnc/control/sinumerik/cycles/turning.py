@@ -1,11 +1,11 @@
-"""Turning cycles: stock removal CYCLE95, threads CYCLE97 and CYCLE98 (strokes: `polycnc.cycles`)."""
+"""Turning cycles: stock removal CYCLE95, threads CYCLE97, CYCLE98 and CYCLE99 (strokes: `polycnc.cycles`)."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 from functools import partial
 from itertools import pairwise
-from math import copysign
+from math import atan2, copysign, degrees
 from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.cycles.contour import read
@@ -14,7 +14,6 @@ from polycnc.control.sinumerik.cycles.milling import feed_of
 from polycnc.control.sinumerik.cycles.moves import require_tool
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tools import stages
-from polycnc.control.sinumerik.tools.edges import DP_TIP
 from polycnc.cycles.count import parts
 from polycnc.cycles.turning import thread_chain as thread_turning
 from polycnc.cycles.turning.contour import Contour, parallel, shifted, swapped, swapped_stroke, turned_round
@@ -35,6 +34,8 @@ if TYPE_CHECKING:
 LIFT_MM = 1.0
 #: By so much a direction of 45 degrees may miss it and still not be steep.
 _ROUNDING = 1e-9
+#: Kinds of threads: outside, inside with equal depths of cuts, then both with equal cross-sections.
+KINDS = (1, 2, 3, 4)
 #: Further coarse metric threads that can be cut, but not tapped, by their nominal diameter.
 LARGE_PITCHES = {52: 5.0, 56: 5.5, 60: 5.5}
 
@@ -58,9 +59,52 @@ def thread_chain(moves: Moves, a: Arguments) -> None:
     _thread(moves, a, corners, leads)
 
 
-def _thread(moves: Moves, a: Arguments, corners: Sequence[Point], leads: Sequence[float]) -> None:
-    kind = a.integer("VARI")
-    if kind not in (1, 2, 3, 4):
+#: CYCLE99: what its parameters must be, as far as it is executed: one pitch, lengthwise, absolute, in G18 or the plane.
+_ONLY_ZERO = "_GDEP _PIT1 _FDEP _GST _GUD _MID _AMODE _PTABA".split()  # noqa: SIM905 - a table
+_PITCH_UNITS, _PLANES = (0, 1), (0, 2)
+#: Digits of its VARI: how cuts go in, and whether it roughs and finishes.
+INFEED_PLACE, STAGE_PLACE, ALTERNATING = 2, 5, 2
+_COMPLETE = (0, 3)
+
+
+def thread_of_plane(moves: Moves, a: Arguments) -> None:
+    """CYCLE99: thread lengthwise, roughed and finished; other kinds are PC0001."""
+    kind = a.digit("_VARI", 0)
+    if kind not in KINDS:
+        raise AlarmError("61002")
+    lead = abs(a["_PIT"])
+    if not lead:
+        raise AlarmError("61001")
+    wrong = [name for name in _ONLY_ZERO if a.plain(name)]
+    wrong += [
+        name for name, known in (("_PITA", _PITCH_UNITS), ("_DMODE", _PLANES)) if a.integer(name) not in known
+    ]
+    if wrong or a.digit("_VARI", STAGE_PLACE) not in _COMPLETE or a.plain("_PTAB") or not a.integer("_NRC"):
+        raise not_supported(f"CYCLE99 {wrong[0] if wrong else '_VARI'}")
+    flank = a["_IANG"]
+    if not flank and a["_IFLANK"]:
+        flank = degrees(atan2(abs(a["_IFLANK"]), abs(a["_TDEP"])))
+    if a.digit("_VARI", INFEED_PLACE) == ALTERNATING:
+        flank = -abs(flank)
+    corners = [(a["_SPL"], a["_DM1"]), (a["_FPL"], a["_DM2"])]
+    _thread(moves, a, corners, [lead], prefix="_", kind=kind, flank=flank, lift=a["_SDIS"])
+
+
+def _thread(
+    moves: Moves,
+    a: Arguments,
+    corners: Sequence[Point],
+    leads: Sequence[float],
+    *,
+    prefix: str = "",
+    kind: int | None = None,
+    flank: float | None = None,
+    lift: float | None = None,
+) -> None:
+    """Cut a thread; what is not given here has the names of CYCLE97, behind a prefix."""
+    kind = a.integer("VARI") if kind is None else kind
+    lift = a["_VRT"] if lift is None else lift
+    if kind not in KINDS:
         raise AlarmError("61002")
     for (a0, b0), (a1, b1) in pairwise(corners):
         if a0 == a1 or abs(b1 - b0) > abs(a1 - a0):
@@ -68,18 +112,18 @@ def _thread(moves: Moves, a: Arguments, corners: Sequence[Point], leads: Sequenc
     cutting = Thread(
         corners,
         leads,
-        run_in=abs(a["APP"]),
-        run_out=abs(a["ROP"]),
-        depth=abs(a["TDEP"]),
-        allowance=abs(a["FAL"]),
-        cuts=max(a.integer("NRC"), 1),
-        idle=max(a.integer("NID"), 0),
+        run_in=abs(a[f"{prefix}APP"]),
+        run_out=abs(a[f"{prefix}ROP"]),
+        depth=abs(a[f"{prefix}TDEP"]),
+        allowance=abs(a[f"{prefix}FAL"]),
+        cuts=max(a.integer(f"{prefix}NRC"), 1),
+        idle=max(a.integer(f"{prefix}NID"), 0),
         inside=kind in (2, 4),
         degressive=kind in (3, 4),
-        flank_deg=a["IANG"],
-        start_angle_deg=a["NSP"],
-        starts=max(a.integer("NUMT"), 1),
-        lift=a["_VRT"] if a["_VRT"] > 0.0 else LIFT_MM,
+        flank_deg=a[f"{prefix}IANG"] if flank is None else flank,
+        start_angle_deg=a[f"{prefix}NSP"],
+        starts=max(a.integer(f"{prefix}NUMT"), 1),
+        lift=lift if lift > 0.0 else LIFT_MM,
     )
     for stroke in thread_turning.strokes(cutting):
         if stroke.lead:
@@ -246,46 +290,3 @@ def _beside(point: Point, direction: Point, onwards_: float, towards: float, lif
 
 def _at_feed(stroke: PlaneStroke) -> PlaneStroke:
     return replace(stroke, kind=Kind.FEED) if stroke.kind is Kind.RAPID else stroke
-
-
-# ---- undercuts and grooves: their calls are checked, their cuts are not made
-
-#: Forms of an undercut by cycle.
-FORMS = {"CYCLE94": ("E", "F"), "CYCLE96": ("A", "B", "C", "D")}
-#: Cutting edge positions that can turn an undercut.
-CORNERS = (1, 2, 3, 4)
-#: VARI of CYCLE93: outside or inside, lengthwise or across, side of the start; 10 more for the other kind of chamfer.
-GROOVES = (*range(1, 9), *range(11, 19))
-
-
-def undercut(moves: Moves, a: Arguments) -> None:
-    """CYCLE94, CYCLE96: an undercut of a form.
-
-    Raises:
-        AlarmError: 61000 without tool offset, 61608 for a tool point that cannot, 61609 for a form that does not
-            exist, 61601 for a diameter that is not above zero; else PC0001.
-    """
-    require_tool(moves)
-    if a.text("FORM").strip().upper() not in FORMS[a.cycle]:
-        raise AlarmError("61609", text=a.text("FORM"))
-    edge = moves.memory.tools.edge
-    if edge is None or int(edge.values[DP_TIP]) not in CORNERS:
-        raise AlarmError("61608")
-    if not a["SPD" if a.cycle == "CYCLE94" else "DIATH"] > 0.0:
-        raise AlarmError("61601")
-    raise not_supported(a.cycle)
-
-
-def groove(moves: Moves, a: Arguments) -> None:
-    """CYCLE93: a groove.
-
-    Raises:
-        AlarmError: 61000 without tool offset, 61002 for VARI, 61603 for a groove without width or depth; else
-            PC0001.
-    """
-    require_tool(moves)
-    if a.integer("VARI") not in GROOVES:
-        raise AlarmError("61002")
-    if not abs(a["WIDG"]) or not abs(a["DIAG"]):
-        raise AlarmError("61603")
-    raise not_supported(a.cycle)

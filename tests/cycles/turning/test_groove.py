@@ -1,0 +1,44 @@
+from __future__ import annotations
+
+from itertools import pairwise
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from polycnc.cycles.turning.groove import Groove, strokes
+
+SIZES = st.floats(0.1, 20.0)
+
+
+@given(SIZES, SIZES, SIZES, st.floats(0.0, 0.04), st.floats(0.0, 0.04), st.floats(0.0, 5.0))
+def test_the_tool_stays_within_the_groove_and_reaches_its_corners(
+    tool: float, more: float, depth: float, on_base: float, on_wall: float, infeed: float
+) -> None:
+    groove = Groove(tool + more, depth, tool, on_base, on_wall, max(infeed, depth / 20.0), 1.0)
+    ends = [stroke.end for stroke in strokes(groove) if stroke.end is not None]
+    assert all(-1e-9 <= w <= more + 1e-9 and t <= depth + 1e-9 for w, t in ends)
+    assert max(t for _, t in ends) >= depth - 1e-9
+    assert {0.0, more} <= {round(w, 9) if abs(w - more) > 1e-9 else more for w, _ in ends}
+
+
+@given(SIZES, SIZES, SIZES, st.floats(0.0, 5.0))
+def test_rapids_go_across_above_the_rim_alone(tool: float, more: float, depth: float, infeed: float) -> None:
+    groove = Groove(tool + more, depth, tool, 0.0, 0.0, infeed and max(infeed, depth / 20.0), 1.0)
+    way = [stroke for stroke in strokes(groove) if stroke.end is not None]
+    for before, stroke in pairwise(way):
+        (w0, t0), (w1, t1) = before.end or (0.0, 0.0), stroke.end or (0.0, 0.0)
+        if stroke.is_rapid:
+            assert w0 == w1 or t0 == t1 == -1.0
+
+
+@given(SIZES, SIZES)
+def test_plunges_lie_at_most_a_tool_apart(tool: float, more: float) -> None:
+    groove = Groove(tool + more, 5.0, tool)
+    columns = sorted(
+        {
+            stroke.end[0]
+            for stroke in strokes(groove)
+            if stroke.end and stroke.end[1] == -1.0 and stroke.is_rapid
+        }
+    )
+    assert all(b - a <= tool + 1e-6 for a, b in pairwise(columns))
