@@ -27,10 +27,17 @@ DATA = {"FXST": "$SA_FIXED_STOP_TORQUE", "FXSW": "$SA_FIXED_STOP_WINDOW"}
 
 @dataclass(slots=True)
 class FixedStops(State, lifetime=Lifetime.RESET):
-    """Columns of axes that travel to a fixed stop, and of those whose torque is limited."""
+    """Axes that travel to a fixed stop.
+
+    Attributes:
+        selected: Their columns.
+        limited: Columns of axes whose torque is limited.
+        began: Where an axis of the running block was when the block began, by column.
+    """
 
     selected: set[int] = field(default_factory=set)
     limited: set[int] = field(default_factory=set)
+    began: dict[int, float] = field(default_factory=dict)
 
 
 def select(run: Running, index: Any, _modifier: str, value: float) -> None:

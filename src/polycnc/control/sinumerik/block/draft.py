@@ -38,6 +38,7 @@ class Draft:
         mode: Modal state while the block runs: its own modal functions included.
         codes: Function of the block by group name, modal or not.
         steps: What the block does, in order.
+        behind_motion: What words of the block do when its motion is done.
         opens_line: The block begins a straight line whose end the next one tells (ANG).
         lead: Leads the end of the block to where its words of orientation stand the rotary axes; None without any.
             Who makes the move takes it by `take_lead`.
@@ -52,6 +53,7 @@ class Draft:
         self.mode = mode
         self.codes = codes
         self.steps: list[Step] = []
+        self.behind_motion: list[Step] = []
         self.opens_line = False
         self.lead: Lead | None = None
         self.is_led = False

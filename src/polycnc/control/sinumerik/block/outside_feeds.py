@@ -81,4 +81,3 @@ def take_block_feed(draft: Draft) -> int | None:
 
 
 WORDS = dict.fromkeys(("FMA", "ST", "SR", "STA", "SRA"), chosen_by_input)
-EXTENDED = frozenset(WORDS)

@@ -135,7 +135,7 @@ def make_plan(channel: SinumerikChannel, block: Block) -> Plan:
     for step in (own, moving):
         if step is not None:
             draft.steps += _around(draft, step)
-    draft.steps += awaited
+    draft.steps += awaited + draft.behind_motion
     if measures is not None:
         draft.steps.append(measures[2])
     draft.steps += [orientation.finish] if draft.lead is not None else []

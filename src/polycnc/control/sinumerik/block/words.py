@@ -22,7 +22,7 @@ from polycnc.control.sinumerik.feed.pace import Overrides
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.motion import moves
 from polycnc.control.sinumerik.oscillation import words as oscillation
-from polycnc.control.sinumerik.signals import retraction
+from polycnc.control.sinumerik.signals import fixed_stop, retraction
 from polycnc.control.sinumerik.tables import length_factor
 from polycnc.control.sinumerik.tools import sides, stages
 from polycnc.control.sinumerik.tools.holders import active as carriers
@@ -551,6 +551,7 @@ WORDS: dict[str, Maker] = {
     "POLF": retraction.retraction_position,
     **dict.fromkeys(thread_ramps.RAMPS, thread_ramps.ramp),
     **outside_feeds.WORDS,
+    **fixed_stop.WORDS,
     **dict.fromkeys(_PERCENT, percentage),
 }
 #: Addresses that take an extension or an index, and those that take something round their value.
@@ -558,7 +559,9 @@ _EXTENDED = """
 S M H T D F FA LIMS SPOS SPOSA AX TOFFL TOFF OVRA ACC ACCLIMA VELOLIM VELOLIMA JERKLIM JERKLIMA SCPARA ATOL
 FGREF FL POLF ADISPOSA
 """
-EXTENDED = frozenset((*_EXTENDED.split(), *oscillation.OSCILLATION_WORDS)) | outside_feeds.EXTENDED
+EXTENDED = frozenset(
+    (*_EXTENDED.split(), *oscillation.OSCILLATION_WORDS, *outside_feeds.WORDS, *fixed_stop.WORDS)
+)
 MODIFIED = {
     **dict.fromkeys(("SPOS", "SPOSA", "AX"), frozenset(("AC", "IC", "DC", "ACP", "ACN"))),
     **dict.fromkeys(("M", "H"), frozenset(("QU",))),

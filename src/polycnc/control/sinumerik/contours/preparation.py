@@ -74,7 +74,7 @@ class Surroundings(NamedTuple):
         return cls(
             mode["plane"],
             mode["unit"],
-            channel.memory.frames.total(),
+            (channel.memory.frames.total(), coordinates.zero),
             coordinates.transformation,
             tuple(coordinates.geometry),
             mode["compensation"],
@@ -146,7 +146,7 @@ class Notes(Stage):
         """10930 for what is neither line nor arc, 10931 for what does not lie in the plane, or lies in another one."""
         channel = self._channel
         if channel.mode["motion"] not in MOTIONS or move.kind not in KINDS:
-            raise AlarmError("10930", text=channel.mode["motion"])
+            raise AlarmError("10930", text="G4" if move.kind is Kind.DWELL else channel.mode["motion"])
         if Surroundings.of(channel) != self._surroundings:
             raise AlarmError("10931", text=self._name)
         u, v, w = PLANES[channel.mode["plane"]]
