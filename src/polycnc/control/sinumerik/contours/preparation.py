@@ -58,10 +58,11 @@ _NEAR_MM = AWAY_MM / 10.0
 
 
 class Surroundings(NamedTuple):
-    """What a contour may not change: plane, unit, frame, transformation, geometry axes, compensation."""
+    """What a contour may not change: plane, unit, diameters, frame, transformation, geometry axes, compensation."""
 
     plane: str
     unit: str
+    diameter: str
     frame: object
     transformation: object
     geometry: tuple[int, ...]
@@ -74,6 +75,7 @@ class Surroundings(NamedTuple):
         return cls(
             mode["plane"],
             mode["unit"],
+            mode["diameter"],
             (channel.memory.frames.total(), coordinates.zero),
             coordinates.transformation,
             tuple(coordinates.geometry),
@@ -142,13 +144,21 @@ class Notes(Stage):
         self.notes.append(Note(modes, feed, factor))
         self.after.move(replace(move, context=len(self.notes) - 1))
 
+    def block(self) -> None:
+        """Behind every block: 10931 where it has changed what a contour may not change."""
+        self._check_surroundings()
+        self.after.block()
+
+    def _check_surroundings(self) -> None:
+        if Surroundings.of(self._channel) != self._surroundings:
+            raise AlarmError("10931", text=self._name)
+
     def _check(self, move: Move) -> None:
         """10930 for what is neither line nor arc, 10931 for what does not lie in the plane, or lies in another one."""
         channel = self._channel
         if channel.mode["motion"] not in MOTIONS or move.kind not in KINDS:
             raise AlarmError("10930", text="G4" if move.kind is Kind.DWELL else channel.mode["motion"])
-        if Surroundings.of(channel) != self._surroundings:
-            raise AlarmError("10931", text=self._name)
+        self._check_surroundings()
         u, v, w = PLANES[channel.mode["plane"]]
         plane = {channel.coordinates.geometry[axis] for axis in (u, v)}
         others = (i for i in range(len(move.end)) if i not in plane)

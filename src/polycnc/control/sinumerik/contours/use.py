@@ -9,6 +9,7 @@ from itertools import combinations
 from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik.block.arguments import whole
+from polycnc.control.sinumerik.block.single_block import RunningBlock
 from polycnc.control.sinumerik.contours.elements import SAME_MM
 from polycnc.control.sinumerik.contours.tables import element_of
 from polycnc.control.sinumerik.motion import circles, moves
@@ -17,6 +18,7 @@ from polycnc.geometry import arcs, offset
 from polycnc.geometry.planes import PLANES
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.language.sinumerik.names.variables import Array
+from polycnc.language.sinumerik.statements.calls import call_modal
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
@@ -59,6 +61,9 @@ def execute_element(channel: SinumerikChannel, args: Arguments) -> None:
         moves.line(channel, Kind.RAPID, end, float("nan"))
     else:
         moves.line(channel, Kind.FEED, end, moves.checked_feed(channel.feed))
+    # A block with path motion: single block halts behind it, and a modal subprogram follows.
+    RunningBlock.of(channel).acted = channel.single_block
+    call_modal(channel)
 
 
 def _check_start(channel: SinumerikChannel, at: Point, edge: Edge) -> None:
