@@ -77,8 +77,9 @@ def check_target(channel: SinumerikChannel, column: int, target: float) -> None:
 
 
 def speed_of(channel: SinumerikChannel, column: int) -> float:
-    """Speed of a commanded axis: FA, else MD32060."""
-    own = ActionAxes.of(channel).speeds.get(column) or PathFeed.of(channel).of_axes.get(column)
+    """Speed of a commanded axis: FDA of the block, FA, else MD32060."""
+    feeds = PathFeed.of(channel)
+    own = feeds.of_block.get(column) or ActionAxes.of(channel).speeds.get(column) or feeds.of_axes.get(column)
     return own or channel.memory.data.number("$MA_POS_AX_VELO", channel.axes[column]) / tables.MINUTE
 
 

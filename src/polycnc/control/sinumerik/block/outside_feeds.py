@@ -1,4 +1,4 @@
-"""Feeds that something outside of the program changes: inputs (FMA, ST, SR, F2 … F7) and the handwheel (FD).
+"""Feeds that something outside of the program changes: inputs (FMA, ST, SR, F2 … F7), the handwheel (FD, FDA).
 
 Source: Fundamentals, several feeds in a block, and travel with handwheel override; MD21220 names the inputs.
 """
@@ -7,8 +7,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.control.sinumerik.block.draft import axis_column
 from polycnc.control.sinumerik.block.positions import number
 from polycnc.control.sinumerik.errors import not_supported
+from polycnc.control.sinumerik.feed.path_feed import PathFeed
+from polycnc.control.sinumerik.tables import MINUTE
+from polycnc.geometry.units import INCH_MM
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.language.sinumerik.words import WordAlarm, WordShape
 
@@ -80,4 +84,28 @@ def take_block_feed(draft: Draft) -> int | None:
     return by_handwheel
 
 
-WORDS = dict.fromkeys(("FMA", "ST", "SR", "STA", "SRA"), chosen_by_input)
+def axis_feed_of_block(draft: Draft, position: int, shape: WordShape) -> Step:
+    """FDA[axis]: feed of a positioning axis for this block, which the handwheel may change and none does.
+
+    Raises:
+        AlarmError: 14810 below zero; PC0001 for 0, where the handwheel alone would move the axis.
+    """
+    column = axis_column(draft, position, shape)
+    factor = (INCH_MM if draft.mode["unit"] == "G700" else 1.0) / MINUTE
+
+    def run(channel: SinumerikChannel, values: Values) -> None:
+        value = number(values, position) * factor
+        if value < 0.0:
+            raise WordAlarm("14810", position, axis=channel.axes[column])
+        if not value:
+            raise not_supported("FDA=0")
+        PathFeed.of(channel).of_block[column] = value
+
+    def end(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+        PathFeed.of(channel).of_block.pop(column, None)
+
+    draft.behind_motion.append(end)
+    return run
+
+
+WORDS = {**dict.fromkeys(("FMA", "ST", "SR", "STA", "SRA"), chosen_by_input), "FDA": axis_feed_of_block}

@@ -27,6 +27,7 @@ class PathFeed(State, lifetime=Lifetime.RESET):
         tooth: What FZ has set; None before the first.
         of_corners: FRCM in internal units, NaN for the path feed.
         of_axes: Feeds of positioning axes (FA), mm/s or degrees/s, by column.
+        of_block: The same for the running block alone (FDA).
     """
 
     mode: FeedMode = FeedMode.PER_MINUTE
@@ -34,3 +35,4 @@ class PathFeed(State, lifetime=Lifetime.RESET):
     tooth: ToothFeed | None = None
     of_corners: float = lasting(Lifetime.POWER, nan)
     of_axes: dict[int, float] = lasting(Lifetime.POWER, factory=dict)
+    of_block: dict[int, float] = lasting(Lifetime.BLOCK, factory=dict)
