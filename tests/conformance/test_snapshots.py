@@ -91,6 +91,7 @@ CHANGED_BY = {
     "ProgrammingFrames": "fanuc-m-mirrored-arc-turns-the-other-way",
     "Preparations": "sinumerik-execute-goes-on-from-before",
     "Protection": "sinumerik-def-open",
+    "Punching": "sin-spp-longest-segment",
     "RadiusState": "fanuc-0i-tf-rotation-ended-allows-all",
     "Ranges": "sinumerik-newconf-limit",
     "Readings": "sinumerik-def-open",

@@ -28,6 +28,7 @@ EVENT_FIELDS = {
     "d": "code",
     "s": "speed",
     "t": "tool",
+    "stroke": "interface",
     "message": "text",
     "print": "text",
 }

@@ -84,6 +84,7 @@ class ExpectedEvent(_Strict):
     d: int | str | None = None
     b: Number | None = None
     g: str | None = None
+    stroke: int | None = None
     words: dict[str, Number] | None = None
     spindle: int | None = None
     message: str | Number | None = None

@@ -16,6 +16,7 @@ from polycnc.toolpath.events import (
     Raised,
     SpindleSpeed,
     Stop,
+    Stroke,
     ToolSelection,
 )
 from polycnc.toolpath.kinds import RAPID_KINDS
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
     from polycnc.toolpath.table import Chunk
 
 #: Events that the control puts out between two blocks and waits for: the axes stand still.
-STANDING = (Auxiliary, BuilderCode, SpindleSpeed, ToolSelection, HFunction, Stop, Raised)
+STANDING = (Auxiliary, BuilderCode, SpindleSpeed, ToolSelection, HFunction, Stop, Stroke, Raised)
 ORIENT = 19
 #: Moves that lead nowhere where they end at their start.
 STRAIGHT = frozenset((Kind.RAPID, Kind.FEED, Kind.REF))
@@ -178,6 +179,8 @@ class Waits:
             g_function = self.machine.g_functions.get(event.code)
             if g_function is not None and g_function.seconds > 0.0:
                 self.wait(chunk.first + row, "auxiliary_s", chunk.context[row], g_function.seconds)
+        if isinstance(event, Stroke) and event.delay:
+            self.wait(chunk.first + row, "auxiliary_s", chunk.context[row], event.delay)
         if not isinstance(event, Auxiliary):
             return
         code, context = event.code, chunk.context[row]

@@ -62,6 +62,22 @@ class HFunction(Event):
 
 
 @dataclass(frozen=True, slots=True)
+class Stroke(Event):
+    """A stroke of a press (SINUMERIK, punching and nibbling): the axes stand.
+
+    Attributes:
+        interface: Pair of fast outputs and inputs that controls it, 1 or 2.
+        delay: Seconds from the position to the stroke; None for at once.
+        leader: It is started ahead, in the cycle of the drives.
+    """
+
+    type: ClassVar[str] = "stroke"
+    interface: int
+    delay: float | None = None
+    leader: bool | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class SpindleSpeed(Event):
     """S: speed of a spindle, rpm, or m/min under constant surface speed."""
 

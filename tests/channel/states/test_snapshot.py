@@ -175,10 +175,12 @@ SINUMERIK = Language(
         "ANG=30\nG1 X40 Y40 ANG=60", "CYCLE800()", "G1 X7 FB=20", "POS[Z]=8", "G700 X.5\nG710",
         "$TC_CARR8[1]=1 $TC_CARR13[1]=30\nTCARR=1\nX3 Z2", "TCOFR\nCUTMOD=-1\nTOROT", "TOFFON(Z,.5)\nX4\nTOFFOF(Z)",
         "TOROTOF TCOABS\nTCARR=0\nFTOCON\nFTOCOF", "$TC_SCP13[1,1]=.5\nTOWMCS T1 D1 DL=1\nX6\nD1",
+        "PON SPP=3", "SON X6", "PUNCHACC(1,50,5,100)", "SPOF", "SPN=2 X9\nSPP=0",
     ),
     files=SINUMERIK_FILES,
     setup={
         "tools": {1: {"radius": 2.0}, 2: {"radius": 3.0, "length": 30.0}},
+        "parameters": {"$MC_PUNCHNIB_ACTIVATION": 1},
         "switches": {"interrupts": [{"input": 1, "line": 6, "at": {"X": 4}}]},
     },
 )  # fmt: skip

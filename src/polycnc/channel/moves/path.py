@@ -51,6 +51,8 @@ class Rank(IntEnum):
     SPATIAL_COMPENSATION = auto()
     #: A rotary axis follows the direction of the way that the tool really takes.
     NORMAL = auto()
+    #: A way with punching or nibbling becomes segments, with a stroke behind each.
+    SEGMENTS = auto()
     #: Rotary axes turn along the way so that the tool keeps to the way of its direction.
     TURNING = auto()
     #: The history of the tool's direction is smoothed over several moves.

@@ -11,6 +11,7 @@
     frames/      frames and their variables
     tools/       tool memory, compensation, smooth approach
     oscillation/ axes that move to and fro
+    punching/    strokes of a press, segments of paths
     limits/      working areas, protection zones
     contours/    contour tables for stock removal
     signals/     measuring, interrupt routines, retraction

@@ -30,6 +30,7 @@ from polycnc.control.sinumerik.limits import working_area
 from polycnc.control.sinumerik.m_functions import PROGRAM_ENDS
 from polycnc.control.sinumerik.memory import Memory
 from polycnc.control.sinumerik.modal_state import ModalState
+from polycnc.control.sinumerik.punching import block as punching
 from polycnc.control.sinumerik.reset import reset, start_codes
 from polycnc.control.sinumerik.signals import interrupts, measuring
 from polycnc.control.sinumerik.tools import sides, stages
@@ -203,7 +204,7 @@ class Sinumerik:
                 },
                 **user_data(data),
             },
-            macros=coordination.names(channel),
+            macros={**punching.macros(channel), **coordination.names(channel)},
         )
 
     def end_of_program(self, channel: SinumerikChannel) -> None:
@@ -429,8 +430,8 @@ def _names_kept(channel: SinumerikChannel) -> set[str]:
 
 
 def _corner_mode(channel: SinumerikChannel, mode: Mode) -> CornerMode:
-    """G9 holds for its block, else group 10."""
-    if ExactStop.of(channel).block:
+    """G9 holds for its block, else group 10; with strokes every block ends in an exact stop."""
+    if ExactStop.of(channel).block or mode[punching.GROUP] != punching.OFF:
         return CornerMode.EXACT_STOP
     return smoothing.corner_mode(mode, tables.CORNER_MODES[mode["path"]])
 

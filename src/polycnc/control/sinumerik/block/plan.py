@@ -26,6 +26,7 @@ from polycnc.control.sinumerik.frames import tool_frames
 from polycnc.control.sinumerik.limits import working_area
 from polycnc.control.sinumerik.motion import circles, involutes, moves, repositioning, splines
 from polycnc.control.sinumerik.oscillation import words as oscillation
+from polycnc.control.sinumerik.punching import block as punching
 from polycnc.control.sinumerik.signals import measuring
 from polycnc.control.sinumerik.tools import online, selection, smooth_approach, stages
 from polycnc.control.sinumerik.tools.holders import active as carriers
@@ -109,11 +110,14 @@ def make_plan(channel: SinumerikChannel, block: Block) -> Plan:
     if mode is not channel.mode or any(name in IN_CONTEXT for name, _ in modal):
         draft.steps.append(_enter(mode, modal, changes=mode is not channel.mode))
     draft.steps += _early_effects(draft, modal)
+    if punching.GROUP in codes:
+        draft.steps += punching.select(draft)
     transforms = "frame" not in codes and _concerns_transformation(draft)
     if transforms:
         orientation.plan(draft)
         point_to_point.plan(draft)
     own = _own_function(draft)
+    strokes = punching.begin(draft) if own is None and _concerns_press(draft) else None
     moving = _motion(draft) if own is None and "frame" not in codes and "block_motion" not in codes else None
     if transforms:
         orientation.check(draft)
@@ -134,7 +138,7 @@ def make_plan(channel: SinumerikChannel, block: Block) -> Plan:
     draft.steps += _asked_moves(draft, moves=own is not None or moving is not None)
     for step in (own, moving):
         if step is not None:
-            draft.steps += _around(draft, step)
+            draft.steps += _around(draft, step, strokes)
     draft.steps += awaited + draft.behind_motion
     if measures is not None:
         draft.steps.append(measures[2])
@@ -175,6 +179,12 @@ def _concerns_transformation(draft: Draft) -> bool:
     return bool(draft.mode[seat.GROUP]) or any(
         word.address in OF_TRANSFORMATIONS for word in draft.block.words
     )
+
+
+def _concerns_press(draft: Draft) -> bool:
+    """Whether a block is punched, or its path may be cut into segments."""
+    mode = draft.mode
+    return mode[punching.GROUP] != punching.OFF or mode["segments"] != "" or draft.has("SPP", "SPN")
 
 
 def _shared(draft: Draft) -> tuple[int, ...]:
@@ -355,10 +365,10 @@ def _call_for_tool(places: tuple[int, ...]) -> Step:
     return run
 
 
-def _around(draft: Draft, step: Step) -> list[Step]:
-    """The motion with what holds for this block alone: suppressed frames, exact stop."""
+def _around(draft: Draft, step: Step, strokes: Step | None) -> list[Step]:
+    """The motion with what holds for this block alone: suppressed frames, exact stop, strokes and segments."""
     suppression = draft.codes.get("suppression")
-    steps = [step]
+    steps = [step] if strokes is None else [strokes, step, punching.end]
     if suppression is not None:
         steps = [_suppress(suppression), *steps, _suppress("")]
     if "block_exact_stop" in draft.codes:
@@ -516,5 +526,6 @@ IN_CONTEXT = frozenset(
         "rapid",
         "curve_feed",
         *smoothing.GROUPS,
+        "punching",
     )
 )

@@ -19,6 +19,7 @@ from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed import axis_settings, pace, spindle_speed
 from polycnc.control.sinumerik.limits import protection, working_area
 from polycnc.control.sinumerik.motion import splines
+from polycnc.control.sinumerik.punching import block as punching
 from polycnc.control.sinumerik.signals import interrupts, retraction, sections
 from polycnc.control.sinumerik.tools import d_numbers, online
 from polycnc.control.sinumerik.transformations import seat, selection, start
@@ -249,4 +250,5 @@ PROCEDURES: dict[str, Callable[[SinumerikChannel, Arguments], None]] = {
     **selection.PROCEDURES,
     **start.PROCEDURES,
     **online.PROCEDURES,
+    **punching.PROCEDURES,
 }

@@ -22,6 +22,7 @@ from polycnc.control.sinumerik.feed.pace import Overrides
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.motion import moves
 from polycnc.control.sinumerik.oscillation import words as oscillation
+from polycnc.control.sinumerik.punching import block as punching
 from polycnc.control.sinumerik.signals import fixed_stop, retraction
 from polycnc.control.sinumerik.tables import length_factor
 from polycnc.control.sinumerik.tools import sides, stages
@@ -549,6 +550,7 @@ WORDS: dict[str, Maker] = {
     "ALF": retraction.direction_code,
     "DILF": retraction.length,
     "POLF": retraction.retraction_position,
+    "SPP": punching.longest_segment,
     **dict.fromkeys(thread_ramps.RAMPS, thread_ramps.ramp),
     **outside_feeds.WORDS,
     **fixed_stop.WORDS,
