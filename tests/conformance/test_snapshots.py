@@ -81,6 +81,7 @@ CHANGED_BY = {
     "OverrideState": "fanuc-m-override-codes",
     "Overrides": "sin-acc",
     "ParameterTable": "fanuc-0i-tf-parameter-input-foreign-code",
+    "PartCounts": "sin-parts-can-be-written",
     "PathFeed": "sin-posp",
     "PathModeState": "meldas-m-high-speed-modes",
     "PlaneAxes": "syntec-plane-g18-names-its-axes",

@@ -38,6 +38,9 @@ class Run:
         if not self._begun:
             self._begun = True
             channel.begin(self._program, power_on=self._power_on)
+            first, channel.wait = channel.wait, None
+            if first is not None:  # it is to be executed in time from its first block on
+                return first
         while not self._over and not channel.finished:
             wait = channel.advance()
             if wait is not None:

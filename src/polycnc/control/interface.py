@@ -54,6 +54,9 @@ class Control(ChannelControl, Protocol):
     def reference_point(self, channel: Channel, axis: int, number: int) -> float:
         """Machine position of a reference point (1 to 4) of an axis, given by its column."""
 
+    def clocked(self, channel: Channel) -> None:
+        """A main run executes the channel's rows from here on."""
+
     def stop_spindles(self, channel: Channel) -> None:
         """Emergency stop, or the power is off: no spindle of the channel turns any more."""
 

@@ -24,8 +24,8 @@ from polycnc.motion.frames import laid_of
 if TYPE_CHECKING:
     from polycnc.channel.group import ChannelGroup
 
-#: A program that has written no row for so long, nor moves on its path, waits for something that never comes: where
-#: other axes move, and where none does. It is looked at as often.
+#: A program that has written or executed no row for so long, nor moves on its path, waits for something that never
+#: comes: where other axes move, and where none does. It is looked at as often.
 LONGEST_WAIT_S, LONGEST_REST_S, LOOK_S = 300.0, 60.0, 30.0
 #: Halts behind which the program does not go on.
 OVER = frozenset({"end", "alarm"})
@@ -85,13 +85,14 @@ class Continuation:
         operation.resume()
         loop = MainLoop(operation, self._clock)
         execution, toolpath = runs.first.execution, runs.first.channel.toolpath
-        since, rows = 0.0, -1
+        since, done = 0.0, (-1, -1)
         while self._clock.time < LONGEST_RUN_S:
             loop.run(LOOK_S)
             if execution.halt in OVER:
                 break
-            if len(toolpath) != rows or not execution.rests or execution.knows_when:
-                since, rows = self._clock.time, len(toolpath)
+            now_done = len(toolpath), len(execution.preprocessing.items)
+            if now_done != done or not execution.rests or execution.knows_when:
+                since, done = self._clock.time, now_done
             if operation.status.state is State.STOPPED:
                 operation.resume()
             elif not loop.is_busy:

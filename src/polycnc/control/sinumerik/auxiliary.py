@@ -25,6 +25,7 @@ from polycnc.control.sinumerik.m_functions import (
 from polycnc.control.sinumerik.replaced import program_of
 from polycnc.control.sinumerik.tools import selection, stages
 from polycnc.control.sinumerik.tools.holders import active as carriers
+from polycnc.control.sinumerik.variables import part_counts
 from polycnc.control.tool_change import follow, way_to_change
 from polycnc.toolpath.events import Auxiliary
 
@@ -89,6 +90,7 @@ def _put_out(channel: SinumerikChannel, code: int, spindle_number: int | None) -
         channel.event(Auxiliary(code))
     else:
         channel.event(Auxiliary(code, spindle=spindle_number))
+    part_counts.count(channel, code)
     data = memory.data
     changes = code == data.integer("$MC_TOOL_CHANGE_M_CODE") and data.integer("$MC_TOOL_CHANGE_MODE")
     if changes or does == TOOL_CHANGE:

@@ -37,7 +37,7 @@ from polycnc.control.sinumerik.tools import sides, stages
 from polycnc.control.sinumerik.tools.memory import Tools
 from polycnc.control.sinumerik.transformations import seat, smoothing
 from polycnc.control.sinumerik.transformations.point_to_point import PointToPoint
-from polycnc.control.sinumerik.variables import by_name, functions
+from polycnc.control.sinumerik.variables import by_name, functions, part_counts, run_times
 from polycnc.control.sinumerik.variables.registry import SystemVariables
 from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.emitter import nc_shapes
@@ -155,9 +155,15 @@ class Sinumerik:
         if memory.data.read(CUTTING_DIRECTION):
             raise not_supported(CUTTING_DIRECTION)
         init_programs.call(channel)
+        run_times.begin(channel)
 
     def begin(self, channel: SinumerikChannel) -> None:
         """A main program begins in the state that the channel is in."""
+        run_times.begin(channel)
+
+    def clocked(self, channel: SinumerikChannel) -> None:
+        """A main run executes the channel's rows."""
+        run_times.watch(channel)
 
     def reset(self, channel: SinumerikChannel) -> None:
         """The state after reset, and after the end of a program."""
@@ -240,6 +246,8 @@ class Sinumerik:
             return False
         for position in ends:
             if values[position] in PROGRAM_ENDS:
+                if len(channel.stack) == 1:
+                    part_counts.count(channel, int(values[position]))
                 self.end_of_program(channel)
                 return False
         return calls and channel.memory.language.modal_call is not None

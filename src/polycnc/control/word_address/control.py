@@ -266,6 +266,9 @@ class WordAddressControl:
         """A program that has ended goes back to its top; a machine's own rules may differ."""
         return False
 
+    def clocked(self, channel: Channel) -> None:
+        """Nothing of these controls counts with the clock."""
+
     def stop_spindles(self, channel: Channel) -> None:
         """The drives are off."""
         channel.memory.spindle.direction = 0

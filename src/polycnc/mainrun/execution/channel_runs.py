@@ -238,4 +238,5 @@ class ChannelRuns:
         run.preprocessing.use(channel, self._control.motion_settings(channel))
         run.preprocessing.clear(channel.coordinates.machine)
         run.execution.position = channel.coordinates.machine
+        self._control.clocked(channel)
         run.show_own_state()

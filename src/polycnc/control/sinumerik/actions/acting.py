@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from polycnc.language.sinumerik.interface import SystemVariable
 
 #: Variables that go on by themselves: writing the same value again is a change.
-_GOING = ("$AC_TIMER", "$AC_FIFO", "$AA_OFF", "$AC_OVR", "$AA_OVR", "$AC_VC")
+_GOING = ("$AC_TIMER", "$AC_FIFO", "$AA_OFF", "$AC_OVR", "$AA_OVR", "$AC_VC", "$AC_PROG_NET_TIME")
 
 
 class ActionRun(Running):

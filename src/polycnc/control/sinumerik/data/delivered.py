@@ -103,6 +103,7 @@ DATA: dict[str, tuple[int, bool | float | str]] = {
     "$MC_PUNCH_PARTITION_TYPE": (26016, 0),
     "$MC_PROCESSTIMER_MODE": (27860, 131),
     "$MC_PART_COUNTER": (27880, 0),
+    "$MC_PART_COUNTER_MCODE": (27882, 2),
     "$MC_MM_NUM_R_PARAM": (28050, 100),
     "$MC_MM_NUM_USER_FRAMES": (28080, 100),
     "$MC_MM_NUM_BASE_FRAMES": (28081, 1),

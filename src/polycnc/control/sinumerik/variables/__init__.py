@@ -3,6 +3,8 @@
 row            what a variable is
 stored         values that only store
 clock          date and time
+run_times      timers of programs
+part_counts    workpiece counters
 surroundings   version, modal call, compensation
 known          names that exist and are not kept
 by_name        variables by name, for reports

@@ -38,7 +38,9 @@ from polycnc.control.sinumerik.tools.variables import IN_MAIN_RUN, TOOL_VARIABLE
 from polycnc.control.sinumerik.transformations import smoothing
 from polycnc.control.sinumerik.variables.clock import PARTS, part_of_clock
 from polycnc.control.sinumerik.variables.known import is_known
+from polycnc.control.sinumerik.variables.part_counts import PART_COUNTS
 from polycnc.control.sinumerik.variables.row import Indices, Reader, Writer
+from polycnc.control.sinumerik.variables.run_times import KEPT_TIMES, RUN_TIMES
 from polycnc.control.sinumerik.variables.stored import Stored
 from polycnc.control.sinumerik.variables.surroundings import SURROUNDINGS
 from polycnc.language.sinumerik.names.frame import NcFrame
@@ -389,6 +391,8 @@ VARIABLES: dict[str, SystemVariable] = {
         for name, row in ACTION_VARIABLES.items()
     },
     **{
-        name: SystemVariable(name, *row, goes_along=True, timed=True) for name, row in TIMED_VARIABLES.items()
+        name: SystemVariable(name, *row, goes_along=True, timed=True)
+        for name, row in {**TIMED_VARIABLES, **RUN_TIMES}.items()
     },
+    **{name: SystemVariable(name, *row) for name, row in {**KEPT_TIMES, **PART_COUNTS}.items()},
 }
