@@ -186,6 +186,15 @@ SINUMERIK = Language(
 )  # fmt: skip
 #: Transformations of SINUMERIK, each on a machine that has them.
 TRANSFORMED = {
+    "geometry axes": Language(
+        "G90 G17 G94 T1 D1\nG1 X0 Y0 Z0 F3000",
+        (
+            "GEOAX(1,U)", "GEOAX(2,V,3,ZZ)", "GEOAX(0,V)", "GEOAX()", "X5 U=3", "Y5", "G91 Z1\nG90", "TRANS X2",
+            "ROT Z20", "G18", "G17", "G3 X-5 CR=9", "G41 X9 Y9\nX20\nG40 X30", "T2 D1", "RND=1 X8\nY8", "M0",
+        ),
+        setup={"tools": {1: {"radius": 2.0, "length": 50.0}, 2: {"radius": 3.0, "length": 30.0}}},
+        machine="mill6-uvw",
+    ),
     "five axes": Language(
         "G90 G17 G94 T1 D1\nTRAORI\nG1 X0 Y0 Z0 F3000",
         (

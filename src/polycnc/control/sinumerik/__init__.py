@@ -5,6 +5,7 @@
 `axis_names`, `tables` and `errors` that several modules share.
 
     actions/     synchronised actions in the main run
+    axes/        geometry axes
     block/       what a block does: plans, words, procedures
     motion/      moves, circles, splines, repositioning
     feed/        feeds, overrides, spindles

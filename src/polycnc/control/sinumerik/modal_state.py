@@ -26,7 +26,9 @@ class ModalState:
     def restore(self, channel: SinumerikChannel) -> None:
         """Put it back, with what hangs on it: the zero offset, the feed, the lengths of the tool."""
         before, memory = channel.mode, channel.memory
-        own = [(name, before[name]) for name in ("transformation", "segments")]  # they are no modal functions
+        own = [
+            (name, before[name]) for name in ("transformation", "segments", "geometry")
+        ]  # they are no modal functions
         mode = self.mode.with_codes(own)
         channel.mode = mode
         memory.frames.programmable = self.programmable

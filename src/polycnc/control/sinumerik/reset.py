@@ -11,6 +11,7 @@ from polycnc.control.sinumerik.frames import active as frames
 from polycnc.control.sinumerik.limits import working_area
 from polycnc.control.sinumerik.motion import contour_reading
 from polycnc.control.sinumerik.tools import selection
+from polycnc.control.sinumerik.transformations import seat
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.data.machine_data import MachineData
@@ -67,6 +68,7 @@ def reset(channel: SinumerikChannel) -> None:
     channel.path.clear()
     channel.turning = None
     end_of(channel, Lifetime.RESET)
+    channel.mode = channel.mode.with_code(seat.GEOMETRY, seat.geometry_code(channel))
     PathFeed.of(channel).mode = tables.feed_type(channel.mode).mode
     selection.follow(channel)
     memory.frames.select(gcodes.number_of(channel.mode["wcs"]) - 1)

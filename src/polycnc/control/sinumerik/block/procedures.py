@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.actions import actions, overlay, polynomials
 from polycnc.control.sinumerik.actions import axes as action_axes
+from polycnc.control.sinumerik.axes import geometry
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.arguments import Arguments
 from polycnc.control.sinumerik.block.positions import DIAMETER_OF_AXIS, diameter_of_channel
@@ -251,4 +252,5 @@ PROCEDURES: dict[str, Callable[[SinumerikChannel, Arguments], None]] = {
     **start.PROCEDURES,
     **online.PROCEDURES,
     **punching.PROCEDURES,
+    **geometry.PROCEDURES,
 }

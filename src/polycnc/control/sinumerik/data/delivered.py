@@ -59,6 +59,7 @@ DATA: dict[str, tuple[int, bool | float | str]] = {
     "$MC_RESET_MODE_MASK": (20110, 1),
     "$MC_START_MODE_MASK": (20112, 1024),
     "$MC_IGNORE_SINGLEBLOCK_ASUP": (20117, False),
+    "$MC_GEOAX_CHANGE_RESET": (20118, True),
     "$MC_TOOL_CARRIER_RESET_VALUE": (20126, 0),
     "$MC_CUTTING_EDGE_RESET_VALUE": (20130, 0),
     "$MC_GCODE_RESET_VALUES": (20150, 0),

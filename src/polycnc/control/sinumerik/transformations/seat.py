@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.states.state import Lifetime, State, lasting
 from polycnc.control.sinumerik import axis_names
+from polycnc.control.sinumerik.data.machine_data import MachineData
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.transformations import data_sets
 from polycnc.control.sinumerik.transformations.data_sets import Build
@@ -21,17 +22,22 @@ from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES
 from polycnc.messages import AlarmError
 from polycnc.transformation.chain import Chain
 from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
+from polycnc.transformation.parallel import ParallelAxes
 from polycnc.transformation.seated import Seated
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
+    from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.geometry.frames import Frame
     from polycnc.language.sinumerik.names.frame import NcFrame
+    from polycnc.transformation.contract import Geometry
 
 #: Modal state that says which kind of transformation acts; empty for none.
 GROUP = "transformation"
+#: Modal state that says which channel axes are the geometry axes; empty for those of the machine.
+GEOMETRY = "geometry"
 
 
 @dataclass(slots=True)
@@ -42,13 +48,34 @@ class Transformations(State, lifetime=Lifetime.RESET):
         kind: The procedure that has selected it; empty for none.
         build: What it makes of the axes.
         seated: The same with frames and tool.
+        columns: Columns of X, Y and Z that GEOAX has assigned; None for those of the machine.
         angles: The last angle of TRAANG by its data set.
     """
 
     kind: str = ""
     build: Build | None = None
     seated: Seated | None = None
+    columns: Geometry | None = None
     angles: dict[int, float] = lasting(Lifetime.POWER, factory=dict)
+
+    def end(self, channel: Channel, lifetime: Lifetime) -> None:
+        """A reset brings the geometry axes of the machine back, unless MD20118 keeps the assigned ones."""
+        columns = self.columns
+        super(Transformations, self).end(channel, lifetime)
+        if lifetime is Lifetime.RESET and not MachineData.of(channel).integer("$MC_GEOAX_CHANGE_RESET"):
+            self.columns = columns
+
+
+def regroup(channel: SinumerikChannel, columns: Geometry | None) -> None:
+    """Let these columns be X, Y and Z, None for those of the machine; `stand` brings it about."""
+    Transformations.of(channel).columns = columns
+    channel.mode = channel.mode.with_code(GEOMETRY, geometry_code(channel))
+
+
+def geometry_code(channel: SinumerikChannel) -> str:
+    """What the modal state says of the geometry axes."""
+    columns = Transformations.of(channel).columns
+    return "" if columns is None else " ".join(map(str, columns))
 
 
 def centre_point(channel: SinumerikChannel) -> ToolCentrePoint | None:
@@ -79,7 +106,12 @@ def stand(channel: SinumerikChannel, total: NcFrame, *, travelled: bool = False)
             transformation none does (6.10).
     """
     coordinates, state = channel.coordinates, Transformations.of(channel)
+    if state.build is None and state.columns is not None:
+        _stand_regrouped(channel, state.columns, total, travelled=travelled)
+        return
     if state.build is None:
+        if coordinates.transformation is not None:
+            coordinates.geometry = data_sets.native(channel)
         zero = (total.frame, _offsets(channel, total))
         if coordinates.transformation is not None:
             state.seated = None
@@ -102,17 +134,46 @@ def stand(channel: SinumerikChannel, total: NcFrame, *, travelled: bool = False)
     channel.context_changed()
 
 
+def _stand_regrouped(
+    channel: SinumerikChannel, columns: Geometry, total: NcFrame, *, travelled: bool
+) -> None:
+    """Frames and tool act on the geometry axes of GEOAX."""
+    coordinates, state = channel.coordinates, Transformations.of(channel)
+    seated = _regrouped(channel, columns, total)
+    if seated == state.seated:
+        return
+    state.seated = seated
+    before = coordinates.position
+    coordinates.transform(seated, columns, (IDENTITY, [0.0] * len(channel.axes)))
+    if travelled:
+        ways = zip(coordinates.pending, before, coordinates.position, strict=True)
+        coordinates.pending = [owed + old - new for owed, old, new in ways]
+        coordinates.owes = any(coordinates.pending)
+    _name_axes(channel, frozenset())
+    channel.context_changed()
+
+
+def _regrouped(channel: SinumerikChannel, columns: Geometry, total: NcFrame) -> Seated:
+    offsets = _offsets(channel, total, columns)
+    frame = IDENTITY if total.frame.is_identity else total.frame
+    return Seated(ParallelAxes(columns), frame, (), tuple(offsets) if any(offsets) else ())
+
+
 def is_in_place(channel: SinumerikChannel, total: NcFrame) -> bool:
     """Whether frames and the active tool would change nothing."""
     state, coordinates = Transformations.of(channel), channel.coordinates
     if state.build is not None:
         return _seated(channel, state.build, total) == state.seated
+    if state.columns is not None:
+        return _regrouped(channel, state.columns, total) == state.seated
     return (total.frame, _offsets(channel, total)) == (coordinates.zero, coordinates.offsets)
 
 
-def _offsets(channel: SinumerikChannel, total: NcFrame) -> list[float]:
+def _offsets(channel: SinumerikChannel, total: NcFrame, geometry: Geometry | None = None) -> list[float]:
     offsets = _shifts(channel, total)
-    for column, length in zip(channel.coordinates.geometry, channel.memory.tools.lengths, strict=True):
+    for column, length in zip(
+        geometry or channel.coordinates.geometry, channel.memory.tools.lengths, strict=True
+    ):
         if column >= 0:
             offsets[column] += length
     return offsets
@@ -169,6 +230,8 @@ def _name_axes(channel: SinumerikChannel, used: frozenset[int]) -> None:
     """Which column a word of an axis means, and what kind of axis it is."""
     memory, geometry = channel.memory, channel.coordinates.geometry
     acts = Transformations.of(channel).build is not None
+    if not acts:
+        memory.own_columns = axis_names.columns(channel)
     names = {name: column for name, column in axis_names.columns(channel).items() if column not in used}
     lettered = zip(GEOMETRY_AXES, geometry, strict=True)
     memory.columns = {**names, **{letter: column for letter, column in lettered if column >= 0}}
@@ -181,15 +244,31 @@ def _name_axes(channel: SinumerikChannel, used: frozenset[int]) -> None:
 
 
 def shown_names(channel: SinumerikChannel) -> tuple[str, ...]:
-    """What the work display calls the columns under the transformation; empty where the channel's names hold."""
+    """What the work display calls the columns; empty where the channel's names hold.
+
+    Geometry axes have the names X, Y and Z, and go by them where no axis of the channel is called so.
+    """
     build = Transformations.of(channel).build
-    if build is None or not build.used:
+    if build is None:
+        return _geometry_names(channel)
+    if not build.used:
         return ()
     names = ["" if column in build.used else name for column, name in enumerate(channel.axes)]
     for letter, column in zip(GEOMETRY_AXES, build.inner.geometry, strict=True):
         if column >= 0:
             names[column] = letter
     return tuple(names)
+
+
+def _geometry_names(channel: SinumerikChannel) -> tuple[str, ...]:
+    named = {
+        column: letter for letter, column in zip(GEOMETRY_AXES, channel.coordinates.geometry, strict=True)
+    }
+    names = [
+        named[column] if column in named and named[column] not in channel.axes else name
+        for column, name in enumerate(channel.axes)
+    ]
+    return tuple(names) if names != list(channel.axes) else ()
 
 
 def transformed(channel: SinumerikChannel) -> frozenset[int]:
@@ -236,5 +315,7 @@ def check_named(channel: SinumerikChannel, address: str) -> None:
     used = axis_names.columns(channel).get(address)
     if build is not None and used in build.used:
         raise AlarmError("17610", axis=address)
-    if address in channel.machine.channel(channel.number).virtual:
+    if address in channel.machine.channel(channel.number).virtual or (
+        address in GEOMETRY_AXES and address not in channel.memory.columns
+    ):
         raise AlarmError("12050", axis=address)

@@ -172,11 +172,16 @@ def _check_change(channel: SinumerikChannel) -> None:
         raise AlarmError("14400")
     if mode["motion"] in splines.SPLINES:
         raise AlarmError("14402")
+    if mode["fine_tool_offset"] == "FTOCON":
+        raise AlarmError("PC0014", text="FTOCON")
+    end_contour(channel)
+
+
+def end_contour(channel: SinumerikChannel) -> None:
+    """Nothing is held back for a contour any more; PC0014 at an open corner."""
     corner = channel.path.find(CornerStage)
     if corner is not None and not corner.settle():
         raise AlarmError("PC0014", text="CHF CHR RND")
-    if mode["fine_tool_offset"] == "FTOCON":
-        raise AlarmError("PC0014", text="FTOCON")
     channel.flush()
     if stages.active_cutter(channel) is not None:  # G40 has not led back: the tool stands beside the path
         stand_at_last_row(channel)
@@ -187,11 +192,12 @@ def _change(channel: SinumerikChannel, kind: str, build: Build | None) -> None:
     """A transformation acts, or none: frames, working area and protection zones are deselected, nothing moves."""
     state, memory = Transformations.of(channel), channel.memory
     state.kind, state.build = kind, build
+    seat.regroup(channel, None)  # a transformation has geometry axes of its own
     swivelled = any(memory.frames.system[name] != NEUTRAL for name in OF_SWIVEL)
     if swivelled and not ActiveCarrier.of(channel).number:
         memory.tools.carrier = None  # the transformation turns the tool now
     if not memory.data.integer("$MN_FRAME_GEOAX_CHANGE_MODE"):
-        _deselect_frames(channel)
+        deselect_frames(channel)
     if build is not None:
         channel.mode = channel.mode.with_code("working_area", "WALIMOF")
         protection.deselect(channel)
@@ -202,7 +208,8 @@ def _change(channel: SinumerikChannel, kind: str, build: Build | None) -> None:
     channel.context_changed()
 
 
-def _deselect_frames(channel: SinumerikChannel) -> None:
+def deselect_frames(channel: SinumerikChannel) -> None:
+    """No frame is active, but for the base frames."""
     frames: Frames = channel.memory.frames
     channel.mode = channel.mode.with_code("wcs", "G500")
     frames.select(0)

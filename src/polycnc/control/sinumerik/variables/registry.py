@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik import gcodes
 from polycnc.control.sinumerik.actions.variables import ACTION_VARIABLES, OF_ACTIONS, TIMED_VARIABLES
+from polycnc.control.sinumerik.axes.geometry import GEOMETRY_VARIABLES
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.positions import shown
 from polycnc.control.sinumerik.channels import link_memory
@@ -373,6 +374,7 @@ _LINKED = tuple(
 )
 VARIABLES: dict[str, SystemVariable] = {
     **{variable.name: variable for variable in (*_STATES, *_STORED, *_LINKED)},
+    **{name: SystemVariable(name, *row) for name, row in GEOMETRY_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in FRAME_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in TOOL_VARIABLES.items()},
     **{name: SystemVariable(name, *TOOL_VARIABLES[of], stop=True) for name, of in IN_MAIN_RUN.items()},

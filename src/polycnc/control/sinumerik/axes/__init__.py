@@ -1,0 +1,1 @@
+"""Which axes take part: `geometry` exchanges the geometry axes (GEOAX)."""
