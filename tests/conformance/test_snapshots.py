@@ -126,6 +126,7 @@ CHANGED_BY = {
     "TurningFrames": "fanuc-0i-tf-rotation-refuses-g54",
     "VariableTables": "fanuc-0i-tf-tapping-variants-call-with-t-argument",
     "VirtualAxisState": "syntec-virtual-axis",
+    "Wheels": "sin-tmon-size",
     "WorkOffsets": "fanuc-0i-tf-g10-without-point-and-inch",
     "WrittenParameters": "syntec-setpr-of-user-parameters",
     "ZeroState": "fanuc-0i-tf-preset-value",

@@ -203,6 +203,13 @@ def _event_fits(event: ExpectedEvent, record: Record, tolerance: float) -> bool:
             fits = values_equal(value, record.get("spindle", 1), 0)
         elif key == "words":
             fits = value == record.get("words")
+        elif key == "signal":
+            signals = value if isinstance(value, dict) else {}
+            fits = (
+                record["type"] == key
+                and record.get("name") in signals
+                and record["value"] == signals[record["name"]]
+            )
         elif key == "stop":
             fits = record["type"] == "stop" and _label(value) == _label(record["code"])
         else:

@@ -85,6 +85,7 @@ class ExpectedEvent(_Strict):
     b: Number | None = None
     g: str | None = None
     stroke: int | None = None
+    signal: dict[str, Number] | None = None
     words: dict[str, Number] | None = None
     spindle: int | None = None
     message: str | Number | None = None

@@ -176,6 +176,7 @@ SINUMERIK = Language(
         "$TC_CARR8[1]=1 $TC_CARR13[1]=30\nTCARR=1\nX3 Z2", "TCOFR\nCUTMOD=-1\nTOROT", "TOFFON(Z,.5)\nX4\nTOFFOF(Z)",
         "TOROTOF TCOABS\nTCARR=0\nFTOCON\nFTOCOF", "$TC_SCP13[1,1]=.5\nTOWMCS T1 D1 DL=1\nX6\nD1",
         "PON SPP=3", "SON X6", "PUNCHACC(1,50,5,100)", "SPOF", "SPN=2 X9\nSPP=0",
+        "$TC_DP1[2,1]=400 $TC_TPG3[2]=9\nTMON(2)", "TMOF(0)",
     ),
     files=SINUMERIK_FILES,
     setup={

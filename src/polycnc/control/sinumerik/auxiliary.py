@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.machine_words import refuse
 from polycnc.control.sinumerik.errors import not_supported
-from polycnc.control.sinumerik.feed import tooth_feed
+from polycnc.control.sinumerik.feed import tooth_feed, wheels
 from polycnc.control.sinumerik.frames import active as frames
 from polycnc.control.sinumerik.m_functions import (
     AFTER_MOTION,
@@ -138,6 +138,7 @@ def edge_selected(channel: SinumerikChannel) -> None:
     """Another tool, edge or holder: an orientable holder is worked out anew."""
     carriers.follow(channel)
     tool_changed(channel)
+    wheels.selected(channel)
 
 
 def tool_changed(channel: SinumerikChannel) -> None:

@@ -17,7 +17,7 @@ from polycnc.control.sinumerik.channels import axis_exchange, coordination
 from polycnc.control.sinumerik.contours import preparation, use
 from polycnc.control.sinumerik.data import archive
 from polycnc.control.sinumerik.errors import not_supported
-from polycnc.control.sinumerik.feed import axis_settings, pace, spindle_speed
+from polycnc.control.sinumerik.feed import axis_settings, pace, spindle_speed, wheels
 from polycnc.control.sinumerik.limits import protection, working_area
 from polycnc.control.sinumerik.motion import splines
 from polycnc.control.sinumerik.punching import block as punching
@@ -217,8 +217,7 @@ PROCEDURES: dict[str, Callable[[SinumerikChannel, Arguments], None]] = {
     "FPR": spindle_speed.feed_source,
     "FPRAON": spindle_speed.axis_feed_source,
     "FPRAOF": spindle_speed.axis_feed_source_off,
-    "GWPSON": spindle_speed.wheel_speed(on=True),
-    "GWPSOF": spindle_speed.wheel_speed(on=False),
+    **wheels.PROCEDURES,
     "DELAYFSTON": sections.begin(sections.STOP_DELAY),
     "DELAYFSTOF": sections.end(sections.STOP_DELAY),
     "IPTRLOCK": sections.begin(sections.POINTER_LOCK),

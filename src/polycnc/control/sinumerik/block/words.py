@@ -17,7 +17,14 @@ from polycnc.control.sinumerik.block import outside_feeds, plain
 from polycnc.control.sinumerik.block.draft import axis_column
 from polycnc.control.sinumerik.block.positions import ModuloRange, number
 from polycnc.control.sinumerik.errors import not_supported
-from polycnc.control.sinumerik.feed import axis_settings, spindle_speed, thread_ramps, tolerances, tooth_feed
+from polycnc.control.sinumerik.feed import (
+    axis_settings,
+    spindle_speed,
+    thread_ramps,
+    tolerances,
+    tooth_feed,
+    wheels,
+)
 from polycnc.control.sinumerik.feed.pace import Overrides
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.motion import moves
@@ -115,13 +122,14 @@ def speed(draft: Draft, position: int, shape: WordShape) -> Step:
         if value < 0.0:
             raise WordAlarm("16763", position, axis=f"S{spindle.number}")
         if spindle.has_wheel_speed:
-            spindle_speed.set_wheel_speed(channel, spindle, value)
+            wheels.set_wheel_speed(channel, spindle, value)
         elif surface and spindle.number == channel.memory.spindles.master:
             spindle.cutting_speed = value
         else:
             spindle.speed = value
         channel.context_changed()
         channel.event(SpindleSpeed(speed=value, spindle=spindle.number))
+        wheels.check(channel)
 
     return declare(run, Note(position, lowest=0.0, condition=_has_master)) if wanted is None else run
 

@@ -1,25 +1,23 @@
-"""Constant cutting speed: what G96 needs, and the speed that G97 keeps. Constant speed of a grinding wheel.
+"""Constant cutting speed: what G96 needs, and the speed that G97 keeps.
 
-Source: Fundamentals (G96, G961, G962, G97, G971, G972, LIMS; GWPSON, GWPSOF; FPR, FPRAON, FPRAOF).
+Source: Fundamentals (G96, G961, G962, G97, G971, G972, LIMS; FPR, FPRAON, FPRAOF).
 """
 
 from __future__ import annotations
 
 import re
-from math import inf, pi
+from math import pi
 from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.arguments import Arguments
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
-from polycnc.control.sinumerik.tables import MINUTE, MM_PER_M
+from polycnc.control.sinumerik.tables import MM_PER_M
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.feed.spindles import Spindle
     from polycnc.control.sinumerik.memory import Memory
@@ -82,36 +80,6 @@ def speed_at(channel: SinumerikChannel, cutting_speed: float, limit: float) -> f
     """Speed (rpm) for a cutting speed (m/min) where the transverse axis stands, at most the limit."""
     diameter = 2.0 * abs(channel.coordinates.position[channel.memory.transverse])
     return min(limit, MM_PER_M * cutting_speed / (pi * diameter)) if diameter > 0.0 else limit
-
-
-# ---- grinding wheels
-
-
-def wheel_speed(on: bool) -> Callable[[SinumerikChannel, Arguments], None]:
-    """GWPSON(T), GWPSOF(T): S is the speed of the wheel's circumference; of the active tool without a number."""
-
-    def switch(channel: SinumerikChannel, args: Arguments) -> None:
-        memory = channel.memory
-        tools = memory.tools
-        number = arguments.whole(args[0]) if args and args[0] is not None else tools.active
-        if on and number != tools.active:
-            raise not_supported(f"GWPSON({number})")
-        if on and tools.radius <= 0.0:
-            raise AlarmError("10750")
-        memory.spindles.get().has_wheel_speed = on
-
-    return switch
-
-
-def set_wheel_speed(channel: SinumerikChannel, spindle: Spindle, speed: float) -> None:
-    """S in m/s: the revolutions that it takes, at most $TC_TPG6 rpm and $TC_TPG7 m/s where the tool names them."""
-    tools = channel.memory.tools
-    if tools.radius <= 0.0:
-        raise AlarmError("10750")
-    data = tools.tools[tools.active].values
-    fastest = min(speed, data.get("$TC_TPG7", 0.0) or inf)
-    revolutions = MINUTE * MM_PER_M * fastest / (2.0 * pi * tools.radius)
-    spindle.speed = min(revolutions, data.get("$TC_TPG6", 0.0) or inf)
 
 
 # ---- feed per revolution

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from polycnc.control.sinumerik.feed import tooth_feed
+from polycnc.control.sinumerik.feed import tooth_feed, wheels
 from polycnc.control.sinumerik.tools.edges import (
     DP_CLEARANCE,
     DP_DIRECTION,
@@ -76,6 +76,8 @@ def _parameter(number: int) -> Row:
         if fine and written is channel.memory.tools.edge:
             raise AlarmError("17210", text=name)
         written.values[number] = float(value)
+        wheels.chain_sides(channel.memory.tools.tools[tool], edge, number)
+        wheels.check(channel)
 
     return (Type.INT if number == DP_TYPE else Type.REAL), read, write
 
@@ -156,8 +158,9 @@ def _tool_value(name: str) -> Row:
     def write(channel: SinumerikChannel, indices: Indices, value: float) -> None:
         (number,) = _numbers(indices, name, 1)
         channel.memory.tools.new_tool(number).values[name] = float(value)
+        wheels.check(channel)
 
-    return Type.REAL, read, write
+    return (Type.INT if name in wheels.WHOLE else Type.REAL), read, write
 
 
 def _active_length(channel: SinumerikChannel, indices: Indices) -> float:

@@ -22,7 +22,7 @@ from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES
 from polycnc.messages import AlarmError
 from polycnc.transformation.chain import Chain
 from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
-from polycnc.transformation.parallel import ParallelAxes
+from polycnc.transformation.kinematic.parallel import ParallelAxes
 from polycnc.transformation.seated import Seated
 
 if TYPE_CHECKING:
