@@ -103,6 +103,11 @@ class ChannelRun:
         """Position in the work coordinate system, internal units, as far as its coordinates know."""
         execution, display = self.execution, self.display
         place, context = execution.place, execution.context
+        if self.preprocessing.has_caught_up and not self.axes.by_hand:  # frames may have changed since
+            here = self.axes.path_at(self.machine_position)
+            if place.transformation is not None:
+                here = self._known(execution.machine, place)
+            return self.channel.coordinates.from_machine(display.real(here, place))
         if self.axes.by_hand or place.transformation is context.transformation is None:
             return display.work_of(self.axes.path_at(self.machine_position), place)
         if place.transformation is context.transformation:
