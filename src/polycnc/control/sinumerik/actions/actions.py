@@ -16,6 +16,7 @@ from polycnc.control.sinumerik.actions.acting import ActionRun, is_executed
 from polycnc.control.sinumerik.actions.action import Action
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.errors import not_supported
+from polycnc.control.sinumerik.signals import measuring_actions
 from polycnc.language.sinumerik.errors import arithmetic
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import Deed
@@ -255,6 +256,8 @@ def define(channel: SinumerikChannel, code: ActionCode, number: int | None, froz
         columns = list(range(len(channel.axes)))
     if columns:
         action_axes.expect(channel, columns)
+    if code.needs.words.intersection(measuring_actions.WORDS):
+        channel.event(Deed("PROBE", None, measuring_actions.beginning(channel)))
     action = Action(code, number, frozen)
     channel.event(Deed(code.word or code.keyword or "DO", number, _beginning(actions, action)))
     if not code.word and "DELDTG()" in code.needs.words:

@@ -11,6 +11,7 @@ from polycnc.control.sinumerik.actions.axes import ActionAxes
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.positions import Dimension, is_diameter
 from polycnc.control.sinumerik.m_functions import DIRECTIONS
+from polycnc.control.sinumerik.signals import measuring_actions
 from polycnc.geometry.units import INCH_MM
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import Auxiliary, HFunction, SpindleSpeed
@@ -134,4 +135,5 @@ WORDS: dict[str, Callable[[Running, Any, str, Any], None]] = {
     "FXSW": fixed_stop.datum("FXSW"),
     "FOCON": fixed_stop.limit_torque(on=True),
     "FOCOF": fixed_stop.limit_torque(on=False),
+    **{word: measuring_actions.start(word) for word in measuring_actions.WORDS},
 }

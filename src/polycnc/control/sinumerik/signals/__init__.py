@@ -1,4 +1,5 @@
-"""What inputs do: `measuring` (MEAS), `interrupts` (SETINT), `retraction` (LIFTFAST), `sections` without stops.
+"""What inputs do.
 
-`fixed_stop` is FXS.
+`measuring` (MEAS), `measuring_actions` (MEAWA of actions), `interrupts` (SETINT), `retraction` (LIFTFAST), `sections`
+without stops, `fixed_stop` (FXS).
 """

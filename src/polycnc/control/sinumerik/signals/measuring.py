@@ -23,7 +23,7 @@ from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterator, Mapping
 
     from polycnc.control.sinumerik.block.draft import Draft, Step, Values
     from polycnc.control.sinumerik.family import SinumerikChannel
@@ -112,7 +112,7 @@ class Prober(Stage):
     def follow(self, move: Move) -> float | None:
         """Let probes switch along a move; the part of it at which the distance to go is deleted."""
         way = MovePath(move, self._channel.coordinates.geometry)
-        for part, probe, edge in sorted(self._edges_on(way), key=lambda each: each[0]):
+        for part, probe, edge in sorted(edges_on(self._channel, self._edges, way), key=lambda each: each[0]):
             self._edges[probe].pop(0)
             self.deflected[probe] = edge.rising
             point = way.at(part)
@@ -123,17 +123,9 @@ class Prober(Stage):
                 return part
         return None
 
-    def _edges_on(self, way: MovePath) -> Iterator[tuple[float, int, ProbeEdge]]:
-        """The edges that come on a way, each probe's own in their order."""
-        memory = self._channel.memory
-        for probe, edges in self._edges.items():
-            before = 0.0
-            for edge in edges:
-                part = way.part_at({memory.column(edge.axis.upper()): edge.at})
-                if part is None or part < before:
-                    break
-                yield part, probe, edge
-                before = part
+    def remaining(self) -> dict[int, list[ProbeEdge]]:
+        """The edges that have not come yet, by probe."""
+        return {probe: list(edges) for probe, edges in self._edges.items()}
 
     def _record(self, event: int, point: list[float]) -> None:
         machine = self._channel.coordinates.to_machine(point)
@@ -143,7 +135,7 @@ class Prober(Stage):
             if place is None:
                 continue
             if job.fifo:
-                _append(self._channel, job, event, machine[job.columns[0]])
+                append(self._channel, job, event, machine[job.columns[0]])
                 continue
             job.came.append(place)
             for column in job.columns:
@@ -164,6 +156,20 @@ class Prober(Stage):
                     if abs(e) == probe
                 )
                 Measuring.of(self._channel).triggered[probe] = came
+
+
+def edges_on(
+    channel: SinumerikChannel, edges: Mapping[int, list[ProbeEdge]], way: MovePath
+) -> Iterator[tuple[float, int, ProbeEdge]]:
+    """The edges that come on a way, each probe's own in their order: part of the way, probe, edge."""
+    for probe, own in edges.items():
+        before = 0.0
+        for edge in own:
+            part = way.part_at({channel.memory.column(edge.axis.upper()): edge.at})
+            if part is None or part < before:
+                break
+            yield part, probe, edge
+            before = part
 
 
 @dataclass(slots=True)
@@ -238,14 +244,14 @@ def _job(
     if not isinstance(word.index, Axis):
         raise WordAlarm("12040", position, text=word.address)
     column = channel.memory.column(word.index.name)
-    mode, fifo, events = _listed(word.address, values[position], position)
+    mode, fifo, events = listed(word.address, values[position], position)
     prober = Measuring.of(channel).prober
     if mode % 10 == ABORT:
         if prober is not None:
             prober.continuous.pop(column, None)
         return None
     if prober is not None and mode % 10 in (ANY_ORDER, IN_ORDER):
-        _check_start(prober, events[0])
+        check_start(prober.deflected, events[0])
     encoders = channel.memory.data.integer("$MA_NUM_ENCS", word.index)
     systems = 2 if mode // 10 == BOTH_SYSTEMS and encoders > 1 and not fifo else 1
     return Job(
@@ -259,7 +265,7 @@ def _job(
     )
 
 
-def _listed(name: str, value: Any, position: int) -> tuple[int, int, tuple[int, ...]]:
+def listed(name: str, value: Any, position: int) -> tuple[int, int, tuple[int, ...]]:
     """Mode, FIFO and events of `(mode, [memory,] event, …)`; 14020 and 12560 for what cannot be."""
     listed = list(value) if isinstance(value, tuple) else [value]
     if not listed or any(not isinstance(item, (int, float)) or item != int(item) for item in listed):
@@ -280,9 +286,9 @@ def _listed(name: str, value: Any, position: int) -> tuple[int, int, tuple[int, 
     return mode, fifo, tuple(rest)
 
 
-def _check_start(prober: Prober, event: int) -> None:
-    """21700, 21703: the probe already stands as the first event would leave it."""
-    deflected = prober.deflected.get(abs(event), False)
+def check_start(states: Mapping[int, bool], event: int) -> None:
+    """21700, 21703: the probe already stands as the first event would leave it; `states` says how probes stand."""
+    deflected = states.get(abs(event), False)
     if deflected is (event > 0):
         raise AlarmError("21700" if deflected else "21703", probe=abs(event))
 
@@ -347,7 +353,7 @@ def _end(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - s
 # ---- what measuring leaves
 
 
-def _append(channel: SinumerikChannel, job: Job, event: int, value: float) -> None:
+def append(channel: SinumerikChannel, job: Job, event: int, value: float) -> None:
     """A value of a continuous job: each probe has its own memory; a full one ends the job."""
     others = sorted({abs(each) for each in job.events})
     number = job.fifo + others.index(abs(event))
