@@ -18,6 +18,7 @@ from polycnc.control.sinumerik.cycles.moves import Moves
 from polycnc.control.sinumerik.cycles.table import CYCLES
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.motion.last_move import LastMove
+from polycnc.control.sinumerik.punching import block as punching
 from polycnc.control.sinumerik.tools import stages
 from polycnc.language.sinumerik.statements.sections import count_levels, end_of_subprogram
 from polycnc.messages import AlarmError
@@ -107,11 +108,20 @@ class CycleProgram:
             end_of_subprogram(channel)
 
 
+#: Cycles that only choose how the path is run.
+SETTINGS = frozenset(("CYCLE832",))
+
+
 def start(channel: SinumerikChannel, name: str, values: tuple[Any, ...], column: int) -> None:
-    """Begin a cycle on a level of its own; 14012 if there is none left, PC0001 for one that is not executed."""
+    """Begin a cycle on a level of its own; 14012 if there is none left, PC0001 for one that is not executed.
+
+    That is none while a press strikes, but for settings: strokes belong to the blocks of programs.
+    """
     cycle = CYCLES.get(name)
     if cycle is None:
         raise not_supported(name)
+    if channel.mode[punching.GROUP] != punching.OFF and name not in SETTINGS:
+        raise not_supported(f"{name} {channel.mode[punching.GROUP]}")
     arguments = Arguments(channel, name, tuple(cycle.signature.split()), values)
     count_levels(channel)
     channel.flush()
