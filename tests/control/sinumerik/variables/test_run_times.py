@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from polycnc.control.sinumerik.variables.run_times import EXIT, GO_ON, NEUTRAL, START, STOP, RunTimes
-from tests.control.sinumerik.support import run
+from polycnc.control.sinumerik.variables.run_times import EXIT, GO_ON, LONG, NEUTRAL, START, STOP, RunTimes
+from tests.control.sinumerik.support import codes, run
 
 
 class Watch(RunTimes):
@@ -50,3 +50,9 @@ def test_a_program_that_ends_correctly_keeps_its_time(reset: bool, old: float) -
 def test_a_program_without_timers_needs_no_clock() -> None:
     assert run("G4 F1").main_run_s is None
     assert run("G4 F1", "R1=$AC_CYCLE_TIME").main_run_s is not None
+
+
+def test_a_program_too_long_to_be_looked_through_is_refused_what_counts_from_its_start() -> None:
+    lines = ["; nothing"] * (LONG + 1)
+    assert codes(run(*lines, "R1=$AC_CYCLE_TIME")) == [("PC0001", LONG + 2)]
+    assert not run(*lines, "$AC_PROG_NET_TIME_TRIGGER=2", "R1=$AC_ACT_PROG_NET_TIME").alarms

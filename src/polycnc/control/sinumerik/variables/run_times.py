@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.channel.waits import CLOCK
 from polycnc.control.sinumerik.actions.actions import SynchronisedActions
+from polycnc.control.sinumerik.errors import not_supported
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import Deed
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.variables.row import Indices, Reader, RowWithStop
 
 MODE, TRIGGER = "$MC_PROCESSTIMER_MODE", "$AC_PROG_NET_TIME_TRIGGER"
+ACTUAL_NET = "$AC_ACT_PROG_NET_TIME"
 #: Bits of MD27860.
 OPERATING, CYCLE, CUTTING, WITHOUT_TOOL = 0, 1, 2, 7
 NEUTRAL, EXIT, START, STOP, GO_ON = range(5)
@@ -34,7 +36,7 @@ _NAMES = re.compile(
     r"\$A[CN]_(SETUP|POWERON|OPERATING|CYCLE|CUTTING|(ACT|OLD)_PROG_NET)_TIME|\$AC_PROG_NET_TIME_TRIGGER",
     re.IGNORECASE,
 )
-#: Programs of more lines are not looked through: they are timed from where they first ask.
+#: Programs of more lines are not looked through.
 LONG = 100_000
 
 
@@ -48,6 +50,7 @@ class RunTimes(State, lifetime=Lifetime.POWER):
         started: When the program began.
         running: A program is under way.
         is_wanted: A program of the channel reads timers.
+        is_late: The program has begun without a clock: nobody knows how long it has run.
         cycle: Duration of the last program.
         operating: Duration of all programs before the present one.
         cutting: Duration of all cuts up to the present block.
@@ -65,6 +68,7 @@ class RunTimes(State, lifetime=Lifetime.POWER):
     started: float = 0.0
     running: bool = False
     is_wanted: bool = False
+    is_late: bool = False
     cycle: float = 0.0
     operating: float = 0.0
     cutting: float = 0.0
@@ -173,12 +177,18 @@ class RunTimes(State, lifetime=Lifetime.POWER):
         self.net, self.net_since = self.actual_net, None
 
 
+def _reads_timers(line: str) -> bool:
+    """Whether a line names a timer; most have no variable at all, and cost next to nothing."""
+    return ("$A" in line or "$a" in line) and _NAMES.search(line) is not None
+
+
 def begin(channel: SinumerikChannel) -> None:
     """A main program begins; one that reads timers is executed in time from here on."""
     times = RunTimes.of(channel)
     times.begin()
     programs = (program for program in channel.store if len(program.lines) <= LONG)
-    times.is_wanted = any(_NAMES.search(line) for program in programs for line in program.lines)
+    times.is_wanted = any(_reads_timers(line) for program in programs for line in program.lines)
+    times.is_late = not times.is_wanted and channel.actual.clocked is None
     if times.is_wanted:
         if channel.actual.clocked is None:
             channel.wait = CLOCK
@@ -204,13 +214,19 @@ def _times(channel: SinumerikChannel) -> RunTimes:
     return times
 
 
-def _reader(value: Callable[[RunTimes], float], bit: int | None = None) -> Reader:
-    """Reads a timer; one that MD27860 has not switched on stays at zero."""
+def _timer(name: str, value: Callable[[RunTimes], float], bit: int | None = None) -> Reader:
+    """Reads a timer that counts from the start; one that MD27860 has not switched on stays at zero.
+
+    PC0001 in a program whose start was not timed: in one of more than `LONG` lines, or loaded since.
+    """
 
     def read(channel: SinumerikChannel, _indices: Indices) -> float:
         if bit is not None and not channel.memory.data.integer(MODE) >> bit & 1:
             return 0.0
-        return value(_times(channel))
+        times = _times(channel)
+        if times.is_late and not (times.is_triggered and name == ACTUAL_NET):
+            raise not_supported(name)
+        return value(times)
 
     return read
 
@@ -234,22 +250,23 @@ def _trigger(channel: SinumerikChannel, _indices: Indices, value: int) -> None:
         times.trigger(value)
 
 
-_CLOCKED: dict[str, Reader] = {
-    "$AN_SETUP_TIME": _reader(lambda times: times.now / MINUTE_S),
-    "$AN_POWERON_TIME": _reader(lambda times: (times.now - times.powered) / MINUTE_S),
-    "$AC_OPERATING_TIME": _reader(
-        lambda times: times.operating + (times.of_program if times.running else 0.0), OPERATING
+_TIMERS: dict[str, tuple[Callable[[RunTimes], float], int | None]] = {
+    "$AN_SETUP_TIME": (lambda times: times.now / MINUTE_S, None),
+    "$AN_POWERON_TIME": (lambda times: (times.now - times.powered) / MINUTE_S, None),
+    "$AC_OPERATING_TIME": (
+        lambda times: times.operating + (times.of_program if times.running else 0.0),
+        OPERATING,
     ),
-    "$AC_CYCLE_TIME": _reader(lambda times: times.of_program, CYCLE),
-    "$AC_CUTTING_TIME": _reader(lambda times: times.of_cuts, CUTTING),
-    "$AC_ACT_PROG_NET_TIME": _reader(lambda times: times.actual_net),
+    "$AC_CYCLE_TIME": (lambda times: times.of_program, CYCLE),
+    "$AC_CUTTING_TIME": (lambda times: times.of_cuts, CUTTING),
+    ACTUAL_NET: (lambda times: times.actual_net, None),
 }
 #: Variables for which a program needs the clock, and those that it may read ahead.
 RUN_TIMES: dict[str, RowWithStop] = {
-    **{name: (Type.REAL, read, None, True) for name, read in _CLOCKED.items()},
+    **{name: (Type.REAL, _timer(name, *row), None, True) for name, row in _TIMERS.items()},
     TRIGGER: (Type.INT, _triggered, _trigger, True),
 }
 KEPT_TIMES: dict[str, RowWithStop] = {
-    "$AC_OLD_PROG_NET_TIME": (Type.REAL, _reader(lambda times: times.old), None, False),
+    "$AC_OLD_PROG_NET_TIME": (Type.REAL, lambda channel, _: _times(channel).old, None, False),
     "$AC_OLD_PROG_NET_TIME_COUNT": (Type.INT, lambda channel, _: _times(channel).count, None, False),
 }
