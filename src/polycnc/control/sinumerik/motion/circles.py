@@ -38,25 +38,53 @@ if TYPE_CHECKING:
 LETTERS = "IJK"
 
 
-class Arc:
-    """A G2 or G3 block, worked out for its words.
+class RoundACentre:
+    """A block that goes round a centre in the plane.
 
     Attributes:
-        ccw: Sense of rotation.
         columns: Columns of the plane's axes, the third may be -1.
+        axes: Its geometry axes.
+        factor: From a programmed length to mm.
+        centre: The words of the centre.
     """
 
     def __init__(self, draft: Draft) -> None:
         self.draft = draft
-        self.ccw = draft.mode["motion"] == "G3"
         self.columns = moves.plane_columns(draft)
         self.axes = PLANES[draft.mode["plane"]]
         self.factor = length_factor(draft.mode)
-        self.feed = take_block_feed(draft)
+        self.centre = centre_words(draft, LETTERS)
+
+    def programmed_centre(self, channel: SinumerikChannel, values: Values, begin: arcs.Point) -> arcs.Point:
+        """Centre from I, J, K: from the start point, or absolute with AC."""
+        shift, absolute = [0.0, 0.0], dict[int, float]()
+        for index, position, modifier in self.centre:
+            if index not in self.axes[:2]:
+                raise AlarmError("14040")
+            i = self.axes.index(index)
+            value = number(values, position)
+            if modifier == "AC":
+                absolute[i] = value * absolute_factor(channel, self.draft, self.columns[i])
+            else:
+                shift[i] = value * self.factor
+        u, v = (absolute.get(i, begin[i] + shift[i]) for i in (0, 1))
+        return u, v
+
+
+class Arc(RoundACentre):
+    """A G2 or G3 block, worked out for its words.
+
+    Attributes:
+        ccw: Sense of rotation.
+    """
+
+    def __init__(self, draft: Draft) -> None:
+        super().__init__(draft)
+        self.ccw = draft.mode["motion"] == "G3"
+        self.feed = take_block_feed(draft) if draft.has("FB", "FD") else None
         self.feed_factor = moves.feed_factor(draft)
         self.polar = draft.take_shape("AP", "AC", "IC"), draft.take_shape("RP", "AC", "IC")
         self.radius, self.angle, self.turn = draft.take("CR"), draft.take("AR"), draft.take("TURN")
-        self.centre = centre_words(draft, LETTERS)
         self.terms = draft.take_axes()
         self.lead = draft.take_lead()
 
@@ -95,7 +123,7 @@ class Arc:
             moves.line(channel, Kind.FEED, end, moves.checked_feed(channel.feed))
             return
         else:
-            center = self._programmed_centre(channel, values, begin)
+            center = self.programmed_centre(channel, values, begin)
         check_end(channel, begin, (end[u], end[v]), center)
         turns = number(values, self.turn) if self.turn is not None else 0.0
         if not 0.0 <= turns <= 999.0 or turns != int(turns):
@@ -104,21 +132,6 @@ class Arc:
         if self.lead is not None:
             end = self.lead(channel, values, end)
         arc(channel, self.columns, self.axes, end, center, moves.checked_feed(feed), self.ccw, turns)
-
-    def _programmed_centre(self, channel: SinumerikChannel, values: Values, begin: arcs.Point) -> arcs.Point:
-        """Centre from I, J, K: from the start point, or absolute with AC."""
-        shift, absolute = [0.0, 0.0], dict[int, float]()
-        for index, position, modifier in self.centre:
-            if index not in self.axes[:2]:
-                raise AlarmError("14040")
-            i = self.axes.index(index)
-            value = number(values, position)
-            if modifier == "AC":
-                absolute[i] = value * absolute_factor(channel, self.draft, self.columns[i])
-            else:
-                shift[i] = value * self.factor
-        u, v = (absolute.get(i, begin[i] + shift[i]) for i in (0, 1))
-        return u, v
 
     def _by_radius(
         self, values: Values, begin: arcs.Point, end: arcs.Point, channel: SinumerikChannel
@@ -149,7 +162,7 @@ class Arc:
         if self.centre:
             if named:
                 raise AlarmError("14900")
-            center = self._programmed_centre(channel, values, begin)
+            center = self.programmed_centre(channel, values, begin)
             end[u], end[v] = _turned(begin, center, turned)
             return center
         chord = hypot(end[u] - begin[0], end[v] - begin[1])

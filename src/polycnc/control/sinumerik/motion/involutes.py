@@ -11,12 +11,10 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.block.positions import number, target
 from polycnc.control.sinumerik.motion import moves
-from polycnc.control.sinumerik.motion.circles import LETTERS, absolute_factor, centre_words
+from polycnc.control.sinumerik.motion.circles import RoundACentre
 from polycnc.control.sinumerik.motion.last_move import ArcOfMove, LastMove
-from polycnc.control.sinumerik.tables import length_factor
 from polycnc.control.sinumerik.tools.tool_plane import CHORD_ERROR_MM
 from polycnc.geometry import arcs, involute
-from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
@@ -31,17 +29,13 @@ if TYPE_CHECKING:
 TOLERANCE = "$MC_INVOLUTE_RADIUS_DELTA"
 
 
-class InvoluteBlock:
+class InvoluteBlock(RoundACentre):
     """An involute, worked out for the words of its block."""
 
     def __init__(self, draft: Draft) -> None:
-        self.draft = draft
+        super().__init__(draft)
         self.ccw = draft.mode["motion"] == "INVCCW"
-        self.columns = moves.plane_columns(draft)
-        self.axes = PLANES[draft.mode["plane"]]
-        self.factor = length_factor(draft.mode)
         self.radius, self.angle = draft.take("CR"), draft.take("AR")
-        self.centre = centre_words(draft, LETTERS)
         self.terms = draft.take_axes()
 
     @property
@@ -74,17 +68,7 @@ class InvoluteBlock:
         """Centre and radius of the base circle."""
         if self.radius is None or not number(values, self.radius) > 0.0:
             raise AlarmError("14040")
-        center = list(begin)
-        for index, position, modifier in self.centre:
-            if index not in self.axes[:2]:
-                raise AlarmError("14040")
-            i = self.axes.index(index)
-            value = number(values, position)
-            if modifier == "AC":
-                center[i] = value * absolute_factor(channel, self.draft, self.columns[i])
-            else:
-                center[i] += value * self.factor
-        return (center[0], center[1]), number(values, self.radius) * self.factor
+        return self.programmed_centre(channel, values, begin), number(values, self.radius) * self.factor
 
     def _to_point(
         self, channel: SinumerikChannel, begin: Point, end: Point, center: Point, radius: float

@@ -71,7 +71,7 @@ def rapid(draft: Draft) -> Step | None:
 
 def linear(draft: Draft) -> Step | None:
     """G1: straight with path feed; FB for the block's own feed."""
-    block_feed = take_block_feed(draft)
+    block_feed = take_block_feed(draft) if draft.has("FB", "FD") else None
     is_plain = draft.lead is None and not draft.by_axes and not draft.has("AP", "RP", "ANG")
     if block_feed is None and is_plain:
         return _plain_linear(draft)
