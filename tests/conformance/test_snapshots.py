@@ -116,6 +116,7 @@ CHANGED_BY = {
     "Spindles": "sin-auxiliary-functions",
     "Splines": "sin-bspline-weight-pulls",
     "Stored": "sin-seform",
+    "Tangential": "sin-tang-words-of-the-axis",
     "ThreadDepthState": "fanuc-0i-tf-g76-least-depth",
     "ThreadState": "fanuc-0i-tf-largest-lead",
     "TiltState": "fanuc-m-plane-turned-by-roll-pitch-yaw",

@@ -94,6 +94,7 @@ MODAL_GROUPS = {
     "working_area_wcs": "working areas in work coordinates: WALCS0 …",
     "orientation_profile": "the course of an orientation: ORISON, ORISOF",
     # ---- kept like a group, but by no code of its own
+    "tangential": "axes that follow the path: TANG",
     "open_line": "a line whose end the next block tells",
     "feed_kept": "the feed type that G962 and G972 keep",
     "speed_kept": "how S is meant, which G942 and G952 keep",

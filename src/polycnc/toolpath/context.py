@@ -88,6 +88,7 @@ class Context:
             (point to point, SINUMERIK PTP). None where rows hold what is shown.
         names: What the work display calls the columns where a transformation makes other axes of them (Y of TRANSMIT);
             empty where the channel's names hold, an empty one for a column that it uses up.
+        knot: Rows end at a knot within a motion, which the next row goes on with: displays show the motion as one.
     """
 
     plane: str = "G17"
@@ -128,6 +129,7 @@ class Context:
     pace: Pace | None = None
     shown_by: Transformation | None = None
     names: tuple[str, ...] = ()
+    knot: bool = False
 
     @property
     def surface_m_min(self) -> float:

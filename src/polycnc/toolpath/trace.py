@@ -18,7 +18,7 @@ from polycnc.toolpath.modes import FeedMode
 from polycnc.transformation.rows import machine_rows, mapped_rows, work_rows
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Sequence
 
     import numpy as np
     from numpy.typing import NDArray
@@ -142,18 +142,23 @@ class Display:
         self._scales: dict[int, Scale] = {}
 
     def records(self) -> Iterator[Record]:
-        """The records of all rows that the toolpath still holds, in order."""
-        for row in self.toolpath.rows():
-            yield self.record(row)
+        """The records of all motions and events that the toolpath still holds, in order."""
+        yield from self._motions(self.toolpath.rows())
+
+    def _motions(self, rows: Iterable[Row]) -> Iterator[Record]:
+        """A motion of several rows is shown by its last one."""
+        for row in rows:
+            if not row.context.knot or row.event is not None:
+                yield self.record(row)
 
     def records_of(self, chunk: Chunk) -> Iterator[Record]:
         """The records of one chunk. Long chunks go by whole columns, which gives the same values."""
-        renamed = any(context.names or context.shown_by is not None for context in self.toolpath.contexts)
-        if len(chunk) >= COLUMN_ROWS and not renamed and find_spec("numpy") is not None:
+        contexts = self.toolpath.contexts
+        single = any(each.names or each.shown_by is not None or each.knot for each in contexts)
+        if len(chunk) >= COLUMN_ROWS and not single and find_spec("numpy") is not None:
             yield from self._records_by_column(chunk)
         else:
-            for row in self.toolpath.rows_of(chunk):
-                yield self.record(row)
+            yield from self._motions(self.toolpath.rows_of(chunk))
 
     def lines_of(
         self, chunk: Chunk, write: Callable[[Record], str], form: Callable[[Record], str]
@@ -166,7 +171,8 @@ class Display:
             form: Gives the form of the text of moves without curves that differ in their numbers only, for `%` with
                 line, work display, machine display and feed; the numbers of the record that it gets mean nothing.
         """
-        if len(chunk) < COLUMN_ROWS or find_spec("numpy") is None:
+        knots = any(context.knot for context in self.toolpath.contexts)
+        if len(chunk) < COLUMN_ROWS or knots or find_spec("numpy") is None:
             yield from map(write, self.records_of(chunk))
             return
         forms: dict[tuple[object, ...], str] = {}

@@ -11,6 +11,7 @@
     feed/        feeds, overrides, spindles
     frames/      frames and their variables
     tools/       tool memory, compensation, smooth approach
+    tangential/  axes that follow the direction of the path
     oscillation/ axes that move to and fro
     punching/    strokes of a press, segments of paths
     limits/      working areas, protection zones

@@ -139,8 +139,8 @@ START_CODES = {group.name: group.start for group in GROUPS if group.is_modal}
 
 #: Further modal state that decides how a block acts, beside the groups: a straight line whose end the next block
 #: tells (ANG); the function of group 15 whose feed G962 and G972 keep; the kind of transformation that acts; whether
-#: SPP cuts paths into segments; the geometry axes of GEOAX. Each axis that DIAMONA and the like have named adds a
-#: group of its own.
+#: SPP cuts paths into segments; the geometry axes of GEOAX; the columns of axes that follow the path. Each axis that
+#: DIAMONA and the like have named adds a group of its own.
 INTERNAL_CODES = {
     "open_line": "",
     "feed_kept": "G94",
@@ -148,6 +148,7 @@ INTERNAL_CODES = {
     "transformation": "",
     "segments": "",
     "geometry": "",
+    "tangential": "",
 }
 
 #: Known functions that polycnc does not execute: the path would differ, so they raise an alarm.

@@ -28,6 +28,7 @@ from polycnc.control.sinumerik.motion import circles, involutes, moves, repositi
 from polycnc.control.sinumerik.oscillation import words as oscillation
 from polycnc.control.sinumerik.punching import block as punching
 from polycnc.control.sinumerik.signals import measuring
+from polycnc.control.sinumerik.tangential import definitions as tangential
 from polycnc.control.sinumerik.tools import online, selection, smooth_approach, stages
 from polycnc.control.sinumerik.tools.holders import active as carriers
 from polycnc.control.sinumerik.transformations import (
@@ -116,9 +117,10 @@ def make_plan(channel: SinumerikChannel, block: Block) -> Plan:
     if transforms:
         orientation.plan(draft)
         point_to_point.plan(draft)
+    follows = tangential.plan_words(draft) if mode[tangential.GROUP] and not _has_function(codes) else None
     own = _own_function(draft)
     strokes = punching.begin(draft) if own is None and _concerns_press(draft) else None
-    moving = _motion(draft) if own is None and "frame" not in codes and "block_motion" not in codes else None
+    moving = _motion(draft) if own is None and not _has_function(codes) else None
     if transforms:
         orientation.check(draft)
     ends = _words(draft)
@@ -139,6 +141,7 @@ def make_plan(channel: SinumerikChannel, block: Block) -> Plan:
     for step in (own, moving):
         if step is not None:
             draft.steps += _around(draft, step, strokes)
+    draft.steps += [follows] if follows is not None else []
     draft.steps += awaited + draft.behind_motion
     if measures is not None:
         draft.steps.append(measures[2])
@@ -157,6 +160,11 @@ def make_plan(channel: SinumerikChannel, block: Block) -> Plan:
     calls = moving is not None or (mode["motion"] in LINEAR and _is_bare_motion(block, codes))
     acts = bool(block.words) and "frame" not in codes
     return Plan(tuple(draft.steps), acts, calls and own is None, tuple(ends), _shared(draft))
+
+
+def _has_function(codes: dict[str, str]) -> bool:
+    """Whether a function of group 2 or 3 takes the axis words of a block."""
+    return "frame" in codes or "block_motion" in codes
 
 
 def _early_effects(draft: Draft, modal: list[tuple[str, str]]) -> list[Step]:

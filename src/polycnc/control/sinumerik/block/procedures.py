@@ -22,6 +22,7 @@ from polycnc.control.sinumerik.limits import protection, working_area
 from polycnc.control.sinumerik.motion import splines
 from polycnc.control.sinumerik.punching import block as punching
 from polycnc.control.sinumerik.signals import interrupts, retraction, sections
+from polycnc.control.sinumerik.tangential import definitions as tangential
 from polycnc.control.sinumerik.tools import d_numbers, online
 from polycnc.control.sinumerik.transformations import seat, selection, start
 from polycnc.control.sinumerik.variables.stored import Stored
@@ -252,4 +253,5 @@ PROCEDURES: dict[str, Callable[[SinumerikChannel, Arguments], None]] = {
     **online.PROCEDURES,
     **punching.PROCEDURES,
     **geometry.PROCEDURES,
+    **tangential.PROCEDURES,
 }

@@ -33,6 +33,7 @@ from polycnc.control.sinumerik.replaced import REPLACED_VARIABLES
 from polycnc.control.sinumerik.signals.measuring import MEASURE_VARIABLES
 from polycnc.control.sinumerik.signals.sections import SECTION_VARIABLES
 from polycnc.control.sinumerik.tables import MINUTE
+from polycnc.control.sinumerik.tangential.definitions import COUPLING_VARIABLES
 from polycnc.control.sinumerik.tools.online import OVERLAY_VARIABLES
 from polycnc.control.sinumerik.tools.sides import Contour
 from polycnc.control.sinumerik.tools.variables import IN_MAIN_RUN, TOOL_VARIABLES
@@ -383,6 +384,7 @@ VARIABLES: dict[str, SystemVariable] = {
     **{name: SystemVariable(name, *row) for name, row in SECTION_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in AXIS_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in TOLERANCE_VARIABLES.items()},
+    **{name: SystemVariable(name, *row) for name, row in COUPLING_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in REPOS_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in MEASURE_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in SURROUNDINGS.items()},
