@@ -47,6 +47,8 @@ CHANGED_BY = {
     "Contour": "sin-cut2d-machine-plane",
     "ControlSwitches": "fanuc-0i-tf-3004-is-read-back",
     "CurveState": "meldas-m-nurbs-falling-knot",
+    "CurveDefinition": "sin-ctab-flag-of-the-definition",
+    "CurveTables": "sin-ctab-memories",
     "CycleState": "fanuc-m-manual-boring-halts",
     "CylinderState": "fanuc-m-transform-cylinder-twice",
     "DiameterState": "syntec-polar-diameter",

@@ -7,6 +7,7 @@
     actions/     synchronised actions in the main run
     axes/        geometry axes
     block/       what a block does: plans, words, procedures
+    curve_tables/ curve tables
     motion/      moves, circles, splines, repositioning
     feed/        feeds, overrides, spindles
     frames/      frames and their variables

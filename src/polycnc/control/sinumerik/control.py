@@ -17,6 +17,7 @@ from polycnc.control.sinumerik.block.plain import SinumerikPlainBlocks
 from polycnc.control.sinumerik.block.plan import ExactStop, make_plan
 from polycnc.control.sinumerik.channels import axis_exchange, coordination
 from polycnc.control.sinumerik.contours import preparation
+from polycnc.control.sinumerik.curve_tables import definition as curve_definition
 from polycnc.control.sinumerik.data import access, init_programs
 from polycnc.control.sinumerik.data.machine_data import MachineData
 from polycnc.control.sinumerik.errors import not_supported
@@ -219,6 +220,7 @@ class Sinumerik:
             end_of_subprogram(channel)
         else:
             preparation.check_end(channel)
+            curve_definition.check_end(channel)
             channel.end()
 
     def plain_blocks(self, _channel: SinumerikChannel) -> SinumerikPlainBlocks:
@@ -296,6 +298,7 @@ class Sinumerik:
 
     def preprocessing_stop(self, channel: SinumerikChannel) -> bool:
         """Wait for the main run: everything held back is written; the block need not come again."""
+        curve_definition.refuse(channel, "$A")
         channel.flush()
         channel.synchronise()
         return False

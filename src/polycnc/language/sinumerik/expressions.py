@@ -100,6 +100,10 @@ class ExpressionReader(Cursor[Token], OperatorReader[Token, Expr]):
         token = self.token
         return self.converted(self.expression(), type_, token)
 
+    def reference(self, token: Token) -> Code:
+        """Read a variable that a procedure or function may change."""
+        return self.scope.place(self, token).reference(self)
+
     def literal(self) -> Code | None:
         """A number, with a minus or without, that is all of an argument; None, and nothing read, for anything else."""
         minus = self.at("-")

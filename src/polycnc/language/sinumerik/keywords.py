@@ -118,8 +118,8 @@ CTABSEV     (RIVa)      REAL
 CTABSSV     (RIVa)      REAL
 CTABTEP     (Iva)       REAL
 CTABTEV     (Iva)       REAL
-CTABTMAX    (Iaa)       REAL
-CTABTMIN    (Iaa)       REAL
+CTABTMAX    (I????)     REAL
+CTABTMIN    (I????)     REAL
 CTABTSP     (Iva)       REAL
 CTABTSV     (Iva)       REAL
 DELDL       (ii)        INT

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from polycnc.control.sinumerik.actions import polynomials
 from polycnc.control.sinumerik.actions.cycles import RunningCycle
@@ -19,6 +19,23 @@ if TYPE_CHECKING:
 
 #: Variables that go on by themselves: writing the same value again is a change.
 _GOING = ("$AC_TIMER", "$AC_FIFO", "$AA_OFF", "$AC_OVR", "$AA_OVR", "$AC_VC", "$AC_PROG_NET_TIME")
+
+
+class LiveReference(NamedTuple):
+    """A system variable that a function of an action may change."""
+
+    run: ActionRun
+    variable: SystemVariable
+    indices: tuple[Any, ...]
+
+    @property
+    def value(self) -> Any:
+        """The value now."""
+        return self.variable.read(self.run.channel, self.indices)
+
+    @value.setter
+    def value(self, value: Any) -> None:
+        self.run.store(self.variable, self.indices, value)
 
 
 class ActionRun(Running):
@@ -79,6 +96,10 @@ class ActionRun(Running):
             raise AlarmError("14020", text=name)
         here = self.channel.actual.work[column] if system == 3 else self.clocked.machine(column)
         return bool(abs(here - args[1]) <= abs(args[2]))
+
+    def reference(self, variable: SystemVariable, indices: tuple[Any, ...]) -> LiveReference:
+        """A system variable that a function may change."""
+        return LiveReference(self, variable, indices)
 
     def polynomial(self, number: int, value: float) -> float:
         """The value of a function of FCTDEF."""

@@ -15,6 +15,7 @@ from polycnc.control.sinumerik.block.arguments import Arguments
 from polycnc.control.sinumerik.block.positions import DIAMETER_OF_AXIS, diameter_of_channel
 from polycnc.control.sinumerik.channels import axis_exchange, coordination
 from polycnc.control.sinumerik.contours import preparation, use
+from polycnc.control.sinumerik.curve_tables import administration, definition
 from polycnc.control.sinumerik.data import archive
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed import axis_settings, pace, spindle_speed, wheels
@@ -66,6 +67,7 @@ def diameters_of_channel(channel: SinumerikChannel, _args: Arguments) -> None:
 
 def preprocessing_stop(channel: SinumerikChannel, _args: Arguments) -> None:
     """STOPRE: everything held back is written and executed before the next block is read."""
+    definition.refuse(channel, "STOPRE")
     channel.flush()
     channel.synchronise()
 
@@ -166,6 +168,7 @@ def new_configuration(channel: SinumerikChannel, _args: Arguments) -> None:
 
     It stops preprocessing (job planning 1.17).
     """
+    definition.refuse(channel, "NEWCONF")
     channel.flush()
     channel.synchronise()
     memory = channel.memory
@@ -254,4 +257,6 @@ PROCEDURES: dict[str, Callable[[SinumerikChannel, Arguments], None]] = {
     **punching.PROCEDURES,
     **geometry.PROCEDURES,
     **tangential.PROCEDURES,
+    **definition.PROCEDURES,
+    **administration.PROCEDURES,
 }

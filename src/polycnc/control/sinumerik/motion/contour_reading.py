@@ -54,10 +54,10 @@ class ContourReading:
     recorder: Recorder = field(default_factory=Recorder)
     arcs_need_centre: bool = True
 
-    def begin(self, channel: SinumerikChannel, columns: Container[int]) -> None:
+    def begin(self, channel: SinumerikChannel, columns: Container[int], by: float = AWAY_MM) -> None:
         """The tool is thought away in these columns (-1 for none), and moves are caught."""
         Readings.of(channel).open.append(self)
-        away = [value + AWAY_MM if i in columns else value for i, value in enumerate(self.position)]
+        away = [value + by if i in columns else value for i, value in enumerate(self.position)]
         channel.coordinates.arrive(away)
         channel.feed = channel.feed if channel.feed > 0.0 else ANY_FEED
         channel.path.divert(self.recorder)

@@ -14,6 +14,7 @@ from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.arguments import Procedure
 from polycnc.control.sinumerik.block.positions import AxisTerm, axis_term, number, target
+from polycnc.control.sinumerik.curve_tables.recorder import recorder_of
 from polycnc.control.sinumerik.motion import moves
 from polycnc.control.sinumerik.motion.spline_stage import TOLERANCE_MM
 from polycnc.control.sinumerik.tables import length_factor
@@ -196,6 +197,11 @@ def polynomial(draft: Draft) -> Step | None:
             curves.append(
                 Curve(column, _coefficients(start[column], end[column] * scale, lifted, interval), divided)
             )
+        recorder = recorder_of(channel)
+        if recorder is not None:  # a curve table takes the curve itself
+            recorder.bend(lambda share: _point(curves, below, start, interval * share))
+            moves.line(channel, Kind.SPLINE, end, feed)
+            return
         kind = Kind.SPLINE if polynomials else Kind.FEED
         for point in _chords(curves, below, start, end, interval):
             moves.line(channel, kind, point, feed)
@@ -292,19 +298,21 @@ def _chords(
     if all(len(curve.coefficients) == 2 for curve in curves) and len(below) == 1:
         return [end]
 
-    def at(p: float) -> list[float]:
-        point = start.copy()
-        for curve in curves:
-            value = _at(curve.coefficients, p)
-            point[curve.column] = value / _at(below, p) if curve.divided else value
-        return point
-
     chords = 2
     while True:
-        points = [at(length * k / (2 * chords)) for k in range(2 * chords + 1)]
+        points = [_point(curves, below, start, length * k / (2 * chords)) for k in range(2 * chords + 1)]
         if chords >= MAX_CHORDS or _deviation(points) <= TOLERANCE_MM:
             return [*points[2:-1:2], end]
         chords *= 2
+
+
+def _point(curves: Sequence[Curve], below: Sequence[float], start: list[float], p: float) -> list[float]:
+    """The position at a parameter."""
+    point = start.copy()
+    for curve in curves:
+        value = _at(curve.coefficients, p)
+        point[curve.column] = value / _at(below, p) if curve.divided else value
+    return point
 
 
 def _deviation(points: Sequence[Sequence[float]]) -> float:

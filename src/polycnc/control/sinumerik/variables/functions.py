@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from polycnc.control.sinumerik.block.arguments import Arguments
 from polycnc.control.sinumerik.block.positions import ModuloRange
 from polycnc.control.sinumerik.contours import use
+from polycnc.control.sinumerik.curve_tables import administration, reading
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.frames import adding, codes
 from polycnc.control.sinumerik.frames.variables import frame_axis
@@ -155,4 +156,6 @@ FUNCTIONS: dict[str, Callable[[SinumerikChannel, Arguments], Any]] = {
     "GETDNO": d_numbers.get_number,
     "SETDNO": d_numbers.set_number,
     "GETACTTD": d_numbers.tool_of_number,
+    **administration.FUNCTIONS,
+    **reading.FUNCTIONS,
 }

@@ -20,6 +20,7 @@ from polycnc.control.sinumerik.axes.geometry import GEOMETRY_VARIABLES
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.positions import shown
 from polycnc.control.sinumerik.channels import link_memory
+from polycnc.control.sinumerik.curve_tables.definition import DEFINITION_VARIABLES
 from polycnc.control.sinumerik.data.machine_data import DELIVERED, MachineData
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed import spindle_speed
@@ -387,6 +388,7 @@ VARIABLES: dict[str, SystemVariable] = {
     **{name: SystemVariable(name, *row) for name, row in COUPLING_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in REPOS_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in MEASURE_VARIABLES.items()},
+    **{name: SystemVariable(name, *row) for name, row in DEFINITION_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in SURROUNDINGS.items()},
     **{name: SystemVariable(name, *row) for name, row in REPLACED_VARIABLES.items()},
     **{name: SystemVariable(name, Type.INT, part_of_clock(part), stop=True) for name, part in PARTS.items()},

@@ -49,6 +49,9 @@ class Acting(Protocol):
     def function(self, name: str, args: tuple[Any, ...]) -> Any:
         """A function that the main run answers: `POSRANGE(X,10,1)`."""
 
+    def reference(self, variable: SystemVariable, indices: tuple[Any, ...]) -> Any:
+        """A system variable that a function may change; it has a `value`."""
+
     def polynomial(self, number: int, value: float) -> float:
         """The value of a function of FCTDEF."""
 

@@ -32,7 +32,12 @@ if TYPE_CHECKING:
 PARAMETERS = ("channel", "frozen", "own", "acting")
 _FROZEN, _OWN, _ACTING = name("frozen"), name("own"), name("acting")
 #: Functions that are worked out in the main run.
-LIVE_FUNCTIONS = frozenset({"POSRANGE", "CTAB", "CTABINV"})
+LIVE_FUNCTIONS = frozenset(
+    {
+        "POSRANGE", "CTAB", "CTABINV", "CTABTSV", "CTABTEV", "CTABTSP", "CTABTEP", "CTABSSV", "CTABSEV", "CTABTMIN",
+        "CTABTMAX",
+    }
+)  # fmt: skip
 #: Words with an axis or spindle in brackets, and those that may do without.
 AXIS_WORDS = frozenset({"POS", "MOV", "FA", "FXS", "FXST", "FXSW", "FOCON", "FOCOF", "MEAWA", "MEAC"})
 SPINDLE_WORDS = frozenset({"SPOS", "S", "M"})
@@ -123,6 +128,13 @@ class LiveReader(ExpressionReader):
         arguments = self.scope.arguments(self, token, keywords.CONTROL_FUNCTIONS[token.text].arguments)
         result = keywords.CONTROL_FUNCTIONS[token.text].result
         return Expr(quoted("{0}.function({1}, {2})", _ACTING, token.text, arguments), result)
+
+    def reference(self, token: Token) -> Code:
+        """A variable that a function may change: one that actions may write (12580 for others)."""
+        place = self._place_of(token)
+        if isinstance(place, SystemPlace):
+            return quoted("{0}.reference({1}, {2})", _ACTING, place.code, place.indices)
+        return place.reference(self)
 
     def refused(self, token: Token) -> NcSyntaxError:
         """12571: the word cannot stand in an action."""
@@ -260,7 +272,9 @@ class LiveReader(ExpressionReader):
 
     def _live_place(self) -> Place:
         """A variable that actions may write: 12580 for one of preparation."""
-        token = self.take()
+        return self._place_of(self.take())
+
+    def _place_of(self, token: Token) -> Place:
         found = token.kind == "name" and (
             is_live(token.text) if token.text[0] == "$" else is_synchronised(token.text)
         )

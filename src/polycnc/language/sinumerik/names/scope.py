@@ -201,7 +201,7 @@ class Scope:
             token = reader.take()
             if not self.is_place(token):
                 raise NcSyntaxError("12320", token.column, token.text)
-            return self.place(reader, token).reference(reader)
+            return reader.reference(token)
         if letter == "W":
             return self._row(reader)
         if letter == "j":
