@@ -47,6 +47,7 @@ CHANGED_BY = {
     "Contour": "sin-cut2d-machine-plane",
     "ControlSwitches": "fanuc-0i-tf-3004-is-read-back",
     "CurveState": "meldas-m-nurbs-falling-knot",
+    "Couplings": "sin-trail-chain",
     "CurveDefinition": "sin-ctab-flag-of-the-definition",
     "CurveTables": "sin-ctab-memories",
     "CycleState": "fanuc-m-manual-boring-halts",

@@ -11,6 +11,8 @@ from polycnc.geometry.frames import IDENTITY, rotation, translation
 from polycnc.machine.kinematics import Kinematics
 from polycnc.machine.model import Joint
 from polycnc.transformation.chain import Chain
+from polycnc.transformation.couplings.coupled import Coupled
+from polycnc.transformation.couplings.laws import Ratio
 from polycnc.transformation.kinematic.cylinder import Cylinder
 from polycnc.transformation.kinematic.groove import GrooveCylinder
 from polycnc.transformation.kinematic.inclined import InclinedAxis
@@ -89,7 +91,15 @@ tips = st.builds(
     st.tuples(places, places, places),
 )
 features = st.builds(FeatureFrame, frames, st.just(XYZ))
-single: st.SearchStrategy[Transformation] = st.one_of(polars, cylinders, grooves, inclined, tips, features)
+couplings = st.builds(
+    lambda factor, origin, other: Coupled.of({1: [Ratio(0, factor, origin)], 2: [Ratio(1, other)]}, XYZ),
+    st.floats(-5.0, 5.0),
+    places,
+    st.floats(-5.0, 5.0),
+)
+single: st.SearchStrategy[Transformation] = st.one_of(
+    polars, cylinders, grooves, inclined, tips, features, couplings
+)
 chains: st.SearchStrategy[Transformation] = st.one_of(
     st.builds(lambda *links: Chain(links), polars, inclined),
     st.builds(lambda *links: Chain(links), cylinders, features),

@@ -7,6 +7,7 @@
     actions/     synchronised actions in the main run
     axes/        geometry axes
     block/       what a block does: plans, words, procedures
+    couplings/  axes that follow others
     curve_tables/ curve tables
     motion/      moves, circles, splines, repositioning
     feed/        feeds, overrides, spindles

@@ -17,6 +17,7 @@ from polycnc.control.sinumerik.block.plain import SinumerikPlainBlocks
 from polycnc.control.sinumerik.block.plan import ExactStop, make_plan
 from polycnc.control.sinumerik.channels import axis_exchange, coordination
 from polycnc.control.sinumerik.contours import preparation
+from polycnc.control.sinumerik.couplings.links import Couplings
 from polycnc.control.sinumerik.curve_tables import definition as curve_definition
 from polycnc.control.sinumerik.data import access, init_programs
 from polycnc.control.sinumerik.data.machine_data import MachineData
@@ -376,7 +377,7 @@ class Sinumerik:
             part=chain(memory.frames.inner()).frame,
             transformation=coordinates.transformation,
             names=seat.shown_names(channel),
-            shown_by=PointToPoint.of(channel).shown_by,
+            shown_by=PointToPoint.of(channel).shown_by or Couplings.of(channel).shown_by,
             pace=pace.pace(channel, side),
         )
 

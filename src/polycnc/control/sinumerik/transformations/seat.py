@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.states.state import Lifetime, State, lasting
 from polycnc.control.sinumerik import axis_names
+from polycnc.control.sinumerik.couplings import links
 from polycnc.control.sinumerik.data.machine_data import MachineData
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.transformations import data_sets
@@ -89,7 +90,7 @@ def centre_point(channel: SinumerikChannel) -> ToolCentrePoint | None:
 
 def frame_in_front(channel: SinumerikChannel) -> Frame:
     """From the work to the basic system."""
-    seated = Transformations.of(channel).seated
+    seated = Transformations.of(channel).seated or links.Couplings.of(channel).seated
     return channel.coordinates.zero if seated is None else seated.frame
 
 
@@ -107,12 +108,19 @@ def stand(channel: SinumerikChannel, total: NcFrame, *, travelled: bool = False)
     """
     coordinates, state = channel.coordinates, Transformations.of(channel)
     if state.build is None and state.columns is not None:
+        if links.seated(channel, total.frame, _offsets(channel, total)) is not None:
+            raise not_supported("GEOAX")  # while axes follow others
         _stand_regrouped(channel, state.columns, total, travelled=travelled)
         return
     if state.build is None:
         if coordinates.transformation is not None:
             coordinates.geometry = data_sets.native(channel)
         zero = (total.frame, _offsets(channel, total))
+        coupled = links.take_seat(channel, links.seated(channel, *zero))
+        if coupled is not None:
+            if coupled is not coordinates.transformation:
+                _sit(channel, coupled)
+            return
         if coordinates.transformation is not None:
             state.seated = None
             coordinates.transform(None, data_sets.native(channel), zero)
@@ -127,10 +135,16 @@ def stand(channel: SinumerikChannel, total: NcFrame, *, travelled: bool = False)
     if seated == state.seated:
         return
     state.seated = seated
+    _sit(channel, seated)
+    _name_axes(channel, state.build.used)
+
+
+def _sit(channel: SinumerikChannel, seated: Seated) -> None:
+    """A transformation acts, with frames and tool in it; nothing is owed to incremental words."""
+    coordinates = channel.coordinates
     coordinates.transform(seated, seated.geometry, (IDENTITY, [0.0] * len(channel.axes)))
     coordinates.pending = [0.0] * len(channel.axes)
     coordinates.owes = False
-    _name_axes(channel, state.build.used)
     channel.context_changed()
 
 
@@ -166,6 +180,9 @@ def is_in_place(channel: SinumerikChannel, total: NcFrame) -> bool:
         return _seated(channel, state.build, total) == state.seated
     if state.columns is not None:
         return _regrouped(channel, state.columns, total) == state.seated
+    coupled = links.seated(channel, total.frame, _offsets(channel, total))
+    if coupled is not None:
+        return coupled == links.Couplings.of(channel).seated
     return (total.frame, _offsets(channel, total)) == (coordinates.zero, coordinates.offsets)
 
 

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING
 from polycnc.channel.failure import stand_at_last_row
 from polycnc.compensation.corner import CornerStage
 from polycnc.control.sinumerik.block import arguments
+from polycnc.control.sinumerik.couplings.links import Couplings
+from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.limits import protection, working_area
 from polycnc.control.sinumerik.motion import splines
 from polycnc.control.sinumerik.tools import selection as lengths_of_edge
@@ -170,6 +172,8 @@ def _check_change(channel: SinumerikChannel) -> None:
     mode = channel.mode
     if mode["compensation"] != "G40":
         raise AlarmError("14400")
+    if Couplings.of(channel).links:
+        raise not_supported("TRAILON LEADON EGON")
     if mode["motion"] in splines.SPLINES:
         raise AlarmError("14402")
     if mode["fine_tool_offset"] == "FTOCON":

@@ -20,6 +20,8 @@ from polycnc.control.sinumerik.axes.geometry import GEOMETRY_VARIABLES
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.positions import shown
 from polycnc.control.sinumerik.channels import link_memory
+from polycnc.control.sinumerik.couplings import links
+from polycnc.control.sinumerik.couplings.variables import COUPLING_VARIABLES
 from polycnc.control.sinumerik.curve_tables.definition import DEFINITION_VARIABLES
 from polycnc.control.sinumerik.data.machine_data import DELIVERED, MachineData
 from polycnc.control.sinumerik.errors import not_supported
@@ -225,6 +227,8 @@ def _position(name: str, system: str, *, stop: bool = True) -> SystemVariable:
         if system in ("machine", "basic"):
             return shown(channel, column, channel.actual.machine[column], work=False)
         position = channel.actual.work if system == "actual" else _work_frame(channel, system)
+        if system == "actual":
+            position = links.shown(channel, position)
         return shown(channel, column, position[column])
 
     return SystemVariable(name, Type.REAL, read, stop=stop)
@@ -389,6 +393,7 @@ VARIABLES: dict[str, SystemVariable] = {
     **{name: SystemVariable(name, *row) for name, row in REPOS_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in MEASURE_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in DEFINITION_VARIABLES.items()},
+    **{name: SystemVariable(name, *row) for name, row in COUPLING_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in SURROUNDINGS.items()},
     **{name: SystemVariable(name, *row) for name, row in REPLACED_VARIABLES.items()},
     **{name: SystemVariable(name, Type.INT, part_of_clock(part), stop=True) for name, part in PARTS.items()},
