@@ -59,6 +59,8 @@ class Rank(IntEnum):
     HISTORY = auto()
     #: Positions of the work become those of the axes.
     AXES = auto()
+    #: Axes that wait for their leading axes: they see where those are.
+    COUPLINGS = auto()
     #: Protection zones: they see where the machine would go.
     ZONES = auto()
     #: Limits of travel: they see where the machine would go, too.

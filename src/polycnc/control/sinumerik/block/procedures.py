@@ -15,7 +15,7 @@ from polycnc.control.sinumerik.block.arguments import Arguments
 from polycnc.control.sinumerik.block.positions import DIAMETER_OF_AXIS, diameter_of_channel
 from polycnc.control.sinumerik.channels import axis_exchange, coordination
 from polycnc.control.sinumerik.contours import preparation, use
-from polycnc.control.sinumerik.couplings import trailing
+from polycnc.control.sinumerik.couplings import leading, trailing
 from polycnc.control.sinumerik.curve_tables import administration, definition
 from polycnc.control.sinumerik.data import archive
 from polycnc.control.sinumerik.errors import not_supported
@@ -260,5 +260,6 @@ PROCEDURES: dict[str, Callable[[SinumerikChannel, Arguments], None]] = {
     **tangential.PROCEDURES,
     **definition.PROCEDURES,
     **trailing.PROCEDURES,
+    **leading.PROCEDURES,
     **administration.PROCEDURES,
 }

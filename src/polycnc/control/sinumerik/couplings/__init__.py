@@ -3,5 +3,7 @@
 links      which axes follow which, how long that lasts, and their seat behind frames and tool
 switching  a coupling changes in its place on the path
 trailing   TRAILON, TRAILOF
-variables  `$AA_COUP_ACT`
+leading    LEADON, LEADOF
+stage      lets an axis wait for its place on a curve while the leading axis moves
+variables  `$AA_COUP_ACT`, `$AA_LEAD_P`, `$AA_LEAD_V`
 """

@@ -135,3 +135,9 @@ def shown(channel: SinumerikChannel, position: Iterable[float]) -> list[float]:
     """A position of the path as displays show it."""
     by = Couplings.of(channel).shown_by
     return list(position) if by is None else by.to_work(list(position))
+
+
+def without_couplings(channel: SinumerikChannel, position: list[float]) -> list[float]:
+    """Where the axes would be at a position of the path if none led another."""
+    by = Couplings.of(channel).shown_by
+    return channel.coordinates.to_machine(position) if by is None else by.bare.to_machine(position)

@@ -5,7 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.block import arguments
+from polycnc.control.sinumerik.block.positions import shown
 from polycnc.control.sinumerik.couplings.links import Couplings
+from polycnc.control.sinumerik.tables import MINUTE
 from polycnc.language.sinumerik.names.values import Type
 
 if TYPE_CHECKING:
@@ -19,4 +21,21 @@ def _acts(channel: SinumerikChannel, indices: Indices) -> int:
     return sum({link.kind for link in Couplings.of(channel).links.get(column, ())})
 
 
-COUPLING_VARIABLES: dict[str, RowWithStop] = {"$AA_COUP_ACT": (Type.INT, _acts, None, True)}
+def _master_place(channel: SinumerikChannel, indices: Indices) -> float:
+    """`$AA_LEAD_P[leading]`: the place of a leading axis by which others are led."""
+    column = arguments.column(channel, indices[0] if indices else None)
+    return shown(channel, column, channel.actual.machine[column], work=False)
+
+
+def _master_speed(channel: SinumerikChannel, indices: Indices) -> float:
+    """`$AA_LEAD_V[leading]`: its speed, mm/min or degrees/min; a program that reads it has waited for the axis."""
+    column = arguments.column(channel, indices[0] if indices else None)
+    clocked = channel.actual.clocked
+    return 0.0 if clocked is None else clocked.speed(column) * MINUTE
+
+
+COUPLING_VARIABLES: dict[str, RowWithStop] = {
+    "$AA_COUP_ACT": (Type.INT, _acts, None, True),
+    "$AA_LEAD_P": (Type.REAL, _master_place, None, True),
+    "$AA_LEAD_V": (Type.REAL, _master_speed, None, True),
+}

@@ -84,7 +84,7 @@ def begin(channel: SinumerikChannel, args: Arguments) -> None:
         raise AlarmError("14020", text=f"CTABDEF({number},{period})")
     if following == leading:
         raise AlarmError("10945", number=number, axis=channel.axes[leading])
-    if channel.coordinates.transformation is not None:
+    if channel.mode["transformation"]:
         raise not_supported(f"CTABDEF {channel.mode['transformation']}")
     CurveTables.of(channel).check_free(number)
     contour = reading_from_here(channel, keeps_modes=True)

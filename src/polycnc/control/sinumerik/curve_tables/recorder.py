@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Recorder
+from polycnc.control.sinumerik.couplings.links import without_couplings
 from polycnc.control.sinumerik.curve_tables import splines
 from polycnc.control.sinumerik.curve_tables.curve import Segment
 from polycnc.geometry.polynomials import NODES, fitted, turns
@@ -89,7 +90,7 @@ class CurveRecorder(Recorder):
         self._start = end
 
     def _of_axes(self, position: list[float]) -> tuple[float, float]:
-        machine = self._channel.coordinates.to_machine(self._known(position))
+        machine = without_couplings(self._channel, self._known(position))
         leading, following = self._columns
         return machine[leading], machine[following]
 
