@@ -57,6 +57,7 @@ CHANGED_BY = {
     "FeedState": "syntec-move-inverse-time-missing",
     "Frames": "sinumerik-value-proc-second-line",
     "FunctionState": "syntec-lang-stack-empty",
+    "Gears": "sin-gear-cascade",
     "GlobalState": "syntec-getarg-integer",
     "GrindingState": "fanuc-0i-tf-grind-axis-by-its-name",
     "HypotheticalState": "meldas-m-hypothetical-third-axis",

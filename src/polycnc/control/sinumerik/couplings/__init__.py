@@ -5,5 +5,7 @@ switching  a coupling changes in its place on the path
 trailing   TRAILON, TRAILOF
 leading    LEADON, LEADOF
 stage      lets an axis wait for its place on a curve while the leading axis moves
+gears      EGDEF, EGON, EGONSYN, EGONSYNE, EGOFS, EGOFC, EGDEL
+approach   a following axis goes to its synchronous place first
 variables  `$AA_COUP_ACT`, `$AA_LEAD_P`, `$AA_LEAD_V`
 """

@@ -1,0 +1,265 @@
+"""Electronic gears: EGDEF, EGON, EGONSYN, EGONSYNE, EGOFS, EGOFC, EGDEL (job planning 9.4).
+
+A following axis goes, beside its own way, those of up to five leading axes, each times its ratio or by a curve table.
+Synchronised gears lead it to its place first, beside the path, if the machine's controller enables that.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from polycnc.channel.states.state import Lifetime, State
+from polycnc.control.sinumerik.block import arguments
+from polycnc.control.sinumerik.block.positions import ModuloRange
+from polycnc.control.sinumerik.couplings import switching
+from polycnc.control.sinumerik.couplings.approach import approach
+from polycnc.control.sinumerik.couplings.links import Couplings, Kind, Link
+from polycnc.control.sinumerik.curve_tables import definition as curve_definition
+from polycnc.control.sinumerik.curve_tables.memory import table_of
+from polycnc.control.sinumerik.errors import not_supported
+from polycnc.control.sinumerik.tables import length_factor
+from polycnc.language.sinumerik.names.values import Axis
+from polycnc.messages import AlarmError
+from polycnc.transformation.couplings.laws import ByCurve, Ratio
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from polycnc.control.sinumerik.block.arguments import Arguments, Procedure
+    from polycnc.control.sinumerik.family import SinumerikChannel
+
+MOST_LEADING = 5
+#: When the block of a gear ends.
+BLOCK_CHANGES = frozenset(("NOC", "FINE", "COARSE", "IPOSTOP"))
+#: Ways of approach: to the next tooth gap; to the place itself by the shorter way, downwards, upwards.
+TOOTH_GAPS, SHORTEST, DOWN, UP = frozenset(("NTGT", "NTGP")), frozenset(("DCT", "DCP")), "ACN", "ACP"
+
+
+@dataclass(slots=True)
+class Gears(State, lifetime=Lifetime.POWER):
+    """Gears that are defined: the columns of their leading axes, by that of the following axis."""
+
+    leading: dict[int, tuple[int, ...]] = field(default_factory=dict)
+
+
+class Wheel(NamedTuple):
+    """A leading axis of a call.
+
+    Attributes:
+        leading: Its column.
+        synchronous: Its synchronous place; None without one.
+        numerator: Numerator of the ratio, or number of a curve table.
+        denominator: Denominator, 0 for a curve table.
+    """
+
+    leading: int
+    synchronous: float | None
+    numerator: float
+    denominator: float
+
+
+def define(channel: SinumerikChannel, args: Arguments) -> None:
+    """EGDEF(following,leading 1,type 1,…): types 0 actual value, 1 setpoint; a preprocessing stop.
+
+    Raises:
+        AlarmError: 16797 for an axis that follows already, or has a gear; 16779 for more than five leading axes.
+    """
+    if len(args) < 3 or not len(args) % 2 or None in args:
+        raise AlarmError("14020", text="EGDEF")
+    following, *leading = (_column(channel, axis) for axis in (args[0], *args[1::2]))
+    if any(arguments.whole(type_) not in (0, 1) for type_ in args[2::2]) or len(set(leading)) < len(leading):
+        raise AlarmError("14020", text="EGDEF")
+    if len(leading) > MOST_LEADING:
+        raise AlarmError("16779", axis=channel.axes[following])
+    if following in leading:
+        raise AlarmError("16785", axis=channel.axes[following])
+    if following in Gears.of(channel).leading or following in Couplings.of(channel).links:
+        raise AlarmError("16797", axis=channel.axes[following])
+    _stop(channel, "EGDEF")
+    Gears.of(channel).leading[following] = tuple(leading)
+
+
+def delete(channel: SinumerikChannel, args: Arguments) -> None:
+    """EGDEL(following): its definition is no more; 16797 while it is on. A preprocessing stop."""
+    following = _following(channel, "EGDEL", args, only=True)
+    if Couplings.of(channel).of_kind(following, Kind.GEAR):
+        raise AlarmError("16797", axis=channel.axes[following])
+    _stop(channel, "EGDEL")
+    Gears.of(channel).leading.pop(following, None)
+
+
+def switch_on(channel: SinumerikChannel, args: Arguments) -> None:
+    """EGON(following,block change,leading,numerator,denominator,…): from where the axes are."""
+    following = _begin(channel, "EGON", args)
+    wheels = list(_wheels(channel, "EGON", following, args[2:], width=3))
+    switching.begin(channel, "EGON")
+    _engage(channel, following, wheels)
+
+
+def switch_on_in_place(channel: SinumerikChannel, args: Arguments) -> None:
+    """EGONSYN(following,block change,synchronous place,leading,its synchronous place,numerator,denominator,…)."""
+    following = _begin(channel, "EGONSYN", args)
+    _synchronise(channel, "EGONSYN", following, args[2], "", args[3:])
+
+
+def switch_on_by_approach(channel: SinumerikChannel, args: Arguments) -> None:
+    """EGONSYNE(following,block change,synchronous place,approach,leading,…): of turning axes, by a way of approach."""
+    following = _begin(channel, "EGONSYNE", args)
+    how = str(args[3]).upper() if len(args) > 3 else ""
+    if how not in {*TOOTH_GAPS, *SHORTEST, DOWN, UP}:
+        raise AlarmError("16795", text=how)
+    _synchronise(channel, "EGONSYNE", following, args[2], how, args[4:])
+
+
+def switch_off(channel: SinumerikChannel, args: Arguments) -> None:
+    """EGOFS(following[,leading,…]): the gear ends, or leading axes are taken out of it; a preprocessing stop."""
+    following = _following(channel, "EGOFS", args)
+    leading = [_column(channel, axis) for axis in args[1:]]
+    _stop(channel, "EGOFS")
+    switching.begin(channel, "EGOFS")
+    links = Couplings.of(channel).links.get(following, [])
+    stay = [
+        link for link in links if link.kind is not Kind.GEAR or (leading and link.law.leading not in leading)
+    ]
+    if len(stay) != len(links):
+        switching.change(channel, following, stay)
+
+
+def leave_turning(channel: SinumerikChannel, args: Arguments) -> None:
+    """EGOFC(spindle): of spindles alone; 14020 for an axis, PC0001 for a spindle."""
+    _following(channel, "EGOFC", args, only=True)
+    raise AlarmError("14020", text="EGOFC")
+
+
+# ---- calls
+
+
+def _column(channel: SinumerikChannel, value: Any) -> int:
+    """Column of an axis; PC0001 for a spindle."""
+    if isinstance(value, Axis) and value.name[:1] == "S" and value.name[1:].isdigit():
+        raise not_supported(f"EG {value.name}")
+    return arguments.column(channel, value)
+
+
+def _following(channel: SinumerikChannel, name: str, args: Arguments, *, only: bool = False) -> int:
+    if not args or None in args or (only and len(args) > 1):
+        raise AlarmError("14020", text=name)
+    return _column(channel, args[0])
+
+
+def _stop(channel: SinumerikChannel, name: str) -> None:
+    curve_definition.refuse(channel, name)
+    channel.flush()
+    channel.synchronise()
+
+
+def _begin(channel: SinumerikChannel, name: str, args: Arguments) -> int:
+    """What all ways to switch a gear on check: 16796 without a definition, 16797 where it is on, 16795 for a mode."""
+    if len(args) < 5 or None in args:
+        raise AlarmError("14020", text=name)
+    following = _column(channel, args[0])
+    if str(args[1]).upper() not in BLOCK_CHANGES:
+        raise AlarmError("16795", text=str(args[1]))
+    if following not in Gears.of(channel).leading:
+        raise AlarmError("16796", axis=channel.axes[following])
+    if Couplings.of(channel).of_kind(following, Kind.GEAR):
+        raise AlarmError("16797", axis=channel.axes[following])
+    return following
+
+
+def _wheels(
+    channel: SinumerikChannel, name: str, following: int, args: Sequence[Any], *, width: int
+) -> Iterator[Wheel]:
+    """The leading axes of a call; 16796 for one that the definition does not name, 14020 for one twice."""
+    if not args or len(args) % width:
+        raise AlarmError("14020", text=name)
+    seen: set[int] = set()
+    for k in range(0, len(args), width):
+        leading = _column(channel, args[k])
+        if leading in seen:
+            raise AlarmError("14020", text=name)
+        seen.add(leading)
+        if leading not in Gears.of(channel).leading[following]:
+            raise AlarmError("16796", axis=channel.axes[leading])
+        numerator, denominator = (arguments.real(value) for value in args[k + width - 2 : k + width])
+        place = None if width == 3 else _place(channel, leading, args[k + 1])
+        if not denominator:
+            table_of(channel, arguments.whole(numerator))
+        yield Wheel(leading, place, numerator, denominator)
+
+
+def _place(channel: SinumerikChannel, column: int, value: Any) -> float:
+    """A place of an axis as the program writes it."""
+    turning = channel.memory.axes[column].rotary
+    return arguments.real(value) * (1.0 if turning else length_factor(channel.mode))
+
+
+# ---- motion
+
+
+def _link(channel: SinumerikChannel, wheel: Wheel, place: float) -> Link:
+    """What a leading axis does from a place on."""
+    if wheel.denominator:
+        return Link(Kind.GEAR, Ratio(wheel.leading, wheel.numerator / wheel.denominator, place))
+    table = table_of(channel, int(wheel.numerator))
+    return Link(Kind.GEAR, ByCurve(wheel.leading, table, table.followed(place).place), table.number)
+
+
+def _engage(channel: SinumerikChannel, following: int, wheels: Sequence[Wheel]) -> None:
+    machine = channel.coordinates.machine
+    links = [link for link in Couplings.of(channel).links.get(following, []) if link.kind is not Kind.GEAR]
+    links += [_link(channel, wheel, machine[wheel.leading]) for wheel in wheels]
+    switching.change(channel, following, links)
+
+
+def _synchronise(
+    channel: SinumerikChannel, name: str, following: int, place: Any, how: str, args: Sequence[Any]
+) -> None:
+    """The axis goes to its place, and the gear is on from there."""
+    wheels = list(_wheels(channel, name, following, args, width=4))
+    switching.begin(channel, name)
+    here = channel.coordinates.machine
+    target = _target(channel, following, _place(channel, following, place), wheels, how)
+    approach(channel, following, target - here[following])
+    _engage(channel, following, wheels)
+
+
+def _target(
+    channel: SinumerikChannel, following: int, place: float, wheels: Sequence[Wheel], how: str
+) -> float:
+    """Where the following axis belongs now: of all places that are in step, the one that the approach asks for."""
+    machine, axes, data = channel.coordinates.machine, channel.memory.axes, channel.memory.data
+    target, pitches = place, []
+    for wheel in wheels:
+        assert wheel.synchronous is not None
+        now = machine[wheel.leading]
+        if axes[wheel.leading].modulo:
+            turn = ModuloRange.of(data, axes[wheel.leading].name)
+            now = turn.shown(now)
+            if wheel.denominator:
+                pitches.append(abs(turn.length * wheel.numerator / wheel.denominator))
+        link = _link(channel, wheel, wheel.synchronous)
+        target += link.law.share(now)
+    if not axes[following].modulo:
+        return target
+    circle = ModuloRange.of(data, axes[following].name).length
+    way = (target - machine[following]) % circle
+    if how == DOWN:
+        return machine[following] + way - (circle if way else 0.0)
+    if how == UP:
+        return machine[following] + way
+    step = circle if how in SHORTEST or not pitches else min([circle, *(pitch for pitch in pitches if pitch)])
+    way %= step
+    return machine[following] + (way if way <= step / 2.0 else way - step)
+
+
+PROCEDURES: dict[str, Procedure] = {
+    "EGDEF": define,
+    "EGDEL": delete,
+    "EGON": switch_on,
+    "EGONSYN": switch_on_in_place,
+    "EGONSYNE": switch_on_by_approach,
+    "EGOFS": switch_off,
+    "EGOFC": leave_turning,
+}
