@@ -10,10 +10,11 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from polycnc.messages import AlarmError
     from polycnc.toolpath import Event
+    from polycnc.transformation.couplings.laws import Law
 
 
 class OnPath(NamedTuple):
@@ -170,6 +171,16 @@ class Interpolator(Protocol):
 
     def commanded(self, column: int) -> Commanded:
         """An axis that is moved beside the path."""
+
+    def led_by(self, column: int) -> tuple[Law, ...]:
+        """What leads an axis beside the path."""
+
+    def follow(self, column: int, laws: Sequence[Law]) -> None:
+        """These lead an axis beside the path from now on, none lets it stay where it is.
+
+        Raises:
+            CircularCouplingError: An axis would lead itself.
+        """
 
     def move_static(self, column: int, *, static: bool) -> None:
         """Whether what moves an axis beside the path goes on while the program is held."""

@@ -12,12 +12,14 @@ from typing import TYPE_CHECKING
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.mainrun.axes.hand import ENDLESS
 from polycnc.mainrun.motion.axis_move import AxisMove, axis_move
-from polycnc.motion.law import Law
+from polycnc.motion.law import Law as MotionLaw
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from polycnc.machine.model import Axis as AxisData
+    from polycnc.mainrun.axes.axis import Axis
+    from polycnc.transformation.couplings.laws import Law
 
 
 class CommandedAxis:
@@ -49,15 +51,28 @@ class CommandedAxis:
         self._data, self._ramp, self._clock = data, ramp, clock
         self._place = place
         self._lead: AxisMove | None = None
-        self._law = Law(0.0, place)
+        self._law = MotionLaw(0.0, place)
         self._target: float | None = None
         self._speed = 0.0
+        self._led: tuple[tuple[Axis, Law], ...] = ()
 
     # ---- a source of the axis ------------------------------------------------------------------------------
 
     def place(self, time: float) -> float:
         """Where it is at a time."""
-        return self._place if self._lead is None else self._law.mean(time, self._ramp)
+        own = self._place if self._lead is None else self._law.mean(time, self._ramp)
+        return own + self._shares(time) if self._led else own
+
+    def _shares(self, time: float) -> float:
+        return sum(law.share(axis.setpoint(time)) for axis, law in self._led)
+
+    def follow(self, led: Sequence[tuple[Axis, Law]]) -> None:
+        """Other axes lead it from now on, beside what it does by itself; without any it stays."""
+        self.stop()
+        place = self.place(self._clock())
+        self._led = tuple(led)
+        self._place = place - self._shares(self._clock())
+        self._lead = self._target = None
 
     def at(self, time: float) -> float:
         """Its share of the setpoint."""
@@ -82,7 +97,7 @@ class CommandedAxis:
     @property
     def moves(self) -> bool:
         """Whether it is under way, or waits at an override of 0."""
-        return self._lead is not None or self._target is not None
+        return self._lead is not None or self._target is not None or bool(self._led)
 
     @property
     def is_turning(self) -> bool:
@@ -154,7 +169,7 @@ class CommandedAxis:
             position + way, velocity, lead.target + way, abs(self._speed) * self.override,
             self._data.acceleration or 1e9, time,
         )  # fmt: skip
-        self._law = Law(time, position + way)
+        self._law = MotionLaw(time, position + way)
         self._law.run(time, position + way, self._lead.phases)
 
     def stand(self, place: float, base: float) -> None:
@@ -187,7 +202,7 @@ class CommandedAxis:
         if self._lead is not None:
             position, velocity = self._lead.after(time)
         else:
-            self._law = Law(time, position)
+            self._law = MotionLaw(time, position)
         lead = self._lead = axis_move(position, velocity, target, speed, self._data.acceleration or 1e9, time)
         self._law.run(time, position, lead.phases)
         self._law.forget(time - self._ramp)

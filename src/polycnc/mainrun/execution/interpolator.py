@@ -13,6 +13,7 @@ from polycnc.channel.interpolator import Influence, OnPath
 from polycnc.mainrun.axes.commanded import CommandedAxis
 from polycnc.mainrun.axes.overlay import Overlay
 from polycnc.mainrun.preparation.items import UNINFLUENCED, Happening, Move
+from polycnc.transformation.couplings.graph import in_order
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     from polycnc.mainrun.preparation.items import Block
     from polycnc.messages import AlarmError
     from polycnc.toolpath import Event
+    from polycnc.transformation.couplings.laws import Law as CouplingLaw
 
 
 class Led(Protocol):
@@ -65,6 +67,7 @@ class ChannelInterpolator:
         self.runs_programs = True
         self._commanded: dict[int, CommandedAxis] = {}
         self._overlays: dict[int, Overlay] = {}
+        self._led: dict[int, tuple[CouplingLaw, ...]] = {}
         self._seen: tuple[float, list[float]] = (-1.0, [])
         self._before: tuple[float, list[float]] = (-1.0, [])
 
@@ -119,6 +122,8 @@ class ChannelInterpolator:
         """The program has ended, or was given up by a reset: no action holds the path any more."""
         for watcher in self._watchers:
             watcher.abandon(reset=reset)
+        for column in tuple(self._led):
+            self.follow(column, ())
         self._run.execution.influence(UNINFLUENCED)
 
     def hold(self) -> None:
@@ -281,6 +286,22 @@ class ChannelInterpolator:
             share, path = found.at(self._clock.time), self._run.path[column]
             found.stand(path + share, path)
         return found
+
+    def led_by(self, column: int) -> tuple[CouplingLaw, ...]:
+        """What leads an axis beside the path."""
+        return tuple(self._led.get(column, ()))
+
+    def follow(self, column: int, laws: Sequence[CouplingLaw]) -> None:
+        """These lead an axis beside the path from now on, none lets it stay where it is.
+
+        Raises:
+            CircularCouplingError: An axis would lead itself.
+        """
+        every = {**self._led, column: tuple(laws)}
+        in_order(every)
+        self._led = {each: of for each, of in every.items() if of}
+        self.commanded(column).follow([(self._run.axes[law.leading], law) for law in laws])
+        self.wake()
 
     def commanded_shares(self) -> dict[int, float]:
         """How far commanded axes are from where the path has them, by column."""

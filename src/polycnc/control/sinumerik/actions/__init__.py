@@ -8,6 +8,7 @@ words        axes, spindles, auxiliary functions
 procedures   the path, other actions, wait marks, alarms
 cycles       technology cycles, line by line
 axes         axes that actions command, and how programs have them again
+couplings    axes that follow others beside the path
 overlay      $AA_OFF
 fixed_stop   travel to fixed stop, torque
 polynomials  FCTDEF, SYNFCT

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.actions import axes as action_axes
+from polycnc.control.sinumerik.actions import couplings
 from polycnc.control.sinumerik.actions.run import Deleted
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.channels.coordination import group_of
@@ -139,4 +140,5 @@ PROCEDURES: dict[str, Callable[[Running, Arguments], None]] = {
     "PRESETON": preset,
     "ICYCOF": lines_at_once,
     "ICYCON": line_by_line,
+    **couplings.PROCEDURES,
 }
