@@ -13,6 +13,8 @@ from polycnc.channel.states.state import Lifetime, State
 from polycnc.channel.waits import PreprocessingStop
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.block import arguments
+from polycnc.control.sinumerik.couplings.links import coupled
+from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.language.sinumerik.names.values import Type
@@ -52,8 +54,11 @@ class ActionAxes(State, lifetime=Lifetime.RESET):
 
 
 def expect(channel: SinumerikChannel, columns: Iterable[int]) -> None:
-    """Actions may command these axes from now on."""
+    """Actions may command these axes from now on; PC0001 for one that a coupling of the program has."""
     axes, memory = ActionAxes.of(channel), channel.memory
+    columns = tuple(columns)
+    for column in sorted(coupled(channel).intersection(columns)):
+        raise not_supported(f"TRAILON LEADON EGON: {channel.axes[column]} POS MOV")
     axes.may_move.update(columns)
     if not memory.shares_axes:
         memory.shares_axes = True

@@ -141,3 +141,9 @@ def without_couplings(channel: SinumerikChannel, position: list[float]) -> list[
     """Where the axes would be at a position of the path if none led another."""
     by = Couplings.of(channel).shown_by
     return channel.coordinates.to_machine(position) if by is None else by.bare.to_machine(position)
+
+
+def coupled(channel: SinumerikChannel) -> frozenset[int]:
+    """Columns of the axes that lead or follow."""
+    links = Couplings.of(channel).links
+    return frozenset((*links, *(link.law.leading for of in links.values() for link in of)))

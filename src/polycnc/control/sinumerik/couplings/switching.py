@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.control.sinumerik.actions.axes import ActionAxes
 from polycnc.control.sinumerik.couplings.links import Couplings, put
 from polycnc.control.sinumerik.curve_tables import definition
 from polycnc.control.sinumerik.errors import not_supported
@@ -36,7 +37,7 @@ def change(channel: SinumerikChannel, column: int, links: list[Link]) -> None:
     """These lead an axis from now on, behind `begin`; the axes do not move, the coordinates follow.
 
     Raises:
-        AlarmError: 16778 for an axis that would lead itself.
+        AlarmError: 16778 for an axis that would lead itself, PC0001 for one that actions may move beside the path.
     """
     state = Couplings.of(channel)
     every = {**state.links, column: links}
@@ -44,6 +45,9 @@ def change(channel: SinumerikChannel, column: int, links: list[Link]) -> None:
         in_order({each: [link.law for link in of] for each, of in every.items()})
     except CircularCouplingError as error:
         raise AlarmError("16778", axis=channel.axes[error.column]) from None
+    moved = ActionAxes.of(channel).may_move
+    for each in sorted(moved.intersection((column, *(link.law.leading for link in links)))) if links else ():
+        raise not_supported(f"TRAILON LEADON EGON: {channel.axes[each]} POS MOV")
     put(channel, column, links)
     settle(channel)
 
