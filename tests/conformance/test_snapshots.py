@@ -95,6 +95,7 @@ CHANGED_BY = {
     "PostureState": "syntec-tip-frame",
     "ProgrammingFrames": "fanuc-m-mirrored-arc-turns-the-other-way",
     "Preparations": "sinumerik-execute-goes-on-from-before",
+    "ProgrammedFeed": "sin-fpo-values-of-variables",
     "Protection": "sinumerik-def-open",
     "Punching": "sin-spp-longest-segment",
     "RadiusState": "fanuc-0i-tf-rotation-ended-allows-all",

@@ -89,6 +89,7 @@ class Context:
         names: What the work display calls the columns where a transformation makes other axes of them (Y of TRANSMIT);
             empty where the channel's names hold, an empty one for a column that it uses up.
         knot: Rows end at a knot within a motion, which the next row goes on with: displays show the motion as one.
+        share: Part of its motion that a row of inverse time makes: displays show the feed of the whole.
     """
 
     plane: str = "G17"
@@ -130,6 +131,7 @@ class Context:
     shown_by: Transformation | None = None
     names: tuple[str, ...] = ()
     knot: bool = False
+    share: float = 1.0
 
     @property
     def surface_m_min(self) -> float:

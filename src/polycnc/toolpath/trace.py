@@ -306,7 +306,7 @@ class Display:
             if context.machine_diameters is not None:
                 diameter = _diameters(context.machine_diameters, len(self.axes))
             feed = _TIME_FACTOR[context.feed_mode] * (
-                1.0 if context.feed_mode is FeedMode.INVERSE_TIME else length
+                context.share if context.feed_mode is FeedMode.INVERSE_TIME else length
             )
             unit = "inch" if context.inch else "mm"
             scale = self._scales[id(context)] = Scale(tuple(work), tuple(diameter), length, feed, unit)

@@ -46,6 +46,10 @@ def cut(channel: Channel, move: Move, parts: Sequence[float]) -> list[Move]:
         pieces.append(piece)
         before = part
     pieces[-1].context, pieces[-1].end = move.context, move.end
+    if timed:
+        toolpath, share = channel.toolpath, parts[-1] - parts[-2]
+        held = toolpath.contexts[move.context]
+        pieces[-1].context = toolpath.context_number(replace(held, share=held.share * share))
     return pieces
 
 

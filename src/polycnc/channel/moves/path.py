@@ -57,6 +57,8 @@ class Rank(IntEnum):
     TURNING = auto()
     #: The history of the tool's direction is smoothed over several moves.
     HISTORY = auto()
+    #: The feed takes its course along the way.
+    FEED = auto()
     #: Positions of the work become those of the axes.
     AXES = auto()
     #: Axes that wait for their leading axes: they see where those are.

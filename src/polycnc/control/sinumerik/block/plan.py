@@ -18,7 +18,7 @@ from polycnc.control.sinumerik.block import words
 from polycnc.control.sinumerik.block.draft import Draft, Plan, Step
 from polycnc.control.sinumerik.block.positions import DIAMETER_OF_AXIS, diameter_of_channel, own_diameter
 from polycnc.control.sinumerik.errors import not_supported
-from polycnc.control.sinumerik.feed import spindle_speed
+from polycnc.control.sinumerik.feed import feed_words, profiles, spindle_speed
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.frames import active as frames
 from polycnc.control.sinumerik.frames import codes as frame_codes
@@ -123,7 +123,10 @@ def make_plan(channel: SinumerikChannel, block: Block) -> Plan:
     moving = _motion(draft) if own is None and not _has_function(codes) else None
     if transforms:
         orientation.check(draft)
+    shapes = _shapes_feed(draft)
+    draft.steps += [feed_words.before] if shapes else []
     ends = _words(draft)
+    draft.steps += [feed_words.tell] if shapes else []
     draft.steps += _late_effects(draft, modal)
     measures = measuring.measure(draft) if draft.has(*measuring.WORDS) else None
     if measures is not None:
@@ -180,6 +183,12 @@ def _late_effects(draft: Draft, modal: list[tuple[str, str]]) -> list[Step]:
     leaves = codes.get("block_motion") in smooth_approach.RETRACTIONS and codes.get("compensation") == "G40"
     late = [(n, code) for n, code in modal if n in LATE_EFFECTS and not (leaves and n == "compensation")]
     return [_effect(LATE_EFFECTS, draft.channel.mode, name, code) for name, code in late]
+
+
+def _shapes_feed(draft: Draft) -> bool:
+    """Whether the feed of a block is not constant: FPO, or FLIN and FCUB where they act."""
+    by_code = draft.mode["feed_profile"] != profiles.CONSTANT and draft.mode["feed"] in profiles.PROFILED
+    return by_code or any(word.modifier == profiles.POLYNOMIAL for word in draft.block.words)
 
 
 def _concerns_transformation(draft: Draft) -> bool:

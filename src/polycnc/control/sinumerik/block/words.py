@@ -27,6 +27,7 @@ from polycnc.control.sinumerik.feed import (
 )
 from polycnc.control.sinumerik.feed.pace import Overrides
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
+from polycnc.control.sinumerik.feed.profiles import ProgrammedFeed
 from polycnc.control.sinumerik.motion import moves
 from polycnc.control.sinumerik.oscillation import words as oscillation
 from polycnc.control.sinumerik.punching import block as punching
@@ -64,13 +65,23 @@ def feed(draft: Draft, position: int, shape: WordShape) -> Step:
     polynomial = shape.modifier == "FPO"
 
     def run(channel: SinumerikChannel, values: Values) -> None:
-        # FPO(end, quadratic, cubic): the feed at the end of the block is the modal one.
-        value = number(values[position], 0) if polynomial else number(values, position)
+        value = (
+            _end_of_polynomial(channel, values[position], factor) if polynomial else number(values, position)
+        )
         if value < 0.0:
             raise WordAlarm("14800", position)
         channel.feed = value * factor or nan
 
     return run if polynomial else declare(run, plain.feed(position, factor))
+
+
+def _end_of_polynomial(channel: SinumerikChannel, listed: Values, factor: float) -> float:
+    """FPO(end, quadratic, cubic): the feed at the end of the block is the modal one; what is left out is 0."""
+    quadratic, cubic = (
+        number(listed, i) if i < len(listed) and listed[i] is not None else 0.0 for i in (1, 2)
+    )
+    ProgrammedFeed.of(channel).coefficients = (quadratic * factor, cubic * factor)
+    return number(listed, 0)
 
 
 def _travel_time(position: int) -> Step:

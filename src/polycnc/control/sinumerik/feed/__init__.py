@@ -1,7 +1,8 @@
 """Feeds and speeds of path, axes and spindles.
 
-`path_feed` has what goes with F, `tooth_feed` FZ, `pace` OVR, FGROUP, CFC and the like, `dry_run`, `spindles` and
-`spindle_speed` (G96), `thread_ramps` (DITS, DITE), `wheels` (GWPSON, TMON).
+`path_feed` has what goes with F, `profiles`, `profile_stage` and `feed_words` its course (FLIN, FCUB, FPO),
+`tooth_feed` FZ, `pace` OVR, FGROUP, CFC and the like, `dry_run`, `spindles` and `spindle_speed` (G96), `thread_ramps`
+(DITS, DITE), `wheels` (GWPSON, TMON).
 
 `axis_settings` (when an axis has arrived) and `tolerances` (CTOL) say how exactly the axes follow.
 """

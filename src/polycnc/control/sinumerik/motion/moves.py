@@ -95,7 +95,8 @@ def _plain_linear(draft: Draft) -> Step | None:
     if any(term.way is not Dimension.ABSOLUTE or term.coded for term in terms):
         return _incremental_linear(terms)
     places = [(term.position, term.column, term.factor) for term in terms]
-    own_feed = draft.take_plain("F") if draft.mode["feed"] != "G931" else None
+    is_constant = draft.mode["feed"] != "G931" and draft.mode["feed_profile"] == "FNORM"
+    own_feed = draft.take_plain("F") if is_constant else None
     last = LastMove.of(draft.channel)
     feed_place, feed_to_internal = -1 if own_feed is None else own_feed, feed_factor(draft)
 
