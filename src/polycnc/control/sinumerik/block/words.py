@@ -428,13 +428,18 @@ def rounding_distance(draft: Draft, position: int, shape: WordShape) -> Step:
     return run
 
 
+#: Per cent of VELOLIM and JERKLIM (job planning 8.7).
+LIMITS_OF_PERCENT = {"VELOLIM": (1.0, 100.0), "JERKLIM": (1.0, 200.0)}
+
+
 def percentage(_draft: Draft, position: int, shape: WordShape) -> Step:
     """OVR, OVRRAP, OVRA[axis], ACC[axis], VELOLIM[axis] …: per cent, for the motion planner (`pace.py`)."""
     name = str(shape.index) if shape.index is not None else ""
+    least, most = LIMITS_OF_PERCENT.get(shape.address, (0.0, 200.0))
 
     def run(channel: SinumerikChannel, values: Values) -> None:
         value = number(values, position)
-        if not 0.0 < value <= 200.0:
+        if not (least <= value <= most and value > 0.0):
             raise WordAlarm("12560", position, text=shape.address)
         Overrides.of(channel).percent[shape.address, name] = value
         channel.context_changed()

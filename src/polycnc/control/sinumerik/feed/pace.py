@@ -51,7 +51,9 @@ def pace(channel: SinumerikChannel, side: int) -> Pace | None:
         top=_tops(channel),
         velocity=_factors(channel, "VELOLIM"),
         acceleration=_with_technology(channel, "ACC", "$MA_MAX_AX_ACCEL", "acceleration"),
-        jerk=_with_technology(channel, "JERKLIM", "$MA_MAX_AX_JERK", "jerk"),
+        jerk=_with_technology(channel, "JERKLIM", "$MA_MAX_AX_JERK", "jerk")
+        if channel.mode["acceleration"] == "SOFT"
+        else (),
     )
     return own if own != NOTHING else None
 
