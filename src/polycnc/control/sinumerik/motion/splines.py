@@ -8,6 +8,8 @@ into chords.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import pairwise
+from math import hypot
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from polycnc.channel.states.state import Lifetime, State
@@ -15,6 +17,7 @@ from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.arguments import Procedure
 from polycnc.control.sinumerik.block.positions import AxisTerm, axis_term, number, target
 from polycnc.control.sinumerik.curve_tables.recorder import recorder_of
+from polycnc.control.sinumerik.feed.pace import Overrides
 from polycnc.control.sinumerik.motion import moves
 from polycnc.control.sinumerik.motion.spline_stage import TOLERANCE_MM
 from polycnc.control.sinumerik.tables import length_factor
@@ -203,10 +206,42 @@ def polynomial(draft: Draft) -> Step | None:
             moves.line(channel, Kind.SPLINE, end, feed)
             return
         kind = Kind.SPLINE if polynomials else Kind.FEED
-        for point in _chords(curves, below, start, end, interval):
+        points = _chords(curves, below, start, end, interval)
+        if channel.mode["path_reference"] == "SPATH":
+            _by_length(points, start, curves, _path_axes(channel), interval)
+        for point in points:
             moves.line(channel, kind, point, feed)
 
     return run
+
+
+def _path_axes(channel: SinumerikChannel) -> tuple[int, ...]:
+    """Columns of the axes that the path feed is for (FGROUP): those of the geometry where none is named."""
+    named = Overrides.of(channel).group
+    return named or tuple(column for column in channel.coordinates.geometry if column >= 0)
+
+
+def _by_length(
+    points: list[list[float]],
+    start: list[float],
+    curves: list[Curve],
+    group: tuple[int, ...],
+    interval: float,
+) -> None:
+    """SPATH: the other axes follow the length of the way that the axes of FGROUP make (job planning 4.6).
+
+    They keep the curve parameter (UPATH) where those axes stand.
+    """
+    ways = [hypot(*(b[i] - a[i] for i in group)) for a, b in pairwise([start, *points])]
+    whole = sum(ways)
+    if not whole > 0.0:
+        return
+    done = 0.0
+    for point, way in zip(points[:-1], ways, strict=False):
+        done += way
+        for curve in curves:
+            if curve.column not in group and not curve.divided:
+                point[curve.column] = _at(curve.coefficients, done / whole * interval)
 
 
 def straight_to_ends(draft: Draft) -> Step | None:
