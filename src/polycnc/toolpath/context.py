@@ -75,6 +75,8 @@ class Context:
         feed_override: The operator's feed override acts; else it counts 100 %. `spindle_override` and `rapid_override`
             the same.
         feed_hold: The operator's feed hold acts.
+        stop_delay: The move lies in a section whose stops wait for its end, and which keeps the overrides with which it
+            was entered.
         lag_s: Acceleration after interpolation of thread cycles: seconds by which the axes are behind at speed (FANUC
             1626), 0 for what the axes can do. `lag_from` is the speed, mm/s, from which on it acts (1627).
         overlap: Whether strokes of a drilling cycle overlap (FANUC 1681): `Overlap`.
@@ -121,6 +123,7 @@ class Context:
     spindle_override: bool = True
     rapid_override: bool = True
     feed_hold: bool = True
+    stop_delay: bool = False
     lag_s: float = 0.0
     lag_from: float = 0.0
     overlap: Overlap = 0

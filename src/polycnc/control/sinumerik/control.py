@@ -34,7 +34,7 @@ from polycnc.control.sinumerik.memory import Memory
 from polycnc.control.sinumerik.modal_state import ModalState
 from polycnc.control.sinumerik.punching import block as punching
 from polycnc.control.sinumerik.reset import reset, start_codes
-from polycnc.control.sinumerik.signals import interrupts, measuring
+from polycnc.control.sinumerik.signals import interrupts, measuring, sections
 from polycnc.control.sinumerik.tools import sides, stages
 from polycnc.control.sinumerik.tools.memory import Tools
 from polycnc.control.sinumerik.transformations import seat, smoothing
@@ -350,6 +350,7 @@ class Sinumerik:
         diameters = sum(1 << i for i, function in enumerate(shown) if function in positions.SHOWS_DIAMETERS)
         side = sides.SIDES.get(mode["compensation"], 0)
         turn = smoothing.turn(channel, mode)
+        delays_stops = sections.is_open(channel, sections.STOP_DELAY)
         return Context(
             plane=mode["plane"],
             inch=False,
@@ -377,6 +378,8 @@ class Sinumerik:
             part=chain(memory.frames.inner()).frame,
             transformation=coordinates.transformation,
             names=seat.shown_names(channel),
+            stop_delay=delays_stops,
+            feed_hold=not delays_stops,
             shown_by=PointToPoint.of(channel).shown_by or Couplings.of(channel).shown_by,
             pace=pace.pace(channel, side),
         )

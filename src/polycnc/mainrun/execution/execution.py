@@ -389,10 +389,12 @@ class Execution:
             self._enter(item)
             self._work()
         elif isinstance(item, BlockEnd):
-            if self.single_block and self._x2 == 0.0 and not self.preprocessing.typed_blocks_end:
+            halts = self.single_block and not self.context.stop_delay
+            if halts and self._x2 == 0.0 and not self.preprocessing.typed_blocks_end:
                 self._stop("single-block")
         elif isinstance(item, Standing):
             self.context = item.context
+            self.rates.enter(item.context)
             self._until = self.clock.time + item.seconds
         else:
             self.context = item.context
@@ -416,6 +418,8 @@ class Execution:
 
     def _begin(self, move: Move) -> bool:
         """Start along the next piece of a move."""
+        if self.rates.enter(move.context):
+            self._look_ahead()
         if self._x2 == 0.0 and self.axes.have_offset:
             if (error := beyond_limits(move, self.axes, self.preprocessing.channel)) is not None:
                 self.preprocessing.refuse(error)

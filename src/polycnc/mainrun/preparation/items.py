@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf
 from typing import TYPE_CHECKING
 
@@ -234,6 +234,7 @@ class ChannelRates:
 
     def __init__(self, operator: Rates) -> None:
         self.operator = operator
+        self._kept: Rates | None = None
         self.influence = UNINFLUENCED
         self.stops = False
 
@@ -242,10 +243,26 @@ class ChannelRates:
         """Feed hold."""
         return self.operator.hold
 
+    def enter(self, context: Context) -> bool:
+        """Execution comes under a context; true where a section of delayed stops ends with that.
+
+        Such a section keeps the overrides that hold where it begins.
+        """
+        if context.stop_delay:
+            self._kept = self._kept or replace(self.operator)
+            return False
+        ended, self._kept = self._kept is not None, None
+        return ended
+
+    def _of(self, move: Row) -> Rates:
+        """What the operator has set, as far as it concerns a move."""
+        kept = self._kept
+        return self.operator if kept is None or not move.context.stop_delay or self.gives_up else kept
+
     @property
     def feed(self) -> float:
         """Feed override."""
-        return self.operator.feed * self.influence.factor
+        return (self._kept or self.operator).feed * self.influence.factor
 
     @property
     def spindle(self) -> float:
@@ -264,11 +281,11 @@ class ChannelRates:
 
     def cap2(self, move: Row, cap2: float, asked: float) -> float:
         """Largest squared speed on a piece of a move, where the axes allow `cap2` and the program asks for `asked`."""
-        return 0.0 if self.stops else self.operator.cap2(move, cap2, asked, self._own(move))
+        return 0.0 if self.stops else self._of(move).cap2(move, cap2, asked, self._own(move))
 
     def axis_speed(self, move: Row, top: float) -> float:
         """Speed of an axis that runs a rapid alone and could go as fast as `top`."""
-        return 0.0 if self.stops else self.operator.axis_speed(move, top, self._own(move))
+        return 0.0 if self.stops else self._of(move).axis_speed(move, top, self._own(move))
 
     def _own(self, move: Row) -> Influence:
         """What actions make of a move: the least override of the axes that it moves counts too."""

@@ -101,10 +101,12 @@ def make_plan(channel: SinumerikChannel, block: Block) -> Plan:
     """Work out a block in the present modal state.
 
     Raises:
-        AlarmError: 12060 for two functions of one group, 12470 for an unknown one, PC0001 for one that is not
-            executed, and what the functions find wrong with their words.
+        AlarmError: 12060 for two functions of one group, 12120 for one that stands alone (group 4), 12470 for an
+            unknown one, PC0001 for one that is not executed, and what the functions find wrong with their words.
     """
     codes = _codes(block)
+    if "fifo" in codes and (block.words or len(codes) > 1):
+        raise AlarmError("12120", text=codes["fifo"])
     modal = [(name, code) for name, code in codes.items() if name in gcodes.START_CODES]
     mode = _axis_diameters(channel, block, _mode_after(channel.mode, modal), codes)
     draft = Draft(channel, block, mode, codes)

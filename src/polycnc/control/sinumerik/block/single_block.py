@@ -2,7 +2,8 @@
 
 SBL1 halts behind blocks that do something on the machine, SBL2 behind every block, SBL3 too, whatever SBLOF says.
 A level with SBLOF in its PROC halts at its M17; RET and calls never do. Interrupt routines run through if MD10702 bit 1
-or MD20117 say so; SBLON brings the halts back only in the first case. Source: job planning 1.25.2.5 (SBLOF, SBLON).
+or MD20117 say so; SBLON brings the halts back only in the first case. Nothing halts in a section of DELAYFSTON.
+Source: job planning 1.25.2.5 (SBLOF, SBLON), 8.4.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from typing import TYPE_CHECKING
 from polycnc.channel.stack import LevelKind
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.channel.waits import Wait, Why
+from polycnc.control.sinumerik.signals import sections
 
 if TYPE_CHECKING:
     from polycnc.channel.stack import Level
@@ -63,7 +65,7 @@ def halts(channel: SinumerikChannel, level: Level[NcExecutable]) -> bool:
     block = RunningBlock.of(channel)
     acted, block.acted = block.acted, False
     kind = channel.setup.switches.single_block
-    if _runs_through(channel):
+    if _runs_through(channel) or sections.is_open(channel, sections.STOP_DELAY):
         return False
     is_on = level.data.get("single_block", True) or kind == "SBL3"
     if not any(level is each for each in channel.stack):

@@ -13,6 +13,7 @@ from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.block.arguments import Arguments, Procedure
 from polycnc.control.sinumerik.variables.row import RowWithStop
 from polycnc.language.sinumerik.names.values import Type
+from polycnc.language.sinumerik.statements.sections import ENDS_CONTEXT
 
 if TYPE_CHECKING:
     from polycnc.channel.stack import Level
@@ -34,6 +35,8 @@ def begin(section: str) -> Procedure:
     def run(channel: SinumerikChannel, _args: Arguments) -> None:
         if not is_open(channel, section):
             Sections.of(channel).open[section] = channel.level
+            channel.level.data[ENDS_CONTEXT] = True
+            channel.context_changed()
 
     return run
 
@@ -44,6 +47,7 @@ def end(section: str) -> Procedure:
     def run(channel: SinumerikChannel, _args: Arguments) -> None:
         if Sections.of(channel).open.get(section) is channel.level:
             del Sections.of(channel).open[section]
+            channel.context_changed()
 
     return run
 

@@ -71,6 +71,10 @@ class Section:
         return self.whole.word_columns(channel, position)
 
 
+#: Among the data of a level: with it something ends that a context of the toolpath tells of.
+ENDS_CONTEXT = "ends context"
+
+
 def count_levels(channel: Channel) -> None:
     """Alarm 14012 if no further program level is possible."""
     interrupts = any(level.kind is LevelKind.INTERRUPT for level in channel.stack)
@@ -81,6 +85,8 @@ def count_levels(channel: Channel) -> None:
 def leave(channel: Channel) -> None:
     """End the running level; a subprogram with SAVE brings back the modal functions of its call."""
     level = channel.pop()
+    if ENDS_CONTEXT in level.data:
+        channel.context_changed()
     if level.kind is not LevelKind.SECTION and "saved" in level.data:
         channel.control.restore(channel, level.data["saved"])
 
