@@ -36,6 +36,7 @@ LAYERS = (
     "mainrun",
     "panel",
     "session",
+    "interchange",
     "cases",
     "cli",
 )

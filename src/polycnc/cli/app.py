@@ -24,7 +24,19 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
 #: Each command is the module of this name in `polycnc.cli.commands`, which has a Typer `app`.
-COMMANDS = ("run", "check", "test", "plot", "features", "machines", "alarms", "data", "parameters", "panel")
+COMMANDS = (
+    "run",
+    "check",
+    "test",
+    "plot",
+    "features",
+    "machines",
+    "alarms",
+    "data",
+    "memory",
+    "parameters",
+    "panel",
+)
 BAD_USE, INTERRUPTED = 2, 130
 #: With this variable of the environment a mistake of polycnc shows all of its way.
 TRACEBACK = "POLYCNC_TRACEBACK"

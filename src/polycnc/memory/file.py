@@ -203,6 +203,19 @@ class FileStore:
                 put[name] = _Row(last if before is None else before.place, line, value)
         return put, gone
 
+    def contents(self) -> list[tuple[str, int, int]]:
+        """What the file holds: name and channel of every table, and how many entries say something.
+
+        Raises:
+            MemoryFileError: It cannot be read.
+        """
+        with self._told():
+            rows = self._base.execute(
+                "SELECT name, channel, count(*) FROM entry WHERE value != 'null' "
+                "GROUP BY name, channel ORDER BY name, channel"
+            ).fetchall()
+        return [(str(name), int(channel), int(count)) for name, channel, count in rows]
+
     # ---- ending --------------------------------------------------------------------------------------------
 
     def close(self) -> None:

@@ -1,4 +1,4 @@
 """One module for each command.
 
-`run`, `check`, `test`, `plot`, `features`, `machines`, `alarms`, `data`, `parameters`, `panel`.
+`run`, `check`, `test`, `plot`, `features`, `machines`, `alarms`, `data`, `memory`, `parameters`, `panel`.
 """

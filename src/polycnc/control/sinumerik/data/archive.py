@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.block.arguments import Arguments, Procedure
 from polycnc.control.sinumerik.tools.edges import DP_TYPE
+from polycnc.control.sinumerik.tools.holders.stored import TYPES, CarrierData
 from polycnc.language.sinumerik.names.frame import COMPONENTS, GEOMETRY_AXES, NEUTRAL, NcFrame
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.language.sinumerik.names.variables import Array
@@ -22,10 +23,12 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from polycnc.control.sinumerik.family import SinumerikChannel
-    from polycnc.control.sinumerik.memory import Memory
+    from polycnc.control.sinumerik.tools.edges import Edge
     from polycnc.language.sinumerik.names.variables import Variable
 
 _NEUTRAL_COMPONENTS = {"SC": 1.0}
+#: Angles are worked out from a matrix: what lies behind these decimals is no angle of anybody's.
+_PLACES = 12
 #: Values of a list in one block.
 _LISTED = 10
 
@@ -35,7 +38,7 @@ def initial(channel: SinumerikChannel, args: Arguments) -> None:
     _refuse_arguments(args, "INITIAL")
     lines = [
         f"CHANDATA({channel.number})",
-        *(line for area in AREAS.values() for line in area(channel.memory)),
+        *(line for area in AREAS.values() for line in area(channel)),
     ]
     _store(channel, "_N_INITIAL_INI", lines)
 
@@ -44,7 +47,7 @@ def complete(channel: SinumerikChannel, args: Arguments) -> None:
     """COMPLETE: a program for each type of data."""
     _refuse_arguments(args, "COMPLETE")
     for type_, area in AREAS.items():
-        _store(channel, f"_N_COMPLETE_{type_}_INI", list(area(channel.memory)))
+        _store(channel, f"_N_COMPLETE_{type_}_INI", list(area(channel)))
 
 
 def _refuse_arguments(args: Arguments, name: str) -> None:
@@ -61,36 +64,53 @@ def _store(channel: SinumerikChannel, name: str, lines: list[str]) -> None:
 # ---- areas
 
 
-def _machine_data(memory: Memory) -> Iterator[str]:
-    yield from _data(memory, "$M")
+def _machine_data(channel: SinumerikChannel) -> Iterator[str]:
+    yield from _data(channel, "$M")
 
 
-def _setting_data(memory: Memory) -> Iterator[str]:
-    yield from _data(memory, "$S")
+def _setting_data(channel: SinumerikChannel) -> Iterator[str]:
+    yield from _data(channel, "$S")
 
 
-def _data(memory: Memory, prefix: str) -> Iterator[str]:
-    for (name, indices), value in memory.data.items():
+def _data(channel: SinumerikChannel, prefix: str) -> Iterator[str]:
+    for (name, indices), value in channel.memory.data.items():
         if name.startswith(prefix):
             index = f"[{','.join(map(str, indices))}]" if indices else ""
             yield f"{name}{index}={_text(value)}"
 
 
-def _tool_data(memory: Memory) -> Iterator[str]:
-    for number, tool in memory.tools.tools.items():
-        for d, edge in tool.edges.items():
-            for parameter, value in enumerate(edge.values):
-                if value or parameter == DP_TYPE:
-                    yield f"$TC_DP{parameter}[{number},{d}]={_text(value)}"
-        if tool.name:
+def _tool_data(channel: SinumerikChannel) -> Iterator[str]:
+    for number, tool in channel.memory.tools.tools.items():
+        if tool.name or not tool.edges:
             yield f"$TC_TP2[{number}]={_text(tool.name)}"
+        yield from (f"{name}[{number}]={_text(value)}" for name, value in tool.values.items())
+        for d, edge in tool.edges.items():
+            yield from (f"{name}[{number},{d}]={_text(value)}" for name, value in _edge_data(edge))
+    for number, values in CarrierData.of(channel).carriers.items():
+        for n, value in values.items():
+            held = Axis(str(value)) if TYPES.get(n) is Type.AXIS else value
+            yield f"$TC_CARR{n}[{number}]={_text(held)}"
 
 
-def _frames(memory: Memory) -> Iterator[str]:
+def _edge_data(edge: Edge) -> Iterator[tuple[str, float]]:
+    """Every parameter of an edge that is not zero; its type makes the edge."""
+    for parameter, value in enumerate(edge.values):
+        if value or parameter == DP_TYPE:
+            yield f"$TC_DP{parameter}", value
+    if edge.teeth:
+        yield "$TC_DPNT", edge.teeth
+    if edge.cutting_edge:
+        yield "$TC_DPCE", edge.cutting_edge
+    for (kind, number), value in edge.additive.items():
+        if value:
+            yield f"$TC_{kind}{number}", value
+
+
+def _frames(channel: SinumerikChannel) -> Iterator[str]:
     stored = {
-        "$P_CHBFR": memory.frames.base,
-        "$P_NCBFR": memory.frames.global_base,
-        "$P_UIFR": memory.frames.settable,
+        "$P_CHBFR": channel.memory.frames.base,
+        "$P_NCBFR": channel.memory.frames.global_base,
+        "$P_UIFR": channel.memory.frames.settable,
     }
     for name, frames in stored.items():
         for number, frame in enumerate(frames):
@@ -108,15 +128,15 @@ def _components(frame: NcFrame) -> Iterator[tuple[str, str]]:
                 continue
             value = frame.component(axis, component)
             if abs(value - _NEUTRAL_COMPONENTS.get(component, 0.0)) > 1e-12:
-                yield f"{axis},{component}", _text(value)
+                yield f"{axis},{component}", _text(round(value, _PLACES) if component == "RT" else value)
 
 
-def _r_parameters(memory: Memory) -> Iterator[str]:
-    yield from (f"R{n}={_text(value)}" for n, value in enumerate(memory.language.r) if value)
+def _r_parameters(channel: SinumerikChannel) -> Iterator[str]:
+    yield from (f"R{n}={_text(value)}" for n, value in enumerate(channel.memory.language.r) if value)
 
 
-def _user_variables(memory: Memory) -> Iterator[str]:
-    for name, variable in memory.language.global_variables.items():
+def _user_variables(channel: SinumerikChannel) -> Iterator[str]:
+    for name, variable in channel.memory.language.global_variables.items():
         if variable.store is None or name in tables.CYCLE_SYMBOLS:
             continue
         held = variable.store[0]
@@ -160,7 +180,7 @@ def _text(value: Any) -> str:
 
 
 #: Types of data in the order in which a start needs them.
-AREAS: dict[str, Callable[[Memory], Iterator[str]]] = {
+AREAS: dict[str, Callable[[SinumerikChannel], Iterator[str]]] = {
     "TEA": _machine_data,
     "SEA": _setting_data,
     "GUD": _user_variables,

@@ -266,6 +266,36 @@ def tools_of_setup(given: Mapping[int | str, SetupTool]) -> dict[int, Tool]:
     return tools
 
 
+def setup_of_tools(tools: Mapping[int, Tool]) -> dict[int, dict[str, object]]:
+    """Tools as a setup describes them, by T number; those without an edge are not there."""
+    found: dict[int, dict[str, object]] = {}
+    for number, tool in tools.items():
+        described = {d: _setup_of_edge(edge) for d, edge in tool.edges.items()}
+        if described:
+            name: dict[str, object] = {"name": tool.name} if tool.name else {}
+            further = {d: edge for d, edge in described.items() if d != 1}
+            found[number] = {**name, **described.get(1, {}), **({"edges": further} if further else {})}
+    return found
+
+
+def _setup_of_edge(edge: Edge) -> dict[str, object]:
+    """An edge by length 1 to 3 along the axes that `_edge` takes them from."""
+    v = edge.values
+    axes = TURNING_LENGTHS[18] if edge.is_turning else OTHER_LENGTHS[17]
+    parts = {"": DP_LENGTH, "wear": DP_WEAR_LENGTH, "geom2": DP_BASE_LENGTH}
+    lengths = {
+        part: {"xyz"[axis]: v[first + i] for i, axis in enumerate(axes)} for part, first in parts.items()
+    }
+    return {
+        "type": edge.type,
+        "tip": int(v[DP_TIP]),
+        "radius": v[DP_RADIUS],
+        **lengths[""],
+        "wear": {**lengths["wear"], "radius": v[DP_WEAR_RADIUS]},
+        "geom2": lengths["geom2"],
+    }
+
+
 def _edge(data: SetupTool) -> Edge:
     """An edge from tool data of a setup: L1 to L3 from x, y, z as in G17 or, turning tools, G18."""
     edge = Edge()

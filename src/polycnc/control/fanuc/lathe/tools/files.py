@@ -1,8 +1,8 @@
 """Data files of the lathe: offsets as text, as the control reads and punches them (0i-TF Plus III.1.1).
 
 A file is a G10 program between two `%`: wear of number n as `G10 P01`, geometry as `G10 P10001`, second geometry as
-`G10 P20001`, work offsets as `G10 L2 P1` and `G10 L20 P1`. What a file names is overwritten, everything else stays. A
-damaged file changes nothing at all.
+`G10 P20001`, work offsets as `G10 L2 P1` and `G10 L20 P1`, the work shift as `G10 P00`. What a file names is
+overwritten, everything else stays. A damaged file changes nothing at all.
 """
 
 from __future__ import annotations
@@ -34,8 +34,11 @@ KINDS: Mapping[str, str] = {
     "y-offsets": "TOOLOFST.TXT",
     "second-geometry": "SEC_GEOM.TXT",
     "work": "EXT_WKZ.TXT",
+    "work-shift": "WORKSHFT.TXT",
 }
 _WORD = re.compile(r"([A-Z])([+-]?(?:\d+\.?\d*|\.\d+))\s*")
+#: Two values that differ by less are one: what is left of the way from inches and diameters.
+_ROUNDING = 1e-9
 _COMMENT = re.compile(r"\([^)]*\)")
 
 
@@ -97,11 +100,17 @@ def _work_lines(channel: LatheChannel) -> Iterator[str]:
         yield _line(channel, words, values, axes, None, work=True)
 
 
+def _shift_lines(channel: LatheChannel) -> Iterator[str]:
+    values = dict(zip(channel.axes, OffsetMemory.of(channel).work_shift, strict=True))
+    yield _line(channel, "P00", values, {name: name for name in channel.axes}, None, work=True)
+
+
 _WRITERS: Mapping[str, Callable[[LatheChannel], Iterator[str]]] = {
     "offsets": _offset_lines,
     "y-offsets": _y_lines,
     "second-geometry": _second_lines,
     "work": _work_lines,
+    "work-shift": _shift_lines,
 }
 
 
@@ -136,7 +145,10 @@ def _line(
 
 
 def _number(channel: LatheChannel, value: float) -> str:
-    return f"{value + 0.0:.{4 if channel.memory.is_inch else 3}f}"
+    """With the decimals of the display; with as many as it needs where a program has written a finer value."""
+    decimals = 4 if channel.memory.is_inch else 3
+    rounded = f"{value + 0.0:.{decimals}f}"
+    return rounded if abs(float(rounded) - value) < _ROUNDING else f"{value + 0.0:.12f}".rstrip("0")
 
 
 def shown(channel: LatheChannel, axis: str, value: float, *, work: bool = False) -> float:
@@ -198,7 +210,7 @@ def read(channel: LatheChannel, content: str) -> Taken:
         _take_over(channel, entry)
     refresh(channel)
     offset_changed(channel)
-    tools = (entry.number % GEOMETRY for entry in entries if entry.level is None)
+    tools = (entry.number % GEOMETRY for entry in entries if entry.level is None and entry.number)
     systems = (_system(entry) for entry in entries if entry.level is not None)
     return Taken(len(entries), frozenset(tools), frozenset(systems))
 
@@ -263,6 +275,8 @@ def _addresses(channel: LatheChannel, entry: _Entry) -> set[str] | None:
         return set(channel.axes) if entry.number < len(WORK_SYSTEMS) else None
     if entry.level == 20:
         return set(channel.axes) if 1 <= entry.number <= channel.control.EXTENDED_WORK_SYSTEMS else None
+    if entry.level is None and entry.number == 0:
+        return set(channel.axes)
     group, number = divmod(entry.number, GEOMETRY)
     if entry.level is not None or not 1 <= number <= MAX_OFFSETS or group > SECOND // GEOMETRY:
         return None
@@ -285,6 +299,11 @@ def _take_over(channel: LatheChannel, entry: _Entry) -> None:
         for address, value in entry.words.items():
             length = taken(channel, address, value, work=True)
             memory.work_offset(_system(entry))[channel.axis_index[address]] = length
+        return
+    if entry.number == 0:
+        for address, value in entry.words.items():
+            shift = OffsetMemory.of(channel).work_shift
+            shift[channel.axis_index[address]] = taken(channel, address, value, work=True)
         return
     group, number = divmod(entry.number, GEOMETRY)
     offset = OffsetMemory.of(channel).at(number)
