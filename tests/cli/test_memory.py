@@ -94,3 +94,32 @@ def test_several_files_want_a_folder(console: Console) -> None:
     said = console("memory", "export", "a.db")
     assert (said.status, "--folder" in said.err) == (2, True)
     assert console("memory", "export", "none.db").status == 2
+
+
+CASE = """
+- id: kept
+  feature: x
+  control: fanuc-m
+  program: |
+    #500=#500+1
+    M30
+  expect: {variables: {'#500': 13.5}}
+- id: other
+  feature: x
+  control: meldas-m
+  program: M30
+  expect: {}
+"""
+
+
+def test_every_case_begins_with_the_memory_and_leaves_it_alone(console: Console) -> None:
+    console("memory", "new", "a.db", "--control", "fanuc-m")
+    console.file("DATA.TXT", DATA)
+    console("memory", "import", "a.db", "DATA.TXT")
+    console.file("case.yaml", CASE)
+    for _ in range(2):
+        assert console("test", "case.yaml", "-k", "kept", "--memory", "a.db").status == 0
+    said = console("test", "case.yaml", "-k", "other", "--memory", "a.db")
+    assert (said.status, "not of a meldas-m" in said.out) == (2, True)
+    assert console("test", "case.yaml", "--memory", "none.db").status == 2
+    assert "#500=12.5\n" in console("memory", "export", "a.db", "variables").out

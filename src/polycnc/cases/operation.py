@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
     from polycnc.cases.format import Case, Step
     from polycnc.mainrun import Record
+    from polycnc.memory.retained import RetainedStore
     from polycnc.messages import Alarm
     from polycnc.toolpath import trace
 
@@ -76,9 +77,17 @@ def _call(name: str, command: Callable[..., object], given: object) -> None:
     command(*listed, **named)
 
 
-def operated(case: Case, folder: Path) -> list[str]:
-    """Load the program of a case, give the commands of its operator, and tell what differs at the end."""
-    control = VirtualControl(case.control, setup=_beside(case.setup, folder), files=case.files)
+def operated(case: Case, folder: Path, memory: RetainedStore | None = None) -> list[str]:
+    """Load the program of a case, give the commands of its operator, and tell what differs at the end.
+
+    Args:
+        case: The case.
+        folder: The folder of its file.
+        memory: What the control has kept from before; None for nothing.
+    """
+    control = VirtualControl(
+        case.control, setup=_beside(case.setup, folder), files=case.files, retained=memory
+    )
     control.load(case.program.removesuffix("\n") + "\n")
     operator = Operator(control)
     control.listeners.append(operator.hears)

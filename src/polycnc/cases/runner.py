@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Literal
 from polycnc.cases import compare
 from polycnc.cases.format import Case, CaseError, case_id, parse_case
 from polycnc.machine.errors import FileError
+from polycnc.memory.file import MemoryFileError
+from polycnc.memory.retained import InMemoryStore
 from polycnc.messages import text
 from polycnc.messages.errors import place_of_failure
 from polycnc.program import ProgramFileError
@@ -19,6 +21,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from polycnc.cases.selection import Selection
+    from polycnc.memory.file import FileStore
     from polycnc.messages import Alarm
 
 Status = Literal["passed", "failed", "skipped"]
@@ -39,8 +42,17 @@ class Outcome:
     readable: bool = True
 
 
-def run_cases(data: Iterable[object], selection: Selection, folder: Path) -> Iterator[Outcome]:
-    """Run the selected cases of a file, in order; `folder` is that of the file."""
+def run_cases(
+    data: Iterable[object], selection: Selection, folder: Path, memory: FileStore | None = None
+) -> Iterator[Outcome]:
+    """Run the selected cases of a file, in order.
+
+    Args:
+        data: The cases.
+        selection: Which of them.
+        folder: The folder of the file.
+        memory: What every case begins with; nothing that a case does lasts.
+    """
     for number, entry in enumerate(data, 1):
         name = case_id(entry, number)
         if not selection.names(name):
@@ -50,7 +62,7 @@ def run_cases(data: Iterable[object], selection: Selection, folder: Path) -> Ite
         except CaseError as error:
             yield Outcome(name, "failed", str(error), readable=False)
             continue
-        yield run_case(case, folder) if selection.features(case.feature) else _skipped(case)
+        yield run_case(case, folder, memory=memory) if selection.features(case.feature) else _skipped(case)
 
 
 def _skipped(case: Case) -> Outcome:
@@ -59,11 +71,22 @@ def _skipped(case: Case) -> Outcome:
     )
 
 
-def run_case(case: Case, folder: Path, block_limit: int = CASE_BLOCK_LIMIT) -> Outcome:
+def run_case(
+    case: Case, folder: Path, block_limit: int = CASE_BLOCK_LIMIT, memory: FileStore | None = None
+) -> Outcome:
     """Run one case; one that runs longer than `block_limit` blocks has got into a loop."""
     try:
-        differences = _operated(case, folder) if case.operate else _differences(case, folder, block_limit)
-    except (CaseError, SessionError, FileError, ProgramFileError) as error:
+        if memory is not None and memory.control != case.control:
+            raise MemoryFileError(
+                "memory.other-control", file=memory.path, held=memory.control, wanted=case.control
+            )
+        kept = None if memory is None else InMemoryStore()
+        if memory is not None and kept is not None:
+            memory.copy_to(kept.table)
+        differences = (
+            _operated(case, folder, kept) if case.operate else _differences(case, folder, block_limit, kept)
+        )
+    except (CaseError, SessionError, FileError, ProgramFileError, MemoryFileError) as error:
         return Outcome(case.id, "failed", str(error), case.feature, case.control, readable=False)
     except Exception as error:  # noqa: BLE001 - a mistake of polycnc in one case must not end all others
         where = place_of_failure(error)
@@ -73,13 +96,13 @@ def run_case(case: Case, folder: Path, block_limit: int = CASE_BLOCK_LIMIT) -> O
     return Outcome(case.id, status, "; ".join(differences), case.feature, case.control)
 
 
-def _operated(case: Case, folder: Path) -> list[str]:
+def _operated(case: Case, folder: Path, memory: InMemoryStore | None) -> list[str]:
     from polycnc.cases.operation import operated
 
-    return operated(case, folder)
+    return operated(case, folder, memory)
 
 
-def _differences(case: Case, folder: Path, block_limit: int) -> list[str]:
+def _differences(case: Case, folder: Path, block_limit: int, memory: InMemoryStore | None) -> list[str]:
     # A text without a line end would be taken for the name of a file.
     session = open_session(
         case.program.removesuffix("\n") + "\n",
@@ -88,6 +111,7 @@ def _differences(case: Case, folder: Path, block_limit: int) -> list[str]:
         files=case.files,
         folder=folder,
         block_limit=block_limit,
+        memory=memory,
     )
     result = session.run()
     expect = case.expect

@@ -17,7 +17,7 @@ from polycnc.mainrun.execution.operation import Operation
 from polycnc.mainrun.signals.image import SignalImage
 from polycnc.mainrun.signals.interlocks import Interlocks
 from polycnc.mainrun.status import Status
-from polycnc.memory.retained import ALARM_HISTORY, InMemoryStore
+from polycnc.memory.retained import InMemoryStore
 from polycnc.messages import AlarmError
 from polycnc.motion.frames import laid_of
 
@@ -53,7 +53,7 @@ class Continuation:
         image = SignalImage(signals, plc.rules, self._clock)
         interlocks = Interlocks(plc, image)
         retained = InMemoryStore()
-        status = Status(control.id, self._clock, image, retained.table(ALARM_HISTORY))
+        status = Status(control.id, self._clock, image, retained)
         programs = Programs(control.form, (), {}, {})
         programs.store = first.store
         self._operation = Operation(

@@ -36,8 +36,8 @@ from polycnc.mainrun.execution.operation import MANUAL_ABSOLUTE, Operation
 from polycnc.mainrun.reading.readings import Readings
 from polycnc.mainrun.signals.image import SignalImage
 from polycnc.mainrun.signals.interlocks import Interlocks
-from polycnc.mainrun.status import Status
-from polycnc.memory.retained import ALARM_HISTORY, PROGRAMS, opened
+from polycnc.mainrun.status import Counters, Status
+from polycnc.memory.retained import PANEL, PROGRAMS, opened
 from polycnc.messages.catalogue import language, listed
 
 if TYPE_CHECKING:
@@ -110,7 +110,7 @@ class VirtualControl:
         self.signals = SignalImage(signals, plc.rules, clock)
         interlocks = Interlocks(plc, self.signals)
         retained = self._retained = opened(retained, self.control.id, self.machine.id)
-        self._status = Status(self.control.id, clock, self.signals, retained.table(ALARM_HISTORY))
+        self._status = Status(self.control.id, clock, self.signals, retained)
         edited = retained.table(PROGRAMS)
         self._programs = Programs(self.control.form, search, files or {}, edited)
         self._operation = operation = Operation(
@@ -410,6 +410,21 @@ class VirtualControl:
     def clear_alarm_history(self) -> None:
         """The alarm history begins anew."""
         self._status.clear_history()
+
+    @property
+    def message_history(self) -> tuple[str, ...]:
+        """The texts that programs have put out for the operator, the latest first."""
+        return self._status.message_history
+
+    @property
+    def counters(self) -> Counters:
+        """Parts made and running time over all power-ons."""
+        return self._status.counters
+
+    @property
+    def panel_settings(self) -> dict[str, Any]:
+        """What an operator panel keeps of itself; it lasts with the next command that is confirmed."""
+        return self._retained.table(PANEL)
 
     @property
     def parts(self) -> int:

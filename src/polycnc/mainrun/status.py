@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, NamedTuple, TypeVar
 
 from polycnc.mainrun.commands.states import Mode, State
 from polycnc.mainrun.reading.snapshot import Record
+from polycnc.memory.retained import ALARM_HISTORY, COUNTERS, MESSAGES
 from polycnc.messages import Alarm
 
 if TYPE_CHECKING:
@@ -13,12 +14,32 @@ if TYPE_CHECKING:
 
     from polycnc.mainrun.execution.clock import Clock
     from polycnc.mainrun.signals.image import SignalImage
+    from polycnc.memory.retained import RetainedStore
     from polycnc.messages import AlarmError
 
 #: States in which nothing is done before the emergency stop is pulled out, or the power is on.
 LOCKED_STATES = frozenset((State.EMERGENCY, State.OFF))
-#: Alarms that the history keeps.
+#: Alarms, or messages, that a history keeps.
 LONGEST_HISTORY = 100
+
+
+#: Names of counters.
+PARTS, RUNNING_S = "parts", "running_s"
+_Entry = TypeVar("_Entry")
+
+
+class Counters(NamedTuple):
+    """What a control counts beyond power-off: parts made, and the time for which programs have run, s."""
+
+    parts: int
+    running_s: float
+
+
+def _note(history: dict[int, _Entry], entry: _Entry) -> None:
+    """One more entry; the oldest are forgotten."""
+    history[max(history, default=0) + 1] = entry
+    while len(history) > LONGEST_HISTORY:
+        del history[min(history)]
 
 
 class Status:
@@ -28,7 +49,7 @@ class Status:
         control_id: The control.
         clock: The time.
         signals: The signal image.
-        history: The alarms of the past by a running number, retained.
+        retained: Where the alarms and messages of the past lie, by a running number, and the counters.
 
     Attributes:
         mode: What the mode switch says.
@@ -40,16 +61,17 @@ class Status:
     #: A snapshot does not go on to these: they are outside of the control.
     UNFOLLOWED: ClassVar = frozenset({"listeners"})
 
-    def __init__(
-        self, control_id: str, clock: Clock, signals: SignalImage, history: dict[int, Alarm]
-    ) -> None:
+    def __init__(self, control_id: str, clock: Clock, signals: SignalImage, retained: RetainedStore) -> None:
         self.mode, self.state = Mode.AUTO, State.READY
         self.alarms: tuple[Alarm, ...] = ()
         self.listeners: list[Callable[[Record], object]] = []
         self._control_id = control_id
         self._clock = clock
         self._signals = signals
-        self._history = history
+        self._history: dict[int, Alarm] = retained.table(ALARM_HISTORY)
+        self._messages: dict[int, str] = retained.table(MESSAGES)
+        self._counters: dict[str, float] = retained.table(COUNTERS)
+        self._running_since = 0.0
 
     @property
     def is_locked(self) -> bool:
@@ -70,6 +92,10 @@ class Status:
     def become(self, state: State, **data: object) -> None:
         """Another state; `data` says why."""
         if state is not self.state:
+            if self.state is State.RUNNING:
+                self.count(RUNNING_S, self._clock.time - self._running_since)
+            if state is State.RUNNING:
+                self._running_since = self._clock.time
             self._signals[self.state.upper()] = 0.0
             self.state = state
             self._signals[state.upper()] = 1.0
@@ -85,18 +111,33 @@ class Status:
 
     def show_alarms(self, alarms: tuple[Alarm, ...]) -> None:
         """These wait for reset from now on; new ones go into the history, of which the oldest are forgotten."""
-        history = self._history
         for alarm in alarms:
             if alarm not in self.alarms:
-                history[max(history, default=0) + 1] = alarm
-        while len(history) > LONGEST_HISTORY:
-            del history[min(history)]
+                _note(self._history, alarm)
         self.alarms = alarms
 
     @property
     def alarm_history(self) -> tuple[Alarm, ...]:
         """The alarms of the past, the latest first."""
         return tuple(self._history[number] for number in sorted(self._history, reverse=True))
+
+    def keep_message(self, message: str) -> None:
+        """A program has put out a text for the operator."""
+        _note(self._messages, message)
+
+    @property
+    def message_history(self) -> tuple[str, ...]:
+        """The texts that programs have put out, the latest first."""
+        return tuple(self._messages[number] for number in sorted(self._messages, reverse=True))
+
+    def count(self, counter: str, more: float) -> None:
+        """A counter goes on."""
+        self._counters[counter] = self._counters.get(counter, 0.0) + more
+
+    @property
+    def counters(self) -> Counters:
+        """What the counters say."""
+        return Counters(int(self._counters.get(PARTS, 0.0)), self._counters.get(RUNNING_S, 0.0))
 
     def clear_history(self) -> None:
         """The alarms of the past are forgotten."""

@@ -22,7 +22,7 @@ from polycnc.messages import UserError
 from polycnc.messages.files import reason_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
     from types import TracebackType
     from typing import Self
 
@@ -215,6 +215,23 @@ class FileStore:
                 "GROUP BY name, channel ORDER BY name, channel"
             ).fetchall()
         return [(str(name), int(channel), int(count)) for name, channel, count in rows]
+
+    def copy_to(self, table: Callable[[str, int], dict[Any, Any]]) -> None:
+        """Put what the file holds into tables elsewhere: whoever works with these leaves the file alone.
+
+        Args:
+            table: Gives the table of a name and a channel.
+
+        Raises:
+            MemoryFileError: It cannot be read.
+        """
+        with self._told():
+            rows = self._base.execute("SELECT name, channel, key, value FROM entry ORDER BY place").fetchall()
+        try:
+            for name, channel, key, line in rows:
+                table(name, channel)[decode(key)] = decode(line)
+        except (ValueError, TypeError, LookupError, AttributeError) as error:
+            raise MemoryFileError("memory.damaged", file=self.path) from error
 
     # ---- ending --------------------------------------------------------------------------------------------
 

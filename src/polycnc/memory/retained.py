@@ -24,6 +24,9 @@ TOOL_CARRIERS = "tool carriers"
 USER_VARIABLES = "user variables"
 ALARM_HISTORY = "alarm history"
 PROGRAMS = "programs"
+COUNTERS = "counters"
+MESSAGES = "messages"
+PANEL = "panel"
 
 
 class RetainedStore(Protocol):

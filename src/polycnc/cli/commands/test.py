@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from contextlib import contextmanager
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 
     from polycnc.cases.runner import Outcome
     from polycnc.cases.selection import Selection
+    from polycnc.memory.file import FileStore
 
 app = typer.Typer(add_completion=False, rich_markup_mode=None)
 
@@ -41,20 +43,21 @@ def run_tests(
     ] = None,
     report: Annotated[Path | None, typer.Option(metavar="OUT.json", help=text("help.test.report"))] = None,
     form: Annotated[Format, typer.Option("--format", help=text("help.option.format"))] = Format.TEXT,
+    memory: Annotated[Path | None, typer.Option(metavar="FILE", help=text("help.test.memory"))] = None,
     _lang: options.Lang = None,
 ) -> int:
     """Run the cases of all files."""
     from polycnc.cases.selection import Selection
     from polycnc.messages.files import refuse_inputs
 
-    refuse_inputs([report], files)
+    refuse_inputs([report], [*files, *([memory] if memory else [])])
     selection = Selection(words, frozenset(feature or ()), frozenset(skip_feature or ()))
     outcomes: list[Outcome] = []
     unreadable = False
     paths = [Path(name) for name in options.expanded(map(str, files))]
-    with Waiting("polycnc test", len(paths), "files") as waiting:
+    with _opened(memory) as store, Waiting("polycnc test", len(paths), "files") as waiting:
         for done, path in enumerate(paths):
-            for outcome in _run_file(path, selection):
+            for outcome in _run_file(path, selection, store):
                 waiting.reach(done)
                 if outcome is None:
                     unreadable = True
@@ -69,7 +72,19 @@ def run_tests(
     return 1 if any(outcome.status == "failed" for outcome in outcomes) else 0
 
 
-def _run_file(path: Path, selection: Selection) -> Iterator[Outcome | None]:
+@contextmanager
+def _opened(memory: Path | None) -> Iterator[FileStore | None]:
+    """The memory that every case begins with; it is locked while they run."""
+    if memory is None:
+        yield None
+        return
+    from polycnc.memory.file import FileStore
+
+    with FileStore(memory) as store:
+        yield store
+
+
+def _run_file(path: Path, selection: Selection, memory: FileStore | None) -> Iterator[Outcome | None]:
     """The outcomes of one file; None for a file that cannot be read."""
     from polycnc.cases.reading import UnreadableError, read_cases
     from polycnc.cases.runner import run_cases
@@ -80,7 +95,7 @@ def _run_file(path: Path, selection: Selection) -> Iterator[Outcome | None]:
         note(f"polycnc: {error.text()}")
         yield None
         return
-    yield from run_cases(data, selection, path.parent)
+    yield from run_cases(data, selection, path.parent, memory)
 
 
 def _tell(outcome: Outcome) -> None:

@@ -48,6 +48,9 @@ class Observer(Protocol):
     def reads_signals(self, number: int) -> None:
         """The program is about to read signals."""
 
+    def says(self, message: str) -> None:
+        """The program has a text for the operator."""
+
     def stops(self, number: int, code: str) -> None:
         """A programmed stop by its code, or `alarm`."""
 
@@ -161,6 +164,7 @@ class Machinery:
             self._signals[event.name] = event.value
         elif isinstance(event, Message | Print):
             self.messages.append(event.text)
+            self._observer.says(event.text)
         elif isinstance(event, Raised):
             self._observer.stops(self._number, "alarm")
         elif isinstance(event, Stop) and (event.code not in OPTIONAL_STOPS or self.optional_stop):

@@ -14,6 +14,7 @@ from polycnc.mainrun.execution.channel_runs import ChannelRuns
 from polycnc.mainrun.execution.machinery import SKIP_SIGNAL
 from polycnc.mainrun.signals.machine_states import axis_names, machine_states, turn_magazine
 from polycnc.mainrun.signals.program_signals import give
+from polycnc.mainrun.status import PARTS
 from polycnc.messages import Alarm, AlarmError
 from polycnc.toolpath.events import Auxiliary
 
@@ -323,6 +324,10 @@ class Operation:
         """A program is about to read signals."""
         give(self.runs[number].channel, self.signals.values)
 
+    def says(self, message: str) -> None:
+        """A text for the operator."""
+        self.status.keep_message(message)
+
     def stops(self, number: int, code: str) -> None:
         """A programmed stop, or `alarm`."""
         if code == "alarm":
@@ -355,6 +360,7 @@ class Operation:
             run.interpolator.stop_axes()
         if reason == "end" and number in self.mains and self._resets_at_end:
             run.parts += self.program_mode is not Mode.MDI
+            self.status.count(PARTS, float(self.program_mode is not Mode.MDI))
             if self.program_mode is not Mode.MDI:
                 self.control.reset(run.channel)
             run.show_own_state()

@@ -99,13 +99,19 @@ def _modal(at: Asked) -> Rows:
 
 def _counters(at: Asked) -> Rows:
     """Parts and times."""
-    minutes, seconds = divmod(int(at.snapshot.time), 60)
-    hours, minutes = divmod(minutes, 60)
-    shown = f"{hours}H{minutes:2d}M{seconds:2d}S"
+    kept = at.screen.control.counters
     return (
         (Cell(text("screen.parts", at.lang), "label"), Cell(str(at.snapshot.parts), "value")),
-        (Cell(text("screen.run-time", at.lang), "label"), Cell(shown, "value")),
+        (Cell(text("screen.parts-total", at.lang), "label"), Cell(str(kept.parts), "value")),
+        (Cell(text("screen.run-time", at.lang), "label"), Cell(_hours(at.snapshot.time), "value")),
+        (Cell(text("screen.running-total", at.lang), "label"), Cell(_hours(kept.running_s), "value")),
     )
+
+
+def _hours(seconds: float) -> str:
+    minutes, rest = divmod(int(seconds), 60)
+    hours, minutes = divmod(minutes, 60)
+    return f"{hours}H{minutes:2d}M{rest:2d}S"
 
 
 # ---- programs ----------------------------------------------------------------------------------------------------
@@ -188,6 +194,11 @@ def _messages(at: Asked) -> Rows:
     return (*shown, *notices)
 
 
+def _message_history(at: Asked) -> Rows:
+    """The texts that programs have put out, the latest first."""
+    return tuple((Cell(said, "label"),) for said in at.screen.control.message_history[: at.spec.shown])
+
+
 def _place(program: str, line: int) -> str:
     return f"{program}:{line}" if program else ""
 
@@ -267,6 +278,7 @@ KINDS: dict[str, Reader] = {
     "mdi": _mdi,
     "alarms": _alarms,
     "history": _history,
+    "message-history": _message_history,
     "messages": _messages,
     "table": _table,
     "parameters": _parameters,

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 LONGEST_TICK_S = 0.25
 #: The key of the machine panel that starts what was typed in at MDI.
 _START = "START"
+#: The panel's own settings: positions of its switches (the mode is as after power-on), and the language of pages.
+_SWITCHES, _LANGUAGE = "switches", "language"
 
 
 class Desk:
@@ -39,6 +41,20 @@ class Desk:
         self.panel = Panel(control)
         self.speed = speed
         self._then = monotonic()
+        kept = control.panel_settings.get(_SWITCHES, {})
+        for switch, position in kept.items():
+            if switch in self.panel.positions:
+                self.turn(switch, position)
+        self.screen.message = ""
+
+    @property
+    def language(self) -> str:
+        """The language that was chosen last on a page; empty for none."""
+        return str(self.control.panel_settings.get(_LANGUAGE, ""))
+
+    @language.setter
+    def language(self, lang: str) -> None:
+        self.control.panel_settings[_LANGUAGE] = lang
 
     def tick(self) -> None:
         """Let the time pass that has passed since the last call."""
@@ -79,6 +95,9 @@ class Desk:
             self.panel.turn(switch, position)
         except UserError as refusal:
             self.screen.message = refusal.text()
+            return
+        positions = self.panel.positions.items()
+        self.control.panel_settings[_SWITCHES] = {name: at for name, at in positions if name != "mode"}
 
     def wheel(self, notches: int) -> None:
         """Turn the handwheel."""

@@ -52,7 +52,7 @@ class Page:
 
     def __init__(self, desk: Desk, lang: str) -> None:
         self._desk = desk
-        self._lang = lang
+        self._lang = desk.language or lang
         self._shown: dict[str, str] = {}
         self._refreshers: list[Callable[[], None]] = []
         self._held: set[str] = set()
@@ -283,7 +283,7 @@ class Page:
         self._refresh()
 
     def _speak(self, lang: str) -> None:
-        self._lang = lang
+        self._lang = self._desk.language = lang
         self._build()
 
     def _day(self) -> None:
