@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from polycnc.memory.retained import PROGRAMS, InMemoryStore, RetainedStore
+from polycnc.memory.retained import PROGRAMS, RetainedStore
 from polycnc.session import open_session
 
 if TYPE_CHECKING:
@@ -62,12 +62,3 @@ def channel_on(
 ) -> Channel:
     """A channel after power-on of a control with a memory."""
     return run_on(memory, control, machine, setup=setup).channel
-
-
-def copy_of(memory: RetainedStore, names: tuple[str, ...], channels: int) -> InMemoryStore:
-    """The tables of a memory, in memory."""
-    made = InMemoryStore()
-    for name in names:
-        for channel in range(channels + 1):
-            made.table(name, channel).update(memory.table(name, channel))
-    return made
