@@ -97,6 +97,11 @@ class Shapes:
         return self._compiled.cache_info().currsize
 
 
+def with_values(function: FunctionType, values: tuple[object, ...]) -> FunctionType:
+    """A function of a shape with the values of another block."""
+    return FunctionType(function.__code__, function.__globals__, None, values)
+
+
 def compiled(function: Function) -> CodeType:
     """Python's code of a function."""
     lifted = [f"n{i}" for i in range(function.numbers)] + [f"o{i}" for i in range(function.objects)]

@@ -13,7 +13,8 @@ from polycnc.language.expressions.code import listed
 from polycnc.language.expressions.joined import MAX_JOINED, led_by
 from polycnc.language.word_address.joining import JOINABLE, join, join_loop
 from polycnc.language.word_address.macro_b import Lifting, Reader, macro_shapes
-from polycnc.language.word_address.statements import KEYWORD, LoopEnd, parse_statement
+from polycnc.language.word_address.patterns import Patterns, Spot, negative
+from polycnc.language.word_address.statements import KEYWORD, Assignment, LoopEnd, parse_statement
 from polycnc.language.word_address.words import ExpressionBlock, WordBlock, code_key, is_fixed_code, word_key
 from polycnc.messages import AlarmError
 
@@ -46,6 +47,8 @@ _NUMBER_TEXT = re.compile(r"[ \t]*([-+]?)[ \t]*(\d+\.?\d*|\.\d+)")
 _VALUE = re.compile(r"[ \t]*[-+]?[ \t]*[#\[]")
 _NAME = re.compile(r"[ \t]*P?[ \t]*(<[^<>]+>)")
 
+#: Steps that lines of one pattern share.
+REPEATABLE = (WordBlock, ExpressionBlock, Assignment)
 #: Runs of a step after which it is joined with those behind it.
 JOINED_FROM = 8
 
@@ -62,6 +65,7 @@ class Grammar:
         point_in_numbers: Whether a block number may have a decimal point (`N3.`), which means nothing.
         last_loop: The largest number of a loop (DO m); `deepest_loop` is how deep loops nest.
         shapes: The compiled code of the control's expressions.
+        patterns: The lines that have been read.
     """
 
     alarms: Mapping[str, str]
@@ -72,6 +76,7 @@ class Grammar:
     last_loop: int = 3
     deepest_loop: int = 3
     shapes: Shapes = field(default_factory=macro_shapes, compare=False, repr=False)
+    patterns: Patterns = field(default_factory=Patterns, compare=False, repr=False)
 
 
 def empty_block(_channel: Channel) -> None:
@@ -292,6 +297,9 @@ class WordAddressProgram:
 
     def _general(self, line: str, index: int) -> Step:
         text = self.blank_comments(line)
+        known = self.grammar.patterns.step(text)
+        if known is not None:
+            return known
         blocks: list[Step] = []
         start = 0
         while True:
@@ -314,6 +322,7 @@ class WordAddressProgram:
         reader.pos = head.end() if head else 0
         levels = reader.skip_levels()
         number = reader.match(_SEQUENCE_WORD)
+        digits_at = reader.pos - len(number.lstrip("N \t"))
         if "." in number:
             self._check_number("", number)
         levels |= reader.skip_levels()
@@ -329,6 +338,8 @@ class WordAddressProgram:
             )
         else:
             step = self._words(reader)
+        if isinstance(step, REPEATABLE) and not levels:
+            self.grammar.patterns.learn(text, step, reader.spots, (digits_at,) if number else ())
         return SkippedBlock(levels, step, empty_block) if levels else step
 
     def _words(self, reader: BlockReader) -> Step:
@@ -362,11 +373,15 @@ class WordAddressProgram:
             if address in ("G", "M") and not sign:
                 words.keys.append(code_key(address, digits))
                 return
-            if len(digits.replace(".", "").lstrip("0")) > self.grammar.max_digits:
+            zeros_count = len(digits.replace(".", "")) > self.grammar.max_digits
+            if zeros_count and len(digits.replace(".", "").lstrip("0")) > self.grammar.max_digits:
                 raise reader.fail("too_many_digits", start)
             if address in ("G", "M", "N", "O"):
                 raise reader.fail("minus" if sign else "address", start)
-            words.number(word_key(address, digits), float(sign + digits), reader)
+            spot = Spot(number.start(2), negative if sign == "-" else float)
+            words.number(
+                word_key(address, digits), float(sign + digits), reader, None if zeros_count else spot
+            )
             if reader.pos < len(reader.text) and reader.text[reader.pos] == ".":
                 raise reader.fail("point", reader.pos)
             return
@@ -387,11 +402,11 @@ class _BlockWords:
         self.values: list[float] = []
         self.computed = False
 
-    def number(self, key: str, value: float, reader: Reader) -> None:
+    def number(self, key: str, value: float, reader: Reader, spot: Spot | None) -> None:
         """A word with a number."""
         self.keys.append(key)
         self.values.append(value)
-        self.codes.append(reader.lift(value))
+        self.codes.append(reader.lift(value, spot))
 
     def expression(self, key: str, value: Code) -> None:
         """A word with a variable or an expression."""

@@ -33,6 +33,7 @@ from polycnc.language.expressions.operators import (
 )
 from polycnc.language.expressions.shapes import Function, Shapes, TooDeepError
 from polycnc.language.word_address.functions import NAMESPACE
+from polycnc.language.word_address.patterns import MEMORIES, NUMBER, Spot
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -76,7 +77,6 @@ OPERATORS = {
 SIGNS = {"-": Operator(TIGHTEST, ast.USub), "+": Operator(TIGHTEST, ast.UAdd)}
 
 _BLANKS = (" ", "\t")
-_NUMBER = re.compile(r"\d+\.?\d*|\.\d+")
 _VARIABLE = re.compile(r"#[ \t]*(\d+)(?![\d.])")
 _FUNCTION = re.compile(r"([A-Z]+)[ \t]*(?=\[)")
 _OPERATOR = re.compile(rf"[ \t]*({'|'.join(map(re.escape, OPERATORS))})")
@@ -84,7 +84,7 @@ _LOGIC = re.compile(r"AND|OR|XOR")
 _NAMED = re.compile(r"\[#(_?[A-Z][A-Z0-9_]*)")
 
 MEMORY = name("m")
-_LOCALS, _COMMON, _KEPT = (attribute(MEMORY, each) for each in ("locals", "common", "kept"))
+_MEMORIES = {memory: attribute(MEMORY, memory) for memory in MEMORIES}
 _NONE, _ZERO = constant(None), constant(0.0)
 
 
@@ -116,6 +116,7 @@ class Reader(OperatorReader[int, Code]):
         self.alarms = alarms
         self.shapes = shapes
         self.numbers: list[float] = []
+        self.spots: list[Spot | None] = []
         self.in_word = False
         self._open_brackets = 0
         self._behind_operator = 0
@@ -212,23 +213,24 @@ class Reader(OperatorReader[int, Code]):
             if plain is None:
                 return self.variable()
             self.pos = plain.end()
-            return self._numbered(int(plain[1]))
+            return self._numbered(int(plain[1]), plain.start(1))
         if char == "[":
             named = _NAMED.match(self.text, self.pos)
             return self.named_variable(named) if named else self.bracket()
         start = self.pos
-        if number := self.match(_NUMBER):
+        if number := self.match(NUMBER):
             value = float(number)
             if isinf(value):
                 raise self.fail("too_many_digits", start)
-            return self.lift(value)
+            return self.lift(value, Spot(start, float))
         if function := self.match(_FUNCTION):
             return self.function(function.strip())
         raise self.fail("expression")
 
-    def lift(self, number: float) -> Lifted:
-        """A number as a parameter of the code."""
+    def lift(self, number: float, spot: Spot | None) -> Lifted:
+        """A number as a parameter of the code; where it stands, None for one that other lines cannot have otherwise."""
         self.numbers.append(number)
+        self.spots.append(spot)
         return Lifted("n", len(self.numbers) - 1)
 
     def _open(self) -> None:
@@ -257,22 +259,21 @@ class Reader(OperatorReader[int, Code]):
             return call("m.read_indirect", number_of(self.bracket()))
         if self.peek() == "#":
             raise self.fail("expression")
-        number = self.match(_NUMBER)
+        number = self.match(NUMBER)
         if not number or "." in number:
             raise self.fail("expression")
-        return self._numbered(int(number))
+        return self._numbered(int(number), self.pos - len(number))
 
-    def _numbered(self, number: int) -> Code:
-        return self.place(number) or call("m.read", self.lift(number))
+    def _numbered(self, number: int, begin: int) -> Code:
+        return self.place(number, begin) or call(
+            "m.read", self.lift(number, Spot(begin, int, is_variable=True))
+        )
 
-    def place(self, number: int) -> Code | None:
-        """Where a local or a common variable lies; None for all others."""
-        if 1 <= number <= 33:
-            return item(_LOCALS, self.lift(number))
-        if 100 <= number <= 199:
-            return item(_COMMON, self.lift(number))
-        if 500 <= number <= 999:
-            return item(_KEPT, self.lift(number))
+    def place(self, number: int, begin: int) -> Code | None:
+        """Where a local or a common variable lies, whose digits begin at a column; None for all others."""
+        for memory, numbers in MEMORIES.items():
+            if number in numbers:
+                return item(_MEMORIES[memory], self.lift(number, Spot(begin, int, is_variable=True)))
         return None
 
     def named_variable(self, match: re.Match[str]) -> Code:
@@ -323,13 +324,13 @@ class Reader(OperatorReader[int, Code]):
     def condition(self) -> Code:
         """`[a EQ b]`, and with the parameter for it `[[a EQ b] AND [c GT d]]`."""
         self.expect("[", "open_bracket")
-        start = self.pos, len(self.numbers), self.depth, self._open_brackets
+        start = self.pos, len(self.numbers), len(self.spots), self.depth, self._open_brackets
         if self.peek() == "[":
             try:
                 left = self.condition()
             except AlarmError:
-                self.pos, numbers, self.depth, self._open_brackets = start
-                del self.numbers[numbers:]
+                self.pos, numbers, spots, self.depth, self._open_brackets = start
+                del self.numbers[numbers:], self.spots[spots:]
             else:
                 return self._joined_conditions(left)
         left = self.sum()
@@ -360,15 +361,15 @@ class Reader(OperatorReader[int, Code]):
         function = self.compiled(self.lifting(code))
         return lambda channel: function(channel.memory)
 
-    def compiled(self, lifting: Lifting) -> Callable[[object], float | None]:
+    def compiled(self, lifting: Lifting) -> FunctionType:
         """The function of the memory for the code of a value."""
         return self._function(lifting.numbers, given(lifting.code))
 
-    def compiled_list(self, lifting: Lifting) -> Callable[[object], list[float | None]]:
+    def compiled_list(self, lifting: Lifting) -> FunctionType:
         """The function of the memory for the code of a list of values."""
         return self._function(lifting.numbers, given(lifting.code))
 
-    def compiled_statement(self, lifting: Lifting) -> Callable[[object], None]:
+    def compiled_statement(self, lifting: Lifting) -> FunctionType:
         """The function of the memory that carries out a statement."""
         return self._function(lifting.numbers, lifting.code)
 

@@ -11,16 +11,19 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
 from polycnc.language.expressions.code import assigned
+from polycnc.language.expressions.shapes import with_values
 from polycnc.language.word_address.functions import round_half_away
+from polycnc.language.word_address.macro_b import Lifting
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from types import FunctionType
 
     from polycnc.channel.channel import Channel
     from polycnc.channel.steps import Step
     from polycnc.language.expressions.code import Code
-    from polycnc.language.word_address.macro_b import Evaluate, Lifting, Reader
+    from polycnc.language.word_address.macro_b import Evaluate, Reader
 
 KEYWORD = re.compile(r"IF|WHILE|WH(?=\s*\[)|GOTO|GO(?=\s*[\d#\[])|DO|END|POPEN|PCLOS|DPRNT|BPRNT|SETVN|#")
 _INTEGER = re.compile(r"\d+")
@@ -58,11 +61,12 @@ def parse_assignment(reader: Reader, _program: StatementProgram, _index: int) ->
     """`#n = expression`, `#[expression] = …`, `#3000 = n (TEXT)`."""
     if reader.peek() == "[":
         target: Evaluate | int = reader.evaluator(reader.bracket())
+        digits_at = -1
     else:
         digits = reader.match(_INTEGER)
         if not digits:
             raise reader.fail("expression")
-        target = int(digits)
+        target, digits_at = int(digits), reader.pos - len(digits)
     if not reader.accept("="):
         raise reader.fail("missing_equals")
     begin = reader.pos
@@ -71,26 +75,36 @@ def parse_assignment(reader: Reader, _program: StatementProgram, _index: int) ->
     if callable(target):
         index_of, written = target, reader.evaluator(value)
         return lambda channel: channel.memory.write_indirect(index_of(channel), written(channel), text)
-    return _assign(target, value, reader, text)
+    return _assign(target, digits_at, value, reader, text)
 
 
-def _assign(number: int, value: Code, reader: Reader, text: str) -> Step:
+def _assign(number: int, digits_at: int, value: Code, reader: Reader, text: str) -> Step:
     """Writing to a constant variable number."""
-    place = reader.place(number)
+    place = reader.place(number, digits_at)
     if place is not None:
-        return Assignment(reader, assigned(place, value))
+        statement = reader.lifting(assigned(place, value))
+        return Assignment(statement, reader.compiled_statement(statement))
     written = reader.evaluator(value)
     return lambda channel: channel.memory.write(number, written(channel), text)
 
 
 class Assignment:
-    """`#n = expression` for a local or common variable: a step, and a line of Python where several are joined."""
+    """`#n = expression` for a local or common variable: a step, and a line of Python where several are joined.
+
+    Args:
+        statement: Its code.
+        function: The same compiled, a function of the memory.
+    """
 
     __slots__ = ("_function", "statement")
 
-    def __init__(self, reader: Reader, statement: Code) -> None:
-        self.statement = reader.lifting(statement)
-        self._function = reader.compiled_statement(self.statement)
+    def __init__(self, statement: Lifting, function: FunctionType) -> None:
+        self.statement = statement
+        self._function = function
+
+    def with_numbers(self, numbers: tuple[float, ...]) -> Assignment:
+        """The statement with other numbers."""
+        return Assignment(Lifting(self.statement.code, numbers), with_values(self._function, numbers))
 
     def __call__(self, channel: Channel) -> None:
         """Run the statement."""

@@ -21,8 +21,10 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
+from polycnc.language.expressions.shapes import with_values
+
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from types import FunctionType
 
     from polycnc.channel.channel import Channel
 
@@ -61,6 +63,10 @@ class WordBlock:
         self.signature = signature
         self.values = values
 
+    def with_numbers(self, numbers: tuple[float, ...]) -> WordBlock:
+        """The block with other numbers."""
+        return WordBlock(self.signature, list(numbers))
+
     def __call__(self, channel: Channel) -> None:
         """Run the block."""
         mode = channel.mode
@@ -85,10 +91,14 @@ class ExpressionBlock:
 
     __slots__ = ("_computes_codes", "_evaluate", "keys")
 
-    def __init__(self, keys: tuple[str, ...], evaluate: Callable[[object], list[float | None]]) -> None:
+    def __init__(self, keys: tuple[str, ...], evaluate: FunctionType) -> None:
         self.keys = keys
         self._evaluate = evaluate
         self._computes_codes = "G" in keys or "M" in keys
+
+    def with_numbers(self, numbers: tuple[float, ...]) -> ExpressionBlock:
+        """The block with other numbers."""
+        return ExpressionBlock(self.keys, with_values(self._evaluate, numbers))
 
     def __call__(self, channel: Channel) -> None:
         """Run the block."""
