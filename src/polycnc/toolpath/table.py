@@ -136,6 +136,29 @@ class Chunk:
         self.program.extend(array("H", (program,)) * (end - first))
         self.context.extend(array("I", (context,)) * (end - first))
 
+    def add_along(
+        self,
+        axis: int,
+        places: array[float],
+        kinds: array[int],
+        program: int,
+        line: int,
+        context: int,
+        feeds: array[float],
+        position: Sequence[float],
+    ) -> None:
+        """Add straight rows of one block along an axis, with its places, from a position."""
+        count = len(places)
+        self.kind.extend(kinds)
+        self.program.extend(array("H", (program,)) * count)
+        self.line.extend(array("I", (line,)) * count)
+        self.context.extend(array("I", (context,)) * count)
+        self.feed.extend(feeds)
+        end = array("d", position) * count
+        end[axis :: self.axes] = places
+        self.end.extend(end)
+        self.curve.extend(array("i", (NO_CURVE,)) * count)
+
     def add_curves(self, count: int, curves: array[float]) -> None:
         """Add the first rows of a column of curve parameters."""
         self.curves.extend(curves[: count * CURVE_WIDTH])

@@ -21,7 +21,7 @@ from polycnc.control.word_address.cycles.hole_patterns import drill_points, plan
 from polycnc.control.word_address.tools import radius
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.cycles.drilling import holes, patterns
-from polycnc.cycles.drilling.holes import Action, Hole, Stroke
+from polycnc.cycles.drilling.holes import Action, Stroke
 from polycnc.geometry.units import INCH_MM
 from polycnc.messages import AlarmError
 
@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.cycles.drilling import CycleData
+    from polycnc.cycles.drilling.holes import Cycle, Hole
     from polycnc.geometry.arcs import Point
 
 #: An incremental bottom counts from the initial level where the page of the cycle says so, else from R.
@@ -88,15 +89,18 @@ def dwell_seconds(value: float, form: str, rules: NumberRules) -> float:
     return value if form != "" or rules.calculator else value / 10.0**rules.decimals
 
 
-def out_at_feed(channel: SyntecChannel, code: str, hole: Hole, strokes: Iterator[Stroke]) -> Iterator[Stroke]:
+def out_at_feed(channel: SyntecChannel, code: str, cycle: Cycle) -> Cycle:
     """Fast drilling (Pr4008 = 1): the tool leaves a hole of G81 at the speed F2 (2.52)."""
     speed: float = RetractState.of(channel).feed
     if code != "G81" or not speed > 0.0 or not channel.feed > 0.0:
-        yield from strokes
-        return
-    *inwards, _ = strokes
-    yield from inwards
-    yield Stroke(Action.FEED, hole.back, speed / channel.feed)
+        return cycle
+
+    def out(hole: Hole) -> Iterator[Stroke]:
+        *inwards, _ = cycle(hole)
+        yield from inwards
+        yield Stroke(Action.FEED, hole.back, speed / channel.feed)
+
+    return out
 
 
 DRILLING = Drilling(

@@ -17,13 +17,11 @@ from polycnc.control.word_address.cycles.drilling import (
 from polycnc.cycles.drilling import holes, lathe
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.auxiliary.functions import RigidTapping
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.cycles.drilling import CycleData
-    from polycnc.cycles.drilling.holes import Hole, Stroke
+    from polycnc.cycles.drilling.holes import Cycle
 
 CYCLES = {
     "G73": DrillCycle(holes.peck_breaking_chips, pecks=True, needs="Q"),
@@ -115,12 +113,12 @@ def _taps_rigidly(channel: Channel) -> bool:
     return CycleState.of(channel).active.rigid and channel.mode["cycle"] in TAPS
 
 
-def in_step(channel: Channel, _code: str, hole: Hole, strokes: Iterator[Stroke]) -> Iterator[Stroke]:
+def in_step(channel: Channel, _code: str, cycle: Cycle) -> Cycle:
     """Pecks of a rigid tap break chips, or clear them by 5200#5 PCP; it dwells at its bottom (0i-TF Plus II.4.5.2)."""
     if not _taps_rigidly(channel):
-        return strokes
+        return cycle
     clears = FanucMillingParameters.naming(channel.setup.parameters).PCP
-    return (lathe.tap_clearing_chips if clears else lathe.tap)(hole)
+    return lathe.tap_clearing_chips if clears else lathe.tap
 
 
 def turn(channel: Channel, direction: int) -> None:

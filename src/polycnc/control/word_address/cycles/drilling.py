@@ -20,6 +20,7 @@ from polycnc.control.word_address.auxiliary.overrides import OverrideState
 from polycnc.control.word_address.block.numbers import length_converter
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.whole_numbers import DecimalPoint
+from polycnc.control.word_address.cycles.plunge import STROKES_OF_A_BLOCK, plunges
 from polycnc.control.word_address.motion.path import FEED_MODES, reach
 from polycnc.control.word_address.tools.radius import suspended
 from polycnc.cycles.drilling import lathe
@@ -46,8 +47,6 @@ BOTTOM = "bottom"
 #: Strokes of taps: overrides do not act in them.
 TAPS = frozenset({tap, lathe.tap, lathe.tap_clearing_chips})
 _M_OF_DIRECTION = {1: 3, -1: 4, 0: 5}
-#: Strokes of a hole that count as one block for the block limit.
-STROKES_OF_A_BLOCK = 4
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,11 +122,9 @@ def orient_spindle(channel: WordAddressChannel) -> None:
     channel.event(Auxiliary(19))
 
 
-def as_it_is(
-    _channel: WordAddressChannel, _code: str, _hole: Hole, strokes: Iterator[Stroke]
-) -> Iterator[Stroke]:
+def as_it_is(_channel: WordAddressChannel, _code: str, cycle: Cycle) -> Cycle:
     """The strokes of the cycle and nothing else."""
-    return strokes
+    return cycle
 
 
 def lead_from_feed(channel: WordAddressChannel) -> float:
@@ -201,7 +198,7 @@ class Drilling:
         turn: What a reversal or stop of the spindle within a cycle does.
         least_increments: Words that count least increments even under calculator input.
         choices: Words that choose by a plain number, in taps.
-        dress: What the machine adds to the strokes of a hole (clamping an axis), by cycle code.
+        dress: What the machine makes of the strokes of a hole (clamping an axis), by cycle code.
         halts: Where single block halts in a hole, by cycle code.
         overlaps: Whether the first stroke of a hole begins before the axes rest over it, by cycle code; None where no
             strokes overlap.
@@ -227,7 +224,7 @@ class Drilling:
     check: Callable[[Channel, str], None] = nothing_to_check
     least_increments: Sequence[str] = ""
     choices: Sequence[str] = ()
-    dress: Callable[[Channel, str, Hole, Iterator[Stroke]], Iterator[Stroke]] = as_it_is
+    dress: Callable[[Channel, str, Cycle], Cycle] = as_it_is
     halts: Callable[[Channel, str], Halts] = halts_nowhere
     overlaps: Callable[[Channel, str], bool | None] = no_overlap
 
@@ -336,7 +333,7 @@ def plan_drilling(builder: Builder, plan: Plan) -> Step:
                 words.position(channel, values)
                 if halts is not Halts.NONE:
                     channel.halt_inside()
-                _perform(channel, _with_halts(channel, _strokes(channel, code, data), halts), data)
+                _perform(channel, code, data, halts)
 
     return run
 
@@ -425,15 +422,7 @@ class _Words:
 
 def drill_here(channel: WordAddressChannel) -> None:
     """Drill with the data of the active cycle where the tool stands (hole patterns)."""
-    code, data = channel.mode["cycle"], CycleState.of(channel).active
-    _perform(channel, _strokes(channel, code, data), data)
-
-
-def _strokes(channel: WordAddressChannel, code: str, data: CycleData) -> Iterator[Stroke]:
-    """What the tool does at the next hole."""
-    rules: Drilling = channel.control.drilling_rules(channel)
-    hole = _hole(channel, code, data)
-    return rules.dress(channel, code, hole, rules.cycles[code].strokes(hole))
+    _perform(channel, channel.mode["cycle"], CycleState.of(channel).active, Halts.NONE)
 
 
 def _hole(channel: WordAddressChannel, code: str, data: CycleData) -> Hole:
@@ -476,14 +465,19 @@ def _with_halts(channel: WordAddressChannel, strokes: Iterator[Stroke], halts: H
         yield stroke
 
 
-def _perform(channel: WordAddressChannel, strokes: Iterator[Stroke], data: CycleData) -> None:
-    """Let the tool make the strokes of one hole."""
+def _perform(channel: WordAddressChannel, code: str, data: CycleData, halts: Halts) -> None:
+    """Let the tool make the strokes of the next hole."""
     rules: Drilling = channel.control.drilling_rules(channel)
-    if rules.cycles[channel.mode["cycle"]].strokes in TAPS:
+    cycle, hole = rules.cycles[code].strokes, _hole(channel, code, data)
+    dressed = rules.dress(channel, code, cycle)
+    rests = CycleState.of(channel).overlap == NO_OVERLAP
+    if dressed is cycle and rests and plunges(channel, data.axis, cycle, hole):
+        return
+    if cycle in TAPS:
         OverrideState.of(channel).tapping = True
         channel.context_changed()
     try:
-        _work(channel, strokes, data)
+        _work(channel, _with_halts(channel, dressed(hole), halts), data)
     finally:
         if OverrideState.of(channel).tapping:
             OverrideState.of(channel).tapping = False

@@ -253,18 +253,25 @@ def _turn(channel: LatheChannel, direction: int) -> None:
 # ---- what the machine adds ---------------------------------------------------------------------------------------
 
 
-def _dress(channel: LatheChannel, code: str, hole: Hole, strokes: Iterator[Stroke]) -> Iterator[Stroke]:
+def _dress(channel: LatheChannel, code: str, cycle: Cycle) -> Cycle:
     """Clamping of the C axis about the hole, and the speed of a rigid tap on its way out."""
-    if code in tapping.TAPS:
+    taps = code in tapping.TAPS
+    if taps:
         tapping.check(channel, CycleState.of(channel).active)
-        strokes = lathe.with_extraction(strokes, hole, tapping.extraction(channel))
-    else:
-        strokes = lathe.overlapping(strokes, hole, _apart(channel))
-    clamp = tapping.ClampState.of(channel).code
-    if clamp:
-        seconds = channel.memory.parameters.unclamp_dwell / 1000.0
-        strokes = lathe.clamped(strokes, clamp, _unclamp(channel, clamp), seconds)
-    return strokes
+
+    def dressed(hole: Hole) -> Iterator[Stroke]:
+        strokes = cycle(hole)
+        if taps:
+            strokes = lathe.with_extraction(strokes, hole, tapping.extraction(channel))
+        else:
+            strokes = lathe.overlapping(strokes, hole, _apart(channel))
+        clamp = tapping.ClampState.of(channel).code
+        if clamp:
+            seconds = channel.memory.parameters.unclamp_dwell / 1000.0
+            strokes = lathe.clamped(strokes, clamp, _unclamp(channel, clamp), seconds)
+        return strokes
+
+    return dressed
 
 
 def _apart(channel: LatheChannel) -> frozenset[Joint]:
