@@ -13,7 +13,7 @@ from enum import Enum
 from math import cos, degrees, hypot, isnan, nan, pi, radians
 from typing import TYPE_CHECKING
 
-from polycnc.channel.moves.path import EndOfBlock, Item, Move, PlacedEvent, Rank, Stage
+from polycnc.channel.moves.path import END_OF_BLOCK, EndOfBlock, Item, Move, PlacedEvent, Rank, Stage
 from polycnc.geometry import arcs, offset
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError
@@ -185,7 +185,7 @@ class CornerStage(Stage):
 
     def block(self) -> None:
         """A block has been read: too many without plane motion, and there is no corner."""
-        self._in_order(EndOfBlock())
+        self._in_order(END_OF_BLOCK)
         if self._wanted is not None:
             self._wanted = None
             self._violate(CornerViolation.NO_NEXT_MOVE, 0)

@@ -28,7 +28,7 @@ from __future__ import annotations
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from polycnc.channel.moves.path import EndOfBlock, Item, Move, PlacedEvent, Rank, Stage
+from polycnc.channel.moves.path import END_OF_BLOCK, Item, Move, PlacedEvent, Rank, Stage
 from polycnc.compensation import vectors
 from polycnc.compensation.ends import blind_end, end_before, square_ends, starts_blind
 from polycnc.compensation.interference import InterferenceCheck, Objections
@@ -210,7 +210,7 @@ class CutterCompensation(Stage):
         if place is not None and (self.policy.shifts_without_motion or self._forced is not None):
             point = self.plane.point(place.end)
             self._take(place, offset.Edge(point, point, NO_VECTOR, NO_VECTOR))
-        self._in_order(EndOfBlock())
+        self._in_order(END_OF_BLOCK)
         self._read += 1
         while self._window and self._read - self._window[0].read >= self._window[0].waits_for:
             self._release()

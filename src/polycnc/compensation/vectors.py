@@ -109,6 +109,8 @@ def without_small_moves(corner: Corner, following: Edge | None, least_mm: float)
     The first vector, where single block stops, is the one that stays. Before an arc of a semicircle or more
     all stay: without the last one the arc could shrink to nothing.
     """
+    if len(corner.vectors) == 1:
+        return corner
     if corner.joint is Joint.LINE and following is not None and following.sweep >= pi:
         return corner
     kept = corner.vectors[:1]

@@ -12,7 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum
 from math import atan2, cos, degrees, hypot, pi, sqrt
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.geometry import arcs
 from polycnc.geometry.tolerances import NO_WAY, ROUNDED_MM
@@ -29,8 +29,7 @@ BRIDGED_MM = 1e-6
 _PARALLEL = 1e-12
 
 
-@dataclass(frozen=True, slots=True)
-class Edge:
+class Edge(NamedTuple):
     """A line or an arc of a contour.
 
     Attributes:
@@ -102,7 +101,10 @@ def turn(a: Edge, b: Edge) -> float:
 
 def is_outer(a: Edge, b: Edge, offset: float) -> bool:
     """Whether the tool goes round the corner: the path turns away from the tool, or back on itself."""
-    angle = turn(a, b)
+    return _leads_out(turn(a, b), offset)
+
+
+def _leads_out(angle: float, offset: float) -> bool:
     return abs(angle) > pi - 1e-9 or angle * offset < -SMOOTH_MM
 
 
@@ -285,6 +287,8 @@ def corner(a: Edge, b: Edge, offset: float, outer: Outer) -> Corner | None:
     Where the tool fills one of them, all that happens within the rounding of points about its centre happens there.
     """
     found = _corner(a, b, offset, outer)
+    if a.center is None and b.center is None:
+        return found
     for edge, at in ((a, a.end), (b, b.start)):
         if found is not None and edge.center is not None and is_point(edge, at, offset):
             center = (edge.center[0] - at[0], edge.center[1] - at[1])
@@ -298,16 +302,19 @@ def _corner(a: Edge, b: Edge, offset: float, outer: Outer) -> Corner | None:
     if abs(offset * angle) <= SMOOTH_MM:
         # Not a corner: the vector square on an arc keeps a full circle closed.
         return Corner([square(a.arriving if a.center is not None else b.departing, offset)])
-    if is_outer(a, b, offset):
-        return outer_corner(a, b, offset, outer)
+    if _leads_out(angle, offset):
+        return _outer_corner(a, b, offset, outer, abs(angle))
     point = meet(a, b, offset, offset)
     return None if point is None else Corner([(point[0] - a.end[0], point[1] - a.end[1])])
 
 
 def outer_corner(a: Edge, b: Edge, offset: float, outer: Outer) -> Corner:
     """The way round an outer corner; only the directions at the corner and the kinds of edges matter."""
+    return _outer_corner(a, b, offset, outer, abs(turn(a, b)))
+
+
+def _outer_corner(a: Edge, b: Edge, offset: float, outer: Outer, angle: float) -> Corner:
     first, last = square(a.arriving, offset), square(b.departing, offset)
-    angle = abs(turn(a, b))
     if degrees(angle) <= outer.intersection_limit_deg + 1e-9:
         if outer.extend_as_circles and (a.center is not None or b.center is not None):
             point = meet(a, b, offset, offset)

@@ -135,6 +135,8 @@ class EndOfBlock:
     """The end of a block that keeps its place behind moves that are held back."""
 
 
+#: The only one that is needed.
+END_OF_BLOCK = EndOfBlock()
 #: What a stage may hold back.
 Item = Move | PlacedEvent | EndOfBlock
 

@@ -39,6 +39,8 @@ _STATEMENT = re.compile(rf"[ \t]*(?:/\d?[ \t]*)*(?:N[ \t]*\d+)?[ \t]*(?:/\d?[ \t
 _NUMBERS = re.compile(
     r"^[ \t]*(?:[O:][ \t]*\d+|<[^>]*>)?[ \t]*(?:/\d?[ \t]*)*(?:N[ \t]*\d+)?[ \t]*(?:/\d?[ \t]*)*"
 )
+#: A block that begins with a word and its number is neither a statement nor nothing.
+_PLAIN_BEGIN = re.compile(r"(?:N\d+[ \t]*)?[A-MO-Z][-+\d.]")
 _SEQUENCE_WORD = re.compile(r"N[ \t]*\d+\.?\d*")
 _LOOP = re.compile(r"(?<![A-Z])(DO|END)[ \t]*(\d+)")
 _HEAD = re.compile(r"[ \t]*(?:[O:][ \t]*\d+|<[^>]*>)?")
@@ -179,7 +181,8 @@ class WordAddressProgram:
         """
         if index >= len(self.lines):
             return True
-        return not (_BLANK.fullmatch(self.lines[index]) or self.is_statement(index))
+        line = self.lines[index]
+        return bool(_PLAIN_BEGIN.match(line)) or not (_BLANK.fullmatch(line) or self.is_statement(index))
 
     def is_statement(self, index: int) -> bool:
         """Whether a line is a macro statement."""

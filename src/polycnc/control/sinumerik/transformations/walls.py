@@ -12,7 +12,7 @@ from math import ceil, degrees, hypot
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.move_path import MovePath
-from polycnc.channel.moves.path import EndOfBlock, Item, Move, PlacedEvent, Rank, Stage
+from polycnc.channel.moves.path import END_OF_BLOCK, Item, Move, PlacedEvent, Rank, Stage
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.toolpath.kinds import CCW_KINDS
 
@@ -63,7 +63,7 @@ class WallStage(Stage):
     def block(self) -> None:
         """Likewise the end of a block."""
         if self._held:
-            self._held.append(EndOfBlock())
+            self._held.append(END_OF_BLOCK)
         else:
             self.after.block()
 
