@@ -189,3 +189,11 @@ def test_the_spindle_follows_a_cut_under_constant_surface_speed_without_a_wait()
 def test_a_surface_speed_that_is_none_turns_no_spindle(speed: float) -> None:
     context = Context(surface_speed=True, spindle_rpm=speed, spindle_direction=1)
     assert rpm_at(context, 0.0, MILL.spindles[0]) == 0.0
+
+
+def test_a_turret_turns_the_shorter_way_round_to_the_place_of_its_tool() -> None:
+    magazine = replace(LATHE.magazine, kind="turret", places=12, change_time_s=1.0, place_time_s=0.2)
+    machine = replace(LATHE, magazine=magazine)
+    rows = Build(axes=("X", "Z"), context=Context(tool=2)).feed(1.0, 0.0)
+    rows.set(tool=11).feed(2.0, 0.0)
+    assert rows.plan(machine, tool=1).times.tool_change_s == pytest.approx(2 * 1.0 + (1 + 3) * 0.2)

@@ -396,6 +396,7 @@ def _magazine(table: MagazineData) -> Magazine:
         change_time_s=float(table.get("change_time_s", 4.0)),
         change_at={} if at == "anywhere" else {name: tuple(points) for name, points in at.items()},
         retracts=table.get("retracts", False),
+        place_time_s=float(table.get("place_time_s", 0.0)),
     )
 
 

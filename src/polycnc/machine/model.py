@@ -131,7 +131,7 @@ class Magazine:
 
     `change_at`: at which of its reference points (1 to 4) an axis stands for a change; empty: anywhere. The change
     itself brings the axes there, in this order and each to its first point, where it `retracts`; else controls refuse
-    a change elsewhere (`control/tool_change.py`).
+    a change elsewhere (`control/tool_change.py`). `place_time_s` is the time in which a turret turns by one place.
     """
 
     kind: Literal["magazine", "turret"]
@@ -139,6 +139,18 @@ class Magazine:
     change_time_s: float
     change_at: Mapping[str, tuple[int, ...]]
     retracts: bool = False
+    place_time_s: float = 0.0
+
+    def index_s(self, before: int, after: int) -> float:
+        """Seconds in which a turret turns from the place of one tool to that of another, the shorter way round.
+
+        A tool without a place of its own (number 0, above `places`, or called by name) is not turned to.
+        """
+        known = all(0 < tool <= self.places for tool in (before, after))
+        if self.kind != "turret" or not known:
+            return 0.0
+        way = abs(after - before)
+        return min(way, self.places - way) * self.place_time_s
 
 
 def program_called(calls: str) -> int | str:

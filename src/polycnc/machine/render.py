@@ -166,6 +166,7 @@ def _magazine(magazine: Magazine) -> _Keys:
         ("kind", magazine.kind),
         ("places", magazine.places),
         ("change_time_s", magazine.change_time_s),
+        ("place_time_s", magazine.place_time_s),
         ("change_at", magazine.change_at or "anywhere"),
         ("retracts", magazine.retracts),
     ]

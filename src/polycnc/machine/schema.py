@@ -127,6 +127,7 @@ class MagazineTable(_Table):
     kind: Literal["magazine", "turret"] | None = None
     places: Annotated[int, Field(ge=1)] | None = None
     change_time_s: NotNegative | None = None
+    place_time_s: NotNegative | None = None
     change_at: ChangeAt | None = None
     retracts: bool | None = None
 

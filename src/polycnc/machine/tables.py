@@ -84,6 +84,7 @@ class MagazineData(TypedDict, total=False):
     kind: Literal["magazine", "turret"]
     places: int
     change_time_s: float
+    place_time_s: float
     change_at: dict[str, list[int]] | Literal["anywhere"]
     retracts: bool
 

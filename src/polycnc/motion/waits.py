@@ -157,7 +157,9 @@ class Waits:
             self._tool = tool  # contexts know number and name, the start knows one of them
         self._at_start = 0
         if tool != self._tool and (any(tool) or any(self._tool)):
-            self.wait(row, "tool_change_s", number, self.machine.magazine.change_time_s)
+            magazine = self.machine.magazine
+            turns = magazine.index_s(self._tool[0], tool[0])
+            self.wait(row, "tool_change_s", number, magazine.change_time_s + turns)
         self._tool = tool
         spindle = self.spindle(context)
         if spindle is not None:
