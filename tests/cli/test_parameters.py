@@ -15,7 +15,7 @@ SINUMERIK = ("--control", "sinumerik-840d")
 
 def test_parameters_are_listed_with_their_meaning_in_both_languages(console: Console) -> None:
     english = console("parameters", "list", *LATHE).out
-    assert "5114      0            Retract of high speed pecking [mm]" in english.splitlines()
+    assert "5114      0.5          Retract of high speed pecking [mm]" in english.splitlines()
     chinese = console("parameters", "list", *LATHE, "--lang", "zh-TW").out
     assert "高速深孔鑽的退刀量" in chinese
     assert len(chinese.splitlines()) == len(english.splitlines()) > 100
@@ -27,7 +27,7 @@ def test_parameters_are_listed_with_their_meaning_in_both_languages(console: Con
         ("fanuc-m", "19625     3            Blocks that compensation looks ahead", "補正的預讀單節數"),
         (
             "meldas-m",
-            "8012      0            G73 n: retract of high speed pecking [mm]",
+            "8012      0.5          G73 n: retract of high speed pecking [mm]",
             "高速深孔鑽的退刀量",
         ),
     ],

@@ -69,9 +69,9 @@ class FanucParameters(MacroParameters[A_co]):
     #: 5010: Corner moves shorter than this are left out in compensation [mm].
     least_corner_move = Number(5010, delivered=0.001)
     #: 5114: Retract of high speed pecking [mm].
-    peck_retract = Number(5114, delivered=0.0)
+    peck_retract = Number(5114, delivered=0.5)
     #: 5115: Clearance of deep hole pecking [mm].
-    peck_clearance = Number(5115, delivered=0.0)
+    peck_clearance = Number(5115, delivered=0.5)
     #: 5200#5: pecking taps break chips (0) or clear them (1).
     PCP = Bit(5200, 5, delivered=False)
     #: 5213: Retract of a pecking tap [mm].

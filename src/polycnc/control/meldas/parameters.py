@@ -51,8 +51,8 @@ class MeldasParameters(MacroParameters["MeldasAxisParameters"]):
     #: 7313: T that calls: number of the program; 0 for none.
     t_call_program = Whole(7313, delivered=0)
     #: 8012: G73 n: retract of high speed pecking [mm].
-    peck_retract = Number(8012, delivered=0.0)
+    peck_retract = Number(8012, delivered=0.5)
     #: 8013: G83 n: clearance of deep hole pecking [mm].
-    peck_clearance = Number(8013, delivered=0.0)
+    peck_clearance = Number(8013, delivered=0.5)
     #: 8081: Gcode Rotat: angle of G68 without R [degrees].
     rotation_angle = Number(8081, delivered=0.0)
