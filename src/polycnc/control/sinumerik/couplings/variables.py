@@ -8,6 +8,7 @@ from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.positions import shown
 from polycnc.control.sinumerik.couplings.links import Couplings, Kind
 from polycnc.control.sinumerik.tables import MINUTE
+from polycnc.control.sinumerik.tangential.definitions import coupling_state
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.transformation.couplings.laws import ByCurve
 
@@ -17,13 +18,16 @@ if TYPE_CHECKING:
 
 
 def _acts(channel: SinumerikChannel, indices: Indices) -> int:
-    """`$AA_COUP_ACT[following]`: 8 coupled motion, 16 master value coupling, 32 electronic gear; 0 none."""
+    """`$AA_COUP_ACT[following]`: 8 coupled motion, 16 master value coupling, 32 electronic gear; 0 none.
+
+    Tangential control adds what `coupling_state` says.
+    """
     column = arguments.column(channel, indices[0] if indices else None)
     kinds = {link.kind for link in Couplings.of(channel).links.get(column, ())}
     clocked = channel.actual.clocked
     if clocked is not None:
         kinds |= {Kind.LEAD if isinstance(law, ByCurve) else Kind.TRAIL for law in clocked.led_by(column)}
-    return sum(kinds)
+    return sum(kinds) + coupling_state(channel, column)
 
 
 def _master_place(channel: SinumerikChannel, indices: Indices) -> float:

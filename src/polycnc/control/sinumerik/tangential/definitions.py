@@ -16,13 +16,11 @@ from polycnc.control.sinumerik.actions import axes as action_axes
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.arguments import Arguments, Procedure
 from polycnc.control.sinumerik.block.positions import Dimension, axis_term, number
-from polycnc.control.sinumerik.feed.axis_settings import axis_of
 from polycnc.control.sinumerik.feed.pace import Overrides
 from polycnc.control.sinumerik.motion import moves
 from polycnc.control.sinumerik.tangential.coupling import Coupling
 from polycnc.control.sinumerik.tangential.stage import Positioned, TangentialStage
-from polycnc.control.sinumerik.variables.row import RowWithStop
-from polycnc.language.sinumerik.names.values import Axis, Type
+from polycnc.language.sinumerik.names.values import Axis
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
@@ -265,13 +263,3 @@ def _turn_alone(terms: list[tuple[AxisTerm, bool]], *, rapid: bool) -> Step:
 def coupling_state(channel: SinumerikChannel, column: int) -> int:
     """`$AA_COUP_ACT` as far as tangential control goes: 0 for none."""
     return TANGENTIAL if is_coupled(channel, column) else 0
-
-
-COUPLING_VARIABLES: dict[str, RowWithStop] = {
-    "$AA_COUP_ACT": (
-        Type.INT,
-        lambda channel, indices: coupling_state(channel, axis_of(channel, "$AA_COUP_ACT", indices)),
-        None,
-        True,
-    ),
-}

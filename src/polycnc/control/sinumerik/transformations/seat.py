@@ -22,8 +22,8 @@ from polycnc.geometry.frames import IDENTITY
 from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES
 from polycnc.messages import AlarmError
 from polycnc.transformation.chain import Chain
-from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
 from polycnc.transformation.kinematic.parallel import ParallelAxes
+from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
 from polycnc.transformation.seated import Seated
 
 if TYPE_CHECKING:

@@ -36,7 +36,6 @@ from polycnc.control.sinumerik.replaced import REPLACED_VARIABLES
 from polycnc.control.sinumerik.signals.measuring import MEASURE_VARIABLES
 from polycnc.control.sinumerik.signals.sections import SECTION_VARIABLES
 from polycnc.control.sinumerik.tables import MINUTE
-from polycnc.control.sinumerik.tangential.definitions import COUPLING_VARIABLES
 from polycnc.control.sinumerik.tools.online import OVERLAY_VARIABLES
 from polycnc.control.sinumerik.tools.sides import Contour
 from polycnc.control.sinumerik.tools.variables import IN_MAIN_RUN, TOOL_VARIABLES
@@ -393,7 +392,6 @@ VARIABLES: dict[str, SystemVariable] = {
     **{name: SystemVariable(name, *row) for name, row in REPOS_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in MEASURE_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in DEFINITION_VARIABLES.items()},
-    **{name: SystemVariable(name, *row) for name, row in COUPLING_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in SURROUNDINGS.items()},
     **{name: SystemVariable(name, *row) for name, row in REPLACED_VARIABLES.items()},
     **{name: SystemVariable(name, Type.INT, part_of_clock(part), stop=True) for name, part in PARTS.items()},
