@@ -107,29 +107,34 @@ def test_a_dwell_and_a_reversal_stop_the_axes() -> None:
 
 
 def test_a_corner_without_deviation_is_passed_at_the_allowed_velocity_jump() -> None:
-    # Each axis jumps by the whole path speed at a right angle: v = overload · a · cycle.
+    # Each axis changes by the whole path speed at a right angle, v = overload · a · cycle, within overload · cycle.
     corner = 1.2 * A * 0.004
+    bend = 0.5 * corner * 1.2 * 0.004
     rows = (
         Build(context=Context(corner_mode=CornerMode.CONTINUOUS)).feed(50.0, 0.0, 0.0).feed(50.0, 50.0, 0.0)
     )
-    half = (100.0 + (100.0 - corner)) / A + (50.0 - (2 * 100.0**2 - corner**2) / (2.0 * A)) / 100.0
-    assert rows.plan(MACHINE).total_s == pytest.approx(2.0 * half, rel=1e-12)
+    assert rows.plan(MACHINE).total_s == pytest.approx(2.0 * half_of_corner(50.0, corner, bend), rel=1e-9)
 
 
-def test_a_rounded_corner_is_passed_at_the_speed_of_the_arc_within_the_tolerance() -> None:
-    # Junction deviation at 90°: radius = d·cos 45°/(1 - cos 45°); the normal reaches each axis in full.
+def half_of_corner(length: float, corner: float, bend: float, pull: float = A) -> float:
+    """Seconds from rest to the middle of a corner, on `bend` mm before which the speed stays."""
+    level = length - bend - (2 * 100.0**2 - corner**2) / (2.0 * pull)
+    return (100.0 + (100.0 - corner)) / pull + level / 100.0 + bend / corner
+
+
+def test_a_rounded_corner_is_passed_at_the_speed_of_the_bend_within_the_tolerance() -> None:
+    # At 90° a parabola that leaves the corner by d begins 4·d/√2 before it; each axis turns from its speed to rest or
+    # back on twice that way.
     tolerance = 0.05
-    radius = tolerance * sqrt(0.5) / (1.0 - sqrt(0.5))
-    # Normals turn from 45° to one side to 45° to the other: the largest part of an axis is the whole.
-    corner = sqrt(A * radius)
+    bend = 4.0 * tolerance / sqrt(2.0)
+    corner = sqrt(A * 2.0 * bend)
     rows = Build(context=Context(corner_mode=CornerMode.ROUNDED, tolerance_mm=tolerance))
     rows.feed(50.0, 0.0, 0.0).feed(50.0, 50.0, 0.0)
-    half = (100.0 + (100.0 - corner)) / A + (50.0 - (2 * 100.0**2 - corner**2) / (2.0 * A)) / 100.0
-    assert rows.plan(MACHINE).total_s == pytest.approx(2.0 * half, rel=1e-12)
+    assert rows.plan(MACHINE).total_s == pytest.approx(2.0 * half_of_corner(50.0, corner, bend), rel=1e-9)
 
 
 def test_rounding_within_a_distance_begins_no_earlier_than_that_before_the_corner() -> None:
-    """G641: at 90° the arc that touches both lines 0.04 mm from the corner has a radius of 0.04 mm."""
+    """G641: at 90° each axis goes from its speed to rest, or back, on 0.04 mm before and 0.04 mm behind the corner."""
     machine = mill(acceleration=1000.0, top=500.0)
     rows = (
         Build()
@@ -137,10 +142,10 @@ def test_rounding_within_a_distance_begins_no_earlier_than_that_before_the_corne
         .feed(50.0, 0.0, 0.0)
         .feed(50.0, 50.0, 0.0)
     )
-    # The larger of the two shares of an axis in the normals of that arc, at its ends, is 1: v² = a·r.
-    corner = sqrt(1000.0 * 0.04)
-    lost = 2.0 * (100.0 - corner) ** 2 / (2.0 * 1000.0 * 100.0)
-    assert rows.plan(machine).total_s == pytest.approx(1.0 + 100.0 / 1000.0 + lost, rel=1e-4)
+    corner = sqrt(1000.0 * 2.0 * 0.04)
+    assert rows.plan(machine).total_s == pytest.approx(
+        2.0 * half_of_corner(50.0, corner, 0.04, 1000.0), rel=1e-9
+    )
 
 
 def test_rounding_within_no_distance_keeps_the_corner() -> None:

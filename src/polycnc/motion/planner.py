@@ -268,6 +268,8 @@ class Planner:
         """The number of pieces in the buffer that no row to come can change."""
         state, pieces, width = self._state, self._pieces, self._width
         reach = 0.5 * sqrt(state.run.top2) * state.run.window
+        if state.run.window == 0.0:
+            reach = 0.5 * state.run.length  # the corner behind the last row may bend so much of it
         last = count - 1
         way = 0.0
         while last > 0 and way < reach and pieces[last * width + PieceRecord.PAUSE] == 0.0:

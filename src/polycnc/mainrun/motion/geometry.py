@@ -1,4 +1,4 @@
-"""Where the axes are along a row of the toolpath: lines and arcs, by the share of the way."""
+"""Where the axes are: along a row, a line or an arc, by the share of its way; along a piece of a curve."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import cos, hypot, sin
 from typing import TYPE_CHECKING
 
-from polycnc.motion.kernels.columns import PLACES, Limits, PieceRecord, State
+from polycnc.motion.kernels.columns import PLACES, Form, Limits, PieceRecord, State
 from polycnc.motion.pole import RING_MM
 
 if TYPE_CHECKING:
@@ -72,6 +72,49 @@ class Arc:
 
 
 Segment = Line | Arc
+
+
+@dataclass(frozen=True, slots=True)
+class Cubic:
+    """A piece of a spline, or of a corner that is rounded: the cubic of the samples (`motion/sampling/run.py`).
+
+    Attributes:
+        start: Position of all axes.
+        end: Position of all axes.
+        leave: What the tangent at its start, over the whole piece, leads past its end; `arrive` that at its end.
+    """
+
+    start: tuple[float, ...]
+    end: tuple[float, ...]
+    leave: tuple[float, ...]
+    arrive: tuple[float, ...]
+
+    def at(self, share: float) -> list[float]:
+        """The position after a share of the piece, 0 to 1."""
+        if share >= 1.0:
+            return list(self.end)
+        left = 1.0 - share
+        return [
+            a + share * (b - a + left * (left * leave - share * arrive))
+            for a, b, leave, arrive in zip(self.start, self.end, self.leave, self.arrive, strict=True)
+        ]
+
+
+def piece_cubic(record: Sequence[float], axes: int) -> Cubic | None:
+    """The curve of a piece from the planner's record; None for one that is straight."""
+    if record[PieceRecord.FORM] == Form.STRAIGHT:
+        return None
+    first = PieceRecord.VECTORS
+    leave, arrive = record[first : first + axes], record[first + axes : first + 2 * axes]
+    first += PLACES * axes
+    start, end = record[first : first + axes], record[first + axes : first + 2 * axes]
+    scale = record[PieceRecord.LENGTH] / record[PieceRecord.MARGIN]
+    return Cubic(
+        tuple(start),
+        tuple(end),
+        tuple(q * scale - (b - a) for q, a, b in zip(leave, start, end, strict=True)),
+        tuple(q * scale - (b - a) for q, a, b in zip(arrive, start, end, strict=True)),
+    )
 
 
 def row_line(start: Sequence[float], state: State) -> Line:

@@ -173,7 +173,13 @@ class PathMotion:
         ahead = [a + (b - a) * per_mm * brakes for a, b in zip(piece.way.start, piece.way.end, strict=True)]
         end = [h + a - s for h, a, s in zip(here, ahead, piece.way.start, strict=True)]
         rest = replace(
-            piece, way=Line(tuple(here), tuple(end)), first=0.0, share=1.0, left=0.0, is_coasting=True
+            piece,
+            way=Line(tuple(here), tuple(end)),
+            first=0.0,
+            share=1.0,
+            left=0.0,
+            is_coasting=True,
+            curve=None,
         )
         record = self._record[:]
         record[PieceRecord.LENGTH] = brakes

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from polycnc.channel.intervention import TakesBack
-    from polycnc.mainrun.motion.geometry import Segment
+    from polycnc.mainrun.motion.geometry import Cubic, Segment
     from polycnc.mainrun.preparation.layout import Laid
     from polycnc.toolpath import Context, Event
     from polycnc.toolpath.motion_settings import DryRun
@@ -123,7 +123,7 @@ class Move(Row):
 
 @dataclass(slots=True, eq=False)
 class Piece(Row):
-    """A piece of the path: a line, a chord, or 7.5° of an arc.
+    """A piece of the path: a line, a chord of a spline, or 7.5° of an arc.
 
     Attributes:
         length: Of the piece, mm.
@@ -131,6 +131,7 @@ class Piece(Row):
         cap2: Largest squared speed that the axes allow in it.
         asked: Speed that the program asks for, mm/s; infinite where it asks for none.
         is_coasting: What is run behind a skip signal.
+        curve: Where it leads, if it is a chord of a spline or a part of a corner that is rounded.
     """
 
     length: float
@@ -139,9 +140,12 @@ class Piece(Row):
     cap2: float
     asked: float
     is_coasting: bool = False
+    curve: Cubic | None = None
 
     def at(self, share: float) -> list[float]:
         """Machine position after a share of the piece."""
+        if self.curve is not None:
+            return self.curve.at(share)
         last = share >= 1.0 and self.first + self.share >= 1.0 - 1e-9
         return self.way.at(1.0 if last else self.first + self.share * share)
 

@@ -141,6 +141,7 @@ class PieceBuffer:
         for at in range(0, taken * width, width):
             self._records[at + PieceRecord.FORM] = Form.CURVED  # its bounds reach ahead, and it is never cut
         rows[0].before.restore(state)
+        state.run.is_bent = 1.0
         if way is None:
             state.run.stop, state.run.alone = 1.0, 0.0
         state.run.pieces = first
@@ -301,6 +302,15 @@ class PieceBuffer:
         """Largest squared speed at which the next piece may be entered; 0 where none is planned."""
         return self._planned[self._next + PieceRecord.REACH2] if self._next < len(self._planned) else 0.0
 
+    def rests_behind(self, row: float) -> bool:
+        """Whether the axes shall rest behind a row, pieces of which are in front or have just been taken."""
+        width, first = self._width, self._taken * self._width
+        for k in range(len(self)):
+            if self._records[first + k * width + PieceRecord.ROW] != row:
+                at = self._next + k * width
+                return at >= len(self._planned) or self._planned[at + PieceRecord.ENTRY2] == 0.0
+        return True
+
     @property
     def ways_to_rest(self) -> tuple[float, float]:
         """Way of the pieces ahead up to where the axes shall rest, and up to where they rest in any case, mm."""
@@ -330,7 +340,8 @@ class PieceBuffer:
             return False
         if self._rests > (self.front(PieceRecord.PAUSE) > 0.0):
             return True
-        reach = 0.5 * sqrt(self.state.run.top2) * self.state.run.window
+        run = self.state.run
+        reach = 0.5 * (sqrt(run.top2) * run.window if run.window else run.length)
         return not self.is_open and self._way - self.front(PieceRecord.LENGTH) >= reach
 
     @property

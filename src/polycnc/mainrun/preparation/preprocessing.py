@@ -595,6 +595,7 @@ class Preprocessing:
         """The rest of a row goes to its end from another start; the axes rest at both."""
         while self.items and isinstance(self.items[0], Move) and self.items[0].row == move.row:
             self.queue.pop_piece()
+        self.queue.keep_to_corner()
         fields = self._buffer.context_fields(
             self.toolpath.context_number(move.context), ContextRecord.OFFSETS + self._axes
         )

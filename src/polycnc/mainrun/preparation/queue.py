@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from polycnc.mainrun.motion.geometry import piece_cubic
 from polycnc.mainrun.preparation.items import Move, Piece
 from polycnc.mainrun.preparation.layout import Layout
-from polycnc.motion.kernels.columns import PieceRecord
+from polycnc.motion.kernels.columns import SPLINE, TO_CORNER, PieceRecord
 
 if TYPE_CHECKING:
     from array import array
     from collections import deque
     from collections.abc import Callable
 
+    from polycnc.mainrun.motion.geometry import Cubic
     from polycnc.mainrun.preparation.items import ChannelRates, Item
     from polycnc.mainrun.preparation.piece_buffer import PieceBuffer
 
@@ -33,6 +35,7 @@ class Queue:
         self.items, self._buffer = items, buffer
         self.layout = Layout()
         self._front: Move | None = None
+        self._rounds = self._nears_corner = False
         self.lay_back: Callable[[], None] = _nothing
 
     def pop_piece(self) -> tuple[Piece, array[Any]]:
@@ -53,10 +56,29 @@ class Queue:
             move.way, move.row, move.kind, move.context, move.program, move.line, move.rapid, move.fixed,
             move.per_revolution, move.left if is_last else 0.0, move.by_axis, move.overridden, move.held,
             move.faster, move.largest_override, record[PieceRecord.LENGTH], move.done, share, record[PieceRecord.CAP2],
-            move.asked(move.done + 0.5 * share),
+            move.asked(move.done + 0.5 * share), curve=self._curve(move, record),
         )  # fmt: skip
         move.done += share
         return piece
+
+    def _curve(self, move: Move, record: array[Any]) -> Cubic | None:
+        """The curve of a piece; None if it is a part of the way of its row.
+
+        A corner is not rounded if, when the axes come near it, they shall come to rest there.
+        """
+        zone = record[PieceRecord.ZONE]
+        if zone == TO_CORNER and not self._nears_corner:
+            self._rounds = not self._buffer.rests_behind(move.row)
+        elif zone == 0.0:
+            self._rounds = False
+        self._nears_corner = zone == TO_CORNER
+        if self._rounds or (move.kind == SPLINE and zone == 0.0):
+            return piece_cubic(record, len(move.way.start))
+        return None
+
+    def keep_to_corner(self) -> None:
+        """The axes rest at the corner that they have come to: it is not rounded."""
+        self._rounds = self._nears_corner = False
 
     def suits(self, rates: ChannelRates, *, at_rest: bool) -> bool:
         """Whether what is prepared is laid out for what the operator has set."""

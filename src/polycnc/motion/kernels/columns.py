@@ -154,6 +154,7 @@ class PieceRecord(Places):
     the run that begins with the piece, seconds. MARGIN is the factor by which q' and q'' are stored larger than they
     are. EARLY are the seconds by which the run that begins with the piece may begin before the averages of the one
     before have come to rest; PAUSE bounds them. PATH_PULL bounds the acceleration along a curved piece beside its axes.
+    ZONE says that the piece is bent for the corner behind it (TO_CORNER) or before it (FROM_CORNER, `rounding.py`).
     """
 
     LENGTH = place()
@@ -178,11 +179,16 @@ class PieceRecord(Places):
     MARGIN = place()
     EARLY = place()
     PATH_PULL = place()
+    ZONE = place()
     VECTORS = place(0)
 
 
 #: Of the vectors of a piece: the first of the two positions, and how many there are.
 PLACES, PIECE_BLOCKS = 4, 6
+
+
+#: ZONE of a piece that is bent for a corner.
+TO_CORNER, FROM_CORNER = 1.0, 2.0
 
 
 class Form(Places):
@@ -224,6 +230,7 @@ class RunState(Structure):
         straight_pieces: Of the straight run from rest that the row at hand goes on with.
         ease: Factor on the limits at the end of the row before; `corner_ease` for its corner.
         overlap: OVERLAP of the row before.
+        is_bent: The row before is bent already for the corner to the row at hand (1): the latter is laid out again.
     """
 
     stop: float
@@ -249,17 +256,22 @@ class RunState(Structure):
     ease: float
     corner_ease: float
     overlap: float
+    is_bent: float
 
 
 @record
 class JointState(Structure):
-    """The joint at hand: pull around it, seconds of rest, averages of a run that begins there, factor on the limits."""
+    """The joint at hand: pull around it, seconds of rest, averages of a run that begins there, factor on the limits.
+
+    `bend_way` is the way before and behind it on which the path is bent (`rounding.py`), mm.
+    """
 
     pull: float
     rest: float
     ramp: float
     blend: float
     ease: float
+    bend_way: float
 
 
 @record
@@ -317,6 +329,7 @@ class State(NamedTuple):
         unit: Room for one q'.
         bend: Room for one q''.
         bent_before: q'' at the end of the last piece.
+        turn: What q' changes by at the joint at hand.
     """
 
     run: RunState
@@ -334,6 +347,7 @@ class State(NamedTuple):
     unit: Floats
     bend: Floats
     bent_before: Floats
+    turn: Floats
 
 
 def new_state(n: int, start: Sequence[float] = ()) -> State:
@@ -343,7 +357,7 @@ def new_state(n: int, start: Sequence[float] = ()) -> State:
     position = zeros(n)
     position[: len(start)] = array("d", start)
     shares = zeros(SHARES), zeros(SHARES), zeros(SHARES)
-    vectors = zeros(n), zeros(n), zeros(n), zeros(n), zeros(n), zeros(n)
+    vectors = (zeros(n) for _ in range(7))
     return State(*records, zeros(9), *shares, position, *vectors)
 
 
@@ -356,6 +370,8 @@ def zeros(count: int) -> array[float]:
 FACTOR, LARGEST_OVERRIDE = 2, 3
 #: With limited jerk lines are cut: room for so many pieces more than a row has, and for each of its pieces.
 SPARE_PIECES, CUTS_PER_PIECE = 64, 3
+#: Without it: pieces that bending a corner cuts off the rows before and behind it.
+BEND_PIECES = 2
 #: Pieces of a full turn. Over 7.5° an axis exceeds what holds at both ends by little; `lay_arc` says by how
 #: much.
 PIECES_PER_TURN = 48

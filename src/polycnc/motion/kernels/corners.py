@@ -9,6 +9,7 @@ from polycnc.motion.kernels.alone import pays_to_rest
 from polycnc.motion.kernels.columns import SMOOTH_COS, SPLINE, ContextRecord, Limits, State
 from polycnc.motion.kernels.feeds import is_rapid
 from polycnc.motion.kernels.jerk import corner_hold2, window_s
+from polycnc.motion.kernels.rounding import bend_corner
 
 #: Directions that differ by less count as one; a path whose turn has a cosine below this turns back.
 SAME_DIRECTION, TURNS_BACK = 1e-9, -0.999999
@@ -63,10 +64,13 @@ def join(
             contexts[record + ContextRecord.TURN_DISTANCE],
         )
         turns = not (angle > 0.0 or distance > 0.0)
-        own2 = jump2(turns, n, limits, state, shorter)
-        if tolerance > 0.0:
+        if ramp == 0.0 and turns:
+            own2 = bend_corner(contexts, record, n, limits, state, shorter)
+        elif tolerance > 0.0:
             rounding = contexts[record + ContextRecord.ROUNDING]
             own2 = rounded2(tolerance, rounding, turns, n, limits, state, shorter)
+        else:
+            own2 = jump2(turns, n, limits, state, shorter)
         if not turns:
             own2 = min(own2, turned2(angle, distance, n, limits, state, shorter))
         cap2 = min(cap2, own2, stepped2(n, limits, state))

@@ -6,6 +6,7 @@ from math import inf, pi, sqrt
 
 from polycnc.kernels.layout import Floats
 from polycnc.motion.kernels.columns import (
+    BEND_PIECES,
     CUTS_PER_PIECE,
     FACTOR,
     PLACES,
@@ -183,6 +184,8 @@ def has_room(pieces: Floats, contexts: Floats, record: int, state: State, parts:
     """Whether so many more pieces, and what they may be cut into, fit in the buffer."""
     if contexts[record + ContextRecord.RAMP_S] > 0.0:
         parts = CUTS_PER_PIECE * parts + SPARE_PIECES
+    else:
+        parts += BEND_PIECES
     return (state.run.pieces + parts) * piece_width(n) <= len(pieces)
 
 
@@ -202,7 +205,7 @@ def next_piece(pieces: Floats, state: State, form: int, cap2: float, n: int) -> 
         pieces[at + PieceRecord.PAUSE],
         pieces[at + PieceRecord.MARGIN],
     ) = inf, inf, 0.0, 1.0
-    pieces[at + PieceRecord.PATH_PULL] = inf
+    pieces[at + PieceRecord.PATH_PULL], pieces[at + PieceRecord.ZONE] = inf, 0.0
     pieces[at + PieceRecord.RAMP], pieces[at + PieceRecord.BLEND], pieces[at + PieceRecord.EARLY] = (
         state.joint.ramp,
         state.joint.blend,

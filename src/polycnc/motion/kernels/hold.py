@@ -145,7 +145,7 @@ def cut(pieces: Floats, p: int, n: int, state: State, first: float) -> bool:
     rest = at + width
     pieces[rest + PieceRecord.LENGTH] = pieces[at + PieceRecord.LENGTH] - first
     pieces[at + PieceRecord.LENGTH] = first
-    bent = pieces[at + PieceRecord.FORM] == Form.BENT
+    bent = pieces[at + PieceRecord.FORM] != Form.STRAIGHT
     scale = (first + pieces[rest + PieceRecord.LENGTH]) / pieces[at + PieceRecord.MARGIN]
     for i in range(PieceRecord.VECTORS, PieceRecord.VECTORS + n):
         place = i + PLACES * n

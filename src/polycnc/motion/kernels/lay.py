@@ -51,6 +51,7 @@ from polycnc.motion.kernels.feeds import (
 )
 from polycnc.motion.kernels.hold import hold
 from polycnc.motion.kernels.jerk import line_pull, window_s
+from polycnc.motion.kernels.rounding import round_joint
 from polycnc.motion.kernels.speeds import straight_time
 
 
@@ -149,7 +150,7 @@ def lay_move(
     curves: Floats, contexts: Floats, record: int, n: int, limits: Limits, pieces: Floats, state: State
 ) -> bool:
     """Lay the row at hand out; false when the room ends: it can then be tried again."""
-    kind, first = state.row.kind, state.run.pieces
+    kind, first, state.joint.bend_way = state.row.kind, state.run.pieces, 0.0
     rapid = is_rapid(state)
     stands = kind in (TAP, SKIP) or (rapid and limits.path.rapid_stops != 0.0)
     if stands or contexts[record + ContextRecord.STATION] != state.run.station:
@@ -167,6 +168,8 @@ def lay_move(
         overlap(contexts, record, pieces, first, n, state)
     if contexts[record + ContextRecord.RAMP_S] > 0.0:
         hold(pieces, first, n, state)
+    else:
+        round_joint(pieces, first, n, limits, state)
     for i in range(n):
         state.position[i] = state.target[i]
     state.run.station = contexts[record + ContextRecord.STATION]
@@ -396,6 +399,9 @@ def lay_chord(
         pieces[before + 3 * n + i] = pieces[here + 2 * n + i] = curvature
         if curvature != 0.0:
             cap2 = min(cap2, limits.acceleration[i] / abs(curvature))
+    if contexts[record + ContextRecord.RAMP_S] == 0.0:
+        for chord in (at - piece_width(n), at):
+            cap2 = min(cap2, bend_chord(pieces, chord, n, limits))
     # In the middle of its chord the curve is longer than the chord by `turn²/16` at most (a cubic, `run.py`).
     for chord in (at - piece_width(n), at):
         top2 = chord_top2(pieces, chord, n, limits)
@@ -407,6 +413,24 @@ def lay_chord(
         cap2, pieces[at + PieceRecord.CAP2], pieces[at - piece_width(n) + PieceRecord.CAP2]
     )
     state.run.exit2 = pieces[at + PieceRecord.CAP2]
+
+
+def bend_chord(pieces: Floats, at: int, n: int, limits: Limits) -> float:
+    """Give a chord the q'' of its cubic (`run.py`), and say the largest x at which every axis can hold it.
+
+    In the words of `chord_top2` it is `-(4·l + 2·a)` at the start, `2·l + 4·a` at the end, over the chord's length.
+    """
+    here, length, cap2 = at + PieceRecord.VECTORS, pieces[at + PieceRecord.LENGTH], inf
+    for i in range(n):
+        place = here + PLACES * n + i
+        unit = (pieces[place + n] - pieces[place]) / length
+        leave, arrive = pieces[here + i] - unit, pieces[here + n + i] - unit
+        first, last = -(4.0 * leave + 2.0 * arrive) / length, (2.0 * leave + 4.0 * arrive) / length
+        pieces[here + 2 * n + i], pieces[here + 3 * n + i] = first, last
+        most = max(abs(first), abs(last))
+        if most > 0.0:
+            cap2 = min(cap2, limits.acceleration[i] / most)
+    return cap2
 
 
 def chord_top2(pieces: Floats, at: int, n: int, limits: Limits) -> float:

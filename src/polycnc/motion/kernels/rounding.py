@@ -1,0 +1,128 @@
+"""Corners as the axes pass them where the jerk has no limit: a part of the path before and behind them is bent.
+
+On a way t before and behind the corner the direction changes evenly from the one to the other: with Δ the change of
+q' at the corner and r the way from where the bend begins or ends, `Δ·r²/(4·t)` is added to the path, whose q''
+grows by `Δ/(2·t)`. Two lines become a parabola that leaves the corner by `Δ·t/4`. The path's parameter stays as long as
+before, so that rows keep their lengths; the way of the axes on the bend is a little shorter.
+"""
+
+from __future__ import annotations
+
+from math import inf, sqrt
+
+from polycnc.kernels.layout import Floats
+from polycnc.motion.kernels.columns import (
+    FROM_CORNER,
+    PLACES,
+    TO_CORNER,
+    ContextRecord,
+    Form,
+    Limits,
+    PieceRecord,
+    State,
+    piece_width,
+)
+from polycnc.motion.kernels.hold import cut
+
+#: Directions that differ by less count as one; ways shorter than this (mm) are not bent.
+SAME_DIRECTION, NO_BEND_MM = 1e-9, 1e-9
+
+
+def bend_corner(contexts: Floats, record: int, n: int, limits: Limits, state: State, shorter: float) -> float:
+    """Largest x at the corner before the row at hand; sets `joint.bend_way` and `turn`.
+
+    Half of the shorter row is bent at most. Within a tolerance the path leaves the corner by no more than that, and
+    the bend reaches no farther than ROUNDING. Without one it takes as long as an axis needs for the step of
+    velocity that is allowed at a corner.
+    """
+    unit, tangent, turn = state.unit, state.tangent, state.turn
+    tolerance, stray, most = contexts[record + ContextRecord.TOLERANCE], 0.0, 0.0
+    way, x2 = 0.5 * shorter, inf
+    for i in range(n):
+        turn[i] = unit[i] - tangent[i]
+        most = max(most, abs(turn[i]))
+        if limits.rotary[i] == 0.0:
+            stray += turn[i] * turn[i]
+    if most <= SAME_DIRECTION:
+        return inf
+    if tolerance > 0.0:
+        way = min(way, contexts[record + ContextRecord.ROUNDING])
+        if stray > SAME_DIRECTION * SAME_DIRECTION:
+            way = min(way, 4.0 * tolerance / sqrt(stray))
+    else:
+        for i in range(n):
+            step = abs(turn[i])
+            if step > SAME_DIRECTION:
+                jump = limits.jump[i]
+                way = min(way, 0.5 * state.joint.ease * jump * jump / (limits.acceleration[i] * step))
+    for i in range(n):
+        step = abs(turn[i])
+        if step > SAME_DIRECTION:
+            x2 = min(x2, state.joint.ease * limits.acceleration[i] * 2.0 * way / step)
+    state.joint.bend_way = way
+    return x2
+
+
+def round_joint(pieces: Floats, first: int, n: int, limits: Limits, state: State) -> None:
+    """Bend the path before and behind the joint at piece `first`, where the row at hand begins."""
+    way, state.joint.bend_way = state.joint.bend_way, 0.0
+    behind, state.run.is_bent = state.run.is_bent == 0.0, 0.0
+    if way <= NO_BEND_MM or first >= state.run.pieces:
+        return
+    width, p, left = piece_width(n), first - 1, way
+    while behind and p >= 0 and left > NO_BEND_MM and pieces[p * width + PieceRecord.FORM] != Form.TIMED:
+        length = pieces[p * width + PieceRecord.LENGTH]
+        if length > left + NO_BEND_MM and cut(pieces, p, n, state, length - left):
+            p, first = p + 1, first + 1
+            length = pieces[p * width + PieceRecord.LENGTH]
+        add_bend(pieces, p, n, limits, state, way, left - length, left)
+        left -= length
+        p -= 1
+    p, left = first, way
+    while p < state.run.pieces and left > NO_BEND_MM:
+        if pieces[p * width + PieceRecord.LENGTH] > left + NO_BEND_MM:
+            cut(pieces, p, n, state, left)
+        length = pieces[p * width + PieceRecord.LENGTH]
+        add_bend(pieces, p, n, limits, state, way, left, left - length)
+        left -= length
+        p += 1
+
+
+def add_bend(
+    pieces: Floats, p: int, n: int, limits: Limits, state: State, way: float, start: float, end: float
+) -> None:
+    """Bend piece p, whose start and end are so far from where the bend of a corner begins or ends."""
+    at, width = p * piece_width(n), piece_width(n)
+    length, tops = pieces[at + PieceRecord.LENGTH], limits.top_feed
+    here, sense = at + PieceRecord.VECTORS, 1.0 if end > start else -1.0
+    if int(pieces[at + PieceRecord.SLOT]) % 2 == 0:
+        tops = limits.top_rapid
+    if pieces[at + PieceRecord.FORM] == Form.STRAIGHT:
+        pieces[at + PieceRecord.FORM], pieces[at + PieceRecord.PATH_PULL] = (
+            Form.CURVED,
+            pieces[at + PieceRecord.PULL],
+        )
+        for i in range(n):
+            place = here + PLACES * n + i
+            pieces[here + i] = pieces[here + n + i] = (pieces[place + n] - pieces[place]) / length
+            pieces[here + 2 * n + i] = pieces[here + 3 * n + i] = 0.0
+    cap2, margin = pieces[at + PieceRecord.CAP2], pieces[at + PieceRecord.MARGIN]
+    for k in range(2):
+        far = max(end if k == 1 else start, 0.0)
+        for i in range(n):
+            bend, q = 0.5 * state.turn[i] / way, here + k * n + i
+            pieces[q + PLACES * n] += 0.5 * bend * far * far
+            pieces[q] += margin * sense * bend * far
+            pieces[q + 2 * n] += margin * bend
+            share, curvature = abs(pieces[q]), abs(pieces[q + 2 * n])
+            if share > SAME_DIRECTION:
+                cap2 = min(cap2, (tops[i] / share) ** 2)
+            if curvature > SAME_DIRECTION:
+                cap2 = min(cap2, state.joint.ease * limits.acceleration[i] / curvature)
+    pieces[at + PieceRecord.CAP2], pieces[at + PieceRecord.ZONE] = (
+        cap2,
+        TO_CORNER if sense > 0.0 else FROM_CORNER,
+    )
+    pieces[at + PieceRecord.ENTRY2] = min(pieces[at + PieceRecord.ENTRY2], cap2)
+    if p + 1 < state.run.pieces:
+        pieces[at + width + PieceRecord.ENTRY2] = min(pieces[at + width + PieceRecord.ENTRY2], cap2)

@@ -1,0 +1,203 @@
+"""Random programs of several controls, for tests that compare what they lead to."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import cos, hypot, sin
+from random import Random
+from typing import TYPE_CHECKING, ClassVar
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+FEEDS = (500, 1500, 3000, 6000, 12000)
+HEADS = {"sinumerik-840d": "G71 G90", "syntec-mill": "G71 G90", "fanuc-m": "G21 G90", "meldas-m": "G21 G90"}
+CONTROLS = ("sinumerik-840d", "sinumerik-840d", "fanuc-m", "syntec-mill", "meldas-m")
+
+
+@dataclass
+class Writer:
+    """Writes a random program, block by block."""
+
+    random: Random
+    control: str
+    machine: ClassVar[str] = "mill3"
+    lines: list[str] = field(default_factory=list)
+    place: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    feed: str = ""
+
+    @property
+    def siemens(self) -> bool:
+        return self.control == "sinumerik-840d"
+
+    def modes(self) -> str:
+        """How a SINUMERIK takes up speed and passes corners."""
+        corners = ("G64", "G60", f"G641 ADIS={self.random.uniform(0.05, 1.0):.3f}", "G642")
+        return f"{self.random.choice(('BRISK', 'SOFT'))} {self.random.choice(corners)}"
+
+    def program(self) -> str:
+        draw, head = self.random, HEADS[self.control]
+        if self.siemens:
+            head += f" {self.modes()}"
+        else:
+            head += draw.choice((" G64", " G61"))
+        self.lines = [head]
+        blocks: list[Callable[[], None]] = [
+            self.line,
+            self.facets,
+            self.arc,
+            self.helix,
+            self.rapid,
+            self.onward,
+        ]
+        if self.siemens:
+            blocks.append(self.spline)
+        for _ in range(draw.randint(2, 6)):
+            self.feed = f" F{draw.choice(FEEDS)}." if len(self.lines) == 1 or draw.random() < 0.4 else ""
+            draw.choice(blocks)()
+        return "\n".join([*self.lines, "M30", ""])
+
+    def write(self, code: str, *, rest: str = "") -> None:
+        x, y, z = self.place
+        feed = self.feed or (f" F{FEEDS[0]}." if not any(" F" in line for line in self.lines) else "")
+        self.lines.append(f"{code} X{x:.4f} Y{y:.4f} Z{z:.4f}{rest}{'' if code == 'G0' else feed}")
+        self.feed = ""
+
+    def by(self, reach: float) -> None:
+        x, y, z = (round(v + self.random.uniform(-reach, reach), 3) for v in self.place)
+        self.place = x, y, z
+
+    def rapid(self) -> None:
+        self.by(40.0)
+        self.write("G0")
+
+    def line(self) -> None:
+        self.by(self.random.choice((0.3, 3.0, 25.0)))
+        self.write("G1")
+
+    def facets(self) -> None:
+        for _ in range(self.random.randint(2, 8)):
+            self.by(0.6)
+            self.write("G1")
+
+    def onward(self) -> None:
+        """Lines in one direction."""
+        way = [self.random.uniform(-4.0, 4.0) for _ in range(3)]
+        for _ in range(self.random.randint(2, 4)):
+            x, y, z = (round(v + w, 3) for v, w in zip(self.place, way, strict=True))
+            self.place = x, y, z
+            self.write("G1")
+
+    def spline(self) -> None:
+        self.by(5.0)
+        self.write("G1")
+        for k in range(self.random.randint(3, 6)):
+            self.by(4.0)
+            self.write("ASPLINE" if k == 0 else "")
+        self.by(5.0)
+        self.write("G1")
+
+    def arc(self, rise: float = 0.0) -> None:
+        draw, (x, y, z) = self.random, self.place
+        radius, angle, sweep = draw.uniform(0.5, 15.0), draw.uniform(0.0, 6.28), draw.uniform(0.2, 6.0)
+        sense = draw.choice((1.0, -1.0))
+        centre = x - radius * cos(angle), y - radius * sin(angle)
+        end = (
+            round(c + radius * f(angle + sense * sweep), 4) for c, f in zip(centre, (cos, sin), strict=True)
+        )
+        ex, ey = end
+        self.place = ex, ey, round(z + rise, 3)
+        if hypot(ex - x, ey - y) < 0.1:
+            self.write("G1")
+            return
+        # The centre from which both ends, rounded as they are written, are equally far.
+        share = ((centre[0] - (x + ex) / 2) * (y - ey) + (centre[1] - (y + ey) / 2) * (ex - x)) / hypot(
+            ex - x, ey - y
+        ) ** 2
+        i, j = (x + ex) / 2 - share * (ey - y) - x, (y + ey) / 2 + share * (ex - x) - y
+        self.write("G3" if sense > 0.0 else "G2", rest=f" I{i:.5f} J{j:.5f}")
+
+    def helix(self) -> None:
+        self.arc(self.random.uniform(-3.0, 3.0))
+
+
+class Threads(Writer):
+    """Threads of a lathe one behind the other, with lines and rapids between them."""
+
+    machine = "lathe2"
+
+    def program(self) -> str:
+        draw = self.random
+        siemens = self.siemens
+        turns = f"S{draw.choice((200, 600, 1200))} M3"
+        self.lines = [f"G90 G95 {turns} F0.2 {self.modes()}" if siemens else f"G99 G97 {turns}"]
+        x, z = 20.0, 5.0
+        for _ in range(draw.randint(1, 4)):
+            self.lines.append(f"G0 X{x:.3f} Z{z:.3f}")
+            lead = draw.choice((0.5, 1.0, 2.0))
+            for _ in range(draw.randint(1, 3)):
+                z -= draw.uniform(5.0, 30.0)
+                x += draw.choice((0.0, 0.0, draw.uniform(0.0, 2.0)))
+                word = f" K{lead}" if siemens else f" F{lead}"
+                self.lines.append(f"{'G33' if siemens else 'G32'} X{x:.3f} Z{z:.3f}{word}")
+            x += 5.0
+            self.lines.append(f"G0 X{x:.3f}")
+            z = round(draw.uniform(-5.0, 10.0), 3)
+            self.lines.append(f"G1 X{x + 3.0:.3f} Z{z:.3f} F0.3")
+            x += 3.0
+        return "\n".join([*self.lines, "M30", ""])
+
+
+class Polar(Writer):
+    """Lines and arcs on the end face of a lathe: real axes under a transformation."""
+
+    machine = "lathe-c-transmit"
+
+    def program(self) -> str:
+        draw, siemens = self.random, self.siemens
+        begins = [f"G90 G94 {self.modes()}", "T1 D1", "G0 X60 Z5", "TRANSMIT"]
+        self.lines = begins if siemens else ["G98 G0 X60. Z5. C0", "G12.1"]
+        x, y, second = (60.0 if siemens else 30.0), 0.0, "Y" if siemens else "C"
+        for k in range(draw.randint(2, 6)):
+            before, (x, y) = (
+                (x, y),
+                (round(draw.uniform(-30.0, 30.0), 3), round(draw.uniform(-30.0, 30.0), 3)),
+            )
+            code, more = "G1", ""
+            if siemens and draw.random() < 0.4:
+                radius = 0.5 * hypot(x - before[0], y - before[1]) * draw.uniform(1.05, 3.0)
+                code, more = draw.choice(("G2", "G3")), f" CR={radius:.4f}"
+            shown = x if siemens else 2.0 * x
+            feed = f" F{draw.choice(FEEDS)}." if k == 0 or draw.random() < 0.3 else ""
+            self.lines.append(f"{code} X{shown:.3f} {second}{y:.3f}{more}{feed}")
+        self.lines += ["TRAFOOF", "G0 X80"] if siemens else ["G13.1", "G0 X160."]
+        return "\n".join([*self.lines, "M30", ""])
+
+
+class FiveAxes(Writer):
+    """Lines of a tool centre point while the tool turns."""
+
+    machine = "mill5-ca-head"
+
+    def program(self) -> str:
+        draw = self.random
+        self.lines = [f"G90 G94 {self.modes()}", "T1 D1", "TRAORI", "G1 X0 Y0 Z0 A10 C0 F2000"]
+        x, y, z, a, c = 0.0, 0.0, 0.0, 10.0, 0.0
+        for _ in range(draw.randint(2, 8)):
+            reach = draw.choice((1.0, 20.0))
+            x, y, z = (round(v + draw.uniform(-reach, reach), 3) for v in (x, y, z))
+            a, c = round(a + draw.uniform(-5.0, 10.0), 3), round(c + draw.uniform(-20.0, 20.0), 3)
+            feed = f" F{draw.choice(FEEDS)}" if draw.random() < 0.4 else ""
+            self.lines.append(f"G1 X{x} Y{y} Z{z} A{min(max(a, 1.0), 60.0)} C{c}{feed}")
+        return "\n".join([*self.lines, "TRAFOOF", "M30", ""])
+
+
+def writer(seed: int) -> Writer:
+    """The writer of a program: of every ten, six write for mills without a transformation."""
+    random = Random(seed)
+    control, kind = random.choice(CONTROLS), seed % 10
+    if kind in (3, 6):
+        return Threads(random, random.choice(("sinumerik-840d", "fanuc-0i-tf")))
+    if kind == 7:
+        return Polar(random, random.choice(("sinumerik-840d", "fanuc-0i-tf")))
+    return FiveAxes(random, "sinumerik-840d") if kind == 9 else Writer(random, control)

@@ -1,0 +1,71 @@
+"""Corners without limited jerk: the samples pass them within the tolerance and the acceleration of the axes."""
+
+from __future__ import annotations
+
+import itertools
+from math import cos, hypot, sin
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from polycnc.motion import Settings
+from polycnc.toolpath import Context
+from polycnc.toolpath.modes import CornerMode
+from tests.motion.paths import Build, mill
+from tests.motion.test_jerk import runs
+from tests.motion.test_limits import UNEVEN, arc, build, line, spiral
+
+PERIOD, SLACK = 0.001, 1.0005
+BRISK = Settings()
+contexts = st.sampled_from(
+    [
+        Context(corner_mode=CornerMode.CONTINUOUS),
+        Context(corner_mode=CornerMode.ROUNDED, tolerance_mm=0.005),
+        Context(corner_mode=CornerMode.ROUNDED, tolerance_mm=0.2),
+        Context(corner_mode=CornerMode.ROUNDED_FROM, tolerance_mm=1.0),
+    ]
+)
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.lists(st.one_of(line, arc, spiral), min_size=2, max_size=6), contexts)
+def test_axes_keep_their_acceleration_at_every_sample(
+    steps: list[tuple[str, float, float, float, float]], context: Context
+) -> None:
+    total, found = runs(build(steps, context), UNEVEN, BRISK)
+    assert sum(run.seconds for run in found) == pytest.approx(total, rel=1e-6)
+    for run in found:
+        places = run.at(np.arange(0.0, min(run.seconds, 20.0), PERIOD))[0]
+        for i, axis in enumerate(UNEVEN.axes):
+            most = np.abs(np.diff(places[:, i], 2)).max(initial=0.0)
+            assert most <= axis.acceleration * PERIOD**2 * SLACK
+
+
+@pytest.mark.parametrize("turn", [0.05, 0.8, 1.6, 3.0])
+def test_two_lines_leave_their_corner_by_the_tolerance(turn: float) -> None:
+    tolerance = 0.05
+    rows = Build(context=Context(corner_mode=CornerMode.ROUNDED, tolerance_mm=tolerance))
+    rows.feed(20.0, 0.0, 0.0).feed(20.0 + 20.0 * cos(turn), 20.0 * sin(turn), 0.0)
+    (run,) = runs(rows, mill(), BRISK)[1]
+    places = run.at(np.linspace(0.0, run.seconds, 200_000))[0]
+    assert np.hypot(places[:, 0] - 20.0, places[:, 1]).min() == pytest.approx(tolerance, rel=1e-3)
+
+
+def test_no_more_than_half_of_a_line_is_bent() -> None:
+    rows = Build(context=Context(corner_mode=CornerMode.ROUNDED, tolerance_mm=5.0))
+    ways = [(1.0, 0.0), (1.0, 1.0), (3.0, 1.0), (3.0, 2.0)]
+    for x, y in ways:
+        rows.feed(x, y, 0.0)
+    (run,) = runs(rows, mill(), BRISK)[1]
+    places = run.at(np.linspace(0.0, run.seconds, 20_000))[0]
+    middles = [((a + c) / 2, (b + d) / 2) for (a, b), (c, d) in itertools.pairwise([(0.0, 0.0), *ways])]
+    for x, y in middles[1:-1]:
+        assert min(hypot(px - x, py - y) for px, py, _ in places.tolist()) < 1e-3
+
+
+def test_a_row_keeps_its_length() -> None:
+    rows = Build(context=Context(corner_mode=CornerMode.ROUNDED, tolerance_mm=0.1))
+    rows.feed(10.0, 0.0, 0.0).feed(10.0, 7.0, 0.0).arc(10.0, 17.0, 0.0, center=(10.0, 12.0))
+    assert rows.plan(mill()).row_mm[:2] == pytest.approx([10.0, 7.0])
