@@ -13,6 +13,7 @@ from polycnc.cases.format import Case, case_id, parse_case
 from polycnc.cases.reading import read_cases
 from polycnc.channel.states.snapshot import Snapshot
 from polycnc.channel.states.state import plain_states, plain_tables
+from polycnc.channel.waits import CLOCK
 from polycnc.session import open_session
 from tests.channel.states.test_snapshot import rest_of, state_of
 
@@ -95,7 +96,7 @@ CHANGED_BY = {
     "PostureState": "syntec-tip-frame",
     "ProgrammingFrames": "fanuc-m-mirrored-arc-turns-the-other-way",
     "Preparations": "sinumerik-execute-goes-on-from-before",
-    "ProgrammedFeed": "sin-fpo-values-of-variables",
+    "ProgrammedFeed": "sin-flin-feed-without-motion",
     "Protection": "sinumerik-def-open",
     "Punching": "sin-spp-longest-segment",
     "RadiusState": "fanuc-0i-tf-rotation-ended-allows-all",
@@ -192,7 +193,8 @@ def test_a_state_comes_back_where_it_is_changed(state: str, case_id: str) -> Non
     session = session_of(case, path)
     run = session.group.run(session.result.program)
     begun: dict[str, object] = {}
-    for number, _ in enumerate(run):
+    for number, wait in enumerate(run):
+        assert wait is not CLOCK, f"{case_id} needs the clock before it changes {state}"
         if number == 0:
             begun = plain_tables(session.channel)
         if state in changed_states(session, begun):

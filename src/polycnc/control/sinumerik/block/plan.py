@@ -16,7 +16,12 @@ from polycnc.control.machine_words import asking, move_words, plc_of
 from polycnc.control.sinumerik import auxiliary, gcodes, replaced, tables
 from polycnc.control.sinumerik.block import words
 from polycnc.control.sinumerik.block.draft import Draft, Plan, Step
-from polycnc.control.sinumerik.block.positions import DIAMETER_OF_AXIS, diameter_of_channel, own_diameter
+from polycnc.control.sinumerik.block.positions import (
+    DIAMETER_OF_AXIS,
+    diameter_of_channel,
+    own_diameter,
+    whole,
+)
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed import feed_words, profiles, spindle_speed
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
@@ -152,11 +157,7 @@ def make_plan(channel: SinumerikChannel, block: Block) -> Plan:
         draft.steps.append(measures[2])
     draft.steps += [orientation.finish] if draft.lead is not None else []
     draft.steps += [point_to_point.finish] if draft.by_axes else []
-    for position, word in draft.open_words():
-        if word.address in AXIS_DIAMETERS:
-            continue
-        seat.check_named(channel, word.address)
-        raise words.misplaced(word, position, beside_m=any(each.address == "M" for each in block.words))
+    _check_open_words(draft)
     draft.steps += [_stop(position) for position in ends]
     if in_spline:
         draft.steps.append(splines.count_blocks(draft, is_point=moving is not None))
@@ -165,6 +166,16 @@ def make_plan(channel: SinumerikChannel, block: Block) -> Plan:
     calls = moving is not None or (mode["motion"] in LINEAR and _is_bare_motion(block, codes))
     acts = bool(block.words) and "frame" not in codes
     return Plan(tuple(draft.steps), acts, calls and own is None, tuple(ends), _shared(draft))
+
+
+def _check_open_words(draft: Draft) -> None:
+    """Nobody has taken a word: the alarm that it is."""
+    for position, word in draft.open_words():
+        if word.address in AXIS_DIAMETERS:
+            continue
+        seat.check_named(draft.channel, word.address)
+        beside_m = any(each.address == "M" for each in draft.block.words)
+        raise words.misplaced(word, position, beside_m=beside_m)
 
 
 def _has_function(codes: dict[str, str]) -> bool:
@@ -370,7 +381,7 @@ def _words(draft: Draft) -> list[int]:
 
 def _stop(position: int) -> Step:
     def run(channel: SinumerikChannel, values: Values) -> None:
-        auxiliary.after_motion(channel, words.whole(values, position))
+        auxiliary.after_motion(channel, whole(values, position))
 
     return run
 
@@ -379,7 +390,7 @@ def _call_for_tool(places: tuple[int, ...]) -> Step:
     """A program may stand for T: it is called at the end of the block."""
 
     def run(channel: SinumerikChannel, values: Values) -> None:
-        replaced.call_for_tool(channel, [words.whole(values, place) for place in places])
+        replaced.call_for_tool(channel, [whole(values, place) for place in places])
 
     return run
 

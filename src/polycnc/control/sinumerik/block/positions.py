@@ -217,6 +217,14 @@ def number(values: tuple[Any, ...], position: int) -> float:
     raise WordAlarm("12150", position, text=str(value.name if isinstance(value, Axis) else value))
 
 
+def whole(values: Sequence[Any], position: int) -> int:
+    """The value of a word as a whole number; alarm 12150 for a fraction."""
+    value = number(values, position)
+    if value != int(value):
+        raise WordAlarm("12150", position, text=f"{value:g}")
+    return int(value)
+
+
 def target(channel: SinumerikChannel, terms: Sequence[AxisTerm], values: tuple[Any, ...]) -> list[float]:
     """The target of a block in work coordinates of all axes; axes without a word stay where they are."""
     coordinates = channel.coordinates

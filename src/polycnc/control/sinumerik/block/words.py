@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING
 from polycnc.compensation.corner import Shape
 from polycnc.control.machine_words import asking, plc_of
 from polycnc.control.sinumerik import auxiliary, replaced, tables
-from polycnc.control.sinumerik.block import outside_feeds, plain
+from polycnc.control.sinumerik.block import offset_words, outside_feeds, plain
 from polycnc.control.sinumerik.block.draft import axis_column
-from polycnc.control.sinumerik.block.positions import ModuloRange, number
+from polycnc.control.sinumerik.block.positions import ModuloRange, number, whole
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed import (
     axis_settings,
@@ -33,8 +33,7 @@ from polycnc.control.sinumerik.oscillation import words as oscillation
 from polycnc.control.sinumerik.punching import block as punching
 from polycnc.control.sinumerik.signals import fixed_stop, retraction
 from polycnc.control.sinumerik.tables import length_factor
-from polycnc.control.sinumerik.tools import sides, stages
-from polycnc.control.sinumerik.tools.holders import active as carriers
+from polycnc.control.sinumerik.tools import stages
 from polycnc.control.sinumerik.transformations.posture import Orienting
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.bulk import Note, declare
@@ -263,99 +262,11 @@ def edge(draft: Draft, position: int, _shape: WordShape) -> Step:
     return run
 
 
-def additive_offset(_draft: Draft, position: int, _shape: WordShape) -> Step:
-    """DL: additive offset of the active edge, 1 to 6; 0 and a new D take it away."""
-
-    def run(channel: SinumerikChannel, values: Values) -> None:
-        value = number(values, position)
-        if value not in range(7):
-            raise WordAlarm("12560", position, text="DL")
-        channel.memory.tools.additive = int(value)
-        auxiliary.tool_changed(channel)
-
-    return run
-
-
-def added_length(draft: Draft, position: int, shape: WordShape) -> Step:
-    """TOFFL, TOFFL[n]: addition to length n of the active edge."""
-    index = shape.index if shape.index is not None else 1
-    if index not in (1, 2, 3):
-        raise WordAlarm("12400", position, text="TOFFL")
-    which = int(str(index)) - 1
-    factor = length_factor(draft.mode)
-
-    def run(channel: SinumerikChannel, values: Values) -> None:
-        channel.memory.tools.added_lengths[which] = number(values, position) * factor
-        auxiliary.tool_changed(channel)
-
-    return run
-
-
-def added_on_axis(draft: Draft, position: int, shape: WordShape) -> Step:
-    """TOFF[axis]: addition along a geometry axis."""
-    column = axis_column(draft, position, shape)
-    geometry = draft.channel.coordinates.geometry
-    if column not in geometry:
-        raise WordAlarm("16410", position, axis=draft.channel.axes[column])
-    factor = length_factor(draft.mode)
-
-    def run(channel: SinumerikChannel, values: Values) -> None:
-        channel.memory.tools.added_on_axes[geometry.index(column)] = number(values, position) * factor
-        auxiliary.tool_changed(channel)
-
-    return run
-
-
-def added_radius(draft: Draft, position: int, _shape: WordShape) -> Step:
-    """TOFFR: addition to the tool radius."""
-    factor = length_factor(draft.mode)
-
-    def run(channel: SinumerikChannel, values: Values) -> None:
-        channel.memory.tools.added_radius = number(values, position) * factor
-        stages.changed_radius(channel)
-        channel.context_changed()
-
-    return run
-
-
-def allowance(draft: Draft, position: int, _shape: WordShape) -> Step:
-    """OFFN: allowance to the contour."""
-    factor = length_factor(draft.mode)
-
-    def run(channel: SinumerikChannel, values: Values) -> None:
-        sides.Contour.of(channel).allowance_mm = number(values, position) * factor
-        stages.changed_radius(channel)
-
-    return run
-
-
-def depth(draft: Draft, position: int, _shape: WordShape) -> Step:
-    """ISD: how far the tip lies below the programmed point along the tool, for CUT3DC."""
-    factor = length_factor(draft.mode)
-
-    def run(channel: SinumerikChannel, values: Values) -> None:
-        sides.Contour.of(channel).depth_mm = number(values, position) * factor
-        stages.changed_radius(channel)
-
-    return run
-
-
 def turning_rate(_draft: Draft, position: int, _shape: WordShape) -> Step:
     """ORIS: degrees that the tool turns along a millimetre of the way under OSS and OSSE; 0 for all along the block."""
 
     def run(channel: SinumerikChannel, values: Values) -> None:
         Orienting.of(channel).rate = max(number(values, position), 0.0)
-
-    return run
-
-
-def disc(_draft: Draft, position: int, _shape: WordShape) -> Step:
-    """DISC: how far the transition arc of G450 is raised, 0 to 100 (at most MD20220)."""
-
-    def run(channel: SinumerikChannel, values: Values) -> None:
-        highest = channel.memory.data.number("$MC_CUTCOM_MAX_DISC")
-        sides.Contour.of(channel).disc = min(max(number(values, position), 0.0), highest)
-        stages.changed_rules(channel)
 
     return run
 
@@ -500,37 +411,6 @@ def m_function(draft: Draft, position: int, shape: WordShape) -> Step:
     return run
 
 
-def whole(values: Values, position: int) -> int:
-    """The value of a word as a whole number; alarm 12150 for a fraction."""
-    value = number(values, position)
-    if value != int(value):
-        raise WordAlarm("12150", position, text=f"{value:g}")
-    return int(value)
-
-
-def tool_carrier(_draft: Draft, position: int, _shape: WordShape) -> Step:
-    """TCARR: the orientable toolholder, 0 for none; 14150 for one that is not defined."""
-
-    def run(channel: SinumerikChannel, values: Values) -> None:
-        value = number(values, position)
-        if value != int(value) or value < 0.0:
-            raise WordAlarm("14150", position, number=f"{value:g}")
-        carriers.activate(channel, int(value))
-        auxiliary.tool_changed(channel)
-
-    return run
-
-
-def cutting_data(_draft: Draft, position: int, _shape: WordShape) -> Step:
-    """CUTMOD: edge positions turn with the toolholder of a number, with any (-1), with the active one (-2), or not."""
-
-    def run(channel: SinumerikChannel, values: Values) -> None:
-        carriers.modify_cuts(channel, whole(values, position))
-        auxiliary.tool_changed(channel)
-
-    return run
-
-
 _PERCENT = ("OVR", "OVRRAP", "OVRA", "ACC", "ACCLIMA", "VELOLIM", "VELOLIMA", "JERKLIM", "JERKLIMA")
 WORDS: dict[str, Maker] = {
     "F": feed,
@@ -546,12 +426,12 @@ WORDS: dict[str, Maker] = {
     "D": edge,
     "M": m_function,
     "H": auxiliary_h,
-    "TOFFL": added_length,
-    "TOFF": added_on_axis,
-    "TOFFR": added_radius,
-    "OFFN": allowance,
-    "DISC": disc,
-    "ISD": depth,
+    "TOFFL": offset_words.added_length,
+    "TOFF": offset_words.added_on_axis,
+    "TOFFR": offset_words.added_radius,
+    "OFFN": offset_words.allowance,
+    "DISC": offset_words.disc,
+    "ISD": offset_words.depth,
     "ORIS": turning_rate,
     "CHF": corner(Shape.CHAMFER_LENGTH),
     "CHR": corner(Shape.CHAMFER),
@@ -560,12 +440,12 @@ WORDS: dict[str, Maker] = {
     "FRCM": modal_corner_feed,
     "ADIS": rounding_distance,
     "ADISPOS": rounding_distance,
-    "TCARR": tool_carrier,
-    "CUTMOD": cutting_data,
+    "TCARR": offset_words.tool_carrier,
+    "CUTMOD": offset_words.cutting_data,
     "SVC": cutting_rate,
     "FGREF": path_feed_of_axis,
     "FL": path_feed_of_axis,
-    "DL": additive_offset,
+    "DL": offset_words.additive_offset,
     "SCPARA": axis_settings.parameter_set,
     "ADISPOSA": axis_settings.end_window,
     "CTOL": tolerances.tolerance,
