@@ -217,7 +217,7 @@ def number(values: tuple[Any, ...], position: int) -> float:
     raise WordAlarm("12150", position, text=str(value.name if isinstance(value, Axis) else value))
 
 
-def whole(values: Sequence[Any], position: int) -> int:
+def whole(values: tuple[Any, ...], position: int) -> int:
     """The value of a word as a whole number; alarm 12150 for a fraction."""
     value = number(values, position)
     if value != int(value):
