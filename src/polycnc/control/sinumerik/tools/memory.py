@@ -98,7 +98,7 @@ class Tools(State, lifetime=Lifetime.POWER):
     def first(cls, channel: Channel) -> Self:
         """No tool in the spindle; in the memory is what is retained, else what the setup says."""
         tools = super(Tools, cls).first(channel)
-        if not tools.tools:
+        if not tools.tools and channel.states.get(cls) is None:  # a program may have taken all tools out
             tools.tools.update(tools_of_setup(channel.setup.tools))
         if MachineData.of(channel).integer("$MN_MM_TYPE_OF_CUTTING_EDGE") == 1:
             tools.is_flat = True
