@@ -96,6 +96,8 @@ MODAL_GROUPS = {
     # ---- kept like a group, but by no code of its own
     "tangential": "axes that follow the path: TANG",
     "open_line": "a line whose end the next block tells",
+    "segments": "ways cut into segments: SPP",
+    "geometry": "geometry axes of GEOAX",
     "feed_kept": "the feed type that G962 and G972 keep",
     "speed_kept": "how S is meant, which G942 and G952 keep",
 }

@@ -47,7 +47,7 @@ class Unit:
 def expression(value: float) -> str:
     """A number as FANUC controls write variables: `[m*65536+n]/134217728` where digits would be lost."""
     written = format(Decimal(repr(value)).normalize(), "f")
-    if len(written.strip("-0").replace(".", "")) <= DIGITS and len(written) <= DIGITS + 4:
+    if len(written.strip("-0").replace(".", "")) <= DIGITS and len(written) <= DIGITS + 1:
         return written
     fraction, exponent = frexp(abs(value))
     mantissa = int(ldexp(fraction, _MANTISSA_BITS))

@@ -19,7 +19,6 @@ from polycnc.mainrun.signals.interlocks import Interlocks
 from polycnc.mainrun.status import Status
 from polycnc.memory.retained import InMemoryStore
 from polycnc.messages import AlarmError
-from polycnc.motion.frames import laid_of
 
 if TYPE_CHECKING:
     from polycnc.channel.group import ChannelGroup
@@ -74,8 +73,7 @@ class Continuation:
         operation.mains = {runs.first.number}
         for channel in self._group.channels:
             run = runs[channel.number]
-            place = laid_of(channel.coordinates.machine, channel.context, channel.coordinates.geometry)
-            run.execution.position, run.execution.place = place, channel.context
+            run.execution.place = channel.context
             channel.share_after, channel.standstill, channel.bulk = None, None, None
             for level in channel.stack:
                 level.scanner = None

@@ -85,9 +85,14 @@ class _Pattern(NamedTuple):
 
 
 class Patterns:
-    """The lines of a control's programs that have been read."""
+    """The lines of a control's programs that have been read.
 
-    def __init__(self) -> None:
+    Args:
+        most: Lines that are kept.
+    """
+
+    def __init__(self, most: int = MOST_LINES) -> None:
+        self._most = most
         self._patterns: dict[str, _Pattern] = {}
         self._count = 0
 
@@ -127,7 +132,7 @@ class Patterns:
             [place[begin] for begin in unimportant]
             + [place[spot.begin] for spot in known if not spot.is_variable]
         )
-        if self._count >= MOST_LINES:
+        if self._count >= self._most:
             self._patterns.clear()
             self._count = 0
         pattern = self._patterns.setdefault(

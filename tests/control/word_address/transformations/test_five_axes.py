@@ -29,7 +29,6 @@ def test_on_an_aligned_plane_the_tool_moves_along_its_own_axis(i: float, j: floa
     [
         ("G68.2 P1 Q112 I5.", "PS5457"),
         ("G68.2 P9 I5.", "PS5457"),
-        ("G68.2 P4 I5.", "PC0001"),
         ("G53.1", "PS5458"),
         ("G68.2 J10.\nG43.4 H1", "PS5421"),
         ("G43.5 H1\nG0 X1. I0 J0 K0", "PS5459"),

@@ -157,7 +157,6 @@ DATA: dict[str, tuple[int, bool | float | str]] = {
     "$MA_AX_VELO_LIMIT": (36200, 11500.0),
     "$MA_AA_OFF_MODE": (36750, 0),
     "$MA_COUPLE_POS_TOL_COARSE": (37200, 1.0),
-    "$MA_COUPLE_POS_TOL_FINE": (37210, 0.5),
     "$MA_EPS_TLIFT_TANG_STEP": (37400, 5.0),
     "$SC_THREAD_RAMP_DISP": (42010, -1.0),
     "$SC_DRY_RUN_FEED": (42100, 5000.0),

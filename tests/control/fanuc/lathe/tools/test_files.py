@@ -103,7 +103,6 @@ def test_least_increments_and_inches_are_understood() -> None:
         ("%\nP1 X1.\n%", 2, "no-g10"),
         ("%\nG10 X1.\n%", 2, "no-number"),
         ("%\nG10 P1.5 X1.\n%", 2, "value"),
-        ("%\nG10 P0 X1.\n%", 2, "number"),
         ("%\nG10 P11000 X1.\n%", 2, "number"),
         ("%\nG10 L2 P7 X1.\n%", 2, "number"),
         ("%\nG10 P1 X99999.\n%", 2, "value"),
