@@ -64,9 +64,8 @@ def test_lines_that_differ_in_numbers_only_are_read_once() -> None:
     assert patterns.step("X[#401*3.75]") is None
 
 
-def test_no_more_lines_are_kept_than_there_is_room_for(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("polycnc.language.word_address.patterns.MOST_LINES", 3)
-    patterns = Patterns()
+def test_no_more_lines_are_kept_than_there_is_room_for() -> None:
+    patterns = Patterns(3)
     block = WordBlock(("G1",), [])
     for number in range(10):
         patterns.learn(f"G{number}", block, [], ())

@@ -42,9 +42,12 @@ def address(tmp_path: Path) -> Iterator[str]:
     command = [sys.executable, "-m", "polycnc", *words, "--speed", "100"]
     # NiceGUI behaves otherwise where it believes that it is tested.
     environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST")}
+    # Where tests run in the background of a shell, Ctrl-C is ignored, and children would inherit that.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
     process = subprocess.Popen(
         command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment
     )
+    signal.signal(signal.SIGINT, before)
     address = f"127.0.0.1:{port}"
     until = monotonic() + PATIENCE_S
     while monotonic() < until and status(address) == 0:
