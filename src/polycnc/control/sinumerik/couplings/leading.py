@@ -64,16 +64,7 @@ def switch_on(channel: SinumerikChannel, args: Arguments) -> None:
 
 def switch_off(channel: SinumerikChannel, args: Arguments) -> None:
     """LEADOF(following[,leading]): the coupling ends, the axis stays where it is."""
-    if not 1 <= len(args) <= 3 or args[0] is None:
-        raise AlarmError("14020", text="LEADOF")
-    following, *leading = (arguments.column(channel, axis) for axis in args if axis is not None)
-    switching.begin(channel, "LEADOF")
-    links = Couplings.of(channel).links.get(following, [])
-    stay = [
-        link for link in links if link.kind is not Kind.LEAD or (leading and link.law.leading not in leading)
-    ]
-    if len(stay) != len(links):
-        switching.change(channel, following, stay)
+    switching.end(channel, args, "LEADOF", Kind.LEAD)
 
 
 PROCEDURES: dict[str, Procedure] = {"LEADON": switch_on, "LEADOF": switch_off}

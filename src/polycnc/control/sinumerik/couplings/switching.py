@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.actions.axes import ActionAxes
+from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.couplings.links import Couplings, put
 from polycnc.control.sinumerik.curve_tables import definition
 from polycnc.control.sinumerik.errors import not_supported
@@ -14,7 +15,8 @@ from polycnc.messages import AlarmError
 from polycnc.transformation.couplings.graph import CircularCouplingError, in_order
 
 if TYPE_CHECKING:
-    from polycnc.control.sinumerik.couplings.links import Link
+    from polycnc.control.sinumerik.block.arguments import Arguments
+    from polycnc.control.sinumerik.couplings.links import Kind, Link
     from polycnc.control.sinumerik.family import SinumerikChannel
 
 
@@ -50,6 +52,22 @@ def change(channel: SinumerikChannel, column: int, links: list[Link]) -> None:
         raise not_supported(f"TRAILON LEADON EGON: {channel.axes[each]} POS MOV")
     put(channel, column, links)
     settle(channel)
+
+
+def end(channel: SinumerikChannel, args: Arguments, name: str, kind: Kind) -> None:
+    """Couplings of a kind end: those of the first axis to the others named, all where none is; the axis stays.
+
+    Raises:
+        AlarmError: 14020 for a wrong number of axes, and what `begin` raises.
+    """
+    if not 1 <= len(args) <= 3 or args[0] is None:
+        raise AlarmError("14020", text=name)
+    following, *leading = (arguments.column(channel, axis) for axis in args if axis is not None)
+    begin(channel, name)
+    links = Couplings.of(channel).links.get(following, [])
+    stay = [link for link in links if link.kind is not kind or (leading and link.law.leading not in leading)]
+    if len(stay) != len(links):
+        change(channel, following, stay)
 
 
 def settle(channel: SinumerikChannel) -> None:

@@ -50,16 +50,7 @@ def _read(channel: SinumerikChannel, args: Arguments) -> tuple[int, int, float]:
 
 def switch_off(channel: SinumerikChannel, args: Arguments) -> None:
     """TRAILOF(following[,leading[,leading 2]]): couplings to these axes end, all where none is named."""
-    if not 1 <= len(args) <= 3 or args[0] is None:
-        raise AlarmError("14020", text="TRAILOF")
-    following, *leading = (arguments.column(channel, axis) for axis in args if axis is not None)
-    switching.begin(channel, "TRAILOF")
-    links = Couplings.of(channel).links.get(following, [])
-    stay = [
-        link for link in links if link.kind is not Kind.TRAIL or (leading and link.law.leading not in leading)
-    ]
-    if len(stay) != len(links):
-        switching.change(channel, following, stay)
+    switching.end(channel, args, "TRAILOF", Kind.TRAIL)
 
 
 PROCEDURES: dict[str, Procedure] = {"TRAILON": switch_on, "TRAILOF": switch_off}
