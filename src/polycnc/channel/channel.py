@@ -31,7 +31,7 @@ from polycnc.channel.waits import (
     Wait,
     Why,
 )
-from polycnc.geometry.tolerances import FARTHEST, NO_WAY
+from polycnc.geometry.tolerances import FARTHEST, is_way
 from polycnc.memory.retained import InMemoryStore
 from polycnc.messages import AlarmError
 from polycnc.toolpath import NO_CURVE, Context, Event, Kind, Toolpath
@@ -75,6 +75,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         feed: Feed in force in internal units (mm/s, mm/rev, 1/s as the feed mode says), NaN when none was programmed.
         level: The running program level, `stack[-1]`.
         running: The run that was begun last; None before the first one.
+        limits: Lowest and highest machine position of every axis; nothing where no axis has a limit.
         start_position: Position at power-on, all axes.
         path: The stages that moves pass on their way to the toolpath.
         mark: Rows of the chunk when the running block began.
@@ -133,8 +134,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
     ) -> None:
         self.control = control
         self.machine = machine
-        self.setup = setup
-        self.store = store
+        self.setup, self.store = setup, store
         self.retained: RetainedStore = InMemoryStore() if retained is None else retained
         self.number = number
         definition = machine.channel(number)
@@ -154,8 +154,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         self.memory: MemoryT_co = None  # type: ignore[assignment]  # made by `Control.start`
         self.states = States(self)
         self.alarms: list[Alarm] = []
-        self._finished = False
-        self.attention = False
+        self._finished = self.attention = self.off_path = self.block_by_block = False
         self.mark = self.blocks = self.skip_levels = 0
         self.block_limit = block_limit
         #: Joined steps run no more of their blocks at once from here on, so that the block limit is exact.
@@ -168,9 +167,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         self.single_block = bool(setup.switches.single_block)
         self.inner_halts: list[str] = []
         self.takes_back = NOTHING_BACK
-        self.off_path = False
         self.moved_by_hand: MovedByHand | None = None
-        self.block_by_block = False
         self.main_run: MainRun | None = None
         self.actual: View = Prepared(self.coordinates)
         self.share_after: Callable[[Channel, list[float], float, float], float | None] | None = None
@@ -178,7 +175,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         self.standstill: Standstill | None = None
         self.optional_stop = setup.switches.optional_stop
         self._context, self._context_changed = 0, True
-        self._limits = limits_of(self.axis_data)
+        self.limits = limits_of(self.axis_data)
         self._executables: dict[int, ProgramT_co] = {}
         self.bulk = bulk
         self._scanner: Scanner | None = None
@@ -401,7 +398,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         self.off_path = False
         if self.single_block and step is not None:
             if self.control.halts(self, level, step):
-                self._wait = self._wait or Wait(Why.SINGLE_BLOCK, self.sequence_of(level))
+                self._wait = self._wait or Wait(Why.SINGLE_BLOCK, level.block_name())
             elif self.block_by_block:
                 self._wait = self._wait or BLOCK
         self.mark = self.toolpath.mark()
@@ -439,12 +436,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
     def halt_inside(self, line: int = 0) -> None:
         """Single block halts here, inside the block; `line` is that of another block that it executes."""
         if self.single_block:
-            self.inner_halts.append(self.sequence_of(self.level, line))
-
-    def sequence_of(self, level: Level, line: int = 0) -> str:
-        """The block that a level runs, or that at a line of its program, as its sequence number or else its line."""
-        program: Program = level.code.program
-        return program.block_name(line or level.line_of(level.current))
+            self.inner_halts.append(self.level.block_name(line))
 
     def keep_rows(self) -> None:
         """What the running block has written stays even if it alarms from here on."""
@@ -466,11 +458,6 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         end_run(self, error)
 
     # ---- writing -------------------------------------------------------------------------------------------------
-
-    @property
-    def limits(self) -> tuple[tuple[float, float], ...]:
-        """Lowest and highest machine position of every axis; nothing where no axis has a limit."""
-        return self._limits
 
     @property
     def context_is_new(self) -> bool:
@@ -508,14 +495,14 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         """
         coordinates = self.coordinates
         start = coordinates.position
-        if end != start and _is_way(start, end):
+        if end != start and is_way(start, end):
             if not -FARTHEST < sum(end) < FARTHEST:
                 raise OverflowError("a target that no machine has")
             level = self._level
             context = self._context if not self._context_changed else self.context_number()
             line, head = level.line_of(level.current), self.path.head
             if head is None:
-                if self._limits or self.boundary is not None:
+                if self.limits or self.boundary is not None:
                     check_straight(self, kind, start, end)
                 self.toolpath.chunk.add(kind, level.program_number, line, context, feed, end, NO_CURVE)
             else:
@@ -606,11 +593,3 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         if seconds > 0.0 or revolutions > 0.0:
             position = self.coordinates.position
             self.curve(Kind.DWELL, position, nan, parameters=(seconds, revolutions))
-
-
-def _is_way(start: list[float], end: list[float]) -> bool:
-    """Whether two positions differ by more than rounding."""
-    for a, b in zip(start, end, strict=True):  # noqa: SIM110 - a generator costs more than the comparison
-        if not abs(a - b) <= NO_WAY:  # also where one is no number
-            return True
-    return False

@@ -115,3 +115,8 @@ class Level(Generic[ProgramT_co]):
         self.steps = self.code.steps
         self.line_of = self.code.line
         self.counts = self.code.counts
+
+    def block_name(self, line: int = 0) -> str:
+        """The block that runs, or that at a line of the program, as its sequence number or else its line."""
+        name: str = self.code.program.block_name(line or self.line_of(self.current))
+        return name

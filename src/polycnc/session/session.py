@@ -80,7 +80,7 @@ class Session:
         display = Display(toolpath, axis_layout(machine, 1), self._event_text)
         lead: Lead = {
             "start": self.channel.coordinates.machine,
-            "tool": setup.spindle_tool,
+            "tool": setup.tool_at_start(1),
             "settings": control.motion_settings(self.channel),
         }
         self.result = Result(program, control, machine, self.channel, display, lead)
@@ -178,7 +178,7 @@ class Session:
         if wait.code:
             return wait.code
         level = self.channel.level
-        return self.channel.sequence_of(level)
+        return level.block_name()
 
 
 def _share_after(channel: Channel, end: list[float], feed: float, seconds: float) -> float | None:

@@ -301,8 +301,10 @@ def test_a_surface_that_makes_no_sense_is_a_mistake(switches: dict[str, object])
 
 @pytest.mark.parametrize("value", [-1, 1.5, True, [1]])
 def test_the_tool_in_the_spindle_is_a_number_or_a_name(value: object) -> None:
-    assert parse_setup({"spindle_tool": 3}).spindle_tool == 3
-    assert parse_setup({"spindle_tool": "3"}).spindle_tool == 3
+    assert parse_setup({"spindle_tool": 3}).tool_at_start(1) == 3
+    assert parse_setup({"spindle_tool": "3"}).tool_at_start(1) == 3
+    assert parse_setup({"spindle_tool": 3}).tool_at_start(2) == 0
+    assert parse_setup({"spindle_tool": {1: 3, 2: "FACE"}}).tool_at_start(2) == "FACE"
     assert parse_setup({"spindle_tool": "FACE"}).tool_name == "FACE"
     with pytest.raises(SetupError):
         parse_setup({"spindle_tool": value})

@@ -142,8 +142,7 @@ class Sinumerik:
         channel.mode = channel.modes.mode(start_codes(channel, memory.data))
         PathFeed.of(channel).mode = tables.feed_type(channel.mode).mode
         memory.frames.select(gcodes.number_of(channel.mode["wcs"]) - 1)
-        if channel.number == 1:
-            memory.tools.stand_in(channel.setup.spindle_tool)
+        memory.tools.stand_in(channel.setup.tool_at_start(channel.number))
         frames.apply(channel)
         working_area.refresh(channel)
         if channel.group is None or channel is channel.group.first:

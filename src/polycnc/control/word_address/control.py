@@ -228,8 +228,9 @@ class WordAddressControl:
         channel.memory = self.make_memory(channel)
         channel.mode = channel.modes.mode(self.start_codes(channel))
         channel.skip_levels = channel.setup.switches.block_skip_mask(plain=1)
-        if channel.number == 1:
-            channel.memory.tool.number = channel.memory.tool.next = int(channel.setup.spindle_tool)
+        channel.memory.tool.number = channel.memory.tool.next = int(
+            channel.setup.tool_at_start(channel.number)
+        )
         if self.FEED_AT_START is not None:
             channel.feed = self.FEED_AT_START
         systems.refresh_zero(channel)

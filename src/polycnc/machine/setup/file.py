@@ -309,6 +309,13 @@ def _tool_called(where: Where, value: object) -> int | str:
     return number
 
 
+def _tools_called(where: Where, value: object) -> dict[int, int | str]:
+    """The tool of the first channel, or one for each channel by its number."""
+    if isinstance(value, Mapping):
+        return _map_of(_number_key, _tool_called, where, value)
+    return {1: _tool_called(where, value)}
+
+
 def _tip(where: Where, value: object) -> int:
     """Where the tip of a turning tool points: 1 to 8, 0 and 9 for its centre."""
     tip = _whole(where, value)
@@ -473,7 +480,7 @@ _SETUP: dict[str, Reader] = {
     "start": _position,
     "work_offsets": _offsets,
     "tools": partial(_map_of, _tool_key, _tool),
-    "spindle_tool": _tool_called,
+    "spindle_tool": _tools_called,
     "variables": _values,
     "parameters": _parameters,
     "channels": _channels,

@@ -259,7 +259,7 @@ class Setup:
         start: Machine position of axes at the start; the others stand at machine zero.
         work_offsets: Offsets by name in capitals (`G54`, `EXT`, `G54.1 P1`, `G505`), each by axis.
         tools: Tools by tool or offset number, or by name.
-        spindle_tool: Number or name of the tool in the spindle at the start; 0 for none.
+        spindle_tool: Number or name of the tool in the spindle at the start, by the channel that it works in.
         variables: Start values by the name that the control's programs use.
         parameters: Machine parameters and machine data.
         channels: Axes of each channel; empty for those of the machine.
@@ -270,7 +270,7 @@ class Setup:
     start: Mapping[str, float] = field(default_factory=dict)
     work_offsets: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     tools: Mapping[int | str, Tool] = field(default_factory=dict)
-    spindle_tool: int | str = 0
+    spindle_tool: Mapping[int, int | str] = field(default_factory=dict)
     variables: Mapping[str, Value] = field(default_factory=dict)
     parameters: Parameters = field(default_factory=Parameters)
     channels: Mapping[int, tuple[str, ...]] = field(default_factory=dict)
@@ -279,5 +279,9 @@ class Setup:
     @property
     def tool_name(self) -> str:
         """A tool that is called by a name, empty where all are numbers."""
-        called = (tool for tool in (*self.tools, self.spindle_tool) if isinstance(tool, str))
+        called = (tool for tool in (*self.tools, *self.spindle_tool.values()) if isinstance(tool, str))
         return next(called, "")
+
+    def tool_at_start(self, channel: int) -> int | str:
+        """Number or name of the tool in a channel's spindle at the start; 0 for none."""
+        return self.spindle_tool.get(channel, 0)

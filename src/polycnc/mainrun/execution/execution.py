@@ -254,8 +254,7 @@ class Execution:
             self._follower.enter(coasting.piece, coasting.length, done)
             self._lead()
         self._x2, self._moved_on = 0.0, True
-        while self.preprocessing.items and isinstance(self.preprocessing.items[0], Move):
-            self.preprocessing.queue.pop_piece()
+        self.preprocessing.queue.drop_moves()
 
     def skip_signal(self) -> list[float] | None:
         """The skip input comes now: where the axes are if a skip move runs, else None."""
@@ -289,8 +288,7 @@ class Execution:
             self._come_to_rest()
         self.rates.stops, self._moved_on = False, True
         self._x2, self._skips_at = 0.0, inf
-        while self.preprocessing.items and isinstance(self.preprocessing.items[0], Move):
-            self.preprocessing.queue.pop_piece()
+        self.preprocessing.queue.drop_moves()
 
     def _go_on(self) -> bool:
         """Begin what comes next; false where nothing can begin now."""
@@ -315,18 +313,11 @@ class Execution:
         if self.rates.influence.holds_next and self._x2 == 0.0 and isinstance(item, Block):
             self._until = self.clock.time + self.clock.cycle_s
             return True
-        held = self.context.feed_hold or (isinstance(item, Block) and self._may_hold())
+        held = self.context.feed_hold or (isinstance(item, Block) and self.preprocessing.queue.knows_hold)
         held = self.rates.gives_up or (self.rates.hold and held)
         if held and self._x2 == 0.0 and not isinstance(item, BlockEnd):
             return False
         return self._pass(item)
-
-    def _may_hold(self) -> bool:
-        """Whether feed hold stops in front of the next block: behind a tap it does, unless that block knows none."""
-        contexts = (
-            item.context for item in self.preprocessing.items if not isinstance(item, Block | BlockEnd)
-        )
-        return next((context.feed_hold for context in contexts), True)
 
     def _run_out(self, *, filled: bool) -> bool:
         """Nothing is prepared."""
@@ -359,7 +350,7 @@ class Execution:
         self._waiting = self._machinery.busy
         if not self._waiting:
             self.preprocessing.proceed()
-            self._stop(reason)
+            self.stop(reason)
         return self._waiting
 
     @property
@@ -391,7 +382,7 @@ class Execution:
         elif isinstance(item, BlockEnd):
             halts = self.single_block and not self.context.stop_delay
             if halts and self._x2 == 0.0 and not self.preprocessing.typed_blocks_end:
-                self._stop("single-block")
+                self.stop("single-block")
         elif isinstance(item, Standing):
             self.context = item.context
             self.rates.enter(item.context)
@@ -452,16 +443,9 @@ class Execution:
             )
         else:
             self.motion = PathMotion(
-                piece,
-                record,
-                preprocessing.limits,
-                self.clock.time,
-                self._x2,
-                preprocessing.reach2,
-                cap2,
-                follower.window,
-                *self._steadiness(record),
-            )
+                piece, record, preprocessing.limits, self.clock.time, self._x2, preprocessing.reach2, cap2,
+                follower.window, *self._steadiness(record),
+            )  # fmt: skip
         self._lead()
         if not self.preprocessing.queue.suits(self.rates, at_rest=False):
             self._lay_again(self.motion)
@@ -600,13 +584,10 @@ class Execution:
         self.running, self.halt = True, ""
         self.revise()
 
-    def _stop(self, reason: str) -> None:
-        self.running, self.halt, self.attention, self._x2 = False, reason, True, 0.0
-        self._machinery.halted(reason)
-
     def stop(self, reason: str) -> None:
         """Halt here: the axes stand."""
-        self._stop(reason)
+        self.running, self.halt, self.attention, self._x2 = False, reason, True, 0.0
+        self._machinery.halted(reason)
 
     def abandon(self) -> None:
         """Give up what is left: reset. The axes stand where they are, or have been braked before."""

@@ -1,6 +1,7 @@
 """Preprocessing: the channel runs ahead of the axes, and its rows wait in a look-ahead buffer.
 
 preprocessing  the channel's rows become pieces of the path and events, in order
+rows           a row as a move with its pieces
 items          what is prepared and not yet executed
 piece_buffer   the planner's records of the pieces, and how fast each may be entered
 layout         for which overrides rows are laid out, and from what

@@ -9,13 +9,11 @@ from __future__ import annotations
 from array import array
 from collections import deque
 from functools import partial
-from math import inf
 from typing import TYPE_CHECKING
 
 from polycnc.channel.intervention import NOTHING_BACK, MovedByHand
 from polycnc.channel.stack import LevelKind
 from polycnc.channel.waits import PREPROCESSING, TYPED_BLOCKS_DONE, Wait, Why
-from polycnc.mainrun.motion.geometry import row_arc, row_line, turn_arc
 from polycnc.mainrun.preparation.items import (
     Block,
     BlockEnd,
@@ -26,36 +24,27 @@ from polycnc.mainrun.preparation.items import (
     Piece,
     Standing,
 )
-from polycnc.mainrun.preparation.layout import Before, Laid
 from polycnc.mainrun.preparation.piece_buffer import PieceBuffer
 from polycnc.mainrun.preparation.queue import Queue
 from polycnc.mainrun.preparation.reapproach import line_from
+from polycnc.mainrun.preparation.rows import RowLayer
 from polycnc.mainrun.preparation.run_blocks import (
     RunBlocks,
     acts_on_machine,
     is_silent,
-    largest_override,
     without_function,
 )
 from polycnc.motion.frames import real_of
-from polycnc.motion.kernels.arcs import facing_radius
 from polycnc.motion.kernels.columns import (
-    SHARES,
     ContextRecord,
-    Form,
     Limits,
     PieceRecord,
-    Rows,
-    piece_width,
 )
-from polycnc.motion.kernels.feeds import asked_speed, faster, follows_radius, is_rapid
 from polycnc.motion.limits import averages, context_fields
-from polycnc.motion.transformed import Bounds, RealAxes
+from polycnc.motion.transformed import RealAxes
 from polycnc.motion.waits import Waits
 from polycnc.toolpath import Context, Kind, Toolpath
 from polycnc.toolpath.events import Auxiliary, BuilderCode, Deed, Stop
-from polycnc.toolpath.kinds import ARC_KINDS
-from polycnc.toolpath.table import CURVE_WIDTH
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -64,7 +53,6 @@ if TYPE_CHECKING:
     from polycnc.machine.model import Machine
     from polycnc.mainrun.axes.machine_axes import MachineAxes
     from polycnc.messages import AlarmError
-    from polycnc.motion.pole import Turn
     from polycnc.program import Program
     from polycnc.toolpath import Event
     from polycnc.toolpath.motion_settings import MotionSettings
@@ -79,11 +67,6 @@ MOST = 4096
 BLOCKS_A_CYCLE = 100
 #: Waits of the channel behind a block that counts as one even without rows.
 BEHIND_A_BLOCK = frozenset({Why.SINGLE_BLOCK, Why.STOP})
-#: Kinds of rows that may be arcs, and those that the spindle leads.
-ARC_WAYS = frozenset((*ARC_KINDS, Kind.THREAD))
-BOUND_TO_SPINDLE = frozenset((Kind.THREAD, Kind.TAP))
-#: Nothing among the moves themselves lets the axes stand.
-NO_STOPS = array("B")
 #: Waits of the channel that only let others look in.
 PASSING = frozenset({Why.CHUNK, Why.BLOCK, Why.SINGLE_BLOCK})
 
@@ -127,17 +110,16 @@ class Preprocessing:
         self._settings: MotionSettings
         self._buffer = PieceBuffer(self._axes)
         self.queue = Queue(self.items, self._buffer)
+        self._rows = RowLayer(self.toolpath, self.queue, self._buffer)
         self._machine, self._number = machine, number
         self._stations: dict[tuple[object, ...], int] = {}
         self._known_contexts = 0
         self._delays: dict[int, list[tuple[str, float]]] = {}
         self._waits = Waits(machine, self.toolpath.contexts, 0, self._delay)
         self._blocks = RunBlocks(self.items, self.toolpath.programs)
-        self._stopped = self._skips = False
+        self._stopped = False
         self._geometry = machine.geometry_indices(number)
-        self._last_context, self._machine_axes = Context(), machine_axes
-        self._facing = -1
-        self._real: RealAxes
+        self._machine_axes = machine_axes
 
     # ---- the channel ---------------------------------------------------------------------------------------
 
@@ -145,11 +127,10 @@ class Preprocessing:
         """Say whose channel it is, and how the control leads the axes."""
         self.channel, self._settings = channel, settings
         self._waits.rapid_stops = settings.rapid_stops
-        self._waits.stand_in(channel.setup.spindle_tool if channel.number == 1 else 0)
+        self._waits.stand_in(channel.setup.tool_at_start(channel.number))
         channel.main_run = self
-        self._real = RealAxes(self._machine, self._number, self.toolpath.axes, settings, ())
-        limits = self._buffer.limits = self._real.limits(None)
-        self._facing = limits.geometry[0]
+        real = RealAxes(self._machine, self._number, self.toolpath.axes, settings, ())
+        self._rows.use(real, settings)
 
     def start(self, program: Program, position: Sequence[float]) -> None:
         """Begin with a program; the axes stand at a machine position."""
@@ -174,8 +155,8 @@ class Preprocessing:
         self._buffer.clear()
         self._waits.settle(0)
         self._blocks.clear()
-        self._last_context = Context()
-        self._real.stand(position)
+        self._rows.context = Context()
+        self._rows.real.stand(position)
         self.stand_at(position)
         self._run = None
         self.waiting, self.finished, self.has_caught_up = None, True, True
@@ -263,7 +244,7 @@ class Preprocessing:
 
     def place_axis(self, column: int, position: float) -> None:
         """An axis is elsewhere than the rows have led it."""
-        self._buffer.move_axis(column, position, self._last_context, self._geometry)
+        self._buffer.move_axis(column, position, self._rows.context, self._geometry)
 
     @property
     def returns_to_path(self) -> bool:
@@ -286,7 +267,7 @@ class Preprocessing:
         `by_hand` is what an operator has moved of it.
         """
         self.stand_at(position)
-        real = real_of(position, self._last_context, self._geometry)
+        real = real_of(position, self._rows.context, self._geometry)
         self.channel.coordinates.arrive_machine(real)
         if self._cut >= 0:
             self.toolpath.set_end(self._cut, self.channel.coordinates.position)
@@ -310,7 +291,7 @@ class Preprocessing:
                 key, code or (str(line) if halts else ""), channel.mode.codes, channel.takes_back
             )
             channel.takes_back = NOTHING_BACK
-        self._stopped = self._skips = self.has_caught_up = False
+        self._stopped = self._rows.skips = self.has_caught_up = False
         if self.stop_behind_next:
             channel.flush()
         acts = acts_on_machine(self.toolpath.chunk, waits=wait is not None and wait.reason in BEHIND_A_BLOCK)
@@ -325,7 +306,7 @@ class Preprocessing:
             self._blocks.close()
         if wait is not None and wait.reason not in PASSING and (wait.reason is not Why.STOP or self._stopped):
             self.waiting = wait
-        elif self._skips:
+        elif self._rows.skips:
             self.waiting = PREPROCESSING
         if self.stop_behind_next and acts:
             self.waiting = self.waiting or PREPROCESSING
@@ -341,10 +322,10 @@ class Preprocessing:
             return True
         self._add_contexts()
         self._take_over()
-        self._real.go_on_from(self._buffer.position)
-        bounds = self._real.bounds(chunk, self.toolpath.contexts)
+        self._rows.real.go_on_from(self._buffer.position)
+        bounds = self._rows.real.bounds(chunk, self.toolpath.contexts)
         self._delays.clear()
-        self._waits.take(chunk, self._facing)
+        self._waits.take(chunk, self._rows.facing)
         self._waits.parallel.clear()
         contexts = self.toolpath.contexts
         for row in range(len(chunk)):
@@ -366,7 +347,7 @@ class Preprocessing:
             elif kind == Kind.DWELL:
                 self.end_in_rest()
             else:
-                self._move(chunk, row, bounds)
+                self._rows.lay(chunk, row, bounds)
         return True
 
     def _take_over(self) -> None:
@@ -378,7 +359,7 @@ class Preprocessing:
         """The program is at its end: an exact stop in its last row waits for its window."""
         self._delays.clear()
         self._waits.settle(0)
-        context = self._last_context
+        context = self._rows.context
         self.items.extend(Standing(why, seconds, context) for why, seconds in self._delays.get(0, []))
 
     def _delay(self, row: int, why: str, _context: int, seconds: float) -> None:
@@ -396,128 +377,6 @@ class Preprocessing:
                 context_fields(context, self._axes, spindle, station, self._settings, smoothing)
             )
             self._known_contexts += 1
-
-    def _move(self, chunk: Chunk, row: int, bounds: Bounds) -> None:
-        """Lay a move out; one through the pole of a transformation in legs, the rotary axis turning between them."""
-        n, number = self._axes, chunk.first + row
-        self._last_context = self.toolpath.contexts[chunk.context[row]]
-        if row in bounds.enters:
-            self.stand_at(bounds.enters[row])
-        own, shares = slice(row, row + 1), slice(row * SHARES, (row + 1) * SHARES)
-        if row not in bounds.legs:
-            rows = Rows(
-                chunk.kind[own], chunk.context[own], bounds.paced(chunk.feed[own], own),
-                chunk.end[row * n : (row + 1) * n], chunk.curve[own], NO_STOPS,
-                *(column[shares] for column in bounds.shares),
-            )  # fmt: skip
-            self._lay(chunk, row, rows, chunk.curves, number)
-            return
-        legs, feed = bounds.legs[row], bounds.paced(chunk.feed[own], own)[0]
-        for k, leg in enumerate(legs):
-            called = number + (k + 1) / (len(legs) + 1)
-            if leg.turn is not None:
-                self._turn(leg.turn, chunk, row, called - 0.5 / (len(legs) + 1))
-            self._lay(chunk, row, leg.at_feed(feed), leg.curves, called)
-            self.end_in_rest()
-
-    def _turn(self, turn: Turn, chunk: Chunk, row: int, called: float) -> None:
-        """The rotary axis turns at the pole."""
-        context, kind = self.toolpath.contexts[chunk.context[row]], chunk.kind[row]
-        records = self._real.turn(turn, context, kind, called, 0)
-        before, rests = Before.of(self._buffer.state), self._buffer.note_rest()
-        limits = self._real.limits(context.transformation)
-        laid = Laid(None, array("d"), 0, called, limits, 0.0, context, False, rests, before, records)
-        self._buffer.lay(laid, self.queue.layout)
-        way = turn_arc(turn, records, self._axes)
-        program, line, rapid = self.toolpath.programs[chunk.program[row]], chunk.line[row], kind == Kind.RAPID
-        total = sum(records[PieceRecord.LENGTH :: piece_width(self._axes)])
-        self.items.append(
-            Move(
-                way, called, kind, context, program, line, rapid, False, False, 0.0, False, False, False, 1.0,
-                inf, ((1.0, inf),), total, laid,
-            )
-        )  # fmt: skip
-
-    def _lay(self, chunk: Chunk, row: int, rows: Rows, curves: array[float], called: float) -> None:
-        """Lay a row or a leg of it out as pieces."""
-        n, buffer, kind = self._axes, self._buffer, chunk.kind[row]
-        context = self.toolpath.contexts[chunk.context[row]]
-        start, limits = tuple(buffer.position), self._real.limits(context.transformation)
-        record = chunk.context[row] * (ContextRecord.OFFSETS + n)
-        per_revolution = buffer.contexts[record + ContextRecord.PER_REVOLUTION] != 0.0
-        before, rests = Before.of(buffer.state), buffer.note_rest()
-        laid = Laid(
-            rows,
-            curves[:],
-            chunk.first + row,
-            called,
-            limits,
-            rows.feed[0],
-            context,
-            per_revolution,
-            rests,
-            before,
-        )
-        found = buffer.lay(laid, self.queue.layout)
-        if not found:
-            return
-        self._skips = self._skips or kind == Kind.SKIP
-        form = buffer.field(found[0], PieceRecord.FORM)
-        is_arc = kind in ARC_WAYS and form != Form.STRAIGHT
-        way = row_arc(start, buffer.state, limits) if is_arc else row_line(start, buffer.state)
-        self.items.append(
-            Move(
-                way,
-                called,
-                kind,
-                context,
-                self.toolpath.programs[chunk.program[row]],
-                chunk.line[row],
-                is_rapid(buffer.state),
-                kind in BOUND_TO_SPINDLE,
-                per_revolution,
-                chunk.curves[chunk.curve[row] * CURVE_WIDTH]
-                if kind == Kind.SKIP and chunk.curve[row] >= 0
-                else 0.0,
-                form == Form.TIMED,
-                kind == Kind.TAP and self._settings.taps_overridden,
-                kind == Kind.TAP and self._settings.taps_held,
-                faster(chunk.curves, buffer.state),
-                largest_override(chunk, row),
-                self._asks(curves, record, found, laid.factor(self.queue.layout), is_arc=is_arc),
-                sum(buffer.field(at, PieceRecord.LENGTH) for at in found),
-                laid,
-            )
-        )
-
-    def _asks(
-        self, curves: array[float], record: int, found: Sequence[int], factor: float, *, is_arc: bool
-    ) -> tuple[tuple[float, float], ...]:
-        """Speeds that the program asks for in the row laid last, by shares of its way.
-
-        `found` are its pieces, `factor` that of overrides on its feed.
-        """
-        state, contexts = self._buffer.state, self._buffer.contexts
-        follows = self._facing >= 0 and follows_radius(contexts, record)
-        lengths = [self._buffer.field(at, PieceRecord.LENGTH) for at in found] if follows else [1.0]
-        total, done, asks = sum(lengths), 0.0, []
-        for length in lengths:
-            share = length / total
-            radius = self._radius(record, done + 0.5 * share, is_arc=is_arc)
-            speed = asked_speed(curves, contexts, record, state, state.run.length, radius)
-            done += share
-            asks.append((done, speed / factor if speed > 0.0 else inf))
-        return tuple(asks)
-
-    def _radius(self, record: int, middle: float, *, is_arc: bool) -> float:
-        """Turning radius at a share of the row laid last, as the planner takes it."""
-        state, facing = self._buffer.state, self._facing
-        if facing < 0:
-            return 0.0
-        follows = follows_radius(self._buffer.contexts, record)
-        if is_arc:
-            return facing_radius(middle * state.arc.sweep if follows else 0.0, self._buffer.limits, state)
-        return state.row.facing - (state.delta[facing] * (1.0 - middle) if follows else 0.0)
 
     # ---- speeds --------------------------------------------------------------------------------------------
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from polycnc.mainrun.motion.geometry import piece_cubic
-from polycnc.mainrun.preparation.items import Move, Piece
+from polycnc.mainrun.preparation.items import Block, BlockEnd, Move, Piece
 from polycnc.mainrun.preparation.layout import Layout
 from polycnc.motion.kernels.columns import SPLINE, TO_CORNER, PieceRecord
 
@@ -48,6 +48,17 @@ class Queue:
             self.items.popleft()
         self._front = move
         return self._piece(move, record, is_last=is_last), record
+
+    def drop_moves(self) -> None:
+        """Take away the moves in front, up to what is no motion."""
+        while self.items and isinstance(self.items[0], Move):
+            self.pop_piece()
+
+    @property
+    def knows_hold(self) -> bool:
+        """Whether feed hold stops in front of the next block: behind a tap it does, unless that block knows none."""
+        contexts = (item.context for item in self.items if not isinstance(item, Block | BlockEnd))
+        return next((context.feed_hold for context in contexts), True)
 
     def _piece(self, move: Move, record: array[Any], *, is_last: bool) -> Piece:
         """The piece of a move that a record tells."""

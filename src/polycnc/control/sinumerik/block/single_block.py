@@ -46,7 +46,7 @@ def halt_behind_rest(channel: SinumerikChannel) -> None:
     """The rest of an interrupted block has been made behind its routine: the halt of that block."""
     level = channel.level
     if channel.single_block and (level.data.get("single_block", True) or _kind(channel) == "SBL3"):
-        channel.wait = channel.wait or Wait(Why.SINGLE_BLOCK, channel.sequence_of(level))
+        channel.wait = channel.wait or Wait(Why.SINGLE_BLOCK, level.block_name())
 
 
 def _kind(channel: SinumerikChannel) -> str:

@@ -1,0 +1,192 @@
+"""Rows of the channel laid out as moves of the queue, each with the pieces of path that the planner makes of it."""
+
+from __future__ import annotations
+
+from array import array
+from math import inf
+from typing import TYPE_CHECKING
+
+from polycnc.mainrun.motion.geometry import row_arc, row_line, turn_arc
+from polycnc.mainrun.preparation.items import Move
+from polycnc.mainrun.preparation.layout import Before, Laid
+from polycnc.mainrun.preparation.run_blocks import largest_override
+from polycnc.motion.kernels.arcs import facing_radius
+from polycnc.motion.kernels.columns import SHARES, ContextRecord, Form, PieceRecord, Rows, piece_width
+from polycnc.motion.kernels.feeds import asked_speed, faster, follows_radius, is_rapid
+from polycnc.toolpath import Context, Kind
+from polycnc.toolpath.kinds import ARC_KINDS
+from polycnc.toolpath.table import CURVE_WIDTH
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from polycnc.mainrun.preparation.piece_buffer import PieceBuffer
+    from polycnc.mainrun.preparation.queue import Queue
+    from polycnc.motion.pole import Turn
+    from polycnc.motion.transformed import Bounds, RealAxes
+    from polycnc.toolpath import Toolpath
+    from polycnc.toolpath.motion_settings import MotionSettings
+    from polycnc.toolpath.table import Chunk
+
+#: Kinds of rows that may be arcs, and those that the spindle leads.
+ARC_WAYS = frozenset((*ARC_KINDS, Kind.THREAD))
+BOUND_TO_SPINDLE = frozenset((Kind.THREAD, Kind.TAP))
+#: Nothing among the moves themselves lets the axes stand.
+NO_STOPS = array("B")
+
+
+class RowLayer:
+    """Lays rows out.
+
+    Args:
+        toolpath: Whose rows they are.
+        queue: Takes the moves.
+        buffer: Takes their pieces.
+
+    Attributes:
+        real: What leads the axes of the machine; set by `use`.
+        facing: Column of the axis that turning diameters are measured along; -1 without one.
+        context: What holds in the row laid last.
+        skips: A skip move has been laid since this was last reset.
+    """
+
+    def __init__(self, toolpath: Toolpath, queue: Queue, buffer: PieceBuffer) -> None:
+        self._toolpath, self._queue, self._buffer = toolpath, queue, buffer
+        self._axes = len(toolpath.axes)
+        self._settings: MotionSettings
+        self.real: RealAxes
+        self.facing = -1
+        self.context = Context()
+        self.skips = False
+
+    def use(self, real: RealAxes, settings: MotionSettings) -> None:
+        """Say what leads the axes, and how the control does it."""
+        self.real, self._settings = real, settings
+        limits = self._buffer.limits = real.limits(None)
+        self.facing = limits.geometry[0]
+
+    def lay(self, chunk: Chunk, row: int, bounds: Bounds) -> None:
+        """Lay a move out; one through the pole of a transformation in legs, the rotary axis turning between them."""
+        n, number = self._axes, chunk.first + row
+        self.context = self._toolpath.contexts[chunk.context[row]]
+        if row in bounds.enters:
+            self._buffer.stand_at(bounds.enters[row])
+        own, shares = slice(row, row + 1), slice(row * SHARES, (row + 1) * SHARES)
+        if row not in bounds.legs:
+            rows = Rows(
+                chunk.kind[own], chunk.context[own], bounds.paced(chunk.feed[own], own),
+                chunk.end[row * n : (row + 1) * n], chunk.curve[own], NO_STOPS,
+                *(column[shares] for column in bounds.shares),
+            )  # fmt: skip
+            self._lay_row(chunk, row, rows, chunk.curves, number)
+            return
+        legs, feed = bounds.legs[row], bounds.paced(chunk.feed[own], own)[0]
+        for k, leg in enumerate(legs):
+            called = number + (k + 1) / (len(legs) + 1)
+            if leg.turn is not None:
+                self._turn(leg.turn, chunk, row, called - 0.5 / (len(legs) + 1))
+            self._lay_row(chunk, row, leg.at_feed(feed), leg.curves, called)
+            self._buffer.end_in_rest()
+
+    def _turn(self, turn: Turn, chunk: Chunk, row: int, called: float) -> None:
+        """The rotary axis turns at the pole."""
+        context, kind = self._toolpath.contexts[chunk.context[row]], chunk.kind[row]
+        records = self.real.turn(turn, context, kind, called, 0)
+        before, rests = Before.of(self._buffer.state), self._buffer.note_rest()
+        limits = self.real.limits(context.transformation)
+        laid = Laid(None, array("d"), 0, called, limits, 0.0, context, False, rests, before, records)
+        self._buffer.lay(laid, self._queue.layout)
+        way = turn_arc(turn, records, self._axes)
+        program, line, rapid = (
+            self._toolpath.programs[chunk.program[row]],
+            chunk.line[row],
+            kind == Kind.RAPID,
+        )
+        total = sum(records[PieceRecord.LENGTH :: piece_width(self._axes)])
+        self._queue.items.append(
+            Move(
+                way, called, kind, context, program, line, rapid, False, False, 0.0, False, False, False, 1.0,
+                inf, ((1.0, inf),), total, laid,
+            )
+        )  # fmt: skip
+
+    def _lay_row(self, chunk: Chunk, row: int, rows: Rows, curves: array[float], called: float) -> None:
+        """Lay a row or a leg of it out as pieces."""
+        n, buffer, kind = self._axes, self._buffer, chunk.kind[row]
+        context = self._toolpath.contexts[chunk.context[row]]
+        start, limits = tuple(buffer.position), self.real.limits(context.transformation)
+        record = chunk.context[row] * (ContextRecord.OFFSETS + n)
+        per_revolution = buffer.contexts[record + ContextRecord.PER_REVOLUTION] != 0.0
+        before, rests = Before.of(buffer.state), buffer.note_rest()
+        laid = Laid(
+            rows,
+            curves[:],
+            chunk.first + row,
+            called,
+            limits,
+            rows.feed[0],
+            context,
+            per_revolution,
+            rests,
+            before,
+        )
+        found = buffer.lay(laid, self._queue.layout)
+        if not found:
+            return
+        self.skips = self.skips or kind == Kind.SKIP
+        form = buffer.field(found[0], PieceRecord.FORM)
+        is_arc = kind in ARC_WAYS and form != Form.STRAIGHT
+        way = row_arc(start, buffer.state, limits) if is_arc else row_line(start, buffer.state)
+        self._queue.items.append(
+            Move(
+                way,
+                called,
+                kind,
+                context,
+                self._toolpath.programs[chunk.program[row]],
+                chunk.line[row],
+                is_rapid(buffer.state),
+                kind in BOUND_TO_SPINDLE,
+                per_revolution,
+                chunk.curves[chunk.curve[row] * CURVE_WIDTH]
+                if kind == Kind.SKIP and chunk.curve[row] >= 0
+                else 0.0,
+                form == Form.TIMED,
+                kind == Kind.TAP and self._settings.taps_overridden,
+                kind == Kind.TAP and self._settings.taps_held,
+                faster(chunk.curves, buffer.state),
+                largest_override(chunk, row),
+                self._asks(curves, record, found, laid.factor(self._queue.layout), is_arc=is_arc),
+                sum(buffer.field(at, PieceRecord.LENGTH) for at in found),
+                laid,
+            )
+        )
+
+    def _asks(
+        self, curves: array[float], record: int, found: Sequence[int], factor: float, *, is_arc: bool
+    ) -> tuple[tuple[float, float], ...]:
+        """Speeds that the program asks for in the row laid last, by shares of its way.
+
+        `found` are its pieces, `factor` that of overrides on its feed.
+        """
+        state, contexts = self._buffer.state, self._buffer.contexts
+        follows = self.facing >= 0 and follows_radius(contexts, record)
+        lengths = [self._buffer.field(at, PieceRecord.LENGTH) for at in found] if follows else [1.0]
+        total, done, asks = sum(lengths), 0.0, []
+        for length in lengths:
+            share = length / total
+            radius = self._radius(record, done + 0.5 * share, is_arc=is_arc)
+            speed = asked_speed(curves, contexts, record, state, state.run.length, radius)
+            done += share
+            asks.append((done, speed / factor if speed > 0.0 else inf))
+        return tuple(asks)
+
+    def _radius(self, record: int, middle: float, *, is_arc: bool) -> float:
+        """Turning radius at a share of the row laid last, as the planner takes it."""
+        state, facing = self._buffer.state, self.facing
+        if facing < 0:
+            return 0.0
+        follows = follows_radius(self._buffer.contexts, record)
+        if is_arc:
+            return facing_radius(middle * state.arc.sweep if follows else 0.0, self._buffer.limits, state)
+        return state.row.facing - (state.delta[facing] * (1.0 - middle) if follows else 0.0)
