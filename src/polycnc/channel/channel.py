@@ -31,12 +31,12 @@ from polycnc.channel.waits import (
     Wait,
     Why,
 )
-from polycnc.geometry.tolerances import FARTHEST, is_way
+from polycnc.geometry.tolerances import FARTHEST
 from polycnc.memory.retained import InMemoryStore
 from polycnc.messages import AlarmError
 from polycnc.toolpath import NO_CURVE, Context, Event, Kind, Toolpath
 from polycnc.toolpath.events import Stop
-from polycnc.toolpath.table import CHUNK_ROWS
+from polycnc.toolpath.table import CHUNK_ROWS, is_way
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

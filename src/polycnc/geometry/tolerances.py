@@ -8,11 +8,3 @@ ROUNDED_MM = 0.00071
 NO_WAY = 1e-9
 #: No machine is larger, mm; and what is calculated with such a number stays a number.
 FARTHEST = 1e12
-
-
-def is_way(start: list[float], end: list[float]) -> bool:
-    """Whether two positions differ by more than rounding."""
-    for a, b in zip(start, end, strict=True):  # noqa: SIM110 - a generator costs more than the comparison
-        if not abs(a - b) <= NO_WAY:  # also where one is no number
-            return True
-    return False

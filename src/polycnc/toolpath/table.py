@@ -11,6 +11,7 @@ from array import array
 from math import isnan, nan
 from typing import TYPE_CHECKING, NamedTuple
 
+from polycnc.geometry.tolerances import NO_WAY
 from polycnc.toolpath.kinds import Kind
 
 if TYPE_CHECKING:
@@ -407,3 +408,11 @@ class Toolpath:
 def _ways(chunk: Chunk) -> int:
     """How many rows of a chunk move an axis."""
     return len(chunk.kind) - chunk.kind.count(Kind.EVENT) - chunk.kind.count(Kind.DWELL)
+
+
+def is_way(start: list[float], end: list[float]) -> bool:
+    """Whether two positions differ by more than rounding."""
+    for a, b in zip(start, end, strict=True):  # noqa: SIM110 - a generator costs more than the comparison
+        if not abs(a - b) <= NO_WAY:  # also where one is no number
+            return True
+    return False
