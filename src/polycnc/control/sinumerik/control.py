@@ -188,7 +188,7 @@ class Sinumerik:
     def language_memory(self, channel: SinumerikChannel) -> LanguageMemory:
         """What the language begins with: what machine data say, and values that are retained."""
         data, shared = MachineData.of(channel), channel.group.shared if channel.group is not None else {}
-        count = data.integer("$MC_MM_NUM_R_PARAM") if data.is_set("$MC_MM_NUM_R_PARAM") else R_PARAMETERS
+        count = data.count("$MC_MM_NUM_R_PARAM") if data.is_set("$MC_MM_NUM_R_PARAM") else R_PARAMETERS
         retained = channel.retained
         parameters = retained.table(VARIABLES, channel.number)
         return LanguageMemory(

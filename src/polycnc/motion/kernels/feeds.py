@@ -22,6 +22,9 @@ from polycnc.motion.kernels.columns import (
     piece_width,
 )
 
+#: A smaller feed counts as this one, mm/s: squares of speeds and all times stay numbers.
+SLOWEST = 1e-9
+
 
 def axes_of(state: State) -> int:
     """Number of axes that a state has room for."""
@@ -84,7 +87,7 @@ def faster(curves: Floats, state: State) -> float:
 def asked_speed(
     curves: Floats, contexts: Floats, record: int, state: State, length: float, radius_mm: float
 ) -> float:
-    """Path speed that the program asks for by its feed mode, mm/s; 0 for none.
+    """Path speed that the program asks for by its feed mode, mm/s; 0 for none, `SLOWEST` where it asks for less.
 
     That of a rapid is infinite, unless rapids have a speed of their own.
     """
@@ -106,7 +109,7 @@ def asked_speed(
     elif contexts[record + ContextRecord.INVERSE_TIME] != 0.0:
         speed *= length
     if speed > 0.0:
-        return speed
+        return max(speed, SLOWEST)
     return 0.0  # none, zero, or NaN
 
 

@@ -30,7 +30,7 @@ def user_data(data: MachineData) -> dict[str, Variable]:
     made: dict[str, Variable] = {}
     for letter, (type_, datum, first) in _TYPES.items():
         for place, block in enumerate(_BLOCKS):
-            size = data.integer(datum, place)
+            size = data.count(datum, place)
             if size > 0:
                 name = f"SYG_{letter}{block}"
                 variable = made[name] = Variable(name, type_, (size,), _LENGTH, range="CHAN")

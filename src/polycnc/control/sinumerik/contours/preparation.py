@@ -196,7 +196,7 @@ def contpron(channel: SinumerikChannel, args: Arguments) -> None:
     """CONTPRON(table, type, VAR number of relief cuts, direction): a table with relief cuts begins."""
     table, kind, reliefs, direction = (*args, None)[:4]
     tables.field(table, tables.LINKED_COLUMNS, "CONTPRON")
-    if _letter(kind) not in SIDES or _direction(direction) not in (0, 1):
+    if _letter(kind) not in SIDES or _direction(direction) not in (0, 1) or reliefs is None:
         raise AlarmError("14020", text="CONTPRON")
     if reliefs.variable.type is not Type.INT:
         raise AlarmError("12330", text=reliefs.variable.name)

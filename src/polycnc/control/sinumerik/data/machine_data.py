@@ -15,6 +15,7 @@ from polycnc.control.sinumerik import axis_names
 from polycnc.control.sinumerik.data.delivered import DATA
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.memory.retained import PARAMETERS
+from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -23,6 +24,8 @@ if TYPE_CHECKING:
     from polycnc.machine.setup.values import ParameterKey, Parameters
 
 Index = int | str
+#: No control has memory for more of anything that a datum counts.
+MOST_ELEMENTS = 32767
 #: Where a datum stands that is named without an index.
 _WITHOUT_INDEX: tuple[tuple[Index, ...], ...] = ((), (0,))
 Key = tuple[str, tuple[Index, ...]]
@@ -143,6 +146,17 @@ class MachineData(State, lifetime=Lifetime.POWER):
     def integer(self, name: str, *indices: object) -> int:
         """The value of a datum as a whole number."""
         return int(self.number(name, *indices))
+
+    def count(self, name: str, *indices: object) -> int:
+        """The value of a datum that says how many of something the control keeps.
+
+        Raises:
+            AlarmError: 17080 for less than none, 17090 for more than a control has memory for.
+        """
+        count = self.integer(name, *indices)
+        if not 0 <= count <= MOST_ELEMENTS:
+            raise AlarmError("17080" if count < 0 else "17090", text=name)
+        return count
 
     def element_with(self, name: str, value: object) -> int | None:
         """The first index at which a datum has a value of setup or program, 0 for one without an index; or None."""

@@ -84,9 +84,9 @@ class Frames(State, lifetime=Lifetime.POWER):
         if unknown is not None:
             raise AlarmError("12550", text=unknown)
         of_channel, of_control = (channel.retained.table(WORK_OFFSETS, n) for n in (channel.number, 0))
-        shared, bases = data.integer("$MN_MM_NUM_GLOBAL_USER_FRAMES"), data.integer("$MC_MM_NUM_BASE_FRAMES")
-        settable = stored_frames(offsets, shared or data.integer("$MC_MM_NUM_USER_FRAMES"), ZERO_OFFSETS)
-        global_base = [NEUTRAL] * data.integer("$MN_MM_NUM_GLOBAL_BASE_FRAMES")
+        shared, bases = data.count("$MN_MM_NUM_GLOBAL_USER_FRAMES"), data.count("$MC_MM_NUM_BASE_FRAMES")
+        settable = stored_frames(offsets, shared or data.count("$MC_MM_NUM_USER_FRAMES"), ZERO_OFFSETS)
+        global_base = [NEUTRAL] * data.count("$MN_MM_NUM_GLOBAL_BASE_FRAMES")
         return cls(
             of_channel,
             of_control,

@@ -13,24 +13,44 @@ if TYPE_CHECKING:
 _NOTHING = 1e-9
 
 
-def parts(way: float, partial: float, mode: int) -> list[float]:
-    """Lengths of the partial infeeds over a way, signed.
+@dataclass(frozen=True, slots=True)
+class Way:
+    """A way that is made in parts, however many they are.
 
-    Args:
-        way: The whole way, signed.
-        partial: Length of one, positive.
+    Attributes:
+        start: Where it begins, machine position.
+        length: The whole way, signed.
+        partial: Length of one part, positive.
         mode: 0: the last two share what is left equally; 1: all of them are equal.
     """
-    total = abs(way)
-    count = max(ceil(total / partial - _NOTHING), 0)
-    if count == 0:
-        return []
-    if mode == 1 or count == 1:
-        lengths = [total / count] * count
-    else:
-        rest = total - (count - 2) * partial
-        lengths = [partial] * (count - 2) + [rest / 2.0] * 2
-    return [copysign(length, way) for length in lengths]
+
+    start: float
+    length: float
+    partial: float
+    mode: int
+
+    @property
+    def count(self) -> int:
+        """Number of the parts."""
+        return max(ceil(abs(self.length) / self.partial - _NOTHING), 0)
+
+    @property
+    def end(self) -> float:
+        """Where the way ends."""
+        return self.start + self.length
+
+    def after(self, part: int) -> float:
+        """Where a part ends, from 1."""
+        left = self.count - part
+        if left <= 0:
+            return self.end
+        if self.mode == 1:
+            return self.start + self.length * part / self.count
+        whole = min(part, self.count - 2)
+        done = whole * self.partial
+        if whole < part:
+            done += (abs(self.length) - done) / 2.0
+        return self.start + copysign(done, self.length)
 
 
 @dataclass(slots=True)
@@ -40,13 +60,15 @@ class Infeed:
     Attributes:
         column: The axis.
         speed: mm/s.
-        targets: Where the partial infeeds end, machine positions.
+        way: What is fed in, in parts.
+        done: How many of them have begun.
         has_been_seen: Actions have looked at the end of the last one.
     """
 
     column: int
     speed: float
-    targets: list[float]
+    way: Way
+    done: int = 0
     has_been_seen: bool = True
 
     def step(self, clocked: Interpolator) -> None:
@@ -56,9 +78,10 @@ class Infeed:
             self.has_been_seen = False
         elif not self.has_been_seen:
             self.has_been_seen = True
-        elif self.targets:
-            axis.move_to(self.targets.pop(0), self.speed)
+        elif self.done < self.way.count:
+            self.done += 1
+            axis.move_to(self.way.after(self.done), self.speed)
 
     def is_done(self, clocked: Interpolator) -> bool:
         """Whether all is fed in."""
-        return not self.targets and not clocked.commanded(self.column).moves
+        return self.done >= self.way.count and not clocked.commanded(self.column).moves

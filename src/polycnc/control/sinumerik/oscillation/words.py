@@ -9,7 +9,7 @@ from polycnc.control.sinumerik.actions import axes as action_axes
 from polycnc.control.sinumerik.block.draft import axis_column
 from polycnc.control.sinumerik.block.positions import number
 from polycnc.control.sinumerik.oscillation import strokes
-from polycnc.control.sinumerik.oscillation.infeed import Infeed, parts
+from polycnc.control.sinumerik.oscillation.infeed import Infeed, Way
 from polycnc.control.sinumerik.oscillation.strokes import Oscillations
 from polycnc.control.sinumerik.tables import length_factor
 from polycnc.language.sinumerik.names.values import Axis
@@ -162,12 +162,11 @@ def _infeeds(
         if not right or (len(listed) == 3 and listed[2] not in (0, 1)):
             raise WordAlarm("12560", place, text="POSP")
         way = float(listed[0]) * factor - work[column]
-        targets, at = [], machine[column]
-        for length in parts(way, float(listed[1]) * factor, int(listed[2]) if len(listed) == 3 else 0):
-            at += length
-            targets.append(at)
-        made.append(Infeed(column, action_axes.speed_of(channel, column), targets))
-        ends[column] = at
+        partial, mode = float(listed[1]) * factor, int(listed[2]) if len(listed) == 3 else 0
+        made.append(
+            Infeed(column, action_axes.speed_of(channel, column), Way(machine[column], way, partial, mode))
+        )
+        ends[column] = machine[column] + way
     return made, ends
 
 

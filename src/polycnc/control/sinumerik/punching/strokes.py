@@ -17,6 +17,8 @@ from polycnc.toolpath.context import Pace
 from polycnc.toolpath.events import Event, Stroke
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from polycnc.channel.channel import Channel
 
 #: By so much of a segment a way may be longer and still be cut into no further one: 1.1 : 0.1 is 11.
@@ -128,6 +130,7 @@ class SegmentStage(Stage):
         if strikes:
             self._stroke(move.program, move.line, context, starts=True, ends=False)
         for piece in self._pieces(block, move, count):
+            self._channel.once_more()
             piece.context = context
             self.after.move(piece)
             if strikes:
@@ -146,18 +149,23 @@ class SegmentStage(Stage):
         self._at_start = self._at_start and not starts
         self._strokes += count
 
-    def _pieces(self, block: Begin, move: Move, count: int) -> list[Move]:
+    def _pieces(self, block: Begin, move: Move, count: int) -> Iterator[Move]:
         """The segments of a move; axes beside the path go as MD26016 says."""
         if count == 1:
-            return [move]
-        path = MovePath(move, self._channel.coordinates.geometry)
-        pieces = [path.between(k / count, (k + 1) / count) for k in range(count)]
-        held = self._undivided(block, move)
-        for k, piece in enumerate(pieces):
-            piece.start = pieces[k - 1].end if k else move.start
+            yield move
+            return
+        path, held, start = (
+            MovePath(move, self._channel.coordinates.geometry),
+            self._undivided(block, move),
+            move.start,
+        )
+        for k in range(count):
+            piece = path.between(k / count, (k + 1) / count)
+            piece.start = start
             for column in held:
                 piece.end[column] = move.end[column]
-        return pieces
+            start = piece.end
+            yield piece
 
     def _undivided(self, block: Begin, move: Move) -> list[int]:
         """Axes beside the path that make their whole way in the first segment."""
