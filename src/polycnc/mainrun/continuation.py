@@ -23,15 +23,20 @@ from polycnc.messages import AlarmError
 if TYPE_CHECKING:
     from polycnc.channel.group import ChannelGroup
 
-#: A program that has written or executed no row for so long, nor moves on its path, waits for something that never
-#: comes: where other axes move, and where none does. It is looked at as often.
+#: A program that has written or executed no row for so long, nor got any further on its path, waits for something that
+#: never comes: where other axes move, and where none does. It is looked at as often.
 LONGEST_WAIT_S, LONGEST_REST_S, LOOK_S = 300.0, 60.0, 30.0
+#: No row written, nothing prepared, and nowhere.
+_NOTHING_DONE: tuple[int, int, list[float]] = -1, -1, []
 #: Halts behind which the program does not go on.
 OVER = frozenset({"end", "alarm"})
 
 
 class Continuation:
     """The main run of a calculation, from the block on that needs the clock.
+
+    Where time stands because nothing will ever happen (an override of 0), or nothing gets any further, PC0013 ends it.
+    An interpolation cycle in which actions look counts as a block, so the block limit ends programs that last for days.
 
     Args:
         group: The channels; one of them waits for the clock.
@@ -82,25 +87,35 @@ class Continuation:
         operation.set_rates()
         operation.resume()
         loop = MainLoop(operation, self._clock)
-        execution, toolpath = runs.first.execution, runs.first.channel.toolpath
-        since, done = 0.0, (-1, -1)
+        execution, first = runs.first.execution, runs.first.channel
+        toolpath = first.toolpath
+        since, done = 0.0, _NOTHING_DONE
         while self._clock.time < LONGEST_RUN_S:
+            before = self._clock.time
             loop.run(LOOK_S)
             if execution.halt in OVER:
                 break
-            now_done = len(toolpath), len(execution.preprocessing.items)
-            if now_done != done or not execution.rests or execution.knows_when:
+            now_done = len(toolpath), len(execution.preprocessing.items), execution.machine
+            if now_done != done or execution.knows_when:
                 since, done = self._clock.time, now_done
+            longest = LONGEST_WAIT_S if runs.move_beside_path else LONGEST_REST_S
             if operation.status.state is State.STOPPED:
                 operation.resume()
             elif not loop.is_busy:
                 break
-            elif self._clock.time - since >= (LONGEST_WAIT_S if runs.move_beside_path else LONGEST_REST_S):
-                runs.first.interpolator.end(reset=False)
-                execution.abandon()
-                runs.first.preprocessing.refuse(AlarmError("PC0013"))
-                execution.start()
+            elif self._clock.time == before or self._clock.time - since >= longest:
+                self._give_up(AlarmError("PC0013"))
+            elif first.blocks + self._clock.visits >= first.block_limit:
+                self._give_up(first.control.block_limit())
         self._stand()
+
+    def _give_up(self, error: AlarmError) -> None:
+        """Nothing that is waited for comes, or too late: the program ends with an alarm where it stands."""
+        run = self._operation.runs.first
+        run.interpolator.end(reset=False)
+        run.execution.abandon()
+        run.preprocessing.refuse(error)
+        run.execution.start()
 
     def _stand(self) -> None:
         """Axes that were moved beside the path stand where that has led them."""
