@@ -24,6 +24,7 @@ def test_cycles_in_which_actions_look_count_as_blocks() -> None:
     text = "ID=1 DO $AC_PARAM[0]=$AA_IM[X]\nG1 X100 F10\nM30\n"
     limited = polycnc.run(text, control=CONTROL, block_limit=20_000)
     assert [alarm.code for alarm in limited.alarms] == ["PC0002"]
+    assert limited.main_run_s is not None
     assert 80.0 <= limited.main_run_s <= 111.0  # cycles of 4 ms, looked at each 30 s
     whole = polycnc.run(text.replace("F10", "F1000"), control=CONTROL, block_limit=20_000)
     assert not whole.alarms

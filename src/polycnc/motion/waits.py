@@ -15,6 +15,7 @@ from polycnc.toolpath.events import (
     HFunction,
     Raised,
     SpindleSpeed,
+    SpindleWait,
     Stop,
     Stroke,
     ToolSelection,
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
     from polycnc.toolpath.table import Chunk
 
 #: Events that the control puts out between two blocks and waits for: the axes stand still.
-STANDING = (Auxiliary, BuilderCode, SpindleSpeed, ToolSelection, HFunction, Stop, Stroke, Raised)
+STANDING = (Auxiliary, BuilderCode, SpindleSpeed, SpindleWait, ToolSelection, HFunction, Stop, Stroke, Raised)
 ORIENT = 19
 #: Moves that lead nowhere where they end at their start.
 STRAIGHT = frozenset((Kind.RAPID, Kind.FEED, Kind.REF))
@@ -181,6 +182,8 @@ class Waits:
             g_function = self.machine.g_functions.get(event.code)
             if g_function is not None and g_function.seconds > 0.0:
                 self.wait(chunk.first + row, "auxiliary_s", chunk.context[row], g_function.seconds)
+        if isinstance(event, SpindleWait):
+            self.wait(chunk.first + row, "spindle_s", chunk.context[row], event.seconds)
         if isinstance(event, Stroke) and event.delay:
             self.wait(chunk.first + row, "auxiliary_s", chunk.context[row], event.delay)
         if not isinstance(event, Auxiliary):

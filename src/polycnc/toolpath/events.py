@@ -78,6 +78,15 @@ class Stroke(Event):
 
 
 @dataclass(frozen=True, slots=True)
+class SpindleWait(Event):
+    """The program waits for a spindle that gets to a speed or a position, s."""
+
+    type: ClassVar[str] = "spindle_wait"
+    spindle: int
+    seconds: float
+
+
+@dataclass(frozen=True, slots=True)
 class SpindleSpeed(Event):
     """S: speed of a spindle, rpm, or m/min under constant surface speed."""
 

@@ -61,6 +61,8 @@ class Rank(IntEnum):
     FEED = auto()
     #: Positions of the work become those of the axes.
     AXES = auto()
+    #: Slave axes, which only their master moves.
+    SLAVES = auto()
     #: Axes that wait for their leading axes: they see where those are.
     COUPLINGS = auto()
     #: Protection zones: they see where the machine would go.

@@ -9,6 +9,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.machine_words import refuse
+from polycnc.control.sinumerik.couplings import masters, synchronous
+from polycnc.control.sinumerik.couplings.spindle_pairs import turns
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed import tooth_feed, wheels
 from polycnc.control.sinumerik.frames import active as frames
@@ -60,6 +62,8 @@ def before_motion(
     """
     if spindle_number is None and (code in AFTER_MOTION or program_of(channel, code)):
         return
+    if DIRECTIONS.get(code):
+        synchronous.check_speed(channel, spindle_number, beside)
     function = channel.machine.m_functions.get(code)
     if function is None:
         _put_out(channel, code, spindle_number)
@@ -83,8 +87,11 @@ def _put_out(channel: SinumerikChannel, code: int, spindle_number: int | None) -
         memory.spindles.get(spindle_number)  # 16761 for one that the channel does not have
     if code in DIRECTIONS or code in (ORIENT, AXIS_MODE) or does in DIRECTION_OF_ACT:
         spindle = memory.spindles.get(spindle_number)
+        before = turns(channel, spindle.number)
         spindle.direction = DIRECTION_OF_ACT[does] if does in DIRECTION_OF_ACT else DIRECTIONS.get(code, 0)
         spindle.controlled = code in (ORIENT, AXIS_MODE)
+        synchronous.overlay(channel, spindle, before)
+        masters.settle(channel)
         channel.context_changed()
     if spindle_number is None:
         channel.event(Auxiliary(code))

@@ -18,6 +18,7 @@ from polycnc.control.sinumerik.block.plan import ExactStop, make_plan
 from polycnc.control.sinumerik.channels import axis_exchange, coordination
 from polycnc.control.sinumerik.contours import preparation
 from polycnc.control.sinumerik.couplings.links import Couplings
+from polycnc.control.sinumerik.couplings.spindle_pairs import SpindlePairs, turns
 from polycnc.control.sinumerik.curve_tables import definition as curve_definition
 from polycnc.control.sinumerik.data import access, init_programs
 from polycnc.control.sinumerik.data.machine_data import MachineData
@@ -361,8 +362,8 @@ class Sinumerik:
             radius_mm=stages.distance(channel) if side else 0.0,
             side=side,
             spindle=leading,
-            spindle_rpm=_speed(memory, spindle, speed_type),
-            spindle_direction=spindle.direction if spindle else 0,
+            spindle_rpm=_speed(channel, spindle, speed_type),
+            spindle_direction=_direction(channel, spindle),
             surface_speed=feed.surface_speed,
             spindle_limit_rpm=_limit(memory, spindle, speed_type),
             corner_mode=_corner_mode(channel, mode),
@@ -457,12 +458,23 @@ def _tolerance(channel: SinumerikChannel, path_mode: str) -> float:
     return tolerances.Smoothing.of(channel).distance_mm.get("ADIS", 0.0) if path_mode == "G641" else 0.0
 
 
-def _speed(memory: Memory, spindle: Spindle | None, feed: str) -> float:
+def _speed(channel: SinumerikChannel, spindle: Spindle | None, feed: str) -> float:
     if spindle is None:
         return 0.0
+    if SpindlePairs.of(channel).acting(spindle.number) is not None:
+        return abs(turns(channel, spindle.number))
     if feed in tables.SURFACE_SPEEDS:
         return spindle.cutting_speed
-    return spindle_speed.turning_speed(memory, spindle, feed)
+    return spindle_speed.turning_speed(channel.memory, spindle, feed)
+
+
+def _direction(channel: SinumerikChannel, spindle: Spindle | None) -> int:
+    if spindle is None:
+        return 0
+    if SpindlePairs.of(channel).acting(spindle.number) is None:
+        return spindle.direction
+    speed = turns(channel, spindle.number)
+    return (speed > 0.0) - (speed < 0.0)
 
 
 def _limit(memory: Memory, spindle: Spindle | None, feed: str) -> float:

@@ -15,7 +15,7 @@ from polycnc.control.sinumerik.block.arguments import Arguments
 from polycnc.control.sinumerik.block.positions import DIAMETER_OF_AXIS, diameter_of_channel
 from polycnc.control.sinumerik.channels import axis_exchange, coordination
 from polycnc.control.sinumerik.contours import preparation, use
-from polycnc.control.sinumerik.couplings import gears, leading, trailing
+from polycnc.control.sinumerik.couplings import gears, leading, masters, synchronous, trailing
 from polycnc.control.sinumerik.curve_tables import administration, definition
 from polycnc.control.sinumerik.data import archive
 from polycnc.control.sinumerik.errors import not_supported
@@ -174,6 +174,7 @@ def new_configuration(channel: SinumerikChannel, _args: Arguments) -> None:
     channel.synchronise()
     memory = channel.memory
     working_area.refresh(channel)
+    masters.reconfigure(channel)
     initialise(channel, NEW_CONFIGURATION, keep_values=memory.data.keeps_first_values)
 
 
@@ -262,5 +263,7 @@ PROCEDURES: dict[str, Callable[[SinumerikChannel, Arguments], None]] = {
     **trailing.PROCEDURES,
     **leading.PROCEDURES,
     **gears.PROCEDURES,
+    **synchronous.PROCEDURES,
+    **masters.PROCEDURES,
     **administration.PROCEDURES,
 }

@@ -16,6 +16,8 @@ from polycnc.control.sinumerik import auxiliary, replaced, tables
 from polycnc.control.sinumerik.block import offset_words, outside_feeds, plain
 from polycnc.control.sinumerik.block.draft import axis_column
 from polycnc.control.sinumerik.block.positions import ModuloRange, number, whole
+from polycnc.control.sinumerik.couplings import synchronous
+from polycnc.control.sinumerik.couplings.spindle_pairs import turns
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed import (
     axis_settings,
@@ -93,8 +95,21 @@ def _travel_time(position: int) -> Step:
     return run
 
 
+def _positioning_speed(number_of: int, position: int, channel: SinumerikChannel, values: Values) -> None:
+    value = number(values, position)
+    if value < 0.0:
+        raise WordAlarm("14810", position, axis=f"S{number_of}")
+    channel.memory.spindles.get(number_of).positioning = value / tables.MINUTE
+
+
 def axis_feed(draft: Draft, position: int, shape: WordShape) -> Step:
-    """FA[axis]: feed of a positioning axis, modal; alarm 10861 for zero, 14810 below."""
+    """FA[axis]: feed of a positioning axis, modal; alarm 10861 for zero, 14810 below.
+
+    FA[Sn] is the positioning speed of a spindle, degrees/min, 0 for that of the machine data.
+    """
+    spindle = named_spindle(shape.index) if isinstance(shape.index, Axis) else None
+    if spindle is not None:
+        return partial(_positioning_speed, spindle, position)
     column = axis_column(draft, position, shape)
     factor = (INCH_MM if draft.mode["unit"] == "G700" else 1.0) / tables.MINUTE
 
@@ -136,7 +151,9 @@ def speed(draft: Draft, position: int, shape: WordShape) -> Step:
         elif surface and spindle.number == channel.memory.spindles.master:
             spindle.cutting_speed = value
         else:
+            before = turns(channel, spindle.number)
             spindle.speed = value
+            synchronous.overlay(channel, spindle, before)
         channel.context_changed()
         channel.event(SpindleSpeed(speed=value, spindle=spindle.number))
         wheels.check(channel)
@@ -172,10 +189,7 @@ def spindle_position(_draft: Draft, position: int, shape: WordShape) -> Step:
         modulo = ModuloRange.of(channel.memory.data, f"S{spindle.number}")
         if shape.modifier != "IC":
             value = modulo.within(value, position)
-        spindle.position = modulo.shown(value + (spindle.position if shape.modifier == "IC" else 0.0))
-        spindle.controlled = True
-        spindle.direction = 0
-        channel.context_changed()
+        synchronous.position(channel, spindle, value, shape.modifier, awaited=shape.address == "SPOS")
 
     return run
 
@@ -199,8 +213,8 @@ def spindle_as_axis(draft: Draft, position: int, shape: WordShape) -> Step:
             value += spindle.position
         elif shift is not None:
             value += shift.coarse + shift.fine
-        spindle.position = ModuloRange.of(channel.memory.data, name).shown(value)
-        channel.context_changed()
+        modulo = ModuloRange.of(channel.memory.data, name)
+        synchronous.position(channel, spindle, modulo.shown(value), "", awaited=True)
 
     return run
 

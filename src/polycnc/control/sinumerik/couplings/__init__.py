@@ -1,4 +1,4 @@
-"""Couplings of axes (job planning 9.1, 9.3, 9.4): what `transformation/couplings` makes of their laws.
+"""Couplings of axes and spindles (job planning 9.1, 9.3 to 9.6): what `transformation/couplings` makes of their laws.
 
 links      which axes follow which, how long that lasts, and their seat behind frames and tool
 switching  a coupling changes in its place on the path
@@ -7,5 +7,8 @@ leading    LEADON, LEADOF
 stage      lets an axis wait for its place on a curve while the leading axis moves
 gears      EGDEF, EGON, EGONSYN, EGONSYNE, EGOFS, EGOFC, EGDEL
 approach   a following axis goes to its synchronous place first
+spindle_pairs  what spindles that follow others turn with, and where they stand
+synchronous    COUPDEF, COUPON, COUPOF …, WAITC
+masters        MASLDEF, MASLON, MASLOF, MASLOFS, MASLDEL
 variables  `$AA_COUP_ACT`, `$AA_LEAD_P`, `$AA_LEAD_V`
 """

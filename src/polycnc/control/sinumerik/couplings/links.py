@@ -30,12 +30,14 @@ if TYPE_CHECKING:
 class Kind(IntEnum):
     """What a coupling is, as `$AA_COUP_ACT` tells it."""
 
+    SLAVE = 0
+    """Of a master (MASLON), which it does not tell."""
     TRAIL = 8
     LEAD = 16
     GEAR = 32
 
 
-#: Bits of MD20110 that keep couplings over a reset, where its bit 0 is set; gears stay in any case (9.4.2).
+#: Bits of MD20110 that keep couplings over a reset, where its bit 0 is set; gears (9.4.2) and slaves stay in any case.
 KEPT_BY_MASK = {Kind.TRAIL: 8, Kind.LEAD: 13}
 
 
@@ -82,11 +84,14 @@ class Couplings(State, lifetime=Lifetime.POWER):
         return [link for link in self.links.get(column, ()) if link.kind is kind]
 
     def end(self, channel: Channel, lifetime: Lifetime) -> None:
-        """A reset ends couplings, but for gears and those that MD20110 keeps; power-on ends all."""
+        """A reset ends couplings, but for gears, slaves and those that MD20110 keeps; power-on ends all."""
         if lifetime < Lifetime.RESET:
             return
         mask = MachineData.of(channel).integer("$MC_RESET_MODE_MASK")
-        kept = {kind for kind, bit in KEPT_BY_MASK.items() if mask & 1 and mask >> bit & 1} | {Kind.GEAR}
+        kept = {kind for kind, bit in KEPT_BY_MASK.items() if mask & 1 and mask >> bit & 1} | {
+            Kind.GEAR,
+            Kind.SLAVE,
+        }
         for column in list(self.links):
             stay = [link for link in self.links[column] if link.kind in kept and lifetime < Lifetime.POWER]
             put(channel, column, stay)

@@ -28,6 +28,7 @@ class Spindle:
         direction: 1 for M3, -1 for M4, 0 for M5.
         position: Degrees, 0 to 360.
         controlled: In position control (SPCON, SPOS).
+        positioning: Speed of positioning that FA has told, degrees/s; 0 for that of the machine data.
         has_wheel_speed: S is the speed of the grinding wheel's circumference, m/s (GWPSON).
     """
 
@@ -37,6 +38,7 @@ class Spindle:
     direction: int = 0
     position: float = 0.0
     controlled: bool = False
+    positioning: float = 0.0
     has_wheel_speed: bool = False
 
 

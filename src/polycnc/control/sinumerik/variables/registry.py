@@ -21,6 +21,7 @@ from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.positions import shown
 from polycnc.control.sinumerik.channels import link_memory
 from polycnc.control.sinumerik.couplings import links
+from polycnc.control.sinumerik.couplings.spindle_pairs import SpindlePairs, turns
 from polycnc.control.sinumerik.couplings.variables import COUPLING_VARIABLES
 from polycnc.control.sinumerik.curve_tables.definition import DEFINITION_VARIABLES
 from polycnc.control.sinumerik.data.machine_data import DELIVERED, MachineData
@@ -264,9 +265,11 @@ def _spindle_value(attribute: str) -> Reader:
 
 
 def _turning_speed(channel: SinumerikChannel, indices: Indices) -> float:
-    """What a spindle turns with, without sign."""
+    """What a spindle turns with, without sign; one that stands is told by its programmed speed."""
     memory = channel.memory
     spindle = memory.spindles.get(arguments.spindle(indices[0]) if indices else None)
+    if SpindlePairs.of(channel).acting(spindle.number) is not None:
+        return abs(turns(channel, spindle.number))
     return spindle_speed.turning_speed(memory, spindle, channel.mode["feed"])
 
 
