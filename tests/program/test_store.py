@@ -6,6 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+import polycnc
 from polycnc.program import Form, Program, ProgramFileError, ProgramStore
 
 if TYPE_CHECKING:
@@ -333,3 +334,12 @@ def test_the_folder_of_a_workpiece_stands_for_its_main_program(tmp_path: Path) -
         assert text_of(store.main_of_workpiece(store.main.directory)) == expected
     with pytest.raises(ProgramFileError):
         ProgramStore(form=Form.SINUMERIK).add_file(tmp_path / "TWO.WPD")
+
+
+def test_a_file_beside_the_workpiece_that_no_control_reads_does_not_matter(tmp_path: Path) -> None:
+    (tmp_path / "part.arc").write_text(
+        "%_N_PART_MPF\n;$PATH=/_N_WKS_DIR/_N_PART_WPD\nSUB\nM30\n%_N_SUB_SPF\n;$PATH=/_N_WKS_DIR/_N_PART_WPD\nM17\n"
+    )
+    (tmp_path / "report.xml").write_text("<x>" * 30_000)
+    result = polycnc.run(tmp_path / "part.arc", control="sinumerik-840d")
+    assert not result.alarms

@@ -386,6 +386,11 @@ class ProgramStore:
         Raises:
             ProgramFileError: A file of that directory cannot be read.
         """
+        found = (self.find_in(directory, name) for name in self._names_in(directory))
+        return [program for program in found if program]
+
+    def _names_in(self, directory: str) -> list[str]:
+        """The stored names of all files of a SINUMERIK directory, sorted; none of them has been read."""
         stored = {program.name for program in self._added if program.directory == directory}
         folders = self._host_folders(directory)
         if directory == names.DEF_DIR:
@@ -393,8 +398,7 @@ class ProgramStore:
             stored.update(name for folder in folders for name in _definition_files(folder))
         else:
             stored.update(name for folder in folders for name in folder.stored_names())
-        found = (self.find_in(directory, name) for name in sorted(stored))
-        return [program for program in found if program]
+        return sorted(stored)
 
     def main_of_workpiece(self, directory: str) -> Program | None:
         """The main program that selecting a workpiece directory selects, if it has one (job planning 2.1).
@@ -403,8 +407,8 @@ class ProgramStore:
             ProgramFileError: A file of that directory cannot be read.
         """
         directory = names.stored_directory(directory)
-        programs = {program.name: program for program in self.programs_in(directory)}
-        return programs.get(names.main_of_workpiece(directory, programs) or "")
+        name = names.main_of_workpiece(directory, self._names_in(directory))
+        return None if name is None else self.find_in(directory, name)
 
     def has_directory(self, directory: str) -> bool:
         """Whether a SINUMERIK directory exists (CALLPATH demands it)."""

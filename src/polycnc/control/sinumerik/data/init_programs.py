@@ -43,8 +43,8 @@ def _of_workpiece(channel: SinumerikChannel) -> Iterator[Program]:
         names = [f"{main.name.rpartition('_')[0]}_{type_}" for type_ in TYPES]
     else:
         names = [main.directory.rpartition("/")[2].removesuffix(WORKPIECE) + "_INI"]
-    here = {program.name: program for program in channel.store.programs_in(main.directory)}
-    yield from (here[name] for name in names if name in here)
+    found = (channel.store.find_in(main.directory, name) for name in names)
+    yield from (program for program in found if program is not None)
 
 
 def _standard_values(channel: SinumerikChannel) -> None:
