@@ -65,8 +65,10 @@ fuzz: kernels
 bench: $(VENV)/.installed-bench
 	$(BIN)/python -m benchmarks
 
-features: $(VENV)/.installed-plain
+features: $(VENV)/.installed-test
 	$(BIN)/polycnc features --from tests/conformance --format json --output src/polycnc/data/features.json
+	$(BIN)/python -m pytest -m feature tests/panel --junitxml .pytest_cache/features.xml
+	$(BIN)/polycnc features --tests .pytest_cache/features.xml --format json --output src/polycnc/data/tested.json
 	for control in $(CONTROLS); do \
 	  $(BIN)/polycnc features --control $$control --format markdown --lang en \
 	    --output docs/controls/$$control-functions.md || exit $$?; \

@@ -6,9 +6,25 @@ about luck. `pytest --hypothesis-profile=explore` looks for new ones.
 
 from __future__ import annotations
 
+import pytest
 from hypothesis import settings
+
+from polycnc.cases.features import PROPERTY
 
 # A slow machine is no failure.
 settings.register_profile("polycnc", deadline=None, derandomize=True)
 settings.register_profile("explore", deadline=None, derandomize=False)
 settings.load_profile("polycnc")
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """A test marked with `feature` says in the report (`--junitxml`) which function of which control it proves."""
+    for item in items:
+        for mark in item.iter_markers("feature"):
+            control = mark.kwargs.get("control") or getattr(item, "callspec", None)
+            control = (
+                control if isinstance(control, str) or control is None else control.params.get("control")
+            )
+            if not isinstance(control, str):
+                raise pytest.UsageError(f"{item.nodeid}: of which control is the feature?")
+            item.user_properties += [(PROPERTY, f"{control} {feature}") for feature in mark.args]

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from polycnc.cases.features import case_files, claimed, shipped
+from polycnc.cases.features import case_files, claimed, shipped_of_cases
 from polycnc.cases.format import case_id, parse_case
 from polycnc.cases.reading import read_cases
 from polycnc.cases.runner import run_case
@@ -32,7 +32,7 @@ def test_no_two_cases_have_the_same_id() -> None:
 
 
 def test_the_shipped_list_of_features_is_current() -> None:
-    assert shipped() == claimed(data for _, _, data in CASES), "run `make features`"
+    assert shipped_of_cases() == claimed(data for _, _, data in CASES), "run `make features`"
 
 
 def test_cases_lie_by_control_and_function() -> None:

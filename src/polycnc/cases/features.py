@@ -1,4 +1,8 @@
-"""Which features work, told by cases: a feature works on a control if all of its cases there pass."""
+"""Which features work: one works on a control if all cases of it pass there, and all tests that name it.
+
+Cases tell what programs do. Screens and operator panels have tests instead, which name their features with a marker
+(`@pytest.mark.feature`); the report that pytest writes (`--junitxml`) says which of them passed.
+"""
 
 from __future__ import annotations
 
@@ -6,11 +10,13 @@ import json
 from functools import cache
 from importlib import resources
 from typing import TYPE_CHECKING, Any
+from xml.etree import ElementTree
 
-from polycnc.cases.reading import read_cases
+from polycnc.cases.reading import UnreadableError, read_cases
 from polycnc.cases.runner import run_cases
 from polycnc.cases.selection import Selection
 from polycnc.messages import Catalogue
+from polycnc.messages.files import reason_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
@@ -22,9 +28,35 @@ if TYPE_CHECKING:
 Features = dict[str, dict[str, int]]
 
 
+#: What a test says of itself in the report: its property of this name is `<control> <feature>`.
+PROPERTY = "feature"
+#: Elements of the report below a test that did not pass.
+_NOT_PASSED = ("failure", "error", "skipped")
+
+
 def shipped() -> Features:
-    """The features of this version of polycnc, as its own cases showed when it was made."""
-    source = resources.files("polycnc").joinpath("data", "features.json")
+    """The features of this version of polycnc, as its own cases and tests showed when it was made."""
+    features: Features = {}
+    for each in (shipped_of_cases(), shipped_of_tests()):
+        for control, counts in each.items():
+            known = features.setdefault(control, {})
+            for feature, count in counts.items():
+                known[feature] = known.get(feature, 0) + count
+    return {control: dict(sorted(features[control].items())) for control in sorted(features)}
+
+
+def shipped_of_cases() -> Features:
+    """The part of them that cases showed."""
+    return _list("features.json")
+
+
+def shipped_of_tests() -> Features:
+    """The part of them that tests of screens and panels showed."""
+    return _list("tested.json")
+
+
+def _list(name: str) -> Features:
+    source = resources.files("polycnc").joinpath("data", name)
     features: Features = json.loads(source.read_text(encoding="utf-8"))
     return features
 
@@ -47,21 +79,44 @@ def case_files(folder: Path) -> list[Path]:
     return sorted(folder.rglob("*.yaml"))
 
 
-def proved(folder: Path) -> Features:
-    """Run all cases of a folder and give the features that work.
+def proved(folder: Path | None, report: Path | None = None) -> Features:
+    """Run all cases of a folder, read the report of the tests, and give the features that work.
 
     Raises:
-        UnreadableError: A case file cannot be read.
+        UnreadableError: A case file or the report cannot be read.
     """
-    return counted(_outcomes(folder))
+    outcomes = () if folder is None else _outcomes(folder)
+    return counted(outcomes, () if report is None else tested(report))
 
 
-def counted(outcomes: Iterable[Outcome]) -> Features:
-    """The features all of whose cases passed, sorted, with the number of their cases."""
+def tested(report: Path) -> Iterator[tuple[str, str, bool]]:
+    """Control, feature, and whether the test passed, of every test that names a feature in a report of pytest.
+
+    Raises:
+        UnreadableError: The file is no such report.
+    """
+    try:
+        suites = ElementTree.fromstring(report.read_bytes())
+    except OSError as error:
+        raise UnreadableError("file.unreadable", file=report, reason=reason_of(error)) from None
+    except ElementTree.ParseError:
+        raise UnreadableError("case.no-report", file=report) from None
+    for test in suites.iter("testcase"):
+        passed = all(test.find(name) is None for name in _NOT_PASSED)
+        for each in test.iter("property"):
+            if each.get("name") == PROPERTY:
+                control, feature = each.get("value", "").split()
+                yield control, feature, passed
+
+
+def counted(outcomes: Iterable[Outcome], tests: Iterable[tuple[str, str, bool]] = ()) -> Features:
+    """The features all of whose cases and tests passed, sorted, with their number."""
     found: dict[tuple[str, str], list[bool]] = {}
     for outcome in outcomes:
         if outcome.feature:
             found.setdefault((outcome.control, outcome.feature), []).append(outcome.status == "passed")
+    for control, feature, test_passed in tests:
+        found.setdefault((control, feature), []).append(test_passed)
     features: Features = {}
     for (control, feature), passed in sorted(found.items()):
         if all(passed):

@@ -1,4 +1,4 @@
-"""`polycnc features`: what works, from the project's own cases."""
+"""`polycnc features`: what works, from the project's own cases and tests."""
 
 from __future__ import annotations
 
@@ -36,6 +36,9 @@ def features(
     cases: Annotated[
         Path | None, typer.Option("--from", metavar="DIR", help=text("help.features.from"))
     ] = None,
+    tests: Annotated[
+        Path | None, typer.Option("--tests", metavar="FILE", help=text("help.features.tests"))
+    ] = None,
     form: Annotated[Format, typer.Option("--format", help=text("help.option.format"))] = Format.TEXT,
     output: options.Output = None,
     _lang: options.Lang = None,
@@ -50,7 +53,7 @@ def features(
         return fail(text("session.control-unknown", control=control, known=listed(ids())), 2)
     if cases is not None and not cases.is_dir():
         return fail(text("file.unreadable", file=cases, reason=text("file.no-folder")), 2)
-    found = shipped() if cases is None else proved(cases)
+    found = shipped() if cases is None and tests is None else proved(cases, tests)
     if control is not None:
         found = {control: found.get(control, {})}
     if form is Format.JSON:
@@ -60,7 +63,7 @@ def features(
     if output is None:
         show(content)
     else:
-        refuse_inputs([output], [] if cases is None else case_files(cases))
+        refuse_inputs([output], [tests, *([] if cases is None else case_files(cases))])
         write_whole(output, content)
     return 0
 
