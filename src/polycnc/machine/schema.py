@@ -185,7 +185,7 @@ class RuleTable(_Table):
 class AlarmTable(_Table):
     """`[[alarm]]` and `[[message]]`."""
 
-    code: Annotated[str, StringConstraints(pattern=r"^[A-Z0-9-]+$")]
+    code: Annotated[str, StringConstraints(pattern=r"^[A-Z0-9-]+( [0-9]+)?$")]
     when: str
     text: TextKey | None = None
     cause: TextKey | None = None

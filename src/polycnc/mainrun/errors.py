@@ -2,8 +2,30 @@
 
 from __future__ import annotations
 
-from polycnc.messages import UserError
+from typing import TYPE_CHECKING
+
+from polycnc.messages import UserError, text
+
+if TYPE_CHECKING:
+    from polycnc.messages import Catalogue
 
 
 class CommandRefused(UserError):  # noqa: N818 - a refusal is an answer, not an error of the control
     """A command is not possible now, or what it names does not exist. Nothing has happened."""
+
+
+class MachineRefused(CommandRefused):
+    """The machine's controller refuses a command; it says so with an alarm or a message of its list.
+
+    Args:
+        alarms: The texts of alarms and messages.
+        code: The alarm or message.
+    """
+
+    def __init__(self, alarms: Catalogue, code: str) -> None:
+        super().__init__("mainrun.machine", code=code)
+        self._alarms, self._code = alarms, code
+
+    def text(self, lang: str | None = None) -> str:
+        """The refusal with the machine's own text."""
+        return text(self.message, lang, code=self._code, text=self._alarms.text(self._code, lang))

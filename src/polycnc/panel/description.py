@@ -24,6 +24,13 @@ PANELS = {
     "sinumerik-840d": ("standard.toml",),
     "syntec-mill": ("standard.toml",),
 }
+#: Mark of an axis that is back at its restart position (Hartford 5.2.4.8 f: the figure has RP, the text PR).
+RETURNED = "RP"
+
+
+def is_returned(left: float) -> bool:
+    """Whether an axis with this way left (mm, degrees) is back at its restart position."""
+    return abs(left) <= 1e-3
 
 
 @dataclass(frozen=True)

@@ -16,9 +16,9 @@ from math import isfinite
 from typing import TYPE_CHECKING
 
 from polycnc.mainrun import CommandRefused, State
-from polycnc.messages import AlarmError
+from polycnc.messages import AlarmError, text
 from polycnc.messages.catalogue import listed
-from polycnc.panel.description import Key, Lamp, describe
+from polycnc.panel.description import RETURNED, Key, Lamp, describe, is_returned
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -148,7 +148,7 @@ class Panel:
         """Cycle start; while program restart is on, and until the axes are back, only the automatic way leads back."""
         control = self.control
         automatic = bool(control.signals[AUTOMATIC_RESTART])
-        away = any(abs(left) > 1e-3 for _, left in control.restart.values())
+        away = any(not is_returned(left) for _, left in control.restart.values())
         if self._restarts and not automatic:
             raise CommandRefused("panel.restart-on")
         if self._searched and away and not automatic:
@@ -293,6 +293,11 @@ class Panel:
         tool = self.control.tool
         return tool.next_tool, tool.tool
 
+    def tool_text(self, lang: str | None = None) -> str:
+        """The tool display as a text; `-` for no tool."""
+        waiting, spindle = self.tool_display
+        return text("panel.tools", lang, waiting=waiting or "-", spindle=spindle or "-")
+
     def alarm_lines(self, lang: str | None = None) -> list[str]:
         """The alarm page: alarms with their numbers, then messages from the machine's controller."""
         control, catalogue = self.control, self.control.catalogue
@@ -302,4 +307,4 @@ class Panel:
     def restart_lines(self) -> list[tuple[str, float, str, float]]:
         """The restart page: axis, position where the program goes on, `RP` once the axis is there, way that is left."""
         rows = self.control.restart.items()
-        return [(axis, at, "RP" if abs(left) <= 1e-3 else "", left) for axis, (at, left) in rows]
+        return [(axis, at, RETURNED if is_returned(left) else "", left) for axis, (at, left) in rows]

@@ -27,6 +27,7 @@ def panel(
     setup: options.Setup = None,
     search: options.Search = None,
     memory: options.Memory = None,
+    card: Annotated[Path | None, typer.Option("--card", metavar="DIR", help=text("help.panel.card"))] = None,
     host: Annotated[
         str, typer.Option("--host", metavar="ADDRESS", help=text("help.panel.host"))
     ] = "127.0.0.1",
@@ -50,13 +51,15 @@ def panel(
         raise SessionError("session.control-wanted", known=listed(ids()))
     if memory is not None and len(chosen) > 1:
         return fail(text("panel.one-memory"), 2)
+    if card is not None and not card.is_dir():
+        return fail(text("file.unreadable", file=card, reason=text("file.no-folder")), 2)
     desks: dict[str, Desk] = {}
     for each in chosen:
         made = VirtualControl(each, machine=machine, setup=setup, search=search or (), retained=memory)
         if file is not None:
             made.load(file)
         name = each if each not in desks else f"{each}-{len(desks) + 1}"
-        desks[name] = Desk(made, speed)
+        desks[name] = Desk(made, speed, card)
     token = token_urlsafe(16) if needs_token(host) else ""
     build(desks, language(), token)
     say(f"http://{host}:{port}/" + (f"?token={token}" if token else ""))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.mainrun.commands.states import is_allowed
-from polycnc.mainrun.errors import CommandRefused
+from polycnc.mainrun.errors import CommandRefused, MachineRefused
 
 if TYPE_CHECKING:
     from polycnc.mainrun.commands.states import Command
@@ -46,5 +46,4 @@ class Permission:
         """
         for word in words:
             if code := self._interlocks.refuses(word):
-                text = self._catalogue.text(code)
-                raise CommandRefused("mainrun.machine", code=code, text=text)
+                raise MachineRefused(self._catalogue, code)

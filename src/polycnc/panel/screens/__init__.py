@@ -6,6 +6,8 @@ windows  what a window of each kind shows
 sources  where the fields of tables come from
 tables   windows with fields that can be written: offsets, tools, variables
 actions  what soft keys and keys of the MDI unit do with the key-in buffer
+card     the memory card
+transfer data between the control and the card
 state    the page, the cursor, the key-in buffer
 screen   a screen: its keys, and what it shows
 """

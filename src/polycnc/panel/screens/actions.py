@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, TypeAlias
 from polycnc.mainrun import CommandRefused
 from polycnc.panel.screens.sources import SOURCES
 from polycnc.panel.screens.tables import Table
+from polycnc.panel.screens.transfer import Transfer, begin_transfer
 
 if TYPE_CHECKING:
     from polycnc.panel.screens.pages import Column
@@ -184,6 +185,45 @@ def write_enable(screen: ScreenState) -> None:
     screen.writes_parameters = not screen.writes_parameters
 
 
+def read_file(screen: ScreenState) -> None:
+    """READ: a file of the card is to be taken over."""
+    begin_transfer(screen, writes=False)
+
+
+def punch_file(screen: ScreenState) -> None:
+    """PUNCH: the data of the page are to be written on the card."""
+    begin_transfer(screen, writes=True)
+
+
+def name_file(screen: ScreenState) -> None:
+    """F NAME: what has been keyed in is the name of the file."""
+    if isinstance(screen.pending, Transfer):
+        screen.pending.file = screen.buffer.strip()
+        screen.buffer = ""
+
+
+def execute(screen: ScreenState) -> None:
+    """EXEC: what has been chosen is done, or begins."""
+    if screen.pending is not None and screen.pending.execute(screen):
+        screen.finish()
+
+
+def cancel(screen: ScreenState) -> None:
+    """CAN: what has been chosen, or goes on, is given up."""
+    screen.finish()
+
+
+def run_from_card(screen: ScreenState) -> None:
+    """DNC-ST: the file that is keyed in, or the one at the cursor, is what mode DNC (TAPE) runs."""
+    files = screen.card.files
+    name = screen.buffer.strip() or (files[min(screen.cursor[0], len(files) - 1)][0] if files else "")
+    path = screen.card.path(name)
+    if not path.is_file():
+        raise CommandRefused("screen.no-file", name=name)
+    screen.control.load_tape(path)
+    screen.buffer = ""
+
+
 def clear_history(screen: ScreenState) -> None:
     """The alarm history begins anew."""
     screen.control.clear_alarm_history()
@@ -205,4 +245,10 @@ ACTIONS: dict[str, Action] = {
     "erase-mdi": erase_mdi,
     "write-enable": write_enable,
     "clear-history": clear_history,
+    "read": read_file,
+    "punch": punch_file,
+    "file-name": name_file,
+    "execute": execute,
+    "cancel": cancel,
+    "run-from-card": run_from_card,
 }

@@ -37,12 +37,25 @@ def in_language(text: Text, lang: str) -> str:
 
 @dataclass(frozen=True)
 class SoftKey:
-    """A soft key: its text, and what it does. Without any of them it is dark."""
+    """A soft key: its text, and what it does. Without any of them it is dark.
+
+    Attributes:
+        text: What stands on it.
+        page: The page that it opens.
+        menu: The row of soft keys that it opens.
+        action: What it does (`actions`).
+        switch: Panel switch that it turns over.
+        signal: Signal that it turns over.
+        by_page: The row that it opens is the page's own, where the page has one (`operations`).
+    """
 
     text: Text = ""
     page: str = ""
     menu: str = ""
     action: str = ""
+    switch: str = ""
+    signal: str = ""
+    by_page: bool = False
 
 
 @dataclass(frozen=True)
@@ -104,12 +117,25 @@ class WindowSpec:
 
 @dataclass(frozen=True)
 class Page:
-    """A page: its title, its windows, the soft keys that come with it."""
+    """A page: its title, its windows, the soft keys that come with it.
+
+    Attributes:
+        id: Its name in the data.
+        title: Its title.
+        windows: Its windows.
+        menu: Its soft keys.
+        operations: Its own row of operations; empty where its chapter's is meant.
+        data: What [READ] and [PUNCH] transfer (`card`).
+        turns: The page that the page keys lead to; empty where they move the cursor.
+    """
 
     id: str
     title: Text
     windows: tuple[WindowSpec, ...]
     menu: str = ""
+    operations: str = ""
+    data: str = ""
+    turns: str = ""
 
     def of(self, axes: Sequence[str]) -> Page:
         """The page of a channel with these axes."""
@@ -134,6 +160,7 @@ class Family:
         side: Soft keys at its side, by name of the menu.
         modes: How the status line writes modes, by mode; states likewise.
         layout: How the halves are laid out: `crt` or `operate`.
+        data_mode: The mode in which data are transferred; empty for every mode.
     """
 
     start: str
@@ -146,6 +173,7 @@ class Family:
     modes: Mapping[str, str] = field(default_factory=dict)
     states: Mapping[str, str] = field(default_factory=dict)
     layout: str = "crt"
+    data_mode: str = ""
 
 
 @cache
@@ -173,6 +201,7 @@ def family_of(control: str) -> Family:
         modes=merged.get("modes", {}),
         states=merged.get("states", {}),
         layout=merged.get("layout", "crt"),
+        data_mode=merged.get("data_mode", ""),
     )
 
 
@@ -182,4 +211,5 @@ def _page(row: Mapping[str, Any]) -> Page:
         columns = tuple(Column(**column) for column in spec.get("columns", ()))
         rest = {name: value for name, value in spec.items() if name not in ("columns", "labels")}
         windows.append(WindowSpec(**rest, columns=columns, labels=tuple(spec.get("labels", ()))))
-    return Page(row["id"], row["title"], tuple(windows), row.get("menu", ""))
+    more = {name: row[name] for name in ("menu", "operations", "data", "turns") if name in row}
+    return Page(row["id"], row["title"], tuple(windows), **more)

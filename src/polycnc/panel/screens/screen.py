@@ -46,17 +46,19 @@ class Screen(ScreenState):
 
         What the control refuses is its message then.
         """
-        self.message = ""
+        self.refusal = None
         try:
             self._press(key)
         except UserError as refusal:
-            self.message = refusal.text()
+            self.refusal = refusal
 
     def _press(self, key: str) -> None:
         if key in self.family.keys:
             self.show(self.family.keys[key])
         elif key in _MOVES:
             self.move(*_MOVES[key])
+        elif key in ("PAGE_UP", "PAGE_DOWN") and self.page.turns:
+            self.show(self.page.turns)
         elif key in ("PAGE_UP", "PAGE_DOWN"):
             shown = self.table.shown if self.table is not None else self.page.windows[0].shown
             self.move(shown if key == "PAGE_DOWN" else -shown, 0)
@@ -75,6 +77,8 @@ class Screen(ScreenState):
             self.buffer = ""
         elif key == "MENU":
             self._turn_menu()
+        elif key == "RETURN":
+            self.menu, self.turned = self.page.menu, 0
         elif len(key) == 1:
             self.type(key)
         else:
@@ -93,28 +97,30 @@ class Screen(ScreenState):
         self._press_soft(self.family.side.get(self.menu, ()), index)
 
     def _press_soft(self, keys: tuple[SoftKey, ...], index: int) -> None:
-        self.message = ""
+        self.refusal = None
         if not 0 <= index < len(keys):
             return
         key = keys[index]
         try:
             if key.action:
                 ACTIONS[key.action](self)
+            if key.switch or key.signal:
+                self.turn_over(key)
             if key.page:
                 self.show(key.page)
             if key.menu:
-                self.menu, self.turned = key.menu, 0
+                self.menu, self.turned = (key.by_page and self.page.operations) or key.menu, 0
         except UserError as refusal:
-            self.message = refusal.text()
+            self.refusal = refusal
 
     def _turn_menu(self) -> None:
         """▷: the next soft keys of the row."""
         keys = self.family.menus.get(self.menu, ())
-        self.turned = self.turned + self.family.rows if self.turned + self.family.rows < len(keys) else 0
+        self.turned = self.turned + self.rows if self.turned + self.rows < len(keys) else 0
 
     @property
     def _visible(self) -> tuple[SoftKey, ...]:
-        return self.family.menus.get(self.menu, ())[self.turned : self.turned + self.family.rows]
+        return self.family.menus.get(self.menu, ())[self.turned : self.turned + self.rows]
 
     # ---- what it shows -------------------------------------------------------------------------------------
 
@@ -127,19 +133,21 @@ class Screen(ScreenState):
             title=in_language(self.page.title, lang),
             program=snapshot.program,
             windows=tuple(window(self, spec, snapshot, lang) for spec in self.page.windows),
-            soft_keys=self._soft_keys(self._visible, self.family.rows, lang),
+            soft_keys=self._soft_keys(self._visible, self.rows, lang),
             side_keys=self._soft_keys(self.family.side.get(self.menu, ()), 8, lang)
             if self.family.side
             else (),
             buffer=self.buffer,
-            message=self.message,
+            message=self.refusal.text(lang) if self.refusal is not None else "",
             status=self._status(snapshot),
             alarm=self._alarm(snapshot, lang),
         )
 
     def _soft_keys(self, keys: tuple[SoftKey, ...], count: int, lang: str) -> tuple[SoftKeyView, ...]:
         shown = [
-            SoftKeyView(in_language(key.text, lang), bool(key.page) and key.page == self.page.id)
+            SoftKeyView(
+                in_language(key.text, lang), (bool(key.page) and key.page == self.page.id) or self.is_on(key)
+            )
             for key in keys
         ]
         return tuple(shown + [SoftKeyView()] * (count - len(shown)))
@@ -150,7 +158,9 @@ class Screen(ScreenState):
         alarm = Cell("EMG" if snapshot.state == "emergency" else "ALM" if snapshot.alarms else "***",
                      "alarm" if snapshot.alarms else "")  # fmt: skip
         moving = any(abs(way) > 1e-6 for way in snapshot.positions.to_go.values()) and snapshot.feed > 0.0
-        return Cell(mode), Cell(state), Cell("MTN" if moving else "***"), alarm
+        cells = (Cell(mode), Cell(state), Cell("MTN" if moving else "***"), alarm)
+        going_on = self.pending.status if self.pending is not None else ""
+        return (*cells, Cell(going_on, "blink")) if going_on else cells
 
     def _alarm(self, snapshot: Snapshot, lang: str) -> str:
         if snapshot.alarms:

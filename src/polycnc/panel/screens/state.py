@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections import deque
 from typing import TYPE_CHECKING
 
 from polycnc.mainrun import CommandRefused
+from polycnc.messages import UserError
+from polycnc.panel.screens.card import Card
 from polycnc.panel.screens.pages import family_of
 
 if TYPE_CHECKING:
@@ -13,12 +16,31 @@ if TYPE_CHECKING:
 
     from polycnc.mainrun import VirtualControl
     from polycnc.mainrun.reading.snapshot import Snapshot
-    from polycnc.panel.screens.pages import Page, WindowSpec
+    from polycnc.panel.screens.pages import Page, SoftKey, WindowSpec
 
 #: Points of the way that the picture shows.
 LONGEST_TRAIL = 4000
 #: Letters of relative coordinates on screens of the CRT kind.
 RELATIVE = {"X": "U", "Y": "V", "Z": "W", "A": "A", "B": "B", "C": "H"}
+
+
+class Operation(ABC):
+    """What has been chosen and waits for [EXEC]. `back` is the row of soft keys that is shown behind it."""
+
+    back: str
+
+    @property
+    def status(self) -> str:
+        """What blinks in the status line while it goes on; empty for nothing."""
+        return ""
+
+    @abstractmethod
+    def execute(self, screen: ScreenState) -> bool:
+        """Do it, or begin with it; gives whether it is done."""
+
+    def goes_on(self, screen: ScreenState) -> bool:
+        """Called while time passes; gives whether it is not done yet."""
+        return True
 
 
 class ScreenState:
@@ -31,10 +53,13 @@ class ScreenState:
         control: The control.
         family: Its pages and keys.
         page: The page that is shown.
+        rows: Soft keys that stand in a row: as many as the display has.
         menu: Name of the row of soft keys; `turned` says how far it has been turned on by ▷.
         buffer: What has been keyed in.
-        message: What the control says of the last key.
+        refusal: Why the control has not done what the last key asked for; None where it has.
         mdi_text: Blocks that were typed in at MDI; cycle start runs them.
+        card: The memory card.
+        pending: What waits for [EXEC], or goes on; None for nothing.
         origins: Machine position at which the relative coordinate of an axis is 0.
         writes_parameters: Parameters may be written.
         trail: Where the axes have been, machine coordinates, the oldest first.
@@ -53,18 +78,50 @@ class ScreenState:
         self._pages = {name: page.of(axes) for name, page in self.family.pages.items()}
         self.page: Page = self._pages[self.family.start]
         self.menu, self.turned = self.page.menu, 0
+        self.rows = self.family.rows
         self.buffer = ""
-        self.message = ""
+        self.refusal: UserError | None = None
         self.mdi_text = ""
+        self.card = Card()
+        self.pending: Operation | None = None
         self.origins: dict[str, float] = {}
         self.writes_parameters = False
         self.trail: deque[tuple[float, ...]] = deque(maxlen=LONGEST_TRAIL)
         self._cursors: dict[str, tuple[int, int]] = {}
 
+    @property
+    def message(self) -> str:
+        """What the control says of the last key, in the active language; empty for nothing."""
+        return self.refusal.text() if self.refusal is not None else ""
+
     def show(self, page: str) -> None:
         """Turn to a page."""
+        if self.pending is not None and not self.pending.status:
+            self.pending = None
         self.page = self._pages[page]
         self.menu, self.turned = self.page.menu, 0
+
+    def finish(self) -> None:
+        """What was pending is done or given up; the soft keys in front of it come back."""
+        if self.pending is not None:
+            self.menu, self.turned, self.pending = self.pending.back, 0, None
+
+    # ---- soft keys that are switches -----------------------------------------------------------------------
+
+    def is_on(self, key: SoftKey) -> bool:
+        """Whether the switch, or the signal, of a soft key is on."""
+        control = self.control
+        return bool(key.switch and getattr(control.switches, key.switch)) or bool(
+            key.signal and control.signals[key.signal]
+        )
+
+    def turn_over(self, key: SoftKey) -> None:
+        """Turn over the switch, or the signal, of a soft key."""
+        wanted = not self.is_on(key)
+        if key.switch:
+            self.control.set_switches(**{key.switch: wanted})
+        else:
+            self.control.signals[key.signal] = float(wanted)
 
     # ---- the cursor ----------------------------------------------------------------------------------------
 
@@ -122,7 +179,14 @@ class ScreenState:
         return letter if letter in self.control.positions.work else named.get(letter, letter)
 
     def follow(self) -> None:
-        """Note where the axes are; called while time passes."""
+        """Note where the axes are, and go on with what takes time; called while time passes."""
+        if self.pending is not None:
+            try:
+                if not self.pending.goes_on(self):
+                    self.finish()
+            except UserError as refusal:
+                self.refusal = refusal
+                self.finish()
         here = tuple(self.control.positions.real.values())
         if not self.trail or here != self.trail[-1]:
             self.trail.append(here)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from polycnc.mainrun import CommandRefused
 from polycnc.messages import text
+from polycnc.panel.description import RETURNED, is_returned
 from polycnc.panel.screens import tables
 from polycnc.panel.screens.pages import in_language
 from polycnc.panel.screens.view import Cell, Window
@@ -150,6 +151,17 @@ def _listing(at: Asked) -> Rows:
     )
 
 
+def _card(at: Asked) -> Rows:
+    """The files of the memory card; the cursor chooses one."""
+    files = at.screen.card.files
+    row = at.screen.place(max(0, min(at.screen.cursor[0], len(files) - 1)), 0)
+    first = row // at.spec.shown * at.spec.shown
+    return tuple(
+        (Cell(name, "value", cursor=index == row), Cell(str(size), "label"))
+        for index, (name, size) in enumerate(files[first : first + at.spec.shown], first)
+    )
+
+
 def _mdi(at: Asked) -> Rows:
     """What has been typed in, with the block in execution in sight."""
     typed = at.screen.mdi_text.splitlines()
@@ -249,16 +261,40 @@ def _switches(at: Asked) -> Rows:
     return tuple((Cell(name, "label"), Cell(str(int(on)), "value")) for name, on in shown.items())
 
 
-def _restart(at: Asked) -> Rows:
-    """Program restart: where the axes go on, and the way that is left."""
-    rows: Mapping[str, tuple[float, float]] = at.screen.control.restart
+def _soft_switches(at: Asked) -> Rows:
+    """The soft keys of the page that are switches, and how they stand."""
+    keys = at.screen.family.menus.get(at.screen.page.menu, ())
     return tuple(
         (
-            Cell(axis, "label"),
-            Cell(f"{stands:.{at.screen.digits}f}", "value"),
-            Cell(f"{left:.{at.screen.digits}f}", "value"),
+            Cell(in_language(key.text, at.lang), "label"),
+            Cell("ON" if at.screen.is_on(key) else "OFF", "value"),
         )
-        for axis, (stands, left) in rows.items()
+        for key in keys
+        if key.switch or key.signal
+    )
+
+
+def _restart(at: Asked) -> Rows:
+    """Program restart: where the program goes on, `RP` once an axis is there, and the way that is left (5.2.4.8 f)."""
+    rows: Mapping[str, tuple[float, float]] = at.screen.control.restart
+    if not rows:
+        return ()
+    system = at.snapshot.modal.get("wcs", "")
+    head = (
+        Cell(text("screen.restart-position", at.lang, system=system), "label"),
+        Cell(text("screen.remaining", at.lang), "label"),
+    )
+    return (
+        head,
+        *(
+            (
+                Cell(
+                    f"{axis} {goes_on:.{at.screen.digits}f}{RETURNED if is_returned(left) else ''}", "value"
+                ),
+                Cell(f"{axis} {left:.{at.screen.digits}f}", "value"),
+            )
+            for axis, (goes_on, left) in rows.items()
+        ),
     )
 
 
@@ -275,6 +311,7 @@ KINDS: dict[str, Reader] = {
     "counters": _counters,
     "program": _program,
     "listing": _listing,
+    "card": _card,
     "mdi": _mdi,
     "alarms": _alarms,
     "history": _history,
@@ -285,5 +322,6 @@ KINDS: dict[str, Reader] = {
     "signals": _signals,
     "restart": _restart,
     "switches": _switches,
+    "soft-switches": _soft_switches,
     "graph": _graph,
 }

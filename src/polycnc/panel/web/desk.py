@@ -8,17 +8,20 @@ from typing import TYPE_CHECKING
 from polycnc.mainrun import State
 from polycnc.messages import UserError
 from polycnc.panel.panel import Panel
+from polycnc.panel.screens.card import Card
 from polycnc.panel.screens.screen import Screen
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from polycnc.mainrun import VirtualControl
 
 #: No longer than this passes at once, s: a browser that has slept does not make the machine jump.
 LONGEST_TICK_S = 0.25
 #: The key of the machine panel that starts what was typed in at MDI.
 _START = "START"
-#: The panel's own settings: positions of its switches (the mode is as after power-on), and the language of pages.
-_SWITCHES, _LANGUAGE = "switches", "language"
+#: The panel's own settings: positions of its switches (the mode is as after power-on), language of pages, display.
+_SWITCHES, _LANGUAGE, _UNIT = "switches", "language", "mdi_unit"
 
 
 class Desk:
@@ -27,6 +30,7 @@ class Desk:
     Args:
         control: The control.
         speed: Simulated seconds in a second.
+        card: The folder that is its memory card; None for none.
 
     Attributes:
         control: The control.
@@ -35,9 +39,10 @@ class Desk:
         speed: Simulated seconds in a second.
     """
 
-    def __init__(self, control: VirtualControl, speed: float = 1.0) -> None:
+    def __init__(self, control: VirtualControl, speed: float = 1.0, card: Path | None = None) -> None:
         self.control = control
         self.screen = Screen(control)
+        self.screen.card = Card(card)
         self.panel = Panel(control)
         self.speed = speed
         self._then = monotonic()
@@ -45,7 +50,22 @@ class Desk:
         for switch, position in kept.items():
             if switch in self.panel.positions:
                 self.turn(switch, position)
-        self.screen.message = ""
+        self.screen.refusal = None
+        if kept_unit := control.panel_settings.get(_UNIT):
+            self.unit = str(kept_unit)
+
+    @property
+    def unit(self) -> str:
+        """Id of the display with its keys; another one has more or fewer soft keys. Empty where there is no choice."""
+        units = self.panel.description.mdi_units
+        return next((each.id for each in units if each.soft_keys == self.screen.rows), "")
+
+    @unit.setter
+    def unit(self, name: str) -> None:
+        for each in self.panel.description.mdi_units:
+            if each.id == name:
+                self.screen.rows, self.screen.turned = each.soft_keys, 0
+                self.control.panel_settings[_UNIT] = name
 
     @property
     def language(self) -> str:
@@ -69,7 +89,7 @@ class Desk:
 
     def press(self, *keys: str) -> None:
         """Press keys of the machine panel together; what is refused is the screen's message."""
-        self.screen.message = ""
+        self.screen.refusal = None
         try:
             if (
                 _START in {key.upper() for key in keys}
@@ -79,22 +99,22 @@ class Desk:
                 return
             self.panel.press(*keys)
         except UserError as refusal:
-            self.screen.message = refusal.text()
+            self.screen.refusal = refusal
 
     def release(self, *keys: str) -> None:
         """Let keys of the machine panel go."""
         try:
             self.panel.release(*keys)
         except UserError as refusal:
-            self.screen.message = refusal.text()
+            self.screen.refusal = refusal
 
     def turn(self, switch: str, position: str) -> None:
         """Turn a switch of the machine panel."""
-        self.screen.message = ""
+        self.screen.refusal = None
         try:
             self.panel.turn(switch, position)
         except UserError as refusal:
-            self.screen.message = refusal.text()
+            self.screen.refusal = refusal
             return
         positions = self.panel.positions.items()
         self.control.panel_settings[_SWITCHES] = {name: at for name, at in positions if name != "mode"}
@@ -104,4 +124,4 @@ class Desk:
         try:
             self.panel.wheel(notches)
         except UserError as refusal:
-            self.screen.message = refusal.text()
+            self.screen.refusal = refusal

@@ -35,8 +35,8 @@ TYPED = {
 OPERATED = {"F9": "START", "F10": "HOLD"}
 #: Keys that edit, and what stands on each.
 EDITING = {
-    "MENU": "▷", "CAN": "CAN", "INPUT": "INPUT", "INSERT": "INSERT", "DELETE": "DELETE", "PAGE_UP": "PAGE↑",
-    "PAGE_DOWN": "PAGE↓", "UP": "↑", "DOWN": "↓", "LEFT": "←", "RIGHT": "→",
+    "RETURN": "◁", "MENU": "▷", "CAN": "CAN", "INPUT": "INPUT", "INSERT": "INSERT", "DELETE": "DELETE",
+    "PAGE_UP": "PAGE↑", "PAGE_DOWN": "PAGE↓", "UP": "↑", "DOWN": "↓", "LEFT": "←", "RIGHT": "→",
 }  # fmt: skip
 _LOOK = {"START": "start", "HOLD": "hold", "RESET": "reset", "EMERGENCY": "emergency"}
 _RED = frozenset({"E13", "E14", "E11", "E15"})
@@ -118,7 +118,7 @@ class Page:
                 with ui.element("div").classes("sidekeys"):
                     side = [self._key("", partial(desk.screen.side, i)) for i in range(8)]
         with ui.element("div").classes("softkeys"):
-            below = [self._key("", partial(desk.screen.soft, i)) for i in range(family.rows)]
+            below = [self._key("", partial(desk.screen.soft, i)) for i in range(desk.screen.rows)]
 
         def refresh() -> None:
             view = desk.screen.view(self._lang)
@@ -159,7 +159,12 @@ class Page:
         desk, description = self._desk, self._desk.panel.description
         with ui.element("div").classes("bar"):
             ui.label(f"polycnc · {desk.control.control.id} · {desk.control.machine.id}")
+            tools = ui.label("").classes("tools").props('role="status"')
             with ui.element("div").classes("flow"):
+                if len(description.mdi_units) > 1:
+                    for unit in description.mdi_units:
+                        hint = in_language(unit.name, self._lang)
+                        self._key(f"{unit.inches:g}″", partial(self._display, unit.id), hint=hint)
                 for lang in LANGUAGES:
                     self._key({"en": "EN", "zh-TW": "中"}.get(lang, lang), partial(self._speak, lang))
                 self._key("☀", self._day, hint=text("panel.theme", self._lang))
@@ -193,6 +198,7 @@ class Page:
                 for name, lamp in description.lamps.items()
             }
         self._refreshers.append(lambda: self._light(modes, {**keys, **lamps}))
+        self._refreshers.append(lambda: self._show_tools(tools))
 
     def _group(self, title: str) -> ui.element:
         group = ui.element("section").classes("group")
@@ -285,6 +291,16 @@ class Page:
     def _speak(self, lang: str) -> None:
         self._lang = self._desk.language = lang
         self._build()
+
+    def _display(self, unit: str) -> None:
+        self._desk.unit = unit
+        self._build()
+
+    def _show_tools(self, display: ui.label) -> None:
+        """The tool display."""
+        shown = self._desk.panel.tool_text(self._lang)
+        if self._changed("tools", shown):
+            display.set_text(shown)
 
     def _day(self) -> None:
         ui.run_javascript("document.body.classList.toggle('day')")
