@@ -185,6 +185,12 @@ def write_enable(screen: ScreenState) -> None:
     screen.writes_parameters = not screen.writes_parameters
 
 
+def note_maintenance(screen: ScreenState) -> None:
+    """DONE: the maintenance task at the cursor has been done."""
+    tasks = screen.family.tasks
+    screen.maintain(tasks[min(screen.cursor[0], len(tasks) - 1)].number)
+
+
 def read_file(screen: ScreenState) -> None:
     """READ: a file of the card is to be taken over."""
     begin_transfer(screen, writes=False)
@@ -245,6 +251,7 @@ ACTIONS: dict[str, Action] = {
     "erase-mdi": erase_mdi,
     "write-enable": write_enable,
     "clear-history": clear_history,
+    "note-maintenance": note_maintenance,
     "read": read_file,
     "punch": punch_file,
     "file-name": name_file,

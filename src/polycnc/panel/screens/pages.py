@@ -22,9 +22,9 @@ Text: TypeAlias = "str | Mapping[str, str]"
 DIGITS = 3
 #: The files of each control's screens; later ones add to earlier ones.
 SCREENS = {
-    "fanuc-m": ("fanuc.toml", "fanuc-mill.toml"),
+    "fanuc-m": ("fanuc.toml", "fanuc-mill.toml", "hartford.toml"),
     "fanuc-0i-tf": ("fanuc.toml", "fanuc-lathe.toml"),
-    "meldas-m": ("meldas.toml",),
+    "meldas-m": ("meldas.toml", "hartford.toml"),
     "sinumerik-840d": ("sinumerik.toml",),
     "syntec-mill": ("syntec.toml",),
 }
@@ -147,6 +147,15 @@ class Page:
 
 
 @dataclass(frozen=True)
+class Task:
+    """A task of the maintenance schedule: number, name, and what is done in which period (letters of `works`)."""
+
+    number: int
+    name: Text
+    work: Mapping[str, str]
+
+
+@dataclass(frozen=True)
 class Family:
     """All screens of a control.
 
@@ -160,6 +169,7 @@ class Family:
         side: Soft keys at its side, by name of the menu.
         modes: How the status line writes modes, by mode; states likewise.
         layout: How the halves are laid out: `crt` or `operate`.
+        tasks: The maintenance schedule of the machine; `periods` and `works` have its words by their ids.
         data_mode: The mode in which data are transferred; empty for every mode.
     """
 
@@ -174,6 +184,9 @@ class Family:
     states: Mapping[str, str] = field(default_factory=dict)
     layout: str = "crt"
     data_mode: str = ""
+    tasks: tuple[Task, ...] = ()
+    periods: Mapping[str, Text] = field(default_factory=dict)
+    works: Mapping[str, Text] = field(default_factory=dict)
 
 
 @cache
@@ -202,6 +215,9 @@ def family_of(control: str) -> Family:
         states=merged.get("states", {}),
         layout=merged.get("layout", "crt"),
         data_mode=merged.get("data_mode", ""),
+        tasks=tuple(Task(**row) for row in merged.get("maintenance", ())),
+        periods=merged.get("periods", {}),
+        works=merged.get("works", {}),
     )
 
 

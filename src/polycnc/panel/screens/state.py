@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 #: Points of the way that the picture shows.
 LONGEST_TRAIL = 4000
+#: The panel's own setting: when maintenance was done.
+_MAINTAINED = "maintained"
 #: Letters of relative coordinates on screens of the CRT kind.
 RELATIVE = {"X": "U", "Y": "V", "Z": "W", "A": "A", "B": "B", "C": "H"}
 
@@ -122,6 +124,17 @@ class ScreenState:
             self.control.set_switches(**{key.switch: wanted})
         else:
             self.control.signals[key.signal] = float(wanted)
+
+    @property
+    def maintained(self) -> dict[str, float]:
+        """Running time at which each task of the maintenance schedule was done last, s, by its number; it lasts."""
+        done: dict[str, float] = self.control.panel_settings.get(_MAINTAINED, {})
+        return done
+
+    def maintain(self, number: int) -> None:
+        """A task of the maintenance schedule has been done now."""
+        now = self.control.counters.running_s
+        self.control.panel_settings[_MAINTAINED] = {**self.maintained, str(number): now}
 
     # ---- the cursor ----------------------------------------------------------------------------------------
 

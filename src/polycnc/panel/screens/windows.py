@@ -303,6 +303,32 @@ def _graph(at: Asked) -> Rows:
     return tuple(tuple(Cell(f"{value:.3f}") for value in point) for point in at.screen.trail)
 
 
+def _maintenance(at: Asked) -> Rows:
+    """The maintenance schedule: task, periods with what is done, running hours since it was noted as done."""
+    family = at.screen.family
+    tasks, done = family.tasks, at.screen.maintained
+    row = at.screen.place(max(0, min(at.screen.cursor[0], len(tasks) - 1)), 0)
+    first = row // at.spec.shown * at.spec.shown
+    words = {letter: in_language(word, at.lang) for letter, word in family.works.items()}
+    rows = []
+    for place, task in enumerate(tasks[first : first + at.spec.shown], first):
+        work = (
+            f"{in_language(family.periods[period], at.lang)} {letters}"
+            for period, letters in task.work.items()
+        )
+        since = at.screen.control.counters.running_s - done.get(str(task.number), 0.0)
+        rows.append(
+            (
+                Cell(str(task.number), "label"),
+                Cell(in_language(task.name, at.lang), "value", cursor=place == row),
+                Cell(", ".join(work), "value"),
+                Cell(_hours(since), "label"),
+            )
+        )
+    legend = (Cell("  ".join(f"{letter}: {word}" for letter, word in words.items()), "label"),)
+    return (*rows, legend)
+
+
 KINDS: dict[str, Reader] = {
     "positions": _positions,
     "all-positions": _all_positions,
@@ -324,4 +350,5 @@ KINDS: dict[str, Reader] = {
     "switches": _switches,
     "soft-switches": _soft_switches,
     "graph": _graph,
+    "maintenance": _maintenance,
 }
