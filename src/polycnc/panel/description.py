@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 PANELS = {
     "fanuc-m": ("hartford.toml", "fanuc-m.toml"),
     "meldas-m": ("hartford.toml", "meldas-m.toml"),
-    "fanuc-0i-tf": ("standard.toml",),
+    "fanuc-0i-tf": ("standard.toml", "fanuc-0i-tf.toml"),
     "sinumerik-840d": ("standard.toml",),
     "syntec-mill": ("standard.toml",),
 }
@@ -66,7 +66,7 @@ class Key(Lamp):
 
     Attributes:
         switch: Panel switch that it turns over.
-        signal: Signal that it turns over.
+        signal: Signal that it turns over; one that acts while it is held gives it so long.
         command: What the control does.
         hold: It acts as long as it is pressed.
         safety: It acts only together with the safety key.

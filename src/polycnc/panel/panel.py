@@ -105,6 +105,8 @@ class Panel:
                 key = self._key(name)
                 if key.command == "emergency":
                     self.control.emergency_stop(pressed=False)
+                elif key.signal:
+                    self.control.signals[key.signal] = 0.0
                 else:
                     self.control.key(name, pressed=False)
 
@@ -125,7 +127,7 @@ class Panel:
             now = getattr(self.control.switches, key.switch)
             self.control.set_switches(**{key.switch: not now})
         elif key.signal:
-            self.control.signals[key.signal] = float(not self.control.signals[key.signal])
+            self.control.signals[key.signal] = float(key.hold or not self.control.signals[key.signal])
         elif key.command:
             self._do(key.command)
         else:

@@ -309,12 +309,12 @@ def test_second_geometry_is_typed_in_only_with_its_parameter() -> None:
 
 def test_the_barrier_is_set_in_state_g23() -> None:
     screen = screen_of("fanuc-0i-tf")
-    opened(screen, "MENU", "MENU", "CHUCK", "DOWN", "DOWN")
+    opened(screen, "MENU", "MENU", "CHUCK TAIL", "DOWN", "DOWN")
     keyed(screen, "-100.", "INPUT")
     assert screen.message == "" or "G23" in screen.message
     if screen.message:
         screen.buffer = ""
         goes(screen.control, "G23\nM30\n")
-        opened(screen, "MENU", "MENU", "CHUCK")
+        opened(screen, "MENU", "MENU", "CHUCK TAIL")
         keyed(screen, "-100.", "INPUT")
     assert "-100.000" in screen.view("en").text

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, TypeAlias
 
+from polycnc.control.fanuc.lathe.tools import screens as lathe
+from polycnc.control.fanuc.lathe.tools.screens import Page
 from polycnc.mainrun import CommandRefused
 from polycnc.panel.screens.sources import SOURCES
 from polycnc.panel.screens.tables import Table
@@ -33,16 +36,30 @@ def _number(screen: ScreenState) -> float:
         raise CommandRefused("screen.no-number", typed=screen.buffer) from None
 
 
+def _numbers(screen: ScreenState) -> list[float]:
+    """The numbers that have been keyed in, `;` between them; raises `CommandRefused` where one is none."""
+    try:
+        return [float(part) for part in screen.buffer.rstrip("; ").split(";")]
+    except ValueError:
+        raise CommandRefused("screen.no-number", typed=screen.buffer) from None
+
+
 def _field(screen: ScreenState) -> tuple[Table, Column, int]:
     spec = screen.table
     if spec is None:
         raise CommandRefused("screen.no-field")
     row, at = screen.cursor
-    return Table(screen.control, spec), spec.columns[at], row
+    if at >= len(spec.columns):
+        raise CommandRefused("screen.no-field")
+    return Table(screen.control, spec, screen.latched), spec.columns[at], row
 
 
 def set_value(screen: ScreenState) -> None:
-    """INPUT: the field at the cursor has the value; a parameter likewise."""
+    """INPUT: the field at the cursor has the value; a parameter likewise.
+
+    Several values with `;` between them go into consecutive rows; those in front of one that is refused are set
+    (0i-TF Plus III.2.1.1).
+    """
     if screen.shows("parameters"):
         if not screen.writes_parameters:
             raise CommandRefused("screen.write-protected")
@@ -51,7 +68,11 @@ def set_value(screen: ScreenState) -> None:
     else:
         table, column, row = _field(screen)
         is_text = isinstance(table.value(column, row), str)
-        table.write(column, row, screen.buffer if is_text else _number(screen))
+        if is_text:
+            table.write(column, row, screen.buffer)
+        else:
+            for place, value in enumerate(_numbers(screen)):
+                table.write(column, row + place, value)
     screen.buffer = ""
 
 
@@ -98,7 +119,7 @@ def measure(screen: ScreenState) -> None:
         measured = float(typed)
     except ValueError:
         raise CommandRefused("screen.no-number", typed=typed) from None
-    SOURCES[column.source].measure(screen.control, column, row, measured)
+    SOURCES[column.source].measure(screen.control, column, row, measured, screen.latched)
     screen.buffer = ""
 
 
@@ -185,6 +206,20 @@ def write_enable(screen: ScreenState) -> None:
     screen.writes_parameters = not screen.writes_parameters
 
 
+def clear_axes(screen: ScreenState, chosen: Sequence[Page]) -> None:
+    """CLEAR with ALL, WEAR or GEOM: the offsets of the page's axes become 0 in all numbers (0i-TF Plus III.2.1.8)."""
+    table, _, _ = _field(screen)
+    axes = [column.axis for column in table.spec.columns]
+    screen.control.change(partial(lathe.clear_offsets, chosen=chosen, fields=axes))
+
+
+def switch_page(screen: ScreenState) -> None:
+    """SWITCH: the other page of a pair, with the same soft keys."""
+    menu = screen.menu, screen.turned
+    screen.show(screen.page.other)
+    screen.menu, screen.turned = menu
+
+
 def note_maintenance(screen: ScreenState) -> None:
     """DONE: the maintenance task at the cursor has been done."""
     tasks = screen.family.tasks
@@ -251,6 +286,10 @@ ACTIONS: dict[str, Action] = {
     "erase-mdi": erase_mdi,
     "write-enable": write_enable,
     "clear-history": clear_history,
+    "clear-all": partial(clear_axes, chosen=(Page.WEAR, Page.GEOMETRY)),
+    "clear-wear": partial(clear_axes, chosen=(Page.WEAR,)),
+    "clear-geometry": partial(clear_axes, chosen=(Page.GEOMETRY,)),
+    "switch-page": switch_page,
     "note-maintenance": note_maintenance,
     "read": read_file,
     "punch": punch_file,

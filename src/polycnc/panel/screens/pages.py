@@ -46,6 +46,7 @@ class SoftKey:
         action: What it does (`actions`).
         switch: Panel switch that it turns over.
         signal: Signal that it turns over.
+        when: Parameters under which it is there (`8136#6`, `!8136#6`, several with `&`); empty for always.
         by_page: The row that it opens is the page's own, where the page has one (`operations`).
     """
 
@@ -55,6 +56,7 @@ class SoftKey:
     action: str = ""
     switch: str = ""
     signal: str = ""
+    when: str = ""
     by_page: bool = False
 
 
@@ -72,6 +74,8 @@ class Column:
         digits: Decimals of its values.
         axis: The axis that it belongs to, by which MEASURE and INP.C. find it.
         source: Where its fields come from (`sources`); empty for variables.
+        axis_of: Parameter with the number of its axis; no column where it is 0.
+        when: Parameters under which it is there, as for soft keys.
     """
 
     head: Text
@@ -82,6 +86,8 @@ class Column:
     digits: int = DIGITS
     axis: str = ""
     source: str = ""
+    axis_of: str = ""
+    when: str = ""
 
     def name(self, row: int) -> str:
         """The variable of a row."""
@@ -100,7 +106,10 @@ class Column:
 
 @dataclass(frozen=True)
 class WindowSpec:
-    """A window: its kind, and what that kind wants to know."""
+    """A window: its kind, and what that kind wants to know.
+
+    `count_of` is a parameter with the number of rows; where that is 0, `count` holds.
+    """
 
     kind: str
     title: Text = ""
@@ -109,6 +118,7 @@ class WindowSpec:
     label: str = "{n}"
     first: int = 1
     count: int = 0
+    count_of: str = ""
     shown: int = 17
     exists: str = ""
     columns: tuple[Column, ...] = ()
@@ -127,6 +137,9 @@ class Page:
         operations: Its own row of operations; empty where its chapter's is meant.
         data: What [READ] and [PUNCH] transfer (`card`).
         turns: The page that the page keys lead to; empty where they move the cursor.
+        other: The page that the soft key SWITCH leads to.
+        when: Parameters under which it is there, as for soft keys; else `instead` is the page that is shown.
+        instead: See `when`.
     """
 
     id: str
@@ -136,6 +149,9 @@ class Page:
     operations: str = ""
     data: str = ""
     turns: str = ""
+    other: str = ""
+    when: str = ""
+    instead: str = ""
 
     def of(self, axes: Sequence[str]) -> Page:
         """The page of a channel with these axes."""
@@ -169,6 +185,7 @@ class Family:
         side: Soft keys at its side, by name of the menu.
         modes: How the status line writes modes, by mode; states likewise.
         layout: How the halves are laid out: `crt` or `operate`.
+        modal_by_column: Modal codes stand column by column in the order of the lathe's manual.
         tasks: The maintenance schedule of the machine; `periods` and `works` have its words by their ids.
         data_mode: The mode in which data are transferred; empty for every mode.
     """
@@ -184,6 +201,7 @@ class Family:
     states: Mapping[str, str] = field(default_factory=dict)
     layout: str = "crt"
     data_mode: str = ""
+    modal_by_column: bool = False
     tasks: tuple[Task, ...] = ()
     periods: Mapping[str, Text] = field(default_factory=dict)
     works: Mapping[str, Text] = field(default_factory=dict)
@@ -215,10 +233,15 @@ def family_of(control: str) -> Family:
         states=merged.get("states", {}),
         layout=merged.get("layout", "crt"),
         data_mode=merged.get("data_mode", ""),
+        modal_by_column=merged.get("modal_by_column", False),
         tasks=tuple(Task(**row) for row in merged.get("maintenance", ())),
         periods=merged.get("periods", {}),
         works=merged.get("works", {}),
     )
+
+
+#: What a page may say beside its name, title and windows.
+_PAGE = ("menu", "operations", "data", "turns", "other", "when", "instead")
 
 
 def _page(row: Mapping[str, Any]) -> Page:
@@ -227,5 +250,5 @@ def _page(row: Mapping[str, Any]) -> Page:
         columns = tuple(Column(**column) for column in spec.get("columns", ()))
         rest = {name: value for name, value in spec.items() if name not in ("columns", "labels")}
         windows.append(WindowSpec(**rest, columns=columns, labels=tuple(spec.get("labels", ()))))
-    more = {name: row[name] for name in ("menu", "operations", "data", "turns") if name in row}
+    more = {name: row[name] for name in _PAGE if name in row}
     return Page(row["id"], row["title"], tuple(windows), **more)

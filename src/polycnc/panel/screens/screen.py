@@ -106,21 +106,28 @@ class Screen(ScreenState):
                 ACTIONS[key.action](self)
             if key.switch or key.signal:
                 self.turn_over(key)
+            before = self.menu, self.turned
             if key.page:
                 self.show(key.page)
             if key.menu:
-                self.menu, self.turned = (key.by_page and self.page.operations) or key.menu, 0
+                menu = (key.by_page and self.page.operations) or key.menu
+                self.menu, self.turned = before if menu == before[0] else (menu, 0)
         except UserError as refusal:
             self.refusal = refusal
 
     def _turn_menu(self) -> None:
         """▷: the next soft keys of the row."""
-        keys = self.family.menus.get(self.menu, ())
+        keys = self._row
         self.turned = self.turned + self.rows if self.turned + self.rows < len(keys) else 0
 
     @property
     def _visible(self) -> tuple[SoftKey, ...]:
-        return self.family.menus.get(self.menu, ())[self.turned : self.turned + self.rows]
+        return self._row[self.turned : self.turned + self.rows]
+
+    @property
+    def _row(self) -> tuple[SoftKey, ...]:
+        """The soft keys of the row that are there as parameters are."""
+        return tuple(key for key in self.family.menus.get(self.menu, ()) if self.holds(key.when))
 
     # ---- what it shows -------------------------------------------------------------------------------------
 

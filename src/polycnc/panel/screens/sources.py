@@ -6,15 +6,36 @@ A column names its source. What a source cannot do it refuses.
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from polycnc.control.fanuc.lathe.tools import screens as lathe
 from polycnc.control.fanuc.lathe.tools.screens import RADIUS, TIP, Page
 from polycnc.mainrun import CommandRefused
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from polycnc.mainrun import VirtualControl
     from polycnc.panel.screens.pages import Column
+
+
+#: Work coordinates that the signal PRC has kept, by axis.
+Latched: TypeAlias = "Mapping[str, float]"
+#: Measured values are taken from where the signal PRC came (0i-TF Plus III.2.1.2).
+_LATCHES = "5005#2"
+
+
+def _kept(control: VirtualControl, axis: str, latched: Latched) -> float | None:
+    """The coordinate of an axis that counts for a measured value; None for the present one.
+
+    Raises:
+        CommandRefused: The one that was kept is wanted, and there is none yet.
+    """
+    if not control.read_parameter(_LATCHES):
+        return None
+    if axis not in latched:
+        raise CommandRefused("screen.no-latch")
+    return latched[axis]
 
 
 class Source:
@@ -24,11 +45,15 @@ class Source:
         """A field; None where it is vacant or not there."""
         raise NotImplementedError
 
-    def write(self, control: VirtualControl, column: Column, row: int, value: float | str) -> None:
+    def write(
+        self, control: VirtualControl, column: Column, row: int, value: float | str, latched: Latched
+    ) -> None:
         """INPUT: a field has another value."""
         raise CommandRefused("screen.no-field")
 
-    def measure(self, control: VirtualControl, column: Column, row: int, measured: float) -> None:
+    def measure(
+        self, control: VirtualControl, column: Column, row: int, measured: float, latched: Latched
+    ) -> None:
         """MEASURE: the offset that makes the axis read what was measured."""
         raise CommandRefused("screen.no-field")
 
@@ -47,11 +72,15 @@ class Variables(Source):
         except (KeyError, ValueError):
             return None
 
-    def write(self, control: VirtualControl, column: Column, row: int, value: float | str) -> None:
+    def write(
+        self, control: VirtualControl, column: Column, row: int, value: float | str, latched: Latched
+    ) -> None:
         """The variable has another value."""
         control.write_variable(column.name(row), value)
 
-    def measure(self, control: VirtualControl, column: Column, row: int, measured: float) -> None:
+    def measure(
+        self, control: VirtualControl, column: Column, row: int, measured: float, latched: Latched
+    ) -> None:
         """The field changes by what the axis reads too much."""
         reads, now = control.positions.work[column.axis], self.read(control, column, row)
         before = float(now) if isinstance(now, int | float) else 0.0
@@ -70,16 +99,28 @@ class LatheOffsets(Source):
             return None
         return lathe.offset(control.channel, self._page, row, column.variable)
 
-    def write(self, control: VirtualControl, column: Column, row: int, value: float | str) -> None:
+    def write(
+        self, control: VirtualControl, column: Column, row: int, value: float | str, latched: Latched
+    ) -> None:
         """A value of the list."""
         control.change(
             partial(lathe.set_offset, page=self._page, number=row, field=column.variable, value=float(value))
         )
 
-    def measure(self, control: VirtualControl, column: Column, row: int, measured: float) -> None:
+    def measure(
+        self, control: VirtualControl, column: Column, row: int, measured: float, latched: Latched
+    ) -> None:
         """Geometry: wear becomes 0."""
+        kept = _kept(control, column.variable, latched)
         control.change(
-            partial(lathe.measure, page=self._page, number=row, axis=column.variable, measured=measured)
+            partial(
+                lathe.measure,
+                page=self._page,
+                number=row,
+                axis=column.variable,
+                measured=measured,
+                latched=kept,
+            )
         )
 
 
@@ -92,12 +133,17 @@ class WorkShift(Source):
             return None
         return lathe.work_shift(control.channel, column.variable) if row == 1 else 0.0
 
-    def write(self, control: VirtualControl, column: Column, row: int, value: float | str) -> None:
+    def write(
+        self, control: VirtualControl, column: Column, row: int, value: float | str, latched: Latched
+    ) -> None:
         """The shift, or what the axis is to read."""
         if row == 1:
             control.change(partial(lathe.set_work_shift, axis=column.variable, value=float(value)))
         else:
-            control.change(partial(lathe.measure_work_shift, axis=column.variable, programmed=float(value)))
+            kept = _kept(control, column.variable, latched)
+            control.change(
+                partial(lathe.measure_work_shift, axis=column.variable, programmed=float(value), latched=kept)
+            )
 
 
 class Barrier(Source):
@@ -111,7 +157,9 @@ class Barrier(Source):
         """The value of a symbol."""
         return lathe.barrier_value(control.channel, self._page, self._symbols[row - 1])
 
-    def write(self, control: VirtualControl, column: Column, row: int, value: float | str) -> None:
+    def write(
+        self, control: VirtualControl, column: Column, row: int, value: float | str, latched: Latched
+    ) -> None:
         """The value of a symbol, in state G23."""
         symbol = self._symbols[row - 1]
         control.change(partial(lathe.set_barrier, page=self._page, symbol=symbol, value=float(value)))

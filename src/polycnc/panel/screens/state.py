@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections import deque
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from polycnc.mainrun import CommandRefused
@@ -12,14 +13,16 @@ from polycnc.panel.screens.card import Card
 from polycnc.panel.screens.pages import family_of
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Iterator, Mapping
 
     from polycnc.mainrun import VirtualControl
-    from polycnc.mainrun.reading.snapshot import Snapshot
-    from polycnc.panel.screens.pages import Page, SoftKey, WindowSpec
+    from polycnc.mainrun.reading.snapshot import Record, Snapshot
+    from polycnc.panel.screens.pages import Column, Page, SoftKey, WindowSpec
 
 #: Points of the way that the picture shows.
 LONGEST_TRAIL = 4000
+#: The signal of the button that keeps the position.
+LATCH = "PRC"
 #: The panel's own setting: when maintenance was done.
 _MAINTAINED = "maintained"
 #: Letters of relative coordinates on screens of the CRT kind.
@@ -63,6 +66,7 @@ class ScreenState:
         card: The memory card.
         pending: What waits for [EXEC], or goes on; None for nothing.
         origins: Machine position at which the relative coordinate of an axis is 0.
+        latched: Work coordinates when the signal PRC came last; empty before.
         writes_parameters: Parameters may be written.
         trail: Where the axes have been, machine coordinates, the oldest first.
 
@@ -88,6 +92,8 @@ class ScreenState:
         self.pending: Operation | None = None
         self.origins: dict[str, float] = {}
         self.writes_parameters = False
+        self.latched: dict[str, float] = {}
+        control.listeners.append(self._hear)
         self.trail: deque[tuple[float, ...]] = deque(maxlen=LONGEST_TRAIL)
         self._cursors: dict[str, tuple[int, int]] = {}
 
@@ -100,8 +106,44 @@ class ScreenState:
         """Turn to a page."""
         if self.pending is not None and not self.pending.status:
             self.pending = None
-        self.page = self._pages[page]
+        shown = self._pages[page]
+        self.page = self._present(shown if self.holds(shown.when) else self._pages[shown.instead])
         self.menu, self.turned = self.page.menu, 0
+
+    def holds(self, condition: str) -> bool:
+        """Whether parameters are as a condition says: `8136#6`, `!8136#6`, several with `&`; true for an empty one."""
+        parts = (part.strip() for part in condition.split("&") if part.strip())
+        return all(
+            bool(self.control.read_parameter(part.removeprefix("!"))) is not part.startswith("!")
+            for part in parts
+        )
+
+    def _present(self, page: Page) -> Page:
+        """A page with the columns that are there as parameters are now."""
+        windows = (
+            replace(each, columns=tuple(self._columns(each.columns)), count=self._count(each))
+            if each.columns
+            else each
+            for each in page.windows
+        )
+        return replace(page, windows=tuple(windows))
+
+    def _count(self, spec: WindowSpec) -> int:
+        number = self.control.read_parameter(spec.count_of) if spec.count_of else None
+        return int(number) if isinstance(number, int | float) and number > 0 else spec.count
+
+    def _columns(self, columns: Iterable[Column]) -> Iterator[Column]:
+        axes = tuple(self.control.positions.work)
+        for column in columns:
+            if not self.holds(column.when):
+                continue
+            if not column.axis_of:
+                yield column
+                continue
+            number = self.control.read_parameter(column.axis_of)
+            if isinstance(number, int | float) and 1 <= number <= len(axes):
+                axis = axes[int(number) - 1]
+                yield replace(column, head=axis, axis=axis, variable=axis)
 
     def finish(self) -> None:
         """What was pending is done or given up; the soft keys in front of it come back."""
@@ -166,6 +208,11 @@ class ScreenState:
             row = max(table.first, min(row, table.first + table.count - 1))
             column = max(0, min(column, len(table.columns) - 1))
         self.place(max(row, 0), max(column, 0))
+
+    def _hear(self, record: Record) -> None:
+        """The record button of the machine keeps where the axes are (0i-TF Plus III.2.1.2, PRC)."""
+        if record.what == "signal" and record.data.get("name") == LATCH and record.data.get("value"):
+            self.latched = dict(self.control.positions.work)
 
     # ---- what it shows -------------------------------------------------------------------------------------
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from polycnc.mainrun import CommandRefused
@@ -10,6 +11,8 @@ from polycnc.panel.screens.sources import SOURCES
 from polycnc.panel.screens.view import Cell
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from polycnc.mainrun import VirtualControl
     from polycnc.panel.screens.pages import Column, WindowSpec
     from polycnc.panel.screens.state import ScreenState
@@ -23,10 +26,14 @@ class Table:
     Args:
         control: The control whose variables it shows.
         spec: What its page says of it.
+        latched: Work coordinates that the signal PRC has kept, by axis.
     """
 
-    def __init__(self, control: VirtualControl, spec: WindowSpec) -> None:
+    def __init__(
+        self, control: VirtualControl, spec: WindowSpec, latched: Mapping[str, float] = MappingProxyType({})
+    ) -> None:
         self._control = control
+        self._latched = latched
         self.spec = spec
 
     @property
@@ -60,7 +67,7 @@ class Table:
         """
         if not self.exists(row) or row not in self.numbers:
             raise CommandRefused("screen.no-field")
-        SOURCES[column.source].write(self._control, column, row, value)
+        SOURCES[column.source].write(self._control, column, row, value, self._latched)
 
     def text(self, column: Column, row: int, digits: int) -> str:
         """A field as it is shown; vacant ones are blank."""

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import zip_longest
 from typing import TYPE_CHECKING, TypeAlias
 
+from polycnc.control.fanuc.lathe.tools.screens import modal_codes
 from polycnc.mainrun import CommandRefused
 from polycnc.messages import text
 from polycnc.panel.description import RETURNED, is_returned
@@ -90,7 +92,10 @@ def _rates(at: Asked) -> Rows:
 
 
 def _modal(at: Asked) -> Rows:
-    """The code that holds of every modal group."""
+    """The code that holds of every modal group; on the lathe column by column as its manual has them (III.2.1.6)."""
+    if at.screen.family.modal_by_column:
+        rows = zip_longest(*modal_codes(at.screen.control.channel), fillvalue="")
+        return tuple(tuple(Cell(code, "value") for code in row) for row in rows)
     codes = [code for code in at.snapshot.modal.values() if code]
     width = at.spec.count or 6
     return tuple(

@@ -123,12 +123,22 @@ def set_offsets(channel: LatheChannel, page: Page, first: int, field: str, value
 
 
 def clear_offsets(channel: LatheChannel, chosen: Sequence[Page], fields: Sequence[str]) -> None:
-    """[CLEAR] with [ALL], [WEAR] or [GEOM]: zero in all numbers (4th and 5th axis offsets, III.2.1.8)."""
-    for entry in OffsetMemory.of(channel).numbers.values():
+    """[CLEAR] with [ALL], [WEAR] or [GEOM]: zero in all numbers (4th and 5th axis offsets, III.2.1.8).
+
+    Raises:
+        ScreenRefusal: Some are protected, as against input: they have kept their values.
+    """
+    protected = False
+    for number, entry in OffsetMemory.of(channel).numbers.items():
         for page in chosen:
-            for field in fields:
-                _values(entry, page).pop(field, None)
+            if is_protected(channel, page, number):
+                protected = protected or any(_values(entry, page).get(field) for field in fields)
+            else:
+                for field in fields:
+                    _values(entry, page).pop(field, None)
     offset_changed(channel)
+    if protected:
+        raise ScreenRefusal("protected")
 
 
 def further_fields(channel: LatheChannel) -> tuple[str, ...]:
