@@ -21,7 +21,8 @@ from polycnc.messages.catalogue import listed
 from polycnc.panel.description import RETURNED, Key, Lamp, describe, is_returned
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
+    from collections.abc import Set as AbstractSet
     from pathlib import Path
 
     from polycnc.mainrun import VirtualControl
@@ -52,6 +53,7 @@ class Panel:
         description: What stands on the panel.
         positions: Position of every switch by its id; of the mode switch under `mode`, of the handwheel's axis switch
             under `handle_axis`.
+        locked: Gives axes with directions in which they must not be moved by hand now (+1, -1).
 
     Raises:
         CommandRefused: polycnc knows no panel of this control.
@@ -68,6 +70,7 @@ class Panel:
         self.positions["mode"] = next(
             (each.id for each in self.description.modes.values() if each.mode is control.mode), "memory"
         )
+        self.locked: Callable[[], AbstractSet[tuple[str, int]]] = frozenset
         self._pressed: set[str] = set()
 
     # ---- keys ----------------------------------------------------------------------------------------------
@@ -177,6 +180,7 @@ class Panel:
         mode = self.positions["mode"]
         if self.control.state is State.OFF:
             raise CommandRefused("panel.power", part=name)
+        self._check_locked(axis, direction)
         if mode == "zero" and direction > 0:
             self.control.home(axis)  # once started, the return goes on by itself
         elif mode in ("jog", "rapid"):
@@ -189,8 +193,13 @@ class Panel:
         """Turn the handwheel, clockwise for plus, with the axis and the step of its switches."""
         if self.positions["mode"] != "handle":
             raise CommandRefused("panel.mode", part="MPG", modes="handle")
+        self._check_locked(self.positions["handle_axis"], 1 if notches > 0 else -1)
         step = self.description.switches["handle_step"]
         self.control.handle(self.positions["handle_axis"], notches, step.value(self.positions["handle_step"]))
+
+    def _check_locked(self, axis: str, direction: int) -> None:
+        if (axis, direction) in self.locked():
+            raise CommandRefused("panel.locked", part=f"{axis}{'+' if direction > 0 else '-'}")
 
     # ---- switches ------------------------------------------------------------------------------------------
 

@@ -186,6 +186,7 @@ class Family:
         modes: How the status line writes modes, by mode; states likewise.
         layout: How the halves are laid out: `crt` or `operate`.
         modal_by_column: Modal codes stand column by column in the order of the lathe's manual.
+        measures: It has measured input B.
         tasks: The maintenance schedule of the machine; `periods` and `works` have its words by their ids.
         data_mode: The mode in which data are transferred; empty for every mode.
     """
@@ -202,6 +203,7 @@ class Family:
     layout: str = "crt"
     data_mode: str = ""
     modal_by_column: bool = False
+    measures: bool = False
     tasks: tuple[Task, ...] = ()
     periods: Mapping[str, Text] = field(default_factory=dict)
     works: Mapping[str, Text] = field(default_factory=dict)
@@ -234,6 +236,7 @@ def family_of(control: str) -> Family:
         layout=merged.get("layout", "crt"),
         data_mode=merged.get("data_mode", ""),
         modal_by_column=merged.get("modal_by_column", False),
+        measures=merged.get("measures", False),
         tasks=tuple(Task(**row) for row in merged.get("maintenance", ())),
         periods=merged.get("periods", {}),
         works=merged.get("works", {}),

@@ -146,7 +146,7 @@ class Screen(ScreenState):
             else (),
             buffer=self.buffer,
             message=self.refusal.text(lang) if self.refusal is not None else "",
-            status=self._status(snapshot),
+            status=self._status(snapshot, lang),
             alarm=self._alarm(snapshot, lang),
         )
 
@@ -159,7 +159,7 @@ class Screen(ScreenState):
         ]
         return tuple(shown + [SoftKeyView()] * (count - len(shown)))
 
-    def _status(self, snapshot: Snapshot) -> tuple[Cell, ...]:
+    def _status(self, snapshot: Snapshot, lang: str) -> tuple[Cell, ...]:
         mode = self.family.modes.get(snapshot.mode, snapshot.mode.upper())
         state = self.family.states.get(snapshot.state, snapshot.state.upper())
         alarm = Cell("EMG" if snapshot.state == "emergency" else "ALM" if snapshot.alarms else "***",
@@ -167,6 +167,8 @@ class Screen(ScreenState):
         moving = any(abs(way) > 1e-6 for way in snapshot.positions.to_go.values()) and snapshot.feed > 0.0
         cells = (Cell(mode), Cell(state), Cell("MTN" if moving else "***"), alarm)
         going_on = self.pending.status if self.pending is not None else ""
+        if self.measuring is not None and not going_on:
+            going_on = self.measuring.status(lang)
         return (*cells, Cell(going_on, "blink")) if going_on else cells
 
     def _alarm(self, snapshot: Snapshot, lang: str) -> str:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from polycnc.mainrun import CommandRefused
 from polycnc.messages import UserError
 from polycnc.panel.screens.card import Card
+from polycnc.panel.screens.measuring import SIGNALS, Measuring
 from polycnc.panel.screens.pages import family_of
 
 if TYPE_CHECKING:
@@ -67,6 +68,7 @@ class ScreenState:
         pending: What waits for [EXEC], or goes on; None for nothing.
         origins: Machine position at which the relative coordinate of an axis is 0.
         latched: Work coordinates when the signal PRC came last; empty before.
+        measuring: Measured input B; None on controls without it.
         writes_parameters: Parameters may be written.
         trail: Where the axes have been, machine coordinates, the oldest first.
 
@@ -93,6 +95,7 @@ class ScreenState:
         self.origins: dict[str, float] = {}
         self.writes_parameters = False
         self.latched: dict[str, float] = {}
+        self.measuring = Measuring(control) if self.family.measures else None
         control.listeners.append(self._hear)
         self.trail: deque[tuple[float, ...]] = deque(maxlen=LONGEST_TRAIL)
         self._cursors: dict[str, tuple[int, int]] = {}
@@ -203,6 +206,8 @@ class ScreenState:
     def move(self, rows: int, columns: int) -> None:
         """Move the cursor; it stays on the table."""
         (row, column), table = self.cursor, self.table
+        if self.measuring is not None and self.measuring.leads_cursor:
+            return
         row, column = row + rows, column + columns
         if table is not None:
             row = max(table.first, min(row, table.first + table.count - 1))
@@ -210,9 +215,14 @@ class ScreenState:
         self.place(max(row, 0), max(column, 0))
 
     def _hear(self, record: Record) -> None:
-        """The record button of the machine keeps where the axes are (0i-TF Plus III.2.1.2, PRC)."""
-        if record.what == "signal" and record.data.get("name") == LATCH and record.data.get("value"):
+        """The record button of the machine keeps where the axes are (III.2.1.2, PRC); a sensor measures (III.2.1.3)."""
+        if record.what != "signal":
+            return
+        name, is_on = str(record.data.get("name")), bool(record.data.get("value"))
+        if name == LATCH and is_on:
             self.latched = dict(self.control.positions.work)
+        elif self.measuring is not None and name in SIGNALS:
+            self.measuring.hear(self, name, on=is_on)
 
     # ---- what it shows -------------------------------------------------------------------------------------
 

@@ -44,6 +44,9 @@ class Desk:
         self.screen = Screen(control)
         self.screen.card = Card(card)
         self.panel = Panel(control)
+        if self.screen.measuring is not None:
+            measuring = self.screen.measuring
+            self.panel.locked = lambda: measuring.locked
         self.speed = speed
         self._then = monotonic()
         kept = control.panel_settings.get(_SWITCHES, {})

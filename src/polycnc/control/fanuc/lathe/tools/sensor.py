@@ -97,7 +97,7 @@ class MeasuredInputB:
             return  # TS1 = 1: one contact for all directions
         axis, direction, face = CONTACTS[contact]
         self.locked.add((axis, direction))
-        machine = channel.coordinates.machine[channel.axis_index[axis]]
+        machine = channel.actual.machine[channel.axis_index[axis]]  # also while it is moved by hand
         value = shown(channel, axis, machine) - channel.memory.parameters.value(face)
         screens.set_offset(channel, Page.GEOMETRY, self.number, axis, value)
 
@@ -107,6 +107,7 @@ class MeasuredInputB:
             raise ScreenRefusal("no-measuring")
         channel = self._channel
         z = channel.axis_index["Z"]
-        without_tool = channel.coordinates.position[z] + OffsetState.of(channel).shift[z]
+        moved = channel.actual.machine[z] - channel.coordinates.machine[z]  # by hand, right now
+        without_tool = channel.coordinates.position[z] + moved + OffsetState.of(channel).shift[z]
         geometry = OffsetMemory.of(channel).at(self.number).geometry.get("Z", 0.0)
         screens.add_work_shift(channel, "Z", shown(channel, "Z", without_tool - geometry, work=True))
