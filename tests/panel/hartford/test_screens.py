@@ -52,6 +52,20 @@ def test_both_fanuc_displays_lead_to_every_chapter(
     assert "12.700" in panel.text
     panel.keys("RIGHT", "DOWN", "PAGE_DOWN", "PAGE_UP", "UP", "LEFT", "RESET")
     assert panel.message == ""
+    panel.keys("O", "SHIFT", "O", "SHIFT", "EOB", "SHIFT", "2", "EOB", "SHIFT", "-", "-")
+    assert panel.view.buffer == "OPE#;+-"
+
+
+@pytest.mark.parametrize("control", ["fanuc-m"])
+@pytest.mark.feature("har.panel_mdikeys")
+def test_help_tells_why_an_alarm_has_come_and_what_to_do(bench: Make) -> None:
+    panel = bench()
+    panel.control.signals["OVERTRAVEL"] = 1.0
+    panel.keys("HELP")
+    assert panel.view.title == panel.says("HELP (ALARM DETAIL)", "說明（警示內容）")
+    assert panel.says("A hardware stroke limit switch has been reached", "碰到硬體行程極限開關") in panel.text
+    assert panel.says("An axis ran onto the dog", "軸碰到行程極限擋塊") in panel.text
+    assert panel.says("→ Hold the stroke release key", "→ 按住行程解除鍵") in panel.text
 
 
 @pytest.mark.parametrize("control", ["meldas-m"])
@@ -66,12 +80,31 @@ def test_the_full_keyboard_of_meldas_leads_to_every_chapter(bench: Make) -> None
         "EDIT/MDI": ("PROGRAM", "程式"),
         "DIAGN/IN-OUT": ("ALARM MESSAGE", "警示訊息"),
         "SFG": ("GRAPHIC TRACE", "路徑描繪"),
+        "F0": ("SOFT SWITCHES", "軟體開關"),
     }
     for key, title in titles.items():
         assert key in unit.keys
         panel.keys(key)
         assert panel.view.title == panel.says(*title)
         assert len(panel.view.soft_keys) == 5
+    panel.keys("TOOL/PARAM", "7", "5", ".", "DELETE/INS", "2", "INPUT/CALC")
+    assert "752.000" in panel.text
+    panel.typed("1+10*2-9/3", "SHIFT", "INPUT/CALC", "INPUT/CALC")
+    assert "18.000" in panel.text
+    panel.typed("1/0", "SHIFT", "INPUT/CALC")
+    assert "1/0" in panel.message
+    panel.keys("C.B/CAN")
+    assert panel.view.buffer == ""
+    panel.turn("mode", "mdi")
+    panel.keys("EDIT/MDI")
+    panel.soft("MDI", "MDI")
+    panel.typed("M8", "SHIFT", "DELETE/INS")
+    assert panel.window("mdi").text == "M8"
+    panel.keys("DELETE/INS")
+    assert panel.window("mdi").text == ""
+    for key in unit.keys:
+        panel.keys(*(("SHIFT", "SHIFT") if key == "SHIFT" else ("1", key) if key == "INPUT/CALC" else (key,)))
+        assert panel.message == "" or key == "INPUT/CALC"
     letters = " ".join(panel.screen.family.letters).split()
     assert {*"ABCDFGHIJKLMNOPQRSTUVWXYZ", *"0123456789"} <= set(letters)
 

@@ -188,6 +188,32 @@ def search_block(screen: ScreenState) -> None:
     screen.buffer = ""
 
 
+#: A number behind a sign, and the operators between numbers.
+_TERM = re.compile(r"\s*([+-]?\d*\.?\d+|[+-]?\d+\.)\s*")
+
+
+def calculate(screen: ScreenState) -> None:
+    """CALC: what has been keyed in becomes its result; products and quotients first, then sums (MELDAS)."""
+    sums, at, operator = [0.0], 0, "+"
+    while True:
+        term = _TERM.match(screen.buffer, at)
+        if term is None or (operator == "/" and not float(term[1])):
+            raise CommandRefused("screen.no-number", typed=screen.buffer)
+        value, at = float(term[1]), term.end()
+        if operator == "*":
+            sums[-1] *= value
+        elif operator == "/":
+            sums[-1] /= value
+        else:
+            sums.append(-value if operator == "-" else value)
+        if at == len(screen.buffer):
+            break
+        operator, at = screen.buffer[at], at + 1
+        if operator not in "+-*/":
+            raise CommandRefused("screen.no-number", typed=screen.buffer)
+    screen.buffer = f"{sum(sums):.6f}".rstrip("0")
+
+
 def insert(screen: ScreenState) -> None:
     """INSERT on the MDI page: what has been keyed in is the next block."""
     if not screen.shows("mdi"):

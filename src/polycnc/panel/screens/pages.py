@@ -180,6 +180,7 @@ class Family:
         rows: Soft keys that stand in a row; what is more comes with the key `MENU` (▷).
         keys: The page that a key of the MDI unit opens.
         letters: Keys of the MDI unit that type, in rows.
+        dual: Keys with two legends, and what each of them is: plain, and behind SHIFT.
         pages: Pages by id.
         menus: Soft keys below the screen, by name.
         side: Soft keys at its side, by name of the menu.
@@ -201,6 +202,7 @@ class Family:
     modes: Mapping[str, str] = field(default_factory=dict)
     states: Mapping[str, str] = field(default_factory=dict)
     layout: str = "crt"
+    dual: Mapping[str, tuple[str, str]] = field(default_factory=dict)
     data_mode: str = ""
     modal_by_column: bool = False
     measures: bool = False
@@ -234,6 +236,7 @@ def family_of(control: str) -> Family:
         modes=merged.get("modes", {}),
         states=merged.get("states", {}),
         layout=merged.get("layout", "crt"),
+        dual={key: (legends[0], legends[1]) for key, legends in merged.get("dual", {}).items()},
         data_mode=merged.get("data_mode", ""),
         modal_by_column=merged.get("modal_by_column", False),
         measures=merged.get("measures", False),

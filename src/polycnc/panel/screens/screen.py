@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 from polycnc.mainrun import CommandRefused, Mode
 from polycnc.messages import UserError
 from polycnc.messages.catalogue import language
-from polycnc.panel.screens.actions import ACTIONS, insert, set_value
+from polycnc.panel.screens.actions import ACTIONS, calculate, insert, set_value
 from polycnc.panel.screens.pages import SoftKey, in_language
 from polycnc.panel.screens.state import ScreenState
 from polycnc.panel.screens.view import Cell, SoftKeyView, View
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 LONGEST_BUFFER = 127
 #: Keys whose name is not what they type.
 _SIGNS = {"EOB": ";", "SPACE": " "}
+_EDITING = frozenset(("CAN", "RUBOUT", "CANCEL_BLOCK", "CALC", "INPUT", "INSERT", "ALTER", "DELETE"))
 _MOVES = {"UP": (-1, 0), "DOWN": (1, 0), "LEFT": (0, -1), "RIGHT": (0, 1)}
 
 
@@ -53,6 +54,12 @@ class Screen(ScreenState):
             self.refusal = refusal
 
     def _press(self, key: str) -> None:
+        if key == "SHIFT" and self.family.dual:
+            self.shifted = not self.shifted
+            return
+        if key in self.family.dual:
+            key = self.family.dual[key][self.shifted]
+        self.shifted = False
         if key in self.family.keys:
             self.show(self.family.keys[key])
         elif key in _MOVES:
@@ -62,14 +69,8 @@ class Screen(ScreenState):
         elif key in ("PAGE_UP", "PAGE_DOWN"):
             shown = self.table.shown if self.table is not None else self.page.windows[0].shown
             self.move(shown if key == "PAGE_DOWN" else -shown, 0)
-        elif key == "CAN":
-            self.buffer = self.buffer[:-1]
-        elif key == "INPUT":
-            (insert if self.shows("mdi") else set_value)(self)
-        elif key in ("INSERT", "ALTER"):
-            insert(self)
-        elif key == "DELETE":
-            ACTIONS["erase-mdi" if self.shows("mdi") else "delete-program"](self)
+        elif key in _EDITING:
+            self._edit(key)
         elif key in _SIGNS:
             self.type(_SIGNS[key])
         elif key == "RESET":
@@ -83,6 +84,23 @@ class Screen(ScreenState):
             self.type(key)
         else:
             raise CommandRefused("panel.unknown", name=key, known=", ".join(self.family.keys))
+
+    def _edit(self, key: str) -> None:
+        """A key that changes the key-in buffer, or enters it."""
+        if key == "CAN" or (key == "RUBOUT" and self.buffer):
+            self.buffer = self.buffer[:-1]
+        elif key == "CANCEL_BLOCK":
+            self.buffer = ""
+        elif key == "CALC":
+            calculate(self)
+        elif key == "INPUT":
+            (insert if self.shows("mdi") else set_value)(self)
+        elif key in ("INSERT", "ALTER"):
+            insert(self)
+        elif self.shows("mdi"):
+            ACTIONS["erase-mdi"](self)
+        elif key == "DELETE":
+            ACTIONS["delete-program"](self)
 
     def type(self, text: str) -> None:
         """Key a text in."""

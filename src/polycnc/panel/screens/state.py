@@ -62,6 +62,7 @@ class ScreenState:
         rows: Soft keys that stand in a row: as many as the display has.
         menu: Name of the row of soft keys; `turned` says how far it has been turned on by ▷.
         buffer: What has been keyed in.
+        shifted: SHIFT was pressed: the next key with two legends is the second one.
         refusal: Why the control has not done what the last key asked for; None where it has.
         mdi_text: Blocks that were typed in at MDI; cycle start runs them.
         card: The memory card.
@@ -88,6 +89,7 @@ class ScreenState:
         self.menu, self.turned = self.page.menu, 0
         self.rows = self.family.rows
         self.buffer = ""
+        self.shifted = False
         self.refusal: UserError | None = None
         self.mdi_text = ""
         self.card = Card()

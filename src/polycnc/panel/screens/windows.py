@@ -194,6 +194,23 @@ def _alarms(at: Asked) -> Rows:
     return tuple(rows)
 
 
+def _help(at: Asked) -> Rows:
+    """What each alarm and message that is there means: its text, why it comes, what to do about it."""
+    catalogue = at.screen.control.catalogue
+    told = [
+        (alarm.code, at.screen.control.alarm_text(alarm, at.lang), dict(alarm.args))
+        for alarm in at.snapshot.alarms
+    ]
+    told += [(code, catalogue.text(code, at.lang), {}) for code in at.snapshot.notices]
+    rows: list[tuple[Cell, ...]] = []
+    for code, said, args in told:
+        rows.append((Cell(code, "alarm"), Cell(said, "alarm")))
+        if code in catalogue:
+            rows.append((Cell("", "label"), Cell(catalogue.note(code, "cause", at.lang, args), "value")))
+            rows.append((Cell("→", "label"), Cell(catalogue.note(code, "remedy", at.lang, args), "value")))
+    return tuple(rows)
+
+
 def _history(at: Asked) -> Rows:
     control = at.screen.control
     alarms = control.alarm_history[: at.spec.shown]
@@ -345,6 +362,7 @@ KINDS: dict[str, Reader] = {
     "card": _card,
     "mdi": _mdi,
     "alarms": _alarms,
+    "help": _help,
     "history": _history,
     "message-history": _message_history,
     "messages": _messages,

@@ -146,12 +146,19 @@ class Page:
                 for name in screen.family.keys:
                     self._key(name, partial(screen.press, name))
             with ui.element("div").classes("row"):
-                for name, label in EDITING.items():
-                    self._key(label, partial(screen.press, name), hint=name)
+                for name in self._editing():
+                    self._key(EDITING.get(name, name), partial(screen.press, name), hint=name)
             for letters in screen.family.letters:
                 with ui.element("div").classes("row"):
                     for letter in letters.split():
                         self._key(letter, partial(screen.press, letter))
+
+    def _editing(self) -> list[str]:
+        """Keys that edit: those of the MDI unit, where its manual names them."""
+        units = self._desk.panel.description.mdi_units
+        if not units:
+            return list(EDITING)
+        return ["RETURN", "MENU", *(key for key in units[0].keys if key not in self._desk.screen.family.keys)]
 
     # ---- the machine panel ---------------------------------------------------------------------------------
 
