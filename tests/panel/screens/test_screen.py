@@ -221,6 +221,23 @@ def test_a_wrong_number_and_a_page_without_fields_are_refused_with_a_text() -> N
     assert screen.buffer == "1.2."
 
 
+@pytest.mark.parametrize("control", ["fanuc-m", "fanuc-0i-tf"])
+def test_a_measured_edge_sets_the_work_offset_of_its_row(control: str) -> None:
+    screen = screen_of(control, start={"X": 50.0, "Z": -20.0}, work_offsets={"G54": {"X": 5.0}})
+    for key in ("OFS/SET", "WORK", "(OPRT)"):
+        press(screen, key)
+    keyed(screen, "2", "NO.SRH")
+    keyed(screen, "X12.5", "MEASUR")
+    keyed(screen, "Z0", "MEASUR")
+    assert screen.message == ""
+    assert (read(screen, "#5241"), read(screen, "#5221")) == (pytest.approx(37.5), 5.0)
+    screen.control.load("G55\nM0\nM30\n")
+    screen.control.cycle_start()
+    screen.control.run()
+    assert screen.control.positions.work["X"] == pytest.approx(12.5)
+    assert screen.control.positions.work["Z"] == pytest.approx(0.0)
+
+
 # ---- the lathe's offset screens: sequences of the manual with their results (III.2.1) ------------------------
 
 

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 #: Work coordinates that the signal PRC has kept, by axis.
 Latched: TypeAlias = "Mapping[str, float]"
+#: Rows of work offsets.
+_SYSTEMS = ("EXT", "G54", "G55", "G56", "G57", "G58", "G59")
 #: Measured values are taken from where the signal PRC came (0i-TF Plus III.2.1.2).
 _LATCHES = "5005#2"
 
@@ -85,6 +87,25 @@ class Variables(Source):
         reads, now = control.positions.work[column.axis], self.read(control, column, row)
         before = float(now) if isinstance(now, int | float) else 0.0
         control.write_variable(column.name(row), before + reads - measured)
+
+
+class WorkOffsets(Variables):
+    """Work offsets: rows are EXT, G54 to G59."""
+
+    def measure(
+        self, control: VirtualControl, column: Column, row: int, measured: float, latched: Latched
+    ) -> None:
+        """The axis would read the measured value where it stands, if the system of the row were chosen.
+
+        Raises:
+            CommandRefused: A system is chosen that is none of the rows.
+        """
+        active = control.modal.get("wcs", "")
+        if active not in _SYSTEMS:
+            raise CommandRefused("screen.other-system")
+        now = self.read(control, column, _SYSTEMS.index(active) if row else row)
+        before = float(now) if isinstance(now, int | float) else 0.0
+        control.write_variable(column.name(row), before + control.positions.work[column.axis] - measured)
 
 
 class LatheOffsets(Source):
@@ -171,6 +192,7 @@ class Barrier(Source):
 
 SOURCES: dict[str, Source] = {
     "": Variables(),
+    "work": WorkOffsets(),
     "geometry": LatheOffsets(Page.GEOMETRY),
     "wear": LatheOffsets(Page.WEAR),
     "second": LatheOffsets(Page.SECOND),
