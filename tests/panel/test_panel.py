@@ -159,3 +159,18 @@ def test_what_is_not_on_the_panel_is_told() -> None:
     for switch, position in (("volume", 3), ("feed", 55), ("mode", "tape"), ("handle_axis", "Q")):
         with pytest.raises(CommandRefused):
             panel.turn(switch, position)
+
+
+def test_a_key_that_cannot_act_now_says_why_before_it_is_pressed() -> None:
+    panel = panel_of()
+    assert panel.why_not("START") is None
+    assert panel.why_not("C1") is None, "it acts, with C8"
+    for key in ("B3", "D3", "A8", "HOLD", "POWER_ON"):
+        assert panel.why_not(key) is not None
+        with pytest.raises(CommandRefused):
+            panel.press("C8", key)
+    panel.turn("mode", "jog")
+    assert panel.why_not("B3") is panel.why_not("D3") is panel.why_not("A8") is None
+    refusal = panel.why_not("START")
+    assert refusal is not None
+    assert refusal.text("zh-TW") != refusal.text("en")

@@ -16,6 +16,7 @@ from math import isfinite
 from typing import TYPE_CHECKING
 
 from polycnc.mainrun import CommandRefused, State
+from polycnc.mainrun.commands.states import Command
 from polycnc.messages import AlarmError, text
 from polycnc.messages.catalogue import listed
 from polycnc.panel.description import RETURNED, Key, Lamp, describe, is_returned
@@ -32,6 +33,10 @@ SAFETY_KEY = "C8"
 POWER_ON = "POWER_ON"
 #: A setting of the control: after a block search the first start leads the axes back by itself.
 AUTOMATIC_RESTART = "RESTART_AUTOMATIC"
+
+
+#: Commands of keys that the control allows in some modes and states only.
+_ASKED = {"cycle_start": Command.CYCLE_START, "feed_hold": Command.FEED_HOLD}
 
 
 class Light(StrEnum):
@@ -119,13 +124,27 @@ class Panel:
             raise CommandRefused("panel.unknown", name=name, known=listed(self.description.keys))
         return key
 
-    def _press_key(self, key: Key, together: set[str]) -> None:
+    def why_not(self, name: str) -> CommandRefused | None:
+        """Why a key would do nothing now, even together with the safety key; None where it would act.
+
+        What the machine's controller says it says when the key is pressed.
+        """
+        key = self._key(name.upper())
         if (self.control.state is State.OFF) != (key.id == POWER_ON):
-            raise CommandRefused("panel.power", part=key.id)
-        if key.safety and SAFETY_KEY not in together:
-            raise CommandRefused("panel.safety", part=key.id)
+            return CommandRefused("panel.power", part=key.id)
         if key.modes and self.positions["mode"] not in key.modes:
-            raise CommandRefused("panel.mode", part=key.id, modes=listed(key.modes))
+            return CommandRefused("panel.mode", part=key.id, modes=listed(key.modes))
+        command = _ASKED.get(key.command)
+        if command is not None and not self.control.allows(command):
+            control = self.control
+            return CommandRefused("mainrun.refused", command=command, mode=control.mode, state=control.state)
+        return None
+
+    def _press_key(self, key: Key, together: set[str]) -> None:
+        if key.safety and SAFETY_KEY not in together and self.control.state is not State.OFF:
+            raise CommandRefused("panel.safety", part=key.id)
+        if (refusal := self.why_not(key.id)) is not None:
+            raise refusal
         if key.switch:
             now = getattr(self.control.switches, key.switch)
             self.control.set_switches(**{key.switch: not now})

@@ -205,6 +205,7 @@ class Page:
                 for name, lamp in description.lamps.items()
             }
         self._refreshers.append(lambda: self._light(modes, {**keys, **lamps}))
+        self._refreshers.append(lambda: self._dim(keys))
         self._refreshers.append(lambda: self._show_tools(tools))
 
     def _group(self, title: str) -> ui.element:
@@ -276,6 +277,13 @@ class Page:
             if element is not None and self._changed(f"lamp-{name}", light):
                 element.classes(remove="lit blinking")
                 element.classes(add={Light.ON: "lit", Light.BLINKING: "blinking"}.get(light, ""))
+
+    def _dim(self, keys: Mapping[str, ui.element]) -> None:
+        """Keys that would do nothing now are dim; pressed, they say why."""
+        for name, key in keys.items():
+            is_dim = self._desk.panel.why_not(name) is not None
+            if self._changed(f"dim-{name}", str(is_dim)):
+                key.classes(add="dim" if is_dim else "", remove="" if is_dim else "dim")
 
     # ---- the page itself -----------------------------------------------------------------------------------
 
