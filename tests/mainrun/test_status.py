@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import pytest
+
 from polycnc import VirtualControl
 
 if TYPE_CHECKING:
@@ -57,3 +59,25 @@ def test_a_snapshot_brings_counters_back() -> None:
     control.cycle_start()
     control.run()
     assert control.counters.parts == 1
+
+
+def test_run_time_counts_on_while_a_program_runs_and_cycle_time_begins_anew_with_every_run() -> None:
+    control = VirtualControl("fanuc-m")
+    control.load("G4 P4000\nM0\nG4 P2000\nM30\n")
+    for before in (0.0, 6.0):
+        control.cycle_start()
+        control.step(3.0)
+        assert control.counters.running_s == pytest.approx(before + 3.0, abs=0.01)
+        assert control.counters.cycle_s == pytest.approx(3.0, abs=0.01)
+        control.run()
+        control.step(10.0)  # it waits at M00
+        control.cycle_start()
+        control.run()
+        assert control.counters.cycle_s == pytest.approx(6.0, abs=0.05)
+        control.step(5.0)
+    assert control.counters.running_s == pytest.approx(12.0, abs=0.1)
+    saved = control.checkpoint()
+    control.cycle_start()
+    control.step(1.0)
+    saved.restore()
+    assert control.counters.cycle_s == pytest.approx(6.0, abs=0.05)

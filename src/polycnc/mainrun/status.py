@@ -29,10 +29,14 @@ _Entry = TypeVar("_Entry")
 
 
 class Counters(NamedTuple):
-    """What a control counts beyond power-off: parts made, and the time for which programs have run, s."""
+    """What a control counts beyond power-off: parts made, and the time for which programs have run, s.
+
+    `cycle_s` is that time of the present or last run alone. Stops and holds count in neither.
+    """
 
     parts: int
     running_s: float
+    cycle_s: float = 0.0
 
 
 def _note(history: dict[int, _Entry], entry: _Entry) -> None:
@@ -71,7 +75,7 @@ class Status:
         self._history: dict[int, Alarm] = retained.table(ALARM_HISTORY)
         self._messages: dict[int, str] = retained.table(MESSAGES)
         self._counters: dict[str, float] = retained.table(COUNTERS)
-        self._running_since = 0.0
+        self._running_since = self._cycle_s = 0.0
 
     @property
     def is_locked(self) -> bool:
@@ -93,9 +97,11 @@ class Status:
         """Another state; `data` says why."""
         if state is not self.state:
             if self.state is State.RUNNING:
-                self.count(RUNNING_S, self._clock.time - self._running_since)
+                self.count(RUNNING_S, self._runs_for)
+                self._cycle_s += self._runs_for
             if state is State.RUNNING:
                 self._running_since = self._clock.time
+                self._cycle_s = 0.0 if self.state is State.READY else self._cycle_s
             self._signals[self.state.upper()] = 0.0
             self.state = state
             self._signals[state.upper()] = 1.0
@@ -137,7 +143,14 @@ class Status:
     @property
     def counters(self) -> Counters:
         """What the counters say."""
-        return Counters(int(self._counters.get(PARTS, 0.0)), self._counters.get(RUNNING_S, 0.0))
+        now = self._runs_for
+        kept = self._counters
+        return Counters(int(kept.get(PARTS, 0.0)), kept.get(RUNNING_S, 0.0) + now, self._cycle_s + now)
+
+    @property
+    def _runs_for(self) -> float:
+        """How long the program has run since the last start, s."""
+        return self._clock.time - self._running_since if self.state is State.RUNNING else 0.0
 
     def clear_history(self) -> None:
         """The alarms of the past are forgotten."""

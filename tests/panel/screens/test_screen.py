@@ -238,6 +238,24 @@ def test_a_measured_edge_sets_the_work_offset_of_its_row(control: str) -> None:
     assert screen.control.positions.work["Z"] == pytest.approx(0.0)
 
 
+@pytest.mark.parametrize(
+    ("control", "shown"), [("fanuc-m", "N00020"), ("fanuc-0i-tf", "N00020"), ("meldas-m", "N20")]
+)
+def test_the_title_line_has_the_number_of_the_block_and_codes_have_two_digits(
+    control: str, shown: str
+) -> None:
+    screen = screen_of(control)
+    screen.control.load("O7\nN10 G1 X1. F100.\n/N20 X2.\nM0\nN30 M30\n")
+    assert screen.view("en").sequence == ("N00000" if "f" in control else "N0")
+    screen.control.cycle_start()
+    screen.control.run()
+    view = screen.view("en")
+    assert (view.program, view.sequence) == ("O0007", shown)
+    (codes, *_) = [window.text for window in view.windows if window.kind == "modal"]
+    assert "G01" in codes.split()
+    assert all(code.startswith("G") and code[1:3].isdigit() for code in codes.split())
+
+
 # ---- the lathe's offset screens: sequences of the manual with their results (III.2.1) ------------------------
 
 

@@ -187,6 +187,8 @@ class Family:
         modes: How the status line writes modes, by mode; states likewise.
         layout: How the halves are laid out: `crt` or `operate`.
         modal_by_column: Modal codes stand column by column in the order of the lathe's manual.
+        modal_digits: Digits with which G codes are shown; other modal words are not shown then. 0: all as they are.
+        sequence: How the title line writes the block number (`N{n:05}`); empty for not at all.
         measures: It has measured input B.
         tasks: The maintenance schedule of the machine; `periods` and `works` have its words by their ids.
         data_mode: The mode in which data are transferred; empty for every mode.
@@ -205,6 +207,8 @@ class Family:
     dual: Mapping[str, tuple[str, str]] = field(default_factory=dict)
     data_mode: str = ""
     modal_by_column: bool = False
+    modal_digits: int = 0
+    sequence: str = ""
     measures: bool = False
     tasks: tuple[Task, ...] = ()
     periods: Mapping[str, Text] = field(default_factory=dict)
@@ -239,6 +243,8 @@ def family_of(control: str) -> Family:
         dual={key: (legends[0], legends[1]) for key, legends in merged.get("dual", {}).items()},
         data_mode=merged.get("data_mode", ""),
         modal_by_column=merged.get("modal_by_column", False),
+        modal_digits=merged.get("modal_digits", 0),
+        sequence=merged.get("sequence", ""),
         measures=merged.get("measures", False),
         tasks=tuple(Task(**row) for row in merged.get("maintenance", ())),
         periods=merged.get("periods", {}),

@@ -11,6 +11,7 @@ Whoever looks at the control looks at the same screen: all browsers share one.
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 from polycnc.mainrun import CommandRefused, Mode
@@ -25,6 +26,10 @@ from polycnc.panel.screens.windows import window
 if TYPE_CHECKING:
     from polycnc.mainrun.reading.snapshot import Snapshot
 
+#: Blocks that are looked through for a number.
+LONGEST_LOOK = 500
+#: A block with its number.
+_NUMBERED = re.compile(r"\s*/?\d?\s*[Nn](\d+)")
 #: Characters that the key-in buffer takes.
 LONGEST_BUFFER = 127
 #: Keys whose name is not what they type.
@@ -157,6 +162,7 @@ class Screen(ScreenState):
             page=self.page.id,
             title=in_language(self.page.title, lang),
             program=snapshot.program,
+            sequence=self._sequence(snapshot),
             windows=tuple(window(self, spec, snapshot, lang) for spec in self.page.windows),
             soft_keys=self._soft_keys(self._visible, self.rows, lang),
             side_keys=self._soft_keys(self.family.side.get(self.menu, ()), 8, lang)
@@ -167,6 +173,22 @@ class Screen(ScreenState):
             status=self._status(snapshot, lang),
             alarm=self._alarm(snapshot, lang),
         )
+
+    def _sequence(self, snapshot: Snapshot) -> str:
+        """The number of the block in execution, or of the last one in front of it that has one; 0 for none."""
+        if not self.family.sequence or not snapshot.program:
+            return ""
+        block, number = snapshot.block, 0
+        try:
+            first = self.control.first_line(block.program)
+            lines, at = self.control.program_lines(block.program), block.line - first
+        except CommandRefused:
+            lines, at = [block.text], 0
+        for index in range(min(at, len(lines) - 1), max(at - LONGEST_LOOK, -1), -1):
+            if found := _NUMBERED.match(lines[index]):
+                number = int(found[1])
+                break
+        return self.family.sequence.format(n=number)
 
     def _soft_keys(self, keys: tuple[SoftKey, ...], count: int, lang: str) -> tuple[SoftKeyView, ...]:
         shown = [

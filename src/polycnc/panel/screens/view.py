@@ -57,6 +57,7 @@ class View:
         message: What the control says of the last key, or empty.
         status: What the status line shows, in order.
         alarm: The alarm or message line, or empty.
+        sequence: The block number behind the program, as the title line shows it; empty where it shows none.
     """
 
     page: str
@@ -69,6 +70,7 @@ class View:
     message: str = ""
     status: tuple[Cell, ...] = field(default=())
     alarm: str = ""
+    sequence: str = ""
 
     @property
     def text(self) -> str:

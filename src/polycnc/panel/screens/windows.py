@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import zip_longest
@@ -37,6 +38,8 @@ class Asked:
 
 Reader: TypeAlias = Callable[[Asked], Rows]
 
+#: A G code: its number, and what stands behind the point.
+_G_CODE = re.compile(r"G(\d+)((?:\.\d+)?)")
 #: Blocks that a program window shows in front of the one in execution.
 _BEFORE = 3
 
@@ -96,7 +99,10 @@ def _modal(at: Asked) -> Rows:
     if at.screen.family.modal_by_column:
         rows = zip_longest(*modal_codes(at.screen.control.channel), fillvalue="")
         return tuple(tuple(Cell(code, "value") for code in row) for row in rows)
-    codes = [code for code in at.snapshot.modal.values() if code]
+    digits = at.screen.family.modal_digits
+    codes = [code for code in at.snapshot.modal.values() if code and (not digits or _G_CODE.fullmatch(code))]
+    if digits:
+        codes = [_G_CODE.sub(lambda found: f"G{found[1].zfill(digits)}{found[2]}", code) for code in codes]
     width = at.spec.count or 6
     return tuple(
         tuple(Cell(code, "value") for code in codes[i : i + width]) for i in range(0, len(codes), width)
@@ -109,8 +115,8 @@ def _counters(at: Asked) -> Rows:
     return (
         (Cell(text("screen.parts", at.lang), "label"), Cell(str(at.snapshot.parts), "value")),
         (Cell(text("screen.parts-total", at.lang), "label"), Cell(str(kept.parts), "value")),
-        (Cell(text("screen.run-time", at.lang), "label"), Cell(_hours(at.snapshot.time), "value")),
-        (Cell(text("screen.running-total", at.lang), "label"), Cell(_hours(kept.running_s), "value")),
+        (Cell(text("screen.run-time", at.lang), "label"), Cell(_hours(kept.running_s), "value")),
+        (Cell(text("screen.cycle-time", at.lang), "label"), Cell(_hours(kept.cycle_s), "value")),
     )
 
 

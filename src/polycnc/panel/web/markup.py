@@ -22,9 +22,10 @@ def of_view(view: View) -> str:
         if view.alarm
         else '<div class="alarm-line"></div>'
     )
+    running = f"{view.program} {view.sequence}".rstrip()
     message = f'<span class="message" role="status">{escape(view.message)}</span>' if view.message else ""
     return (
-        f'<div class="title"><span>{escape(view.title)}</span><span>{escape(view.program)}</span></div>{alarm}'
+        f'<div class="title"><span>{escape(view.title)}</span><span>{escape(running)}</span></div>{alarm}'
         f'<div class="windows">{windows}</div>'
         f'<div class="buffer"><span>A&gt;{escape(view.buffer)}_</span>{message}</div>'
         f'<div class="status">{status}</div>'
