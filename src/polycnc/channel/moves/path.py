@@ -35,6 +35,8 @@ class Rank(IntEnum):
     NOTES = auto()
     #: Inputs that interrupt a block: they see moves as the program means them.
     INTERRUPTS = auto()
+    #: Points become the chords of a curve that goes through them.
+    POINTS = auto()
     #: Control points become the chords of a curve.
     SPLINE = auto()
     #: A smooth approach waits for the contour.

@@ -37,8 +37,8 @@ def define(channel: SinumerikChannel, args: Arguments) -> None:
     """COUPDEF(following,leading,numerator,denominator,block change,type): what is left out stays as it is.
 
     Raises:
-        AlarmError: 14020 for a wrong argument, 16785 and 16778 for a spindle that would lead itself, 16797 for another
-            leading spindle or type while the coupling is on.
+        AlarmError: 14020 and 16795 for a wrong argument, 16785 and 16778 for a spindle that would lead itself; while
+            the coupling is on, 16797 for another leading spindle and 16787 for another type.
     """
     following, leading = (_spindle(channel, "COUPDEF", value) for value in _padded(args, 2)[:2])
     numerator, denominator, change, type_ = _padded(args, 6)[2:]
@@ -52,9 +52,9 @@ def define(channel: SinumerikChannel, args: Arguments) -> None:
         raise AlarmError("16797", axis=f"S{following}")
     wanted = pair.type if type_ is None else str(type_).upper()
     if wanted not in TYPES:
-        raise AlarmError("14020", text="COUPDEF")
+        raise AlarmError("16795", text=wanted)
     if pair.acts and wanted != pair.type:
-        raise AlarmError("16797", axis=f"S{following}")
+        raise AlarmError("16787", axis=f"S{following}")
     ratio = pair.numerator, pair.denominator
     if numerator is not None:
         ratio = arguments.real(numerator), 1.0 if denominator is None else arguments.real(denominator)
@@ -63,7 +63,7 @@ def define(channel: SinumerikChannel, args: Arguments) -> None:
     if not all(ratio):
         raise AlarmError("14020", text="COUPDEF")
     if change is not None:
-        pair.block_change = _block_change("COUPDEF", change)
+        pair.block_change = _block_change(change)
     (pair.numerator, pair.denominator), pair.type = ratio, wanted
     if pair.acts:
         pair.offset = spindle_pairs.offset_of(channel, following, pair)
@@ -127,7 +127,7 @@ def reset(channel: SinumerikChannel, args: Arguments) -> None:
     following, pair = _defined(channel, "COUPRES", args)
     fresh = Pair(pair.leading)
     if pair.acts and pair.type != fresh.type:
-        raise AlarmError("16797", axis=f"S{following}")
+        raise AlarmError("16787", axis=f"S{following}")
     pair.numerator, pair.denominator = fresh.numerator, fresh.denominator
     pair.block_change, pair.type = fresh.block_change, fresh.type
     channel.context_changed()
@@ -147,7 +147,7 @@ def wait(channel: SinumerikChannel, args: Arguments) -> None:
     for named, change in zip(args[::2], (*args, None)[1::2], strict=False):
         following, pair = _defined(channel, "WAITC", (named,))
         if change is not None:
-            _block_change("WAITC", change)
+            _block_change(change)
         await_synchronism(channel, following, pair)
 
 
@@ -255,11 +255,11 @@ def _angle(name: str, value: Any) -> float | None:
     return angle
 
 
-def _block_change(name: str, value: Any) -> str:
+def _block_change(value: Any) -> str:
     text = str(value).upper()
     full = BLOCK_CHANGES.get(text[:2], "")
     if text not in (full, full[:2]):
-        raise AlarmError("14020", text=name)
+        raise AlarmError("16795", text=text)
     return full
 
 

@@ -1,8 +1,7 @@
 """Splines and polynomials: ASPLINE, BSPLINE, CSPLINE, SPLINEPATH, POLY, POLYPATH (job planning 4.2, 4.3, 4.6).
 
-A and C splines go through every programmed point: one `spline` row for each, and between the rows the curve is the
-planner's. The control points of a B spline and the coefficients of a polynomial give curves of their own, which are cut
-into chords.
+A and C splines go through every programmed point, and a display shows one motion for each. The control points of a B
+spline and the coefficients of a polynomial give curves of their own. All are cut into chords.
 """
 
 from __future__ import annotations
@@ -12,6 +11,7 @@ from itertools import pairwise
 from math import hypot
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from polycnc.channel.moves.path import Recorder
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.arguments import Procedure
@@ -19,9 +19,11 @@ from polycnc.control.sinumerik.block.positions import AxisTerm, axis_term, numbe
 from polycnc.control.sinumerik.curve_tables.recorder import recorder_of
 from polycnc.control.sinumerik.feed.pace import Overrides
 from polycnc.control.sinumerik.motion import moves
+from polycnc.control.sinumerik.motion.points_stage import POINT, PointsStage, direction_before
 from polycnc.control.sinumerik.motion.spline_stage import TOLERANCE_MM
 from polycnc.control.sinumerik.tables import length_factor
 from polycnc.control.sinumerik.tools import stages
+from polycnc.geometry.through_points import End
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError
@@ -59,6 +61,9 @@ class Splines(State, lifetime=Lifetime.POWER):
 
 
 # ---- splines
+
+#: What holds at an end of a spline (BNAT, BTAN, BAUTO and the like); without a neighbour a tangent is that of NAT.
+ENDS = {"NAT": End.STRAIGHT, "TAN": End.STRAIGHT, "AUTO": End.FREE}
 
 SPLINES = ("ASPLINE", "BSPLINE", "CSPLINE")
 #: Points of the spline that 10 blocks need at least; C splines: MD20160 and one more (4.2).
@@ -99,13 +104,27 @@ def positioned(draft: Draft) -> Step | None:
 
 
 def through_points(draft: Draft) -> Step | None:
-    """ASPLINE, CSPLINE: the next point of the curve."""
+    """ASPLINE, CSPLINE: the next point of the curve; groups 19 and 20 say how it begins and ends."""
     goal = moves.goal_of(draft)
     if goal is None:
         return None
+    mode = draft.mode
+    is_akima, begins, ends = mode["motion"] == "ASPLINE", mode["spline_start"], mode["spline_end"]
 
     def run(channel: SinumerikChannel, values: Values) -> None:
-        moves.line(channel, Kind.SPLINE, goal(channel, values), moves.checked_feed(channel.feed))
+        end, feed = goal(channel, values), moves.checked_feed(channel.feed)
+        if channel.path.find(Recorder) is not None:  # a contour or a curve table takes the points
+            moves.line(channel, Kind.SPLINE, end, feed)
+            return
+        group = Splines.of(channel).group
+        columns = tuple(range(min(LEAST_GROUP, len(end)))) if group is None else tuple(sorted(group))
+        stage = channel.path.find(PointsStage) or channel.path.put(PointsStage(channel))
+        stage.choose(is_akima=is_akima, columns=columns)
+        if not stage.active:
+            before = direction_before(channel, columns) if begins == "BTAN" else None
+            stage.begins = before or ENDS[begins[1:]]
+        stage.ends = None if ends == "ETAN" else ENDS[ends[1:]]
+        moves.special(channel, Kind.SPLINE, end, feed, [POINT])
 
     return run
 

@@ -279,6 +279,15 @@ def _direction(channel: SinumerikChannel, indices: Indices) -> int:
     return {1: 3, -1: 4}.get(direction, 5)
 
 
+def _turning_direction(channel: SinumerikChannel, indices: Indices) -> int:
+    """How a spindle turns, couplings included, as the M function."""
+    spindle = channel.memory.spindles.get(arguments.spindle(indices[0]) if indices else None)
+    if SpindlePairs.of(channel).acting(spindle.number) is None:
+        return _direction(channel, indices)
+    speed = turns(channel, spindle.number)
+    return 3 if speed > 0.0 else 4 if speed < 0.0 else 5
+
+
 def _allowance(channel: SinumerikChannel, _indices: Indices) -> float:
     return Contour.of(channel).allowance_mm
 
@@ -321,7 +330,7 @@ _STATES = (
     SystemVariable(
         "$AC_MSNUM", Type.INT, lambda channel, _indices: channel.memory.spindles.master, stop=True
     ),
-    SystemVariable("$AC_SDIR", Type.INT, _direction, stop=True),
+    SystemVariable("$AC_SDIR", Type.INT, _turning_direction, stop=True),
     SystemVariable("$AA_S", Type.REAL, _turning_speed, stop=True),
     SystemVariable("$AC_STAT", Type.INT, _always(2), stop=True),
     SystemVariable("$PI", Type.REAL, _always(3.141592653589793)),
