@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from polycnc.control.registry import ids
-from polycnc.mainrun import State, VirtualControl
+from polycnc.mainrun import CommandRefused, State, VirtualControl
 from polycnc.panel.screens.screen import Screen
 
 TOOLS = {"tools": {1: {"length": 50.0, "radius": 5.0, "wear": {"length": 0.5}}, 3: {"length": 10.0}}}
@@ -254,6 +254,26 @@ def test_the_title_line_has_the_number_of_the_block_and_codes_have_two_digits(
     (codes, *_) = [window.text for window in view.windows if window.kind == "modal"]
     assert "G01" in codes.split()
     assert all(code.startswith("G") and code[1:3].isdigit() for code in codes.split())
+
+
+@pytest.mark.parametrize("control", ["fanuc-m", "fanuc-0i-tf"])
+def test_a_parameter_of_axes_has_a_row_for_each_of_them(control: str) -> None:
+    screen = screen_of(control)
+    screen.press("SYSTEM")
+    press(screen, "PWE")
+    press(screen, "(OPRT)")
+    keyed(screen, "1240", "NO.SRH")
+    screen.press("DOWN")
+    axis = screen.control.channel.axes[1]
+    keyed(screen, "12.5", "INPUT")
+    assert screen.message == ""
+    assert f"1240 {axis} 12.5 mm" in screen.view("en").text
+    assert screen.control.read_parameter("1240 X") is None
+    goes(screen.control, f"G28 {axis}0\nM30\n")
+    assert screen.control.machine_position[1] == 12.5
+    for number in ("99999", "1240 X Y", "?"):
+        with pytest.raises(CommandRefused):
+            screen.control.write_parameter(number, 1.0)
 
 
 # ---- the lathe's offset screens: sequences of the manual with their results (III.2.1) ------------------------

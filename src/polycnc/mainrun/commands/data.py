@@ -101,7 +101,7 @@ class DataCommands:
         if number.startswith("$"):
             return channel.control.read_variable(channel, number)
         key, given = parameter_key(number), channel.setup.parameters
-        known = next((each for each in self.parameters if each.key == key), None)
+        known = next((each for each in self.parameters if each.key == key._replace(axis=None)), None)
         delivered = known.delivered if known is not None else None
         if key.bit is not None:
             bit = given.bit(key.id, key.bit, key.axis, default=-1)
@@ -113,7 +113,13 @@ class DataCommands:
         """Give a parameter another value."""
         self._permission.ask(Command.LOAD)
         self._check_protection()
-        if not any(number.split("#", maxsplit=1)[0] in map(str, each.ids) for each in self.parameters):
+        plain = number.split("#", maxsplit=1)[0]
+        if not number.startswith("$"):
+            try:
+                plain = str(parameter_key(number).id)
+            except ValueError:
+                raise CommandRefused("setup.no-variable", name=number) from None
+        if not any(plain in map(str, each.ids) for each in self.parameters):
             raise CommandRefused("setup.no-variable", name=number)
         for run in self._operation.runs:
             if number.startswith("$"):

@@ -63,8 +63,8 @@ def set_value(screen: ScreenState) -> None:
     if screen.shows("parameters"):
         if not screen.writes_parameters:
             raise CommandRefused("screen.write-protected")
-        known = screen.control.parameters[screen.cursor[0]]
-        screen.control.write_parameter(known.number, _number(screen))
+        number, _ = screen.parameters[screen.cursor[0]]
+        screen.control.write_parameter(number, _number(screen))
     else:
         table, column, row = _field(screen)
         is_text = isinstance(table.value(column, row), str)
@@ -88,7 +88,7 @@ def search_number(screen: ScreenState) -> None:
     wanted = int(_number(screen))
     if screen.shows("parameters"):
         found = [
-            i for i, each in enumerate(screen.control.parameters) if each.number.split("#")[0] == str(wanted)
+            i for i, (_, each) in enumerate(screen.parameters) if each.number.split("#")[0] == str(wanted)
         ]
         if not found:
             raise CommandRefused("screen.no-field")

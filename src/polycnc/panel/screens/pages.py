@@ -188,6 +188,7 @@ class Family:
         layout: How the halves are laid out: `crt` or `operate`.
         modal_by_column: Modal codes stand column by column in the order of the lathe's manual.
         modal_digits: Digits with which G codes are shown; other modal words are not shown then. 0: all as they are.
+        axis_parameters: Parameters that every axis has its own of stand in a row for each axis.
         sequence: How the title line writes the block number (`N{n:05}`); empty for not at all.
         measures: It has measured input B.
         tasks: The maintenance schedule of the machine; `periods` and `works` have its words by their ids.
@@ -208,6 +209,7 @@ class Family:
     data_mode: str = ""
     modal_by_column: bool = False
     modal_digits: int = 0
+    axis_parameters: bool = False
     sequence: str = ""
     measures: bool = False
     tasks: tuple[Task, ...] = ()
@@ -244,6 +246,7 @@ def family_of(control: str) -> Family:
         data_mode=merged.get("data_mode", ""),
         modal_by_column=merged.get("modal_by_column", False),
         modal_digits=merged.get("modal_digits", 0),
+        axis_parameters=merged.get("axis_parameters", False),
         sequence=merged.get("sequence", ""),
         measures=merged.get("measures", False),
         tasks=tuple(Task(**row) for row in merged.get("maintenance", ())),

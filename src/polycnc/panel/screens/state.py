@@ -5,6 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections import deque
 from dataclasses import replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 from polycnc.mainrun import CommandRefused
@@ -16,6 +17,7 @@ from polycnc.panel.screens.pages import family_of
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
+    from polycnc.control.parameters import KnownParameter
     from polycnc.mainrun import VirtualControl
     from polycnc.mainrun.reading.snapshot import Record, Snapshot
     from polycnc.panel.screens.pages import Column, Page, SoftKey, WindowSpec
@@ -182,6 +184,17 @@ class ScreenState:
         """A task of the maintenance schedule has been done now."""
         now = self.control.counters.running_s
         self.control.panel_settings[_MAINTAINED] = {**self.maintained, str(number): now}
+
+    @cached_property
+    def parameters(self) -> tuple[tuple[str, KnownParameter], ...]:
+        """The rows of the parameter page: the number, with an axis where each has its own (`1240 X`); what it is."""
+        rows: list[tuple[str, KnownParameter]] = []
+        for each in self.control.parameters:
+            if each.by_axis and self.family.axis_parameters:
+                rows += [(f"{each.number} {axis}", each) for axis in self.control.channel.axes]
+            else:
+                rows.append((each.number, each))
+        return tuple(rows)
 
     # ---- the cursor ----------------------------------------------------------------------------------------
 

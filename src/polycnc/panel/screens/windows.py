@@ -252,23 +252,23 @@ def _table(at: Asked) -> Rows:
 
 def _parameters(at: Asked) -> Rows:
     """The parameters of the control, on the page of the list where the cursor stands."""
-    known = at.screen.control.parameters
+    known = at.screen.parameters
     row, _ = at.screen.cursor
     row = max(0, min(row, len(known) - 1))
     at.screen.place(row, 0)
     first = row // at.spec.shown * at.spec.shown
     return tuple(
         (
-            Cell(each.number, "label"),
+            Cell(number, "label"),
             Cell(
-                "" if (value := at.screen.control.read_parameter(each.number)) is None else f"{value}",
+                "" if (value := at.screen.control.read_parameter(number)) is None else f"{value}",
                 "value",
                 cursor=i == row,
             ),
             Cell(each.unit, "label"),
             Cell(each.texts.get(at.lang, each.texts["en"]), "label"),
         )
-        for i, each in enumerate(known[first : first + at.spec.shown], first)
+        for i, (number, each) in enumerate(known[first : first + at.spec.shown], first)
     )
 
 
