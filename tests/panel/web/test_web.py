@@ -87,6 +87,17 @@ def test_a_program_is_loaded_run_and_read_over_the_wire(desk: Desk) -> None:
     assert asked(desk, "screen")["ok"]["page"] == "pos-abs"
 
 
+def test_cycle_start_over_the_wire_runs_what_was_typed_at_mdi(desk: Desk) -> None:
+    asked(desk, "turn", switch="mode", position="mdi")
+    asked(desk, "screen_key", key="PROG")
+    desk.screen.show("mdi")
+    asked(desk, "type", text="G0 X2.")
+    asked(desk, "screen_key", key="INSERT")
+    assert asked(desk, "press", keys=["START"]) == {"ok": None}
+    desk.control.run()
+    assert desk.control.positions.work["X"] == pytest.approx(2.0)
+
+
 def test_a_refusal_has_the_text_that_python_raises(desk: Desk) -> None:
     found = asked(desk, "jog", axis="X", direction=1)
     assert found == {"refused": str(_refusal(desk))}

@@ -94,15 +94,19 @@ class Desk:
         """Press keys of the machine panel together; what is refused is the screen's message."""
         self.screen.refusal = None
         try:
-            if (
-                _START in {key.upper() for key in keys}
-                and self.control.state is State.READY
-                and self.screen.takes_start()
-            ):
-                return
-            self.panel.press(*keys)
+            self.operate(*keys)
         except UserError as refusal:
             self.screen.refusal = refusal
+
+    def operate(self, *keys: str) -> None:
+        """Press keys of the machine panel together; cycle start in MDI runs what was typed in on the screen.
+
+        Raises:
+            CommandRefused: As `Panel.press`.
+        """
+        starts = _START in {key.upper() for key in keys} and self.control.state is State.READY
+        if not (starts and self.screen.takes_start()):
+            self.panel.press(*keys)
 
     def release(self, *keys: str) -> None:
         """Let keys of the machine panel go."""

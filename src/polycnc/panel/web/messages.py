@@ -70,7 +70,7 @@ def _done(desk: Desk, name: str, given: Mapping[str, Any]) -> object:
     if name == "screen":
         return plain(desk.screen.view())
     actions: dict[str, Callable[..., object]] = {
-        "press": desk.panel.press, "release": desk.panel.release, "turn": desk.panel.turn, "wheel": desk.panel.wheel,
+        "press": desk.operate, "release": desk.panel.release, "turn": desk.panel.turn, "wheel": desk.panel.wheel,
         "screen_key": desk.screen.press, "soft_key": desk.screen.soft, "side_key": desk.screen.side,
         "type": desk.screen.type,
     }  # fmt: skip
