@@ -162,14 +162,15 @@ def lay_arc(
 
     Over a piece of angle d the acceleration of an axis, `f(φ)`, has `|f''| <= 5·a`, so that it exceeds the
     larger of its end values by at most `5·d²/8` of the limit; tangents and curvature are stored larger by
-    that much.
+    that much. A spiral turns its direction by more than its angle.
     """
     sweep, gentle = state.arc.sweep, contexts[record + ContextRecord.RAMP_S] > 0.0
-    parts = max(ceil(sweep * PIECES_PER_TURN / (2.0 * pi) - 1e-9), 1)
+    turning = sweep * turns_faster(state)
+    parts = max(ceil(turning * PIECES_PER_TURN / (2.0 * pi) - 1e-9), 1)
     if not has_room(pieces, contexts, record, state, parts + state.row.shares, n):
         return False
     step = sweep / parts
-    margin, weight = 1.0 + 0.625 * step * step, contexts[record + ContextRecord.ROTARY_WEIGHT]
+    margin, weight = 1.0 + 0.625 * (turning / parts) ** 2, contexts[record + ContextRecord.ROTARY_WEIGHT]
     end_way = arc_point(sweep, n, limits, weight, state)
     way = arc_point(0.0, n, limits, weight, state)
     length = 0.5 * (way + end_way) * sweep
@@ -200,6 +201,9 @@ def lay_arc(
         place_arc(pieces, at, first, last, n, limits, state)
         bend = curvature(n, limits, weight, state)
         store_point(pieces, at + PieceRecord.VECTORS, n, state, margin)
+        middle_way = way
+        if state.arc.growth != 0.0:
+            middle_way = arc_point(0.5 * (first + last), n, limits, weight, state)
         next_way = arc_point(last, n, limits, weight, state)
         store_point(pieces, at + PieceRecord.VECTORS + n, n, state, margin)
         bound_curve(pieces, at, n, limits, min(speed, own))
@@ -215,7 +219,8 @@ def lay_arc(
             )
             pieces[at + PieceRecord.HOLD2] = min(entry2, pieces[at + PieceRecord.CAP2])
             pieces[at + PieceRecord.HOLD_PULL] = min(state.joint.pull if is_first else before, pull)
-        pieces[at + PieceRecord.LENGTH] = 0.5 * (way + next_way) * (last - first)
+        # On a spiral the way grows unevenly (Simpson's rule): a length that is off would bend the cubic along itself.
+        pieces[at + PieceRecord.LENGTH] = (way + 4.0 * middle_way + next_way) / 6.0 * (last - first)
         pieces[at + PieceRecord.ENTRY2] = min(entry2, pieces[at + PieceRecord.CAP2])
         entry2 = min(pieces[at + PieceRecord.CAP2], point_cap2(n, limits, state, margin))
         way = next_way
@@ -225,6 +230,18 @@ def lay_arc(
     state.run.exit_pull = pull
     state.run.exit2, state.run.length, state.run.metric, state.run.smooth = entry2, length, weight, 0.0
     return True
+
+
+def turns_faster(state: State) -> float:
+    """How many times as far as its angle a spiral turns its direction, where it does most: 1 for an arc, 2 at most.
+
+    The direction is off the circle's by the angle whose tangent is `r'/r`, and that changes by `r'²/(r² + r'²)`.
+    """
+    growth, radius = state.arc.growth, min(state.arc.radius, state.arc.radius + state.arc.growth)
+    if growth == 0.0:
+        return 1.0
+    around = radius * state.arc.sweep
+    return 1.0 + growth * growth / (around * around + growth * growth)
 
 
 def edge_of_arc(first: float, last: float, state: State) -> float:

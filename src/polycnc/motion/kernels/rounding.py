@@ -74,14 +74,15 @@ def round_joint(pieces: Floats, first: int, n: int, limits: Limits, state: State
         length = pieces[p * width + PieceRecord.LENGTH]
         if length > left + NO_BEND_MM and cut(pieces, p, n, state, length - left):
             p, first = p + 1, first + 1
+            keep_at_cut(pieces, p, n, limits, state)
             length = pieces[p * width + PieceRecord.LENGTH]
         add_bend(pieces, p, n, limits, state, way, left - length, left)
         left -= length
         p -= 1
     p, left = first, way
     while p < state.run.pieces and left > NO_BEND_MM:
-        if pieces[p * width + PieceRecord.LENGTH] > left + NO_BEND_MM:
-            cut(pieces, p, n, state, left)
+        if pieces[p * width + PieceRecord.LENGTH] > left + NO_BEND_MM and cut(pieces, p, n, state, left):
+            keep_at_cut(pieces, p + 1, n, limits, state)
         length = pieces[p * width + PieceRecord.LENGTH]
         add_bend(pieces, p, n, limits, state, way, left, left - length)
         left -= length
@@ -108,7 +109,8 @@ def add_bend(
             pieces[here + 2 * n + i] = pieces[here + 3 * n + i] = 0.0
     cap2, margin = pieces[at + PieceRecord.CAP2], pieces[at + PieceRecord.MARGIN]
     for k in range(2):
-        far = max(end if k == 1 else start, 0.0)
+        far = end if k == 1 else start
+        far = far if far > NO_BEND_MM else 0.0
         for i in range(n):
             bend, q = 0.5 * state.turn[i] / way, here + k * n + i
             pieces[q + PLACES * n] += 0.5 * bend * far * far
@@ -119,6 +121,7 @@ def add_bend(
                 cap2 = min(cap2, (tops[i] / share) ** 2)
             if curvature > SAME_DIRECTION:
                 cap2 = min(cap2, state.joint.ease * limits.acceleration[i] / curvature)
+    keep_between(pieces, at, n, limits)
     pieces[at + PieceRecord.CAP2], pieces[at + PieceRecord.ZONE] = (
         cap2,
         TO_CORNER if sense > 0.0 else FROM_CORNER,
@@ -126,3 +129,35 @@ def add_bend(
     pieces[at + PieceRecord.ENTRY2] = min(pieces[at + PieceRecord.ENTRY2], cap2)
     if p + 1 < state.run.pieces:
         pieces[at + width + PieceRecord.ENTRY2] = min(pieces[at + width + PieceRecord.ENTRY2], cap2)
+
+
+def keep_at_cut(pieces: Floats, p: int, n: int, limits: Limits, state: State) -> None:
+    """Bound x at the start of piece p, the rest of an arc's part, by what it curves there without the bend.
+
+    A bend that turns the other way curves less: what it allows is no bound for the arc beside it.
+    """
+    at = p * piece_width(n)
+    if pieces[at + PieceRecord.FORM] == Form.STRAIGHT:
+        return
+    for i in range(n):
+        curvature = abs(pieces[at + PieceRecord.VECTORS + 2 * n + i])
+        if curvature > SAME_DIRECTION:
+            cap2 = state.joint.ease * limits.acceleration[i] / curvature
+            pieces[at + PieceRecord.ENTRY2] = min(pieces[at + PieceRecord.ENTRY2], cap2)
+
+
+def keep_between(pieces: Floats, at: int, n: int, limits: Limits) -> None:
+    """Bound the acceleration u along a piece of an arc that is bent, so that its axes keep theirs between its ends too.
+
+    Over the piece q'' changes by c, x and q' with it: between the ends an axis has up to `5/8·u·length·c` more than at
+    them. MARGIN leaves so much where u is no more than the acceleration of the axes along the arc; on a bend, where q'
+    is short, it could be more.
+    """
+    here, margin = at + PieceRecord.VECTORS, pieces[at + PieceRecord.MARGIN]
+    pull, length = pieces[at + PieceRecord.PATH_PULL], pieces[at + PieceRecord.LENGTH]
+    for i in range(n):
+        change = abs(pieces[here + 3 * n + i] - pieces[here + 2 * n + i]) / margin
+        if change * length > SAME_DIRECTION:
+            left = (1.0 - 1.0 / margin) * limits.acceleration[i]
+            pull = min(pull, left / (0.625 * length * change))
+    pieces[at + PieceRecord.PATH_PULL] = pull

@@ -15,6 +15,8 @@ from polycnc.motion.kernels.columns import Form, Limits, PieceRecord, piece_widt
 
 #: Tries for the speed in the middle of a curved piece, and steps to the crest of `highest2`.
 TRIES = 16
+#: What an axis may add along the path counts as nothing below this part of its acceleration.
+NOTHING = 1e-9
 
 
 def backward(pieces: Floats, count: int, n: int, limits: Limits) -> int:
@@ -116,7 +118,9 @@ def bound2(
     """Upper bound on x at one end of a curved piece (`at_start` says which) for the x at the other end.
 
     With `u = (x₁ - x₀) / (2·length)` each limit `|q''·x + q'·u| <= a` at either end is linear in both x. The
-    bound, and intercept and slope by `known2` of the limit that sets it.
+    bound, and intercept and slope by `known2` of the limit that sets it. An axis that does not move along the path at
+    the known end bounds the x there, not the acceleration: divided by a direction that is zero but for rounding, its
+    limit would ask for a stop.
     """
     here, there, half = (
         at + PieceRecord.VECTORS + n,
@@ -127,6 +131,7 @@ def bound2(
         here, there, half = there, here, -half
     flat = 2.0 * pieces[at + PieceRecord.PATH_PULL] * pieces[at + PieceRecord.LENGTH]
     lowest, intercept, slope = known2 + flat, flat, 1.0
+    cap2 = pieces[at + PieceRecord.CAP2]
     for i in range(n):
         a = limits.acceleration[i]
         push = pieces[here + i] * half
@@ -136,7 +141,7 @@ def bound2(
             if flat + rise * known2 < lowest:
                 lowest, intercept, slope = flat + rise * known2, flat, rise
         push = pieces[there + i] * half
-        if push != 0.0:
+        if abs(push) * cap2 > NOTHING * a:
             rise, flat = (pieces[there + 2 * n + i] + push) / push, a / abs(push)
             if flat + rise * known2 < lowest:
                 lowest, intercept, slope = flat + rise * known2, flat, rise
