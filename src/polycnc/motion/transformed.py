@@ -59,6 +59,8 @@ NOTHING = 1e-9
 LOOKS, UNEVEN = 4, 1.3
 #: Shares become shorter by this factor towards the worst place, or by a smaller one; steps of the search for it.
 SHORTER, SEARCH = 0.5, 40
+#: Parts of the share around the worst place that are looked at.
+WITHIN = 8
 #: Part of the share next to a corner that the corner may reach; no share of a way to the pole is much shorter, mm.
 CORNER_REACH, NEAR_POLE = 0.5, 0.05
 #: A share that bounds nothing.
@@ -359,7 +361,12 @@ class RealAxes:
 
         shares, begin = [], 0.0
         for f in _ends(worst, extent):
-            places = [begin, f, 0.5 * (begin + f), *([worst] if begin <= worst <= f else [])]
+            places = [begin, f, 0.5 * (begin + f)]
+            if begin <= worst <= f:
+                places.append(worst)
+                # Beside it a rotary axis changes its speed most. With limited jerk the bounds of the jerk are lower.
+                steps = 1 if self._is_soft(context) else WITHIN
+                places += [begin + (f - begin) * k / steps for k in range(1, steps)]
             inside = [demand(place, lateral=False) for place in places]
             shares.append((f, *self._within(inside, (f - begin) * length)))
             begin = f

@@ -32,6 +32,9 @@ PERIOD = 0.001
 SLACK = 1.001
 #: Programs of a run in CI, and of one that explores.
 CI, EXPLORE = 60, 2000
+#: Programs that exploring has found: the main run took the averages of the real axes where a transformation ends; a
+#: rotary axis was too quick beside the centre under BRISK.
+FOUND = (341917, 487807, 535447, 975837, 998267)
 #: Samples of a program whose places are looked up in the main run, from its first on.
 PLACES = 1500
 #: Largest distance of both, mm or degrees: an arc is a circle in the main run, cubics of 7.5° in the samples.
@@ -100,7 +103,7 @@ def check(seed: int) -> None:
         assert np.abs(np.diff(steps[:, i], 2)).max(initial=0.0) <= axis.jerk * PERIOD**3 * SLACK, text
 
 
-@pytest.mark.parametrize("seed", range(CI))
+@pytest.mark.parametrize("seed", [*range(CI), *FOUND])
 def test_plan_samples_and_main_run_are_one_motion(seed: int) -> None:
     check(seed)
 

@@ -47,6 +47,7 @@ class PieceBuffer:
         self._rested = False  # before the next row, for what is none
         self.contexts = array("d")
         self.limits: Limits
+        self._led: Limits | None = None  # what the last row has been laid out for
         self._axes = axes
         self._width = piece_width(axes)
         self._records = array("d", bytes(8 * self._width * ROOM))
@@ -86,7 +87,7 @@ class PieceBuffer:
     def end_in_rest(self) -> None:
         """The axes come to rest behind the last row."""
         self.state.run.stop, self._rested = 1.0, True
-        settle_alone(self._records, self._axes, self.limits, self.state)
+        settle_alone(self._records, self._axes, self._led or self.limits, self.state)
 
     def note_rest(self) -> bool:
         """Whether the axes rest before the next row for what is none, such as an auxiliary function; asked once."""
@@ -99,6 +100,7 @@ class PieceBuffer:
             self._add(laid.records)
             return []
         rows, number, called, state = laid.rows_for(layout), laid.number, laid.called, self.state
+        self._led = laid.limits
         # What a tap may do at an override, others decide (`Rates`).
         state.run.free = 1.0 if rows.kind[0] == TAP and layout.free <= 0.0 else layout.free
         while not self._kernels.lay(

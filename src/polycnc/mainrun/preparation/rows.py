@@ -70,6 +70,7 @@ class RowLayer:
         n, number = self._axes, chunk.first + row
         self.context = self._toolpath.contexts[chunk.context[row]]
         if row in bounds.enters:
+            self._buffer.end_in_rest()
             self._buffer.stand_at(bounds.enters[row])
         own, shares = slice(row, row + 1), slice(row * SHARES, (row + 1) * SHARES)
         if row not in bounds.legs:

@@ -26,6 +26,8 @@ from polycnc.motion.kernels.hold import cut
 
 #: Directions that differ by less count as one; ways shorter than this (mm) are not bent.
 SAME_DIRECTION, NO_BEND_MM = 1e-9, 1e-9
+#: Least MARGIN of a part of a curve that is bent.
+CHORD_MARGIN = 1.005
 
 
 def bend_corner(contexts: Floats, record: int, n: int, limits: Limits, state: State, shorter: float) -> float:
@@ -107,6 +109,7 @@ def add_bend(
             place = here + PLACES * n + i
             pieces[here + i] = pieces[here + n + i] = (pieces[place + n] - pieces[place]) / length
             pieces[here + 2 * n + i] = pieces[here + 3 * n + i] = 0.0
+    spare(pieces, at, n)
     cap2, margin = pieces[at + PieceRecord.CAP2], pieces[at + PieceRecord.MARGIN]
     for k in range(2):
         far = end if k == 1 else start
@@ -144,6 +147,20 @@ def keep_at_cut(pieces: Floats, p: int, n: int, limits: Limits, state: State) ->
         if curvature > SAME_DIRECTION:
             cap2 = state.joint.ease * limits.acceleration[i] / curvature
             pieces[at + PieceRecord.ENTRY2] = min(pieces[at + PieceRecord.ENTRY2], cap2)
+
+
+def spare(pieces: Floats, at: int, n: int) -> None:
+    """Give a chord of a spline that is to be bent a MARGIN: its q'' changes like that of an arc's part."""
+    here = at + PieceRecord.VECTORS
+    uneven = False
+    for i in range(n):
+        change = abs(pieces[here + 3 * n + i] - pieces[here + 2 * n + i])
+        uneven = uneven or change * pieces[at + PieceRecord.LENGTH] > SAME_DIRECTION
+    if uneven and pieces[at + PieceRecord.MARGIN] < CHORD_MARGIN:
+        factor = CHORD_MARGIN / pieces[at + PieceRecord.MARGIN]
+        for k in range(here, here + PLACES * n):
+            pieces[k] *= factor
+        pieces[at + PieceRecord.MARGIN] = CHORD_MARGIN
 
 
 def keep_between(pieces: Floats, at: int, n: int, limits: Limits) -> None:
