@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 
 from polycnc.interchange.errors import ReadingError
 from polycnc.interchange.reading import Reading
 from polycnc.memory.file import FileStore
-from polycnc.memory.retained import PROGRAMS, VARIABLES, InMemoryStore
+from polycnc.memory.retained import PARAMETERS, PROGRAMS, VARIABLES, InMemoryStore
 from polycnc.messages.catalogue import LANGUAGES
 from polycnc.program import ProgramFileError
 from tests.interchange.support import machine_of, read
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 
 @pytest.mark.parametrize(
@@ -88,3 +85,16 @@ def test_an_init_file_of_a_workpiece_is_a_program() -> None:
 def test_a_file_that_is_not_there_is_told(tmp_path: Path) -> None:
     with pytest.raises(ProgramFileError):
         Reading(InMemoryStore(), "fanuc-m", machine_of("fanuc-m")).take([tmp_path / "none.txt"])
+
+
+@pytest.mark.parametrize(
+    ("block", "told"),
+    [("N05003 Q1 P01000001", "5003#6"), ("N05003 Q1 P00000001", ""), ("G10 L50\nN5003 Q6 R1\nG11", "5003#6")],
+)
+def test_a_bit_that_polycnc_does_not_know_is_told(block: str, told: str) -> None:
+    reading = Reading(memory := InMemoryStore(), "fanuc-m", machine_of("fanuc-m"))
+    reading.take_texts({Path("P.TXT"): f"%\n{block}\n%\n"})
+    assert [told] * bool(told) == [note.rpartition(" ")[2] for note in reading.notes]
+    kept = memory.table(PARAMETERS, 1)
+    assert any(key.bit == 0 and value == 1 for key, value in kept.items()) is ("Q1" in block)
+    assert not any(key.bit == 6 for key in kept)

@@ -11,8 +11,9 @@ from polycnc.channel.states.snapshot import Snapshot
 from polycnc.channel.states.state import State, plain_tables, tables
 from polycnc.control.registry import control
 from polycnc.machine import load_machine, parse_setup
-from polycnc.memory.retained import PARAMETERS, VARIABLES, WORK_OFFSETS, InMemoryStore
+from polycnc.memory.retained import PARAMETERS, PROGRAMS, VARIABLES, WORK_OFFSETS, InMemoryStore
 from polycnc.program import Form, ProgramStore
+from polycnc.session import open_session
 
 
 def run(control_id: str, text: str, store: InMemoryStore, **more: object) -> Channel:
@@ -222,3 +223,15 @@ def test_a_snapshot_covers_retained_memory() -> None:
     snapshot.restore()
     assert table["G54"][0] == 5.0
     assert "G59" not in table
+
+
+def test_a_text_that_is_run_leaves_the_edited_program_main_in_the_memory() -> None:
+    store = InMemoryStore()
+    editor = ProgramStore(edited=store.table(PROGRAMS))
+    editor.replace(ProgramStore().add_text("MAIN", "G0 X7.\nM30\n"))
+    kept = dict(store.table(PROGRAMS))
+    session = open_session("G0 X1.\nM30\n", control="fanuc-m", memory=store)
+    assert session.run().final["work"]["X"] == pytest.approx(1.0)
+    assert store.table(PROGRAMS) == kept
+    again = open_session("MAIN", control="fanuc-m", memory=store)
+    assert again.run().final["work"]["X"] == pytest.approx(7.0)

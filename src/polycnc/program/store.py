@@ -219,11 +219,18 @@ class ProgramStore:
         self._by_name = {key: each for key, each in self._by_name.items() if each is not program}
         self._by_number = {key: each for key, each in self._by_number.items() if each is not program}
 
-    def take_edits(self, loaded: Iterable[Program] = ()) -> None:
-        """Programs are as they were edited earlier, but for those that have just been loaded anew."""
-        for program in loaded:
-            self._edited.pop(_key(program.directory, program.name), None)
+    def take_edits(self, loaded: Iterable[Program] = (), *, forget: bool = True) -> None:
+        """Programs are as they were edited earlier, but for those that have just been loaded anew.
+
+        What was edited of those is forgotten; without `forget` the memory keeps it.
+        """
+        anew = {_key(program.directory, program.name) for program in loaded}
+        if forget:
+            for key in anew:
+                self._edited.pop(key, None)
         for key, edited in list(self._edited.items()):
+            if key in anew:
+                continue
             if edited is not None:
                 self.put(edited)
             elif key in self._by_name:

@@ -96,7 +96,8 @@ def _main_program(store: ProgramStore, content: str | Path, *, is_text: bool) ->
         program = store.add_text(_MAIN_PROGRAM if store.form is Form.SINUMERIK else "MAIN", str(content))
     else:
         program = _of_memory(store, content) or store.add_file(content)
-    store.take_edits(store)
+    # The name of a text is not its own: what the memory has under that name is another program, and stays.
+    store.take_edits(store, forget=not is_text)
     return program
 
 

@@ -115,7 +115,8 @@ def read(channel: Channel, content: str) -> list[str] | None:
     """Take a file of parameters over.
 
     Returns:
-        What has been left out of it: parameters that polycnc does not know. None where it is no such file.
+        What has been left out of it: parameters that polycnc does not know, and bits of them that are 1 (a 0 is what
+        such a bit is without the file). None where it is no such file.
 
     Raises:
         DataFileError: It is one, and wrong; nothing has been changed.
@@ -128,12 +129,16 @@ def read(channel: Channel, content: str) -> list[str] | None:
     if not lines[-1][1].startswith("%"):
         raise DataFileError(lines[-1][0], "no-end")
     assignments = list(_assignments(channel, lines[1:-1]))
-    unknown = sorted({int(each.key.id) for each in assignments if not _is_known(channel, int(each.key.id))})
+    unknown: dict[str, None] = {}
     for each in assignments:
-        if each.key.id not in unknown:
+        if _is_known(channel, each.key):
             set_parameter(channel, each.key, each.value)
+        elif not _bits(channel, int(each.key.id)):
+            unknown[str(each.key.id)] = None
+        elif each.value:
+            unknown[f"{each.key.id}#{each.key.bit}"] = None
     control = channel.control.id
-    return [text("parameters.unknown", control=control, number=listed(map(str, unknown)))] if unknown else []
+    return [text("parameters.unknown", control=control, number=listed(sorted(unknown)))] if unknown else []
 
 
 def _assignments(channel: Channel, lines: list[tuple[int, str]]) -> Iterator[_Assignment]:
@@ -170,11 +175,16 @@ def _of_block(channel: Channel, line: int, number: int, words: str) -> Iterator[
             continue
         if len(written) != _BITS or written.strip("01"):
             raise DataFileError(line, "value", word=f"P{written}")
-        for bit in sorted(bits):
+        for bit in range(_BITS):
             yield _Assignment(line, ParameterKey(number, bit, None, axis), int(written[_BITS - 1 - bit]))
 
 
-def _is_known(channel: Channel, number: int) -> bool:
+def _is_known(channel: Channel, key: ParameterKey) -> bool:
+    """Whether polycnc knows a number, and the bit of it where it knows bits of that number."""
+    number = int(key.id)
+    bits = _bits(channel, number)
+    if bits and key.bit is not None:
+        return key.bit in bits
     return any(number in known.ids for known in known_parameters(channel.control))
 
 
