@@ -102,9 +102,16 @@ class ProgramCommands:
     # ---- running -------------------------------------------------------------------------------------------
 
     def cycle_start(self) -> None:
-        """Start the program, or go on with it after a hold, a stop or a single block."""
-        self._permission.ask(Command.CYCLE_START)
+        """Start the program, or go on with it after a hold, a stop or a single block.
+
+        Channels that stand while others wait for them go on too: the control is not at rest then.
+        """
         operation, mode = self._operation, self._status.mode
+        if self._status.state is State.RUNNING and mode is operation.program_mode and operation.has_halted:
+            self._permission.ask_machine("CYCLE_START")
+            operation.go_on_halted()
+            return
+        self._permission.ask(Command.CYCLE_START)
         if operation.runs.move_by_hand:
             raise CommandRefused("mainrun.moving")
         if self._status.state is State.READY:

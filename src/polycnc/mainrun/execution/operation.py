@@ -189,6 +189,19 @@ class Operation:
                 run.execution.single_block = bool(self.switches.panel.single_block)
                 run.execution.start()
 
+    @property
+    def has_halted(self) -> bool:
+        """Whether a channel has halted at a stop or in single block."""
+        return any(run.is_active and run.execution.halt for run in self.runs)
+
+    def go_on_halted(self) -> None:
+        """Channels that have halted go on; those that run or wait for others are left alone."""
+        self._end_halt()
+        for run in self.runs:
+            if run.is_active and run.execution.halt:
+                run.execution.single_block = bool(self.switches.panel.single_block)
+                run.execution.start()
+
     def go_on_from_here(self) -> None:
         """The program goes on from where an operator has left the axes."""
         for run in self.runs:

@@ -123,6 +123,7 @@ class WindowSpec:
     exists: str = ""
     columns: tuple[Column, ...] = ()
     labels: tuple[str, ...] = ()
+    words: Mapping[str, Text] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -193,6 +194,7 @@ class Family:
         measures: It has measured input B.
         tasks: The maintenance schedule of the machine; `periods` and `works` have its words by their ids.
         data_mode: The mode in which data are transferred; empty for every mode.
+        message_line: Messages have a line of their own, beside that of alarms.
     """
 
     start: str
@@ -215,6 +217,7 @@ class Family:
     tasks: tuple[Task, ...] = ()
     periods: Mapping[str, Text] = field(default_factory=dict)
     works: Mapping[str, Text] = field(default_factory=dict)
+    message_line: bool = False
 
 
 @cache
@@ -252,6 +255,7 @@ def family_of(control: str) -> Family:
         tasks=tuple(Task(**row) for row in merged.get("maintenance", ())),
         periods=merged.get("periods", {}),
         works=merged.get("works", {}),
+        message_line=merged.get("message_line", False),
     )
 
 

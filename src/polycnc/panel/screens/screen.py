@@ -18,6 +18,7 @@ from polycnc.mainrun import CommandRefused, Mode
 from polycnc.messages import UserError
 from polycnc.messages.catalogue import language
 from polycnc.panel.screens.actions import ACTIONS, calculate, insert, set_value
+from polycnc.panel.screens.operate import state_of
 from polycnc.panel.screens.pages import SoftKey, in_language
 from polycnc.panel.screens.state import ScreenState
 from polycnc.panel.screens.view import Cell, SoftKeyView, View
@@ -172,6 +173,7 @@ class Screen(ScreenState):
             message=self.refusal.text(lang) if self.refusal is not None else "",
             status=self._status(snapshot, lang),
             alarm=self._alarm(snapshot, lang),
+            note=self._note(snapshot),
         )
 
     def _sequence(self, snapshot: Snapshot) -> str:
@@ -189,6 +191,9 @@ class Screen(ScreenState):
                 number = int(found[1])
                 break
         return self.family.sequence.format(n=number)
+    def _note(self, snapshot: Snapshot) -> str:
+        """The message line: what the program tells, beside the line of alarms, until it takes it back."""
+        return snapshot.messages[-1] if snapshot.messages and self.family.message_line else ""
 
     def _soft_keys(self, keys: tuple[SoftKey, ...], count: int, lang: str) -> tuple[SoftKeyView, ...]:
         shown = [
@@ -201,7 +206,7 @@ class Screen(ScreenState):
 
     def _status(self, snapshot: Snapshot, lang: str) -> tuple[Cell, ...]:
         mode = self.family.modes.get(snapshot.mode, snapshot.mode.upper())
-        state = self.family.states.get(snapshot.state, snapshot.state.upper())
+        state = self.family.states.get(state_of(snapshot), snapshot.state.upper())
         alarm = Cell("EMG" if snapshot.state == "emergency" else "ALM" if snapshot.alarms else "***",
                      "alarm" if snapshot.alarms else "")  # fmt: skip
         moving = any(abs(way) > 1e-6 for way in snapshot.positions.to_go.values()) and snapshot.feed > 0.0
@@ -215,7 +220,7 @@ class Screen(ScreenState):
         if snapshot.alarms:
             alarm = snapshot.alarms[-1]
             return f"{alarm.code} {self.control.alarm_text(alarm, lang)}"
-        return snapshot.messages[-1] if snapshot.messages else ""
+        return snapshot.messages[-1] if snapshot.messages and not self.family.message_line else ""
 
     # ---- cycle start ---------------------------------------------------------------------------------------
 

@@ -6,6 +6,7 @@ from abc import ABC, abstractmethod
 from collections import deque
 from dataclasses import replace
 from functools import cached_property
+from datetime import UTC, datetime
 from typing import TYPE_CHECKING
 
 from polycnc.mainrun import CommandRefused
@@ -15,7 +16,7 @@ from polycnc.panel.screens.measuring import SIGNALS, Measuring
 from polycnc.panel.screens.pages import family_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
+    from collections.abc import Callable, Iterable, Iterator, Mapping
 
     from polycnc.control.parameters import KnownParameter
     from polycnc.mainrun import VirtualControl
@@ -73,6 +74,7 @@ class ScreenState:
         latched: Work coordinates when the signal PRC came last; empty before.
         measuring: Measured input B; None on controls without it.
         writes_parameters: Parameters may be written.
+        clock: The time of day.
         trail: Where the axes have been, machine coordinates, the oldest first.
 
     Raises:
@@ -102,6 +104,8 @@ class ScreenState:
         self.measuring = Measuring(control) if self.family.measures else None
         control.listeners.append(self._hear)
         self.trail: deque[tuple[float, ...]] = deque(maxlen=LONGEST_TRAIL)
+        self.clock: Callable[[], datetime] = lambda: datetime.now(UTC).astimezone()
+        self._came: dict[str, datetime] = {}
         self._cursors: dict[str, tuple[int, int]] = {}
 
     @property
@@ -263,6 +267,17 @@ class ScreenState:
         named = {label: axis for axis, label in RELATIVE.items() if axis in self.control.positions.work}
         return letter if letter in self.control.positions.work else named.get(letter, letter)
 
+    def seen(self, what: object) -> datetime:
+        """When an alarm or a message came: the moment at which the screen has first had it."""
+        return self._came.setdefault(str(what), self.clock())
+
+    def _note_alarms(self) -> None:
+        """Alarms and messages have the moment at which they came; those that have gone may come again."""
+        shown = self.control.snapshot
+        said = [(number, text) for number, each in shown.channels.items() for text in each.messages[-1:]]
+        now = [str(each) for each in (*shown.alarms, *shown.notices, *said)]
+        self._came = {each: self._came.get(each) or self.clock() for each in now}
+
     def follow(self) -> None:
         """Note where the axes are, and go on with what takes time; called while time passes."""
         if self.pending is not None:
@@ -272,6 +287,7 @@ class ScreenState:
             except UserError as refusal:
                 self.refusal = refusal
                 self.finish()
+        self._note_alarms()
         here = tuple(self.control.positions.real.values())
         if not self.trail or here != self.trail[-1]:
             self.trail.append(here)

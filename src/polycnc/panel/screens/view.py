@@ -58,6 +58,7 @@ class View:
         status: What the status line shows, in order.
         alarm: The alarm or message line, or empty.
         sequence: The block number behind the program, as the title line shows it; empty where it shows none.
+        note: The message line where alarms have one of their own, or empty.
     """
 
     page: str
@@ -71,6 +72,7 @@ class View:
     status: tuple[Cell, ...] = field(default=())
     alarm: str = ""
     sequence: str = ""
+    note: str = ""
 
     @property
     def text(self) -> str:

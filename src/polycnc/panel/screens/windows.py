@@ -12,7 +12,7 @@ from polycnc.control.fanuc.lathe.tools.screens import modal_codes
 from polycnc.mainrun import CommandRefused
 from polycnc.messages import text
 from polycnc.panel.description import RETURNED, is_returned
-from polycnc.panel.screens import tables
+from polycnc.panel.screens import operate, tables
 from polycnc.panel.screens.pages import in_language
 from polycnc.panel.screens.view import Cell, Window
 
@@ -378,6 +378,9 @@ KINDS: dict[str, Reader] = {
     "restart": _restart,
     "switches": _switches,
     "soft-switches": _soft_switches,
+    "alarm-list": lambda at: operate.alarm_list(at.screen, at.snapshot, at.lang),
+    "message-list": lambda at: operate.message_list(at.screen, at.snapshot, at.lang),
+    "channel-state": lambda at: operate.channel_state(at.spec.words, at.snapshot, at.lang),
     "graph": _graph,
     "maintenance": _maintenance,
 }

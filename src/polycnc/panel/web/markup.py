@@ -22,10 +22,11 @@ def of_view(view: View) -> str:
         if view.alarm
         else '<div class="alarm-line"></div>'
     )
+    note = f'<div class="note-line">{escape(view.note)}</div>' if view.note else ""
     running = f"{view.program} {view.sequence}".rstrip()
     message = f'<span class="message" role="status">{escape(view.message)}</span>' if view.message else ""
     return (
-        f'<div class="title"><span>{escape(view.title)}</span><span>{escape(running)}</span></div>{alarm}'
+        f'<div class="title"><span>{escape(view.title)}</span><span>{escape(running)}</span></div>{alarm}{note}'
         f'<div class="windows">{windows}</div>'
         f'<div class="buffer"><span>A&gt;{escape(view.buffer)}_</span>{message}</div>'
         f'<div class="status">{status}</div>'

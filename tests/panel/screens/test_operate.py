@@ -1,0 +1,152 @@
+"""SINUMERIK and SYNTEC screens: alarms, messages, modes, the state while a channel waits."""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime
+
+import pytest
+
+from polycnc.mainrun import CommandRefused, State, VirtualControl
+from polycnc.panel.panel import Panel
+from polycnc.panel.screens.screen import Screen
+from tests.panel.screens.test_screen import press
+
+NOON = datetime(2026, 3, 1, 12, 0, 7, tzinfo=UTC)
+WORDS = {"en": ("Date, time", "Cancelled by"), "zh-TW": ("日期時間", "取消條件")}
+
+
+def sinumerik(text: str = "") -> Screen:
+    screen = Screen(VirtualControl("sinumerik-840d"))
+    screen.clock = lambda: NOON
+    if text:
+        runs(screen, text)
+    return screen
+
+
+def runs(screen: Screen, text: str) -> None:
+    screen.control.load(text)
+    screen.control.cycle_start()
+    screen.control.run()
+    screen.follow()
+
+
+@pytest.mark.feature("sie.b.alarm_display", control="sinumerik-840d")
+@pytest.mark.parametrize("lang", ["en", "zh-TW"])
+def test_alarms_have_date_time_and_what_cancels_them_and_stand_apart_from_messages(lang: str) -> None:
+    screen = sinumerik('MSG("FACE MILLING")\nG4 F1\nG1 X5 F100\nSETAL(65000,"LOW OIL")\nG4 F1\nM30\n')
+    press(screen, "ALARM")
+    view = screen.view(lang)
+    assert "2026-03-01 12:00:07" in view.text
+    assert "65000" in view.text
+    assert "RESET //" in view.text
+    assert all(word in view.text for word in WORDS[lang])
+    assert "FACE MILLING" not in view.text
+    assert view.alarm.startswith("65000")
+    assert view.note == "FACE MILLING"
+    press(screen, "Messages")
+    assert "FACE MILLING" in screen.view(lang).text
+    assert "65000" not in screen.view(lang).windows[0].text
+    screen.press("RESET")
+    screen.follow()
+    press(screen, "Alarm list")
+    assert screen.view(lang).text == screen.view(lang).alarm == ""
+    press(screen, "Alarm log")
+    assert "65000" in screen.view(lang).text
+
+
+def test_an_alarm_keeps_the_moment_at_which_it_came_and_comes_anew() -> None:
+    screen = sinumerik("SETAL(65000)\nG4 F1\nM30\n")
+    screen.show("alarms")
+    later = NOON.replace(hour=13)
+    screen.clock = lambda: later
+    screen.follow()
+    assert "12:00:07" in screen.view("en").text
+    screen.press("RESET")
+    screen.follow()
+    runs(screen, "SETAL(65000)\nG4 F1\nM30\n")
+    assert "13:00:07" in screen.view("en").text
+
+
+@pytest.mark.feature("sie.b.msg", "sie.msg_expr", control="sinumerik-840d")
+@pytest.mark.parametrize("lang", ["en", "zh-TW"])
+def test_a_message_of_expressions_stands_in_its_line_until_it_is_taken_back(lang: str) -> None:
+    screen = sinumerik(
+        'DEF INT PIECE=7\nMSG("PART "<<PIECE<<" DONE")\nG4 F0.1\nM0\nMSG()\nG4 F0.1\nM0\nM30\n'
+    )
+    for page in screen.family.pages:
+        screen.show(page)
+        assert screen.view(lang).note == "PART 7 DONE"
+        assert screen.view(lang).alarm == ""
+    screen.control.cycle_start()
+    screen.control.run()
+    screen.follow()
+    screen.show("messages")
+    assert screen.view(lang).note == ""
+    assert screen.view(lang).windows[0].text == ""
+    assert "PART 7 DONE" in screen.view(lang).windows[1].text
+
+
+@pytest.mark.feature("sie.b.modes", control="sinumerik-840d")
+@pytest.mark.parametrize("lang", ["en", "zh-TW"])
+def test_modes_move_axes_run_typed_blocks_and_run_programs(lang: str) -> None:
+    screen = sinumerik()
+    control, panel = screen.control, Panel(screen.control)
+
+    def mode() -> str:
+        return screen.view(lang).status[0].text
+
+    panel.turn("mode", "jog")
+    assert mode() == "JOG"
+    panel.press("X+")
+    control.step(0.5)
+    panel.release("X+")
+    control.run()
+    assert control.positions.machine["X"] > 0.0
+    with pytest.raises(CommandRefused):
+        panel.press("START")
+    panel.turn("mode", "zero")
+    assert mode() == "REF"
+    panel.press("X+")
+    control.run()
+    assert control.positions.machine["X"] == pytest.approx(0.0, abs=1e-9)
+    panel.turn("mode", "mdi")
+    assert mode() == "MDA"
+    screen.press("MACHINE")
+    press(screen, "MDA")
+    screen.type("G0 X12.5")
+    screen.press("INPUT")
+    assert "G0 X12.5" in screen.view(lang).text
+    assert screen.takes_start()
+    control.run()
+    assert "12.500" in screen.view(lang).text
+    panel.turn("mode", "auto")
+    assert mode() == "AUTO"
+    control.load("G0 X1\nX2\nM30\n")
+    panel.press("START")
+    assert control.run() is State.READY
+    assert control.positions.work["X"] == pytest.approx(2.0)
+
+
+TWO = "$1\nG00 X0. Y0.\nG04.1 P1\nM30\n$2\nG00 X0. Y0.\nG00 Y50.\nG04.1 P1\nM99\n"
+STATES = {"en": ("Block stop", "Machining.."), "zh-TW": ("單節停止", "加工中..")}
+
+
+@pytest.mark.feature("syn.g04_1_status", control="syntec-mill")
+@pytest.mark.parametrize("lang", ["en", "zh-TW"])
+def test_a_channel_that_waits_is_shown_as_machining(lang: str) -> None:
+    control = VirtualControl("syntec-mill", machine="mill2-2ch")
+    screen = Screen(control)
+    press(screen, "PROG")
+    control.load(TWO)
+    control.set_switches(single_block=True)
+    stands, machines = STATES[lang]
+    control.cycle_start()
+    control.run()
+    assert stands in screen.view(lang).text
+    assert screen.view(lang).status[1].text == "B-STOP"
+    control.cycle_start()  # $1 waits for $2, which stands behind its own block
+    control.run(limit_s=30.0)
+    assert control.channels[1].waits
+    assert machines in screen.view(lang).text
+    assert stands not in screen.view(lang).text
+    assert screen.view(lang).status[1].text == "BUSY"
