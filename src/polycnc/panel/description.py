@@ -21,7 +21,7 @@ PANELS = {
     "fanuc-m": ("hartford.toml", "fanuc-m.toml"),
     "meldas-m": ("hartford.toml", "meldas-m.toml"),
     "fanuc-0i-tf": ("standard.toml", "fanuc-0i-tf.toml"),
-    "sinumerik-840d": ("standard.toml",),
+    "sinumerik-840d": ("standard.toml", "sinumerik-840d.toml"),
     "syntec-mill": ("standard.toml",),
 }
 #: Mark of an axis that is back at its restart position (Hartford 5.2.4.8 f: the figure has RP, the text PR).
@@ -83,7 +83,11 @@ class Key(Lamp):
 
 @dataclass(frozen=True)
 class Switch:
-    """A rotary or key switch: its positions, and what each of them means."""
+    """A rotary or key switch: its positions, and what each of them means.
+
+    Attributes:
+        rights: What its positions mean is the protection level that programs have.
+    """
 
     id: str
     name: Mapping[str, str]
@@ -91,6 +95,7 @@ class Switch:
     values: tuple[float, ...]
     start: str
     signal: str = ""
+    rights: bool = False
 
     def value(self, position: str) -> float:
         """What a position means; raises `ValueError` where there is none of that name."""

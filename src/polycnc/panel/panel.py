@@ -12,9 +12,11 @@ control's `plc.toml`. Here stands only how a hand works a panel.
 from __future__ import annotations
 
 from enum import StrEnum
+from functools import partial
 from math import isfinite
 from typing import TYPE_CHECKING
 
+from polycnc.control.sinumerik.data.access import turn_key_switch
 from polycnc.mainrun import CommandRefused, State
 from polycnc.mainrun.commands.states import Command
 from polycnc.messages import AlarmError, text
@@ -77,6 +79,7 @@ class Panel:
         )
         self.locked: Callable[[], AbstractSet[tuple[str, int]]] = frozenset
         self._pressed: set[str] = set()
+        self._give_rights()
 
     # ---- keys ----------------------------------------------------------------------------------------------
 
@@ -167,6 +170,8 @@ class Panel:
             control.emergency_stop()
         else:
             {"feed_hold": control.feed_hold, "reset": control.reset, "power_on": control.power_on}[command]()
+        if command == "power_on":
+            self._give_rights()
 
     def _cycle_start(self) -> None:
         """Cycle start; while program restart is on, and until the axes are back, only the automatic way leads back."""
@@ -256,12 +261,21 @@ class Panel:
 
     def _apply(self, switch: Switch) -> None:
         value = switch.value(self.positions[switch.id])
-        if switch.signal:
+        if switch.rights:
+            for number in range(1, max(len(self.control.machine.channels), 1) + 1):
+                self.control.change(partial(turn_key_switch, level=int(value)), channel=number)
+        elif switch.signal:
             self.control.signals[switch.signal] = value
         elif switch.id == "rapid":
             self.control.override(rapid=value or self._f0_share())
         elif switch.id in ("feed", "spindle"):
             self.control.override(**{switch.id: value})
+
+    def _give_rights(self) -> None:
+        """Programs have the rights of the key switch, which keeps its position without power."""
+        for row in self.description.switches.values():
+            if row.rights:
+                self._apply(row)
 
     def _f0_share(self) -> float:
         """The lowest position of the rapid override as a share of the fastest axis' rapid traverse."""

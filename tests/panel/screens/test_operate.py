@@ -127,6 +127,41 @@ def test_modes_move_axes_run_typed_blocks_and_run_programs(lang: str) -> None:
     assert control.positions.work["X"] == pytest.approx(2.0)
 
 
+@pytest.mark.feature("sie.b.keyswitch", control="sinumerik-840d")
+@pytest.mark.parametrize("lang", ["en", "zh-TW"])
+@pytest.mark.parametrize("needed", [7, 6, 5, 4, 3])
+def test_each_position_of_the_key_switch_has_its_rights(needed: int, lang: str) -> None:
+    files = {"_N_MGUD_DEF": f"DEF NCK INT APWP {needed} SECRET=4\nM30\n"}
+    screen = Screen(VirtualControl("sinumerik-840d", files=files))
+    control, panel = screen.control, Panel(screen.control)
+    control.load("SECRET=SECRET+1\nG4 F0.1\nM30\n")
+    for position, level in (("0", 7), ("3", 4), ("1", 6), ("2", 5), ("0", 7)):
+        panel.turn("key_switch", position)
+        assert panel.positions["key_switch"] == position
+        control.cycle_start()
+        control.run()
+        allowed = level <= needed
+        assert (control.state is State.READY) is allowed, position
+        press(screen, "ALARM")
+        view = screen.view(lang)
+        assert ("17070" in view.text) is not allowed
+        assert ("SECRET" in view.alarm) is not allowed
+        screen.press("RESET")
+
+
+def test_the_key_switch_keeps_its_position_without_power() -> None:
+    files = {"_N_MGUD_DEF": "DEF NCK INT APWP 4 SECRET=4\nM30\n"}
+    control = VirtualControl("sinumerik-840d", files=files)
+    panel = Panel(control)
+    panel.turn("key_switch", "0")
+    control.power_off()
+    panel.press("POWER_ON")
+    control.load("SECRET=5\nG4 F0.1\nM30\n")
+    control.cycle_start()
+    control.run()
+    assert [alarm.code for alarm in control.alarms] == ["17070"]
+
+
 TWO = "$1\nG00 X0. Y0.\nG04.1 P1\nM30\n$2\nG00 X0. Y0.\nG00 Y50.\nG04.1 P1\nM99\n"
 STATES = {"en": ("Block stop", "Machining.."), "zh-TW": ("單節停止", "加工中..")}
 

@@ -253,8 +253,7 @@ class SinumerikProgram:
                 main = main_program.scope_of(channel)
             self._scope = Scope(memory, self.control, main)
             if not self.is_definition_file:
-                own = memory.directory_levels.get(self.program.directory, rights.LOWEST)
-                self._scope.level = min(memory.access_level, own)
+                self._scope.own_level = memory.directory_levels.get(self.program.directory, rights.LOWEST)
             memory.programs.add(self)
             if not memory.definitions_loaded:
                 memory.definitions_loaded = True

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from polycnc.program.names import CYCLE_DIRS
 
 if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.data.machine_data import MachineData
     from polycnc.control.sinumerik.family import SinumerikChannel
 
@@ -32,6 +33,15 @@ def operator_level(channel: SinumerikChannel) -> int:
     if isinstance(given, (int, float)):
         return int(given)
     return next((level for level, signal in KEY_SWITCH.items() if switches.plc.get(signal)), MANUFACTURER)
+
+
+def turn_key_switch(channel: Channel, level: int) -> None:
+    """The key switch gives programs this level from here on; a password of the setup counts where it is higher."""
+    given = channel.setup.switches.signals.get(SIGNAL)
+    password = int(given) if isinstance(given, (int, float)) else level
+    language = channel.memory.language
+    language.access_level = min(level, password)
+    language.programs.forget_steps()  # blocks are asked for their rights when they are compiled
 
 
 def directory_levels(data: MachineData) -> dict[str, int]:

@@ -38,7 +38,7 @@ class Scope:
         variables: Local variables and parameters of the program, upper case.
         macros: Texts of DEFINE … AS of the program.
         main: The main program's scope, where its variables are known here too (MD11120).
-        level: Protection level of the program, 0 the highest.
+        own_level: Protection level that the program has by itself, 0 the highest.
     """
 
     def __init__(self, memory: LanguageMemory, control: LanguageControl, main: Scope | None = None) -> None:
@@ -50,7 +50,12 @@ class Scope:
         self.externals: dict[str, tuple[tuple[bool, Type], ...]] = {}
         self.execute = control.execute
         self.slots = 0
-        self.level = 0
+        self.own_level = 0
+
+    @property
+    def level(self) -> int:
+        """Protection level of the program now: its own, or that of the operator if that is higher."""
+        return min(self.memory.access_level, self.own_level)
 
     def find(self, name: str) -> Variable | None:
         """The user variable of this name."""
