@@ -185,3 +185,35 @@ def test_a_channel_that_waits_is_shown_as_machining(lang: str) -> None:
     assert machines in screen.view(lang).text
     assert stands not in screen.view(lang).text
     assert screen.view(lang).status[1].text == "BUSY"
+
+
+BLANKS = {
+    '"BOX",112,0,-50,-80,-60,-60,60,60': "BOX ZA 0 ZI -50 ZB -80 X0 -60 Y0 -60 X1 60 Y1 60",
+    '"BOX",64,0,50,-80,10,0,100.5,100': "BOX ZA 0 ZI 50 ZB -80 X0 10 Y0 0 X1 110.5 Y1 100",
+    '"BOX",32,5,-50,-80,-60,-60,60,60': "BOX ZA 5 ZI -45 ZB -75 X0 -60 Y0 -60 X1 0 Y1 60",
+    '"CYLINDER",192,2,-100,-80,90': "CYLINDER ZA 2 ZI -100 ZB -80 XA 90",
+    '"CYLINDER",0,2,-100,-80,90': "CYLINDER ZA 2 ZI -98 ZB -78 XA 90",
+    '"PIPE",192,0,-40,-30,90,60': "PIPE ZA 0 ZI -40 ZB -30 XA 90 XI 60",
+    '"PIPE",448,0,-40,-30,90,5': "PIPE ZA 0 ZI -40 ZB -30 XA 90 XI 80",
+    '"RECTANGLE",64,1,-20,0,100,80': "RECTANGLE ZA 1 ZI -20 ZB 1 W 100 L 80",
+    '"N_CORNER",64,1,-20,0,6,50': "N_CORNER ZA 1 ZI -20 ZB 1 N 6 SW 50",
+}
+
+
+@pytest.mark.feature("sie.c.workpiece", control="sinumerik-840d")
+@pytest.mark.parametrize(("lang", "word"), [("en", "Blank"), ("zh-TW", "毛胚")])
+@pytest.mark.parametrize("given", BLANKS)
+def test_the_blank_stands_beside_the_picture_until_it_is_taken_back(given: str, lang: str, word: str) -> None:
+    screen = sinumerik(f'G0 X3\nWORKPIECE(,"",,{given})\nG4 F0.1\nM0\nWORKPIECE()\nG4 F0.1\nM0\nM30\n')
+    press(screen, "MENU SELECT")
+    press(screen, "Machine")
+    press(screen, "Simult. view")
+    shown = screen.view(lang).windows[1].text.split()
+    values = [
+        cell if not cell.replace(".", "").strip("-").isdigit() else f"{float(cell):g}" for cell in shown
+    ]
+    assert " ".join(values) == f"{word} {BLANKS[given]}"
+    assert screen.control.positions.work == pytest.approx({"X": 3.0, "Y": 0.0, "Z": 0.0})
+    screen.control.cycle_start()
+    screen.control.run()
+    assert screen.view(lang).windows[1].text == ""

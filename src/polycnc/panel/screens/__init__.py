@@ -3,7 +3,7 @@
 pages     what a family has: pages, their windows, soft keys and function keys, read from the TOML files beside it
 view      what is on the screen at one moment: windows with rows of cells, soft keys, status lines
 windows   what a window of each kind shows
-operate   windows of SINUMERIK and SYNTEC alone: alarms with date and time, messages, the state of channels
+operate   windows of SINUMERIK and SYNTEC alone: alarms with date and time, messages, channels, the blank
 sources   where the fields of tables come from
 tables    windows with fields that can be written: offsets, tools, variables
 actions   what soft keys and keys of the MDI unit do with the key-in buffer

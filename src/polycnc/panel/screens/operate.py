@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, TypeAlias
 
+from polycnc.control.sinumerik.variables.blank import blank_of
 from polycnc.messages import text
 from polycnc.panel.screens.pages import in_language
 from polycnc.panel.screens.view import Cell
@@ -75,6 +76,19 @@ def channel_state(words: Mapping[str, Text], snapshot: Snapshot, lang: str) -> R
     mode = in_language(words.get(snapshot.mode, ""), lang)
     alarm = in_language(words.get("ALARM", ""), lang) if snapshot.alarms else ""
     return ((Cell(state, "value"), Cell(mode, "value"), Cell(alarm, "alarm")),)
+
+
+def blank(screen: ScreenState, lang: str) -> Rows:
+    """The blank that the program has described (WORKPIECE): form, the offset it refers to, dimensions."""
+    found = blank_of(screen.control.channel)
+    if found is None:
+        return ()
+    head = [Cell(text("screen.blank", lang), "label"), Cell(found.form, "value"), Cell(found.zero, "value")]
+    rows = [
+        (Cell(name, "label"), Cell(f"{value:.{screen.digits if name != 'N' else 0}f}", "value"))
+        for name, value in found.values.items()
+    ]
+    return (tuple(head), *rows)
 
 
 def _stamp(moment: datetime) -> str:

@@ -381,6 +381,7 @@ KINDS: dict[str, Reader] = {
     "alarm-list": lambda at: operate.alarm_list(at.screen, at.snapshot, at.lang),
     "message-list": lambda at: operate.message_list(at.screen, at.snapshot, at.lang),
     "channel-state": lambda at: operate.channel_state(at.spec.words, at.snapshot, at.lang),
+    "blank": lambda at: operate.blank(at.screen, at.lang),
     "graph": _graph,
     "maintenance": _maintenance,
 }

@@ -2,6 +2,7 @@
 
 row            what a variable is
 stored         values that only store
+blank          the blank of WORKPIECE, for pictures
 clock          date and time
 run_times      timers of programs
 part_counts    workpiece counters
