@@ -191,6 +191,7 @@ class Screen(ScreenState):
                 number = int(found[1])
                 break
         return self.family.sequence.format(n=number)
+
     def _note(self, snapshot: Snapshot) -> str:
         """The message line: what the program tells, beside the line of alarms, until it takes it back."""
         return snapshot.messages[-1] if snapshot.messages and self.family.message_line else ""
