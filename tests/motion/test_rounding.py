@@ -30,7 +30,7 @@ contexts = st.sampled_from(
 )
 
 
-@settings(derandomize=True, max_examples=60, deadline=None)
+@settings(max_examples=2000 if settings.get_current_profile_name() == "explore" else 60, deadline=None)
 @given(st.lists(st.one_of(line, arc, spiral), min_size=2, max_size=6), contexts)
 def test_axes_keep_their_acceleration_at_every_sample(
     steps: list[tuple[str, float, float, float, float]], context: Context
