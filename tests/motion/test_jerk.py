@@ -65,7 +65,7 @@ def runs(rows: Build, machine: Machine, lead: Settings = SOFT) -> tuple[float, l
 
 
 def check(rows: Build, machine: Machine) -> None:
-    """Every axis within its limits, by the differences of the positions too; planned time and that of the runs agree."""
+    """Every axis within its limits, by the differences of positions too; planned time and that of the runs agree."""
     total, found = runs(rows, machine)
     assert sum(run.seconds for run in found) == pytest.approx(total, rel=1e-6)
     for run in found:
