@@ -1,4 +1,7 @@
-"""The operator panel: what stands on it (`description`, data), and what its keys, switches and lamps do (`panel`)."""
+"""The operator panel: what stands on it (`description`, data), and what its keys, switches and lamps do (`panel`).
+
+`editing` has what an editor says of a program's text.
+"""
 
 from polycnc.panel.description import PanelDescription, describe
 from polycnc.panel.panel import Light, Panel

@@ -14,6 +14,7 @@ from polycnc.messages import text
 from polycnc.messages.catalogue import LANGUAGES
 from polycnc.panel.panel import Light
 from polycnc.panel.screens.pages import in_language
+from polycnc.panel.web.editor import Editor
 from polycnc.panel.web.markup import of_view
 
 if TYPE_CHECKING:
@@ -56,6 +57,7 @@ class Page:
         self._shown: dict[str, str] = {}
         self._refreshers: list[Callable[[], None]] = []
         self._held: set[str] = set()
+        self._editor = Editor(desk, self._lang)
         self._body = ui.element("main").classes("desk")
         self._build()
         ui.keyboard(on_key=self._typed, ignore=["input", "select", "textarea"])
@@ -176,6 +178,7 @@ class Page:
                     self._key({"en": "EN", "zh-TW": "中"}.get(lang, lang), partial(self._speak, lang))
                 self._key("☀", self._day, hint=text("panel.theme", self._lang))
                 self._key("?", self._help, hint=text("panel.help", self._lang))
+                self._key("✎", self._edit, hint=text("editor.title", self._lang))
         with self._group("panel.mode-switch"), ui.element("div").classes("flow"):
             modes = {
                 name: self._key(in_language(mode.name, self._lang), partial(desk.turn, "mode", name))
@@ -288,6 +291,8 @@ class Page:
     # ---- the page itself -----------------------------------------------------------------------------------
 
     def _typed(self, event: KeyEventArguments) -> None:
+        if self._editor.is_open:
+            return
         if not event.action.keydown or event.modifiers.ctrl or event.modifiers.alt or event.modifiers.meta:
             return
         name = str(event.key.name)
@@ -319,6 +324,10 @@ class Page:
 
     def _day(self) -> None:
         ui.run_javascript("document.body.classList.toggle('day')")
+
+    def _edit(self) -> None:
+        self._editor = Editor(self._desk, self._lang)
+        self._editor.open()
 
     def _help(self) -> None:
         """The sheet of keys."""

@@ -1,0 +1,112 @@
+"""The program editor of a page: text in colours, findings while it is typed, and back into the control's memory."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from nicegui import ui
+
+from polycnc.mainrun import CommandRefused
+from polycnc.messages import UserError, text
+from polycnc.panel.editing import findings, parts
+
+if TYPE_CHECKING:
+    from polycnc.panel.editing import Finding
+    from polycnc.panel.web.desk import Desk
+
+#: A check follows when nothing has been typed for so long, s.
+PAUSE_S = 0.4
+#: Programs up to this length are shown in colours and checked while they are typed, characters.
+LONGEST = 200_000
+
+
+class Editor:
+    """A sheet over the page with the text of a program.
+
+    Args:
+        desk: The desk whose control has the program.
+        lang: Language of findings and refusals.
+
+    Attributes:
+        is_open: It is on the page: what is typed goes into it.
+    """
+
+    def __init__(self, desk: Desk, lang: str) -> None:
+        self._desk, self._lang = desk, lang
+        self.is_open = False
+        self._due = False
+
+    def open(self) -> None:
+        """Show the program that is loaded, or an empty text where there is none."""
+        name = self._desk.control.program
+        try:
+            source = "\n".join(self._desk.control.program_lines(name)) + "\n" if name else ""
+        except CommandRefused:
+            source = ""
+        self.is_open = True
+        # No dialog of Quasar: it grows while it opens, and the editor would measure its lines in the midst of that.
+        with ui.element("div").classes("editor").props('role="dialog" aria-modal="true"') as self._dialog:
+            with ui.element("div").classes("editor-head"):
+                self._name = ui.input(text("editor.name", self._lang), value=name).props("outlined dense")
+                self._button("editor.save", self._save)
+                self._button("editor.close", self._close)
+                self._said = ui.label("").classes("editor-said").props('role="status"')
+            self._text = ui.codemirror(source, on_change=self._changed).classes("editor-text")
+            self._found = ui.element("ul").classes("editor-found").props('role="log"')
+            ui.timer(PAUSE_S, self._check_if_due)
+        self._check()
+
+    def _button(self, name: str, act: object) -> None:
+        with ui.element("button").classes("k").props('type="button"') as key:
+            ui.label(text(name, self._lang))
+        key.on("click", act)
+
+    def _changed(self) -> None:
+        self._due = True
+
+    def _check_if_due(self) -> None:
+        if self._due:
+            self._check()
+
+    def _check(self) -> None:
+        """Colours and findings of the text as it is now."""
+        self._due = False
+        source = self._text.value
+        if len(source) > LONGEST:
+            self._text.decorations = []
+            return
+        control = self._desk.control
+        found = findings(control, self._name.value or "MAIN", source, self._lang)
+        marks: list[dict[str, object]] = [
+            {"kind": "mark", "from": part.start, "to": part.end, "class": f"nc-{part.kind}"}
+            for part in parts(control.control.id, source)
+        ]
+        lines = {each.line for each in found if each.line}
+        marks += [{"kind": "line", "line": line, "class": "nc-wrong"} for line in sorted(lines)]
+        self._text.decorations = marks
+        self._text.line_tooltips = {each.line: f"{each.code} {each.text}" for each in found if each.line}
+        self._tell(found)
+
+    def _tell(self, found: tuple[Finding, ...]) -> None:
+        self._found.clear()
+        with self._found:
+            for each in found:
+                place = ":".join(str(number) for number in (each.line, each.column) if number)
+                with ui.element("li"):
+                    ui.label(f"{place} {each.code} {each.text}")
+            if not found:
+                with ui.element("li"):
+                    ui.label(text("editor.clean", self._lang))
+
+    def _save(self) -> None:
+        """Into the memory; what the control refuses is said here."""
+        try:
+            self._desk.control.store_program(self._name.value or "MAIN", self._text.value)
+        except UserError as refusal:
+            self._said.set_text(refusal.text(self._lang))
+            return
+        self._said.set_text(text("editor.saved", self._lang, name=self._name.value or "MAIN"))
+
+    def _close(self) -> None:
+        self.is_open = False
+        self._dialog.delete()
