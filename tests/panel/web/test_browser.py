@@ -34,7 +34,8 @@ async def browse(port: int, journey: Callable[[Callable[[str], Awaitable[Any]]],
     """Talk to the page of a browser; the journey gets a function that evaluates JavaScript."""
     from websockets.asyncio.client import connect
 
-    until, pages = monotonic() + PATIENCE_S, []
+    until = monotonic() + PATIENCE_S
+    pages: list[Any] = []
     while not pages and monotonic() < until:
         try:
             with urllib.request.urlopen(f"http://127.0.0.1:{port}/json", timeout=5) as listed:

@@ -11,6 +11,8 @@ from polycnc.messages import UserError, text
 from polycnc.panel.editing import findings, parts
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from polycnc.panel.editing import Finding
     from polycnc.panel.web.desk import Desk
 
@@ -56,7 +58,7 @@ class Editor:
             ui.timer(PAUSE_S, self._check_if_due)
         self._check()
 
-    def _button(self, name: str, act: object) -> None:
+    def _button(self, name: str, act: Callable[[], None]) -> None:
         with ui.element("button").classes("k").props('type="button"') as key:
             ui.label(text(name, self._lang))
         key.on("click", act)
