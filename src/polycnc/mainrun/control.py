@@ -200,14 +200,18 @@ class VirtualControl:
         """
         self._data.write_variable(name, value, channel)
 
-    def change(self, action: Callable[[Channel], object], *, channel: int = 1) -> None:
+    def change(
+        self, action: Callable[[Channel], object], *, channel: int = 1, protected: bool = True
+    ) -> None:
         """Change data by a function of the control's, such as those of its offset screens; it lasts from here on.
+
+        What is not `protected` changes under edit protection too: the key switch is no datum.
 
         Raises:
             CommandRefused: Edit protection is on.
             UserError: The function refuses it.
         """
-        self._data.change(action, channel)
+        self._data.change(action, channel, protected=protected)
 
     @property
     def parameters(self) -> tuple[KnownParameter, ...]:

@@ -263,7 +263,8 @@ class Panel:
         value = switch.value(self.positions[switch.id])
         if switch.rights:
             for number in range(1, max(len(self.control.machine.channels), 1) + 1):
-                self.control.change(partial(turn_key_switch, level=int(value)), channel=number)
+                turned = partial(turn_key_switch, level=int(value))
+                self.control.change(turned, channel=number, protected=False)
         elif switch.signal:
             self.control.signals[switch.signal] = value
         elif switch.id == "rapid":

@@ -153,7 +153,9 @@ def test_the_key_switch_keeps_its_position_without_power() -> None:
     files = {"_N_MGUD_DEF": "DEF NCK INT APWP 4 SECRET=4\nM30\n"}
     control = VirtualControl("sinumerik-840d", files=files)
     panel = Panel(control)
+    panel.turn("edit_protect", "on")
     panel.turn("key_switch", "0")
+    panel.turn("edit_protect", "off")
     control.power_off()
     panel.press("POWER_ON")
     control.load("SECRET=5\nG4 F0.1\nM30\n")

@@ -75,9 +75,10 @@ class DataCommands:
             raise CommandRefused("setup.no-variable", name=name) from None
         self._show()
 
-    def change(self, action: Callable[[Channel], object], channel: int) -> None:
+    def change(self, action: Callable[[Channel], object], channel: int, *, protected: bool) -> None:
         """Change data by a function of the control's."""
-        self._check_protection()
+        if protected:
+            self._check_protection()
         action(self._operation.runs.named(channel).channel)
         self._show()
 
