@@ -83,6 +83,8 @@ class SyntecParameters(ControlParameters["SyntecAxisParameters"]):
     feed_per_revolution = Whole(3836, delivered=0)
     #: 3838: Second travel limits at power-on: off (0) or on (1).
     travel_2_at_start = Whole(3838, delivered=0)
+    #: 3839: The rotation of the work system (G54.4) is on at power-on.
+    rotates_at_start = Whole(3839, delivered=0)
     #: 3957: Oscillation stops at R (0) or at once (1).
     oscillation_stop = Whole(3957, delivered=0)
     #: 3991: Least angle of an outer corner that an intersection leads round, least units.

@@ -61,13 +61,21 @@ def end_tilt(channel: SyntecChannel, words: Words) -> None:
 
 
 def switch_work_rotation(channel: SyntecChannel, words: Words) -> None:
-    """G54.4 P0, P1: rotation of the work system; the angles belong to the offset page and are zero here."""
+    """G54.4 P0, P1: rotation of the work system; the angles belong to the offset page and are zero here.
+
+    With Pr3229 = 1 there are no work systems, and the code has no effect (2.39.4).
+    """
     switch = words.typed("P")
     if switch is None:
         raise words.fail("argument", "G54.4")
     if switch not in (0, 1):
         raise words.fail("number", "P")
-    TurnState.of(channel).by_table = switch == 1
+    rotate_work_system(channel, on=switch == 1)
+
+
+def rotate_work_system(channel: SyntecChannel, *, on: bool) -> None:
+    """The rotation of the work system is on or off; it is off where Pr3229 takes work systems away."""
+    TurnState.of(channel).by_table = on and not channel.memory.parameters.without_work_systems
 
 
 def _position_in_work_system(channel: SyntecChannel) -> Vector:
