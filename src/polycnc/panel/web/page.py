@@ -149,7 +149,8 @@ class Page:
                     self._key(name, partial(screen.press, name))
             with ui.element("div").classes("row"):
                 for name in self._editing():
-                    self._key(EDITING.get(name, name), partial(screen.press, name), hint=name)
+                    label = EDITING.get(name, name).replace("/", "/ ")  # two legends stand one above the other
+                    self._key(label, partial(screen.press, name), hint=name)
             for letters in screen.family.letters:
                 with ui.element("div").classes("row"):
                     for letter in letters.split():
