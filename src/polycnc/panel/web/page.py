@@ -149,7 +149,8 @@ class Page:
                     self._key(name, partial(screen.press, name))
             with ui.element("div").classes("row"):
                 for name in self._editing():
-                    label = EDITING.get(name, name).replace("/", "/ ")  # two legends stand one above the other
+                    # Two legends stand one above the other.
+                    label = EDITING.get(name, name).replace("/", "/ ")
                     self._key(label, partial(screen.press, name), hint=name)
             for letters in screen.family.letters:
                 with ui.element("div").classes("row"):
