@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.syntec.axis_groups import names
 from polycnc.control.word_address.block.codes import GCode
 from polycnc.control.word_address.block.plan import Builder
 from polycnc.machine.model import program_called
@@ -12,7 +11,7 @@ from polycnc.machine.model import program_called
 if TYPE_CHECKING:
     from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.codes import Step
-    from polycnc.control.word_address.block.plan import AxisWord, Plan
+    from polycnc.control.word_address.block.plan import Plan
     from polycnc.control.word_address.control import WordAddressControl
     from polycnc.program import Program
 
@@ -78,10 +77,6 @@ class SyntecBuilder(Builder):
         """As everywhere; a block whose registered codes are plain has been asked already."""
         return None if self.plain else super().replacement(plan)
 
-    def axis_words(self) -> tuple[AxisWord, ...]:
-        """The axis words of the block, those of virtual axes included."""
-        return (*super().axis_words(), *names.virtual_words(self))
-
     def code_program(self, name: str) -> Program:
         """The program of a registered code."""
         program = self.channel.store.find_name(name)
@@ -115,3 +110,9 @@ class SyntecBuilder(Builder):
         if self._plain_plan is None:
             self._plain_plan = type(self)(channel, self.control, self.signature, plain=True).build()
         return self._plain_plan
+
+
+def may_call_by_g(builder: Builder) -> bool:
+    """Whether a G code of the block, or the motion code that holds in it, may call a macro."""
+    assert isinstance(builder, SyntecBuilder)  # the control makes no other
+    return bool(builder.g_macros) or any(builder.channel.memory.parameters.g_macros)

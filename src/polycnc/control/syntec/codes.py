@@ -158,7 +158,7 @@ M_CODES = m_table(
 )
 
 ADDRESSES = {
-    "F": moves.plan_feed,
+    "F": functions.plan_feed,
     "S": spindles.plan_speed,
     **{f"S{number}": spindles.plan_named_speed(number) for number in range(1, 11)},
     "T": functions.plan_tool,

@@ -11,7 +11,7 @@ from polycnc.channel.stack import LevelKind
 from polycnc.compensation.policy import Policy
 from polycnc.control.syntec import cycles
 from polycnc.control.syntec.alarm_codes import ALARMS, FOREIGN_CODES
-from polycnc.control.syntec.axis_groups import borrowing, groups
+from polycnc.control.syntec.axis_groups import borrowing, groups, names
 from polycnc.control.syntec.builder import SyntecBuilder
 from polycnc.control.syntec.codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
 from polycnc.control.syntec.coordinates import systems
@@ -108,6 +108,8 @@ class SyntecMill(WordAddressControl):
         oscillation.RULE,
         spatial.RULE,
         calls.RULE,
+        names.RULE,
+        moves.LEAD_RULE,
         whole_numbers.RULE,
         tip_control.RULE,
         drilling_cycles.RULE,

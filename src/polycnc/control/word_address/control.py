@@ -451,9 +451,8 @@ class WordAddressControl:
         channel = builder.channel
         if channel.axis_data[axis].rotary:
             return angle_converter(form, builder.rules)
-        return length_converter(
-            form, builder.rules, inch=builder.inch, diameter=self.is_diameter(channel, axis)
-        )
+        diameter = builder.footing.diameters[axis]
+        return length_converter(form, builder.rules, inch=builder.inch, diameter=diameter)
 
     def axis_of_address(self, channel: Channel, address: str, builder: Builder) -> tuple[int, bool] | None:
         """The axis that an address names and whether the word is an increment; None for another address."""

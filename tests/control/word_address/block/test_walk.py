@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 SOURCES = str(Path(polycnc.__file__).parent)
 #: How many files a plain G1 enters at most; a control with features of its own at every block has some more.
-MOST = {"fanuc-m": 13, "meldas-m": 13, "syntec-mill": 22, "fanuc-0i-tf": 18}
+MOST = {"fanuc-m": 13, "meldas-m": 13, "syntec-mill": 14, "fanuc-0i-tf": 14}
 
 
 def files_entered(control_id: str, signature: tuple[str, ...], values: list[float]) -> list[str]:

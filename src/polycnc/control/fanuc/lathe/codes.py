@@ -17,7 +17,7 @@ from polycnc.control.fanuc.lathe.cycles import grinding as turning_grinding
 from polycnc.control.fanuc.lathe.cycles import repetitive, single
 from polycnc.control.fanuc.lathe.cycles.drilling import NORMAL_CYCLES, SERIES_15_CYCLES
 from polycnc.control.fanuc.lathe.cycles.tapping import RIGID, RIGID_OFF, rigid_tapping
-from polycnc.control.fanuc.lathe.motion import drawing, threads
+from polycnc.control.fanuc.lathe.motion import threads
 from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.fanuc.lathe.tools import data_input, measuring, nose_radius, offsets
 from polycnc.control.word_address.auxiliary import functions
@@ -73,8 +73,8 @@ def _cycle(code: str, handler: object) -> GCode:
 
 
 ROWS: tuple[Row, ...] = (
-    *same(_motion("G0", drawing.plan_rapid)),
-    *same(_motion("G1", drawing.plan_line)),
+    *same(_motion("G0", path.plan_rapid)),
+    *same(_motion("G1", path.plan_line)),
     *same(_motion("G2", path.plan_arc_cw)),
     *same(_motion("G3", path.plan_arc_ccw)),
     *same(_point("G4", turning_auxiliary.dwell, "X P U")),

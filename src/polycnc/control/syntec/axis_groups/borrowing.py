@@ -38,11 +38,14 @@ class BorrowingState(State, lifetime=Lifetime.POWER):
 
 def roams(channel: SyntecChannel, axis: int) -> bool:
     """Whether an axis belongs to whoever borrows it."""
-    parameters = channel.memory.parameters
-    if parameters.shared_axes != ROAMING:
+    if _none_roam(channel):
         return False
-    mask = parameters.axis_groups[axis]
+    mask = channel.memory.parameters.axis_groups[axis]
     return mask & (mask - 1) != 0 and bool(mask >> (channel.number - 1) & 1)
+
+
+def _none_roam(channel: SyntecChannel) -> bool:
+    return channel.memory.parameters.shared_axes != ROAMING
 
 
 def release(channel: SyntecChannel, words: Words) -> None:
@@ -166,4 +169,4 @@ def _take_position(channel: SyntecChannel, axis: int) -> None:
 
 
 #: A group moves a roaming axis only while it has it.
-RULE = Rule("roaming axes", in_cycles=False, wrap=_guarded)
+RULE = Rule("roaming axes", rests=_none_roam, in_cycles=False, wrap=_guarded)

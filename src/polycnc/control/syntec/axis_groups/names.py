@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.block.plan import AxisWord
+from polycnc.control.word_address.block.rules import Rule
 
 if TYPE_CHECKING:
     from polycnc.control.syntec.family import SyntecChannel
@@ -54,7 +55,11 @@ def map_virtual_axis(channel: SyntecChannel, words: Words) -> None:
     channel.modes.forget_plans()
 
 
-def virtual_words(builder: Builder) -> tuple[AxisWord, ...]:
+def _none_is_virtual(channel: SyntecChannel) -> bool:
+    return not VirtualAxisState.of(channel).axes
+
+
+def _virtual_words(builder: Builder) -> list[AxisWord]:
     """What the words of virtual axes mean: one word for each axis that moves with them."""
     found: list[AxisWord] = []
     incremental = builder.mode["distance"] == "G91"
@@ -65,4 +70,8 @@ def virtual_words(builder: Builder) -> tuple[AxisWord, ...]:
             for axis in axes:
                 convert = builder.axis_converter(axis, form)
                 found.append(AxisWord(address, axis, position, convert, incremental))
-    return tuple(found)
+    return found
+
+
+#: Words of virtual axes.
+RULE = Rule("virtual axes", rests=_none_is_virtual, axis_words=_virtual_words)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from polycnc.channel.stack import LevelKind
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.machine_words import refuse
-from polycnc.control.syntec.builder import CALLS, SyntecBuilder
+from polycnc.control.syntec.builder import CALLS, SyntecBuilder, may_call_by_g
 from polycnc.control.syntec.macros import interrupts
 from polycnc.control.syntec.macros.variables import INDEXED_LETTERS, Locals
 from polycnc.control.word_address.block.rules import Rule
@@ -381,6 +381,6 @@ def end_program(channel: SyntecChannel, _words: Words) -> None:
 
 
 #: Programs that codes call.
-RULE = Rule("macro calls", replace=_plan_call)
+RULE = Rule("macro calls", codes=CALLS, words=("T",), m_codes=True, where=may_call_by_g, replace=_plan_call)
 #: The macro that follows blocks.
 MODAL_RULE = Rule("modal macro calls", unless={"macro": "G67"}, after=_plan_modal_call)

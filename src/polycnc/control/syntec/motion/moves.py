@@ -13,7 +13,6 @@ from polycnc.control.syntec.coordinates.systems import TurnState
 from polycnc.control.syntec.macros.calls import ModalMacroState
 from polycnc.control.syntec.motion import planes
 from polycnc.control.syntec.spindles import SpindleState
-from polycnc.control.word_address.auxiliary import functions
 from polycnc.control.word_address.block import repeated_codes
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion import path, skip
@@ -154,10 +153,8 @@ def _rapid_at(channel: SyntecChannel, speed: float) -> Iterator[float]:
 # ---- feed ------------------------------------------------------------------------------------------------
 
 
-def plan_feed(builder: Builder) -> Step:
-    """F: feed as the mode says; under G33 the lead."""
-    if builder.mode["motion"] != "G33":
-        return functions.plan_feed(builder)
+def plan_lead(builder: Builder) -> Step:
+    """F under G33: the lead."""
     slot, form = builder.slots["F"]
     factor = builder.control.feed_factor(builder, form, FeedMode.PER_REVOLUTION) * (
         INCH_MM if builder.inch else 1.0
@@ -379,6 +376,8 @@ lengthened_twice: Handler = partial(_lengthened_move, 2.0)
 shortened_twice: Handler = partial(_lengthened_move, -2.0)
 
 
+#: F of threads.
+LEAD_RULE = Rule("lead of a thread", modes={"motion": ("G33",)}, addresses={"F": plan_lead})
 #: Feeds of blocks under G93.
 INVERSE_TIME_RULE = Rule(
     "inverse time feed", modes={"feed": ("G93",)}, in_cycles=False, wrap=_with_inverse_time

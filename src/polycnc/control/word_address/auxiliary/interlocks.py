@@ -124,7 +124,11 @@ def ask_for_moves(builder: Builder, plan: Plan) -> Step | None:
     return asking(None, sorted(words), plc) if words else None
 
 
+def _refuses_no_moves(channel: WordAddressChannel) -> bool:
+    return not channel.memory.machine_refuses_moves
+
+
 #: What the machine refuses to move.
 MOVES_RULE = Rule(
-    "moves that the machine refuses", where_moves_are_refused=True, before=ask_for_moves, wrap=guarded_motion
+    "moves that the machine refuses", rests=_refuses_no_moves, before=ask_for_moves, wrap=guarded_motion
 )

@@ -53,12 +53,14 @@ class Footing:
 
     Attributes:
         g_codes: The G table as programs write it now.
+        diameters: Whether words of each axis are diameters.
+        in_force: The control's rules that do not rest.
         planners: What plans the axis words of each motion code.
         rules: How numbers are read.
         cycles: How the control drills.
     """
 
-    __slots__ = ("cycles", "g_codes", "planners", "rules")
+    __slots__ = ("cycles", "diameters", "g_codes", "in_force", "planners", "rules")
 
     def __init__(self, channel: Channel, control: WordAddressControl) -> None:
         self.g_codes: Mapping[str, GCode] = control.g_table(channel)
@@ -68,6 +70,8 @@ class Footing:
         }
         self.rules: NumberRules = control.number_rules(channel)
         self.cycles: Drilling = control.drilling_rules(channel)
+        self.diameters = tuple(control.is_diameter(channel, axis) for axis in range(len(channel.axes)))
+        self.in_force = tuple(rule for rule in control.rules if rule.rests is None or not rule.rests(channel))
 
     @classmethod
     def of(cls, channel: Channel, control: WordAddressControl) -> Footing:
@@ -154,7 +158,7 @@ class Builder:
         self.mode = self.before.with_codes(control.modal_changes(self.codes))
         self._drop_idle_codes()
         self.inch = control.is_inch(self.mode)
-        self.acting: tuple[Rule, ...] = tuple(rule for rule in control.rules if rule.concerns(self))
+        self.acting: tuple[Rule, ...] = tuple(rule for rule in self.footing.in_force if rule.concerns(self))
 
     def _read_signature(self) -> None:
         position = 0
@@ -299,6 +303,9 @@ class Builder:
             self.take(address)
         if control.LATER_AXIS_WORD_COUNTS:
             words = list({word.axis: word for word in words}.values())
+        for rule in self.acting:
+            if rule.axis_words is not None:
+                words += rule.axis_words(self)
         return tuple(words)
 
     # ---- the plan ---------------------------------------------------------------------------------------------------
@@ -381,6 +388,9 @@ class Builder:
             for key in self.order
             if key[0] == "M" and is_fixed_code(key)
         }
+        meanings = dict(self.control.addresses)
+        for rule in self.acting:
+            meanings.update(rule.addresses)
         for row in m_rows.values():
             self.take(*row.takes.split())
             self._is_open = self._is_open or row.open
@@ -391,7 +401,7 @@ class Builder:
                 row = m_rows[key]
                 (after if row.after else before).append(_m_step(row, self, plan))
                 continue
-            planner = self.control.addresses.get(key)
+            planner = meanings.get(key)
             if planner is not None:
                 step = self.control.guarded_word(self, key, planner(self))
                 self.take(key)

@@ -1,8 +1,9 @@
 """What acts on a block beside its own codes and words, as a tuple that can be read.
 
 A control declares its `rules` in the order in which they act. Each is an object of the module whose feature it belongs
-to, and says what makes it concern a block, so that it is not asked of any other. They are asked once for each shape of
-block in each modal state, when its plan is made:
+to, and says what makes it concern a block, so that it is not asked of any other. A rule whose function is switched off
+rests; that is asked once for each modal state. The others are asked once for each shape of block in each modal state,
+when its plan is made:
 
 1. `check`, then `replace`, rule by rule: what a block must not hold, and a call that takes the whole block.
 2. `before`: a step in front of everything else that the block does.
@@ -19,10 +20,11 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
     from polycnc.channel.intervention import TakesBack
-    from polycnc.control.word_address.block.codes import Step
+    from polycnc.control.word_address.block.codes import Planner, Step
     from polycnc.control.word_address.block.numbers import Convert
-    from polycnc.control.word_address.block.plan import Builder, Plan
+    from polycnc.control.word_address.block.plan import AxisWord, Builder, Plan
 
 #: The group of drilling cycles, and its code while none is active.
 CYCLE, NO_CYCLE = "cycle", "G80"
@@ -41,12 +43,14 @@ class Rule:
         groups: Groups of its G codes.
         words: Addresses of the block.
         m_codes: Any M code.
+        where: What else makes it concern a block.
 
     What it must be besides.
 
     Attributes:
         in_cycles: The rule acts also while a drilling cycle is active.
-        where_moves_are_refused: The rule acts only on a machine that may refuse moves of its axes.
+        rests: Whether the function is switched off on a channel: by parameters, by the machine, by a state whose
+            change forgets the plans.
 
     What it does; the head of the module says when.
 
@@ -54,6 +58,8 @@ class Rule:
         check: Raises the alarm for what the block must not hold.
         replace: The step that stands in place of the whole block.
         before: A step in front.
+        addresses: Words of the block that mean something else than usual, each with what plans it.
+        axis_words: Axis words beside those whose addresses name axes.
         takes_back: What the block takes back of a manual intervention.
         motion: The step of the axis words; it may refuse them, or take other words, and leave them to the next rule.
         corner: What goes between this move and the next one.
@@ -69,11 +75,14 @@ class Rule:
     groups: Collection[str] = ()
     words: Collection[str] = ()
     m_codes: bool = False
+    where: Callable[[Builder], bool] | None = None
     in_cycles: bool = True
-    where_moves_are_refused: bool = False
+    rests: Callable[[Channel], bool] | None = None
     check: Callable[[Builder], None] | None = None
     replace: Callable[[Builder, Plan], Step | None] | None = None
     before: Callable[[Builder, Plan], Step | None] | None = None
+    addresses: Mapping[str, Planner] = field(default_factory=dict)
+    axis_words: Callable[[Builder], Collection[AxisWord]] | None = None
     takes_back: Callable[[Builder, Plan], TakesBack | None] | None = None
     motion: Callable[[Builder, Plan], Step | None] | None = None
     corner: Callable[[Builder], Step | None] | None = None
@@ -85,10 +94,10 @@ class Rule:
         """Whether the rule is asked of a block."""
         if not self.in_cycles and builder.mode.codes.get(CYCLE, NO_CYCLE) != NO_CYCLE:
             return False
-        if self.where_moves_are_refused and not builder.channel.memory.machine_refuses_moves:
-            return False
-        named = (self.modes, self.unless, self.codes, self.groups, self.words, self.m_codes)
-        return not any(named) or self._concerns_mode(builder) or self._concerns_words(builder)
+        named = (self.modes, self.unless, self.codes, self.groups, self.words, self.m_codes, self.where)
+        if not any(named) or self._concerns_mode(builder) or self._concerns_words(builder):
+            return True
+        return self.where is not None and self.where(builder)
 
     def _concerns_mode(self, builder: Builder) -> bool:
         for codes in {id(mode): mode.codes for mode in (builder.before, builder.mode)}.values():

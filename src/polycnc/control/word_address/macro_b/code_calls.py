@@ -8,7 +8,7 @@ of blocks differ inside and outside.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from polycnc.channel.stack import LevelKind
 from polycnc.control.machine_words import refuse
@@ -102,9 +102,8 @@ def _g_row(code: str, call: CodeCall) -> GCode:
 
 
 def _calls(builder: Builder) -> CodeCalls:
-    control: Any = builder.control
-    calls: CodeCalls = control.called_codes(builder.channel)
-    return calls
+    channel: MacroChannel = builder.channel
+    return channel.control.called_codes(channel)
 
 
 def may_call(builder: Builder, letter: str) -> bool:
@@ -129,9 +128,11 @@ def m_row(builder: Builder, number: int) -> MCode | None:
 
 def registered_row(builder: Builder, number: int) -> MCode | None:
     """The row of a registered M code where it calls nothing: whoever registers a code gives it a meaning."""
-    control: Any = builder.control
-    registered: CodeCalls = control.code_calls(builder.channel)
-    return MCode(number, open=True) if number in registered.m and number not in control.m_codes else None
+    channel: MacroChannel = builder.channel
+    registered = channel.control.code_calls(channel).m
+    return (
+        MCode(number, open=True) if number in registered and number not in channel.control.m_codes else None
+    )
 
 
 def plan_m_macro(builder: Builder, plan: Plan) -> Step | None:

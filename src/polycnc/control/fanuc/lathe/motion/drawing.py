@@ -34,6 +34,7 @@ _LEAST_SINE = sin(radians(LEAST_ANGLE_DEG)) + 1e-12
 _MAX_IDLE_BLOCKS = 1
 #: One-shot codes and groups by what may stand between the blocks of a figure (II.4.9, note 2).
 _ALLOWED = frozenset({"G4"})
+_LINES = ("G0", "G1")
 _FORBIDDEN_GROUPS = frozenset({"cycle", "plane", "stroke"})
 _SHAPES = {"R": Shape.ROUNDING, "C": Shape.CHAMFER}
 
@@ -67,12 +68,11 @@ class DrawingState(State, lifetime=Lifetime.RESET):
 def is_on(builder: Builder) -> bool:
     """Whether drawing dimensions are chosen (3453#0 CRD); they need memory operation (II.4.9, note 1)."""
     channel = builder.channel
-    return channel.memory.parameters.CRD and channel.setup.switches.mode != "mdi"
+    return not _rests(channel) and channel.setup.switches.mode != "mdi"
 
 
-def plan_line(builder: Builder, plan: Plan) -> Step | None:
-    """G01, with the words of drawing dimensions where they are chosen."""
-    return _plan(builder, plan) if is_on(builder) else path.plan_line(builder, plan)
+def _rests(channel: LatheChannel) -> bool:
+    return not channel.memory.parameters.CRD
 
 
 def plan_end(builder: Builder, plan: Plan) -> Callable[[LatheChannel, list[float]], list[float]]:
@@ -83,12 +83,10 @@ def plan_end(builder: Builder, plan: Plan) -> Callable[[LatheChannel, list[float
     return lambda channel, values: words.completed(channel, words.angle(values) or 0.0, values)
 
 
-def plan_rapid(builder: Builder, plan: Plan) -> Step | None:
-    """G00, with the words of drawing dimensions where they are chosen."""
-    return _plan(builder, plan) if is_on(builder) else path.plan_rapid(builder, plan)
-
-
-def _plan(builder: Builder, plan: Plan) -> Step | None:
+def plan_line(builder: Builder, plan: Plan) -> Step | None:
+    """G00 and G01 with the words of drawing dimensions."""
+    if builder.mode["motion"] not in _LINES or not is_on(builder):
+        return None
     words = _DrawingWords(builder, plan)
     vector = builder.corner()
     if not words.any and not plan.axis_words:
@@ -241,7 +239,7 @@ def plan_check(builder: Builder, plan: Plan) -> Step | None:
         mistake = "drawing_increment"
     elif not plan.axis_words:
         mistake, idle = "drawing_increment", True
-    elif builder.mode["motion"] in ("G0", "G1"):
+    elif builder.mode["motion"] in _LINES:
         return None
     else:
         mistake = "drawing_next"
@@ -270,5 +268,5 @@ def is_word(address: str) -> bool:
     return address in (",A", ",C", ",R")
 
 
-#: What may stand between the blocks of a figure.
-RULE = Rule("drawing dimensions", after=plan_check)
+#: Lines by drawing dimensions, and what may stand between the blocks of a figure.
+RULE = Rule("drawing dimensions", rests=_rests, motion=plan_line, after=plan_check)
