@@ -35,6 +35,6 @@ PLAIN = Kernels(lay.lay, speeds.backward, speeds.forward)
 @cache
 def kernels() -> Kernels:
     """The compiled kernels; the plain ones where there are none."""
-    laid = LIBRARY.compiled(PLAIN.lay)
+    rows = LIBRARY.compiled(PLAIN.lay)
     backward, forward = LIBRARY.compiled(PLAIN.backward), LIBRARY.compiled(PLAIN.forward)
-    return PLAIN if laid is None or backward is None or forward is None else Kernels(laid, backward, forward)
+    return PLAIN if rows is None or backward is None or forward is None else Kernels(rows, backward, forward)

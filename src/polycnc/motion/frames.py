@@ -43,26 +43,28 @@ def machine_of(work: Sequence[float], context: Context, geometry: Geometry) -> l
     return [value + offset for value, offset in zip(position, offsets, strict=True)]
 
 
-def real_of(laid: Sequence[float], context: Context, geometry: Geometry) -> list[float]:
+def real_of(on_path: Sequence[float], context: Context, geometry: Geometry) -> list[float]:
     """The real axes at a position of the path."""
     if context.transformation is None:
-        return list(laid)
-    return machine_of(context.transformation.to_machine(work_of(laid, context, geometry)), context, geometry)
+        return list(on_path)
+    return machine_of(
+        context.transformation.to_machine(work_of(on_path, context, geometry)), context, geometry
+    )
 
 
-def real_rows(laid: Table, context: Context, geometry: Geometry) -> Table:
+def real_rows(on_path: Table, context: Context, geometry: Geometry) -> Table:
     """`real_of` for a table (n, axes) of positions."""
     if context.transformation is None:
-        return laid
-    offsets = context.offsets or (0.0,) * laid.shape[1]
-    work = laid - offsets
+        return on_path
+    offsets = context.offsets or (0.0,) * on_path.shape[1]
+    work = on_path - offsets
     if context.frame.is_identity:
         return machine_rows(context.transformation, work) + offsets
     work = mapped_rows(context.frame.inverse(), work, geometry)
     return mapped_rows(context.frame, machine_rows(context.transformation, work), geometry) + offsets
 
 
-def laid_of(real: Sequence[float], context: Context, geometry: Geometry) -> list[float]:
+def path_of(real: Sequence[float], context: Context, geometry: Geometry) -> list[float]:
     """The position of the path at which the real axes are."""
     if context.transformation is None:
         return list(real)
@@ -70,19 +72,19 @@ def laid_of(real: Sequence[float], context: Context, geometry: Geometry) -> list
 
 
 def with_axis(
-    laid: Sequence[float], context: Context, geometry: Geometry, column: int, place: float
+    on_path: Sequence[float], context: Context, geometry: Geometry, column: int, place: float
 ) -> list[float]:
     """The position of the path at which one of the real axes stands elsewhere."""
-    real = real_of(laid, context, geometry)
+    real = real_of(on_path, context, geometry)
     real[column] = place
-    return laid_of(real, context, geometry)
+    return path_of(real, context, geometry)
 
 
-def carried(laid: Sequence[float], last: Context, context: Context, geometry: Geometry) -> list[float]:
+def carried(on_path: Sequence[float], last: Context, context: Context, geometry: Geometry) -> list[float]:
     """A position of the path under another context, the real axes being the same."""
     if context.transformation is last.transformation:
-        return list(laid)
-    return laid_of(real_of(laid, last, geometry), context, geometry)
+        return list(on_path)
+    return path_of(real_of(on_path, last, geometry), context, geometry)
 
 
 def without_transformation(context: Context) -> Context:

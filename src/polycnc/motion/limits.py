@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from polycnc.geometry.units import INCH_MM
 from polycnc.motion.kernels.alone import alone_pull, alone_top, best_ramp
 from polycnc.motion.kernels.columns import Limits, PathLimits
-from polycnc.motion.kernels.jerk import JERK_CORNER, STRAY_CORNER
+from polycnc.motion.kernels.jerk import DEVIATION_CORNER, JERK_CORNER
 from polycnc.motion.settings import Settings
 from polycnc.toolpath.modes import AccelerationMode, CornerMode, FeedMode
 
@@ -159,7 +159,7 @@ def averages(context: Context, machine: Machine, settings: Settings) -> tuple[fl
     ramp = RAMPS * max(axis.acceleration / axis.jerk for axis in axes)
     tolerance = _kept_tolerance(context, settings)
     jerk = min((axis.jerk for axis in axes if not axis.rotary), default=axes[0].jerk)
-    blend = (6.0 * STRAY_CORNER * tolerance / (JERK_CORNER * jerk)) ** (1.0 / 3.0)
+    blend = (6.0 * DEVIATION_CORNER * tolerance / (JERK_CORNER * jerk)) ** (1.0 / 3.0)
     return ramp, min(blend, ramp)
 
 

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from polycnc.machine import Machine
     from polycnc.motion.limits import AxisRapid
     from polycnc.motion.pole import Turn
-    from polycnc.motion.transformed import LaidLeg
+    from polycnc.motion.transformed import PathLeg
     from polycnc.toolpath import Context, Toolpath
     from polycnc.toolpath.table import Chunk
 
@@ -163,7 +163,7 @@ class Planner:
             if row < len(rows.kind):
                 self._make_room()
 
-    def _through_pole(self, legs: Sequence[LaidLeg], chunk: Chunk, row: int, feed: float) -> None:
+    def _through_pole(self, legs: Sequence[PathLeg], chunk: Chunk, row: int, feed: float) -> None:
         """Lay the legs of a row, at rest before each of them; between two of them the rotary axis turns."""
         number, first = chunk.first + row, chunk.context[row]
         for leg in legs:

@@ -22,7 +22,7 @@ from array import array
 from math import hypot, inf, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
-from polycnc.motion.frames import carried, laid_of, machine_of, real_of, real_rows, work_of
+from polycnc.motion.frames import carried, machine_of, path_of, real_of, real_rows, work_of
 from polycnc.motion.kernels.columns import AT_END, AT_START, SHARES, Limits, Rows
 from polycnc.motion.limits import averages, axis_limits, channel_axes, rotary_weight
 from polycnc.motion.pace import Travel, pace_of
@@ -89,7 +89,7 @@ class RowShares(NamedTuple):
     at_end: float
 
 
-class LaidLeg(NamedTuple):
+class PathLeg(NamedTuple):
     """A leg of a row through the pole, as the kernels take a row of its own.
 
     Attributes:
@@ -122,7 +122,7 @@ class Bounds(NamedTuple):
     shares: Shares
     feed: array[float]
     enters: dict[int, list[float]]
-    legs: dict[int, list[LaidLeg]]
+    legs: dict[int, list[PathLeg]]
 
     def paced(self, feed: array[float], rows: slice = slice(None)) -> array[float]:
         """The feeds of some rows as the program's overrides and rules leave them."""
@@ -178,7 +178,7 @@ class RealAxes:
         self._machine, self._channel, self._names, self._settings = machine, channel, names, settings
         self._axes = channel_axes(machine, channel, names)
         self._geometry = machine.geometry_indices(channel)
-        self._laid, self._context = list(start) or [0.0] * len(names), Context()
+        self._on_path, self._context = list(start) or [0.0] * len(names), Context()
         self._limits: dict[Geometry | None, Limits] = {}
 
     def limits(self, transformation: Transformation | None) -> Limits:
@@ -188,13 +188,13 @@ class RealAxes:
             self._limits[made] = axis_limits(self._machine, self._channel, self._names, self._settings, made)
         return self._limits[made]
 
-    def stand(self, laid: Sequence[float]) -> None:
+    def stand(self, on_path: Sequence[float]) -> None:
         """The axes stand elsewhere, without a transformation."""
-        self._laid, self._context = list(laid), Context()
+        self._on_path, self._context = list(on_path), Context()
 
-    def go_on_from(self, laid: Sequence[float]) -> None:
+    def go_on_from(self, on_path: Sequence[float]) -> None:
         """The path goes on from a position."""
-        self._laid = list(laid)
+        self._on_path = list(on_path)
 
     def bounds(self, chunk: Chunk, contexts: Sequence[Context]) -> Bounds:
         """Look at the rows of a chunk."""
@@ -213,14 +213,14 @@ class RealAxes:
             context = contexts[chunk.context[row]]
             end = list(chunk.end[row * n : (row + 1) * n])
             if context.transformation is not self._context.transformation:
-                self._laid = self._carried(context)
-                bounds.enters[row] = self._laid
+                self._on_path = self._carried(context)
+                bounds.enters[row] = self._on_path
             if context.transformation is not None and chunk.kind[row] != Kind.REF:
-                start = work_of(self._laid, context, self._geometry)
+                start = work_of(self._on_path, context, self._geometry)
                 legs = self._legs(chunk, row, start, end, context)
                 if legs:
                     bounds.legs[row] = legs
-                    self._laid, self._context = legs[-1].end, context
+                    self._on_path, self._context = legs[-1].end, context
                     continue
                 path, length = self._path(chunk, row, start, end, context)
                 shares = self._shares(context, path, length, chunk.kind[row])
@@ -228,7 +228,7 @@ class RealAxes:
             goal = machine_of(end, context, self._geometry)
             if context.pace is not None:
                 self._pace(chunk, row, goal, context, bounds)
-            self._laid, self._context = goal, context
+            self._on_path, self._context = goal, context
         return bounds
 
     def _pace(self, chunk: Chunk, row: int, goal: list[float], context: Context, bounds: Bounds) -> None:
@@ -245,11 +245,11 @@ class RealAxes:
 
     def _way_of(self, chunk: Chunk, row: int, goal: list[float], context: Context) -> Travel:
         """The way of a row in the columns' machine coordinates."""
-        moved, curve = [abs(b - a) for a, b in zip(self._laid, goal, strict=True)], self._curve(chunk, row)
+        moved, curve = [abs(b - a) for a, b in zip(self._on_path, goal, strict=True)], self._curve(chunk, row)
         if not curve:
             return Travel(moved)
         ccw = chunk.kind[row] in CCW_KINDS
-        start, end = (work_of(place, context, self._geometry) for place in (self._laid, goal))
+        start, end = (work_of(place, context, self._geometry) for place in (self._on_path, goal))
         arc = arc_path(start, end, curve, self._geometry, ccw=ccw)
         plane = []
         for i, part in zip(self._geometry, arc.normal, strict=True):
@@ -261,17 +261,17 @@ class RealAxes:
 
     def _carried(self, context: Context) -> list[float]:
         """Where the path goes on under another transformation: next to its pole in the direction of the rotary axis."""
-        laid = carried(self._laid, self._context, context, self._geometry)
+        on_path = carried(self._on_path, self._context, context, self._geometry)
         pole = context.transformation.pole if context.transformation is not None else None
-        if pole is None or not is_at(pole, work_of(laid, context, self._geometry)):
-            return laid
-        real = work_of(real_of(self._laid, self._context, self._geometry), context, self._geometry)
+        if pole is None or not is_at(pole, work_of(on_path, context, self._geometry)):
+            return on_path
+        real = work_of(real_of(self._on_path, self._context, self._geometry), context, self._geometry)
         beside = machine_of(pole.axes_beside(real, RING_MM), context, self._geometry)
-        return laid_of(beside, context, self._geometry)
+        return path_of(beside, context, self._geometry)
 
     def _legs(
         self, chunk: Chunk, row: int, start: list[float], end: list[float], context: Context
-    ) -> list[LaidLeg]:
+    ) -> list[PathLeg]:
         """The legs of a row that is at the pole somewhere."""
         assert context.transformation is not None
         pole, kind, own = context.transformation.pole, chunk.kind[row], slice(row, row + 1)
@@ -291,7 +291,7 @@ class RealAxes:
                 array(chunk.curve.typecode, [0 if curve else -1]), NO_STOPS, *shares,
             )  # fmt: skip
             curves = array("d", [*curve[:6], 0.0, 0.0] if curve else [])
-            found.append(LaidLeg(leg.turn, rows, curves, machine_of(leg.end, context, self._geometry)))
+            found.append(PathLeg(leg.turn, rows, curves, machine_of(leg.end, context, self._geometry)))
         return found
 
     def turn(self, turn: Turn, context: Context, kind: int, row: float, slot: int) -> array[float]:
@@ -309,7 +309,7 @@ class RealAxes:
 
         position, velocity, acceleration = moved
         nearby = [position + velocity * t + acceleration * (0.5 * t * t) for t in (-SHORT_S, 0.0, SHORT_S)]
-        before, now, after = (real_rows(laid, context, self._geometry) for laid in nearby)
+        before, now, after = (real_rows(on_path, context, self._geometry) for on_path in nearby)
         turning = np.array([self._rotary(i) for i in range(len(self._axes))])
         came, goes = (
             np.where(turning, (way + 180.0) % 360.0 - 180.0, way) for way in (now - before, after - now)

@@ -137,13 +137,13 @@ class ChannelRun:
             shown, machine=display.positions(axes, axes, real, without_transformation(context)).machine
         )
 
-    def _known(self, laid: Sequence[float], context: Context) -> list[float]:
+    def _known(self, on_path: Sequence[float], context: Context) -> list[float]:
         """A position of the path with what coordinates know beside it: the axes that are commanded are real ones."""
         ways = self.axes.commanded()
         if context.transformation is None or not any(ways):
-            return self.axes.counted(laid)
-        moved = [place + way for place, way in zip(self.display.real(laid, context), ways, strict=True)]
-        known = self.axes.counted(self.display.laid(moved, context))
+            return self.axes.counted(on_path)
+        moved = [place + way for place, way in zip(self.display.real(on_path, context), ways, strict=True)]
+        known = self.axes.counted(self.display.on_path(moved, context))
         return [place - way for place, way in zip(known, ways, strict=True)]
 
     def take_in_hand(self, place: Sequence[float]) -> None:

@@ -21,7 +21,7 @@ from polycnc.mainrun.signals.machine_states import axis_states
 from polycnc.mainrun.signals.program_signals import connect
 from polycnc.messages import AlarmError
 from polycnc.messages.catalogue import listed
-from polycnc.motion.frames import laid_of
+from polycnc.motion.frames import path_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -111,7 +111,7 @@ class ChannelRuns:
             if number in under_way:
                 execution, (waits, wait) = run.execution, under_way[number]
                 geometry = run.channel.coordinates.geometry
-                execution.position = laid_of(execution.position, execution.place, geometry)
+                execution.position = path_of(execution.position, execution.place, geometry)
                 run.preprocessing.go_on(waits, run.own_path, wait)
 
     def __iter__(self) -> Iterator[ChannelRun]:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from polycnc.channel.intervention import TakesBack
     from polycnc.mainrun.motion.geometry import Cubic, Segment
-    from polycnc.mainrun.preparation.layout import Laid
+    from polycnc.mainrun.preparation.layout import PreparedRow
     from polycnc.toolpath import Context, Event
     from polycnc.toolpath.motion_settings import DryRun
 
@@ -106,12 +106,12 @@ class Move(Row):
     Attributes:
         asks: Speed that the program asks for up to a share of the way, mm/s; infinite where it asks for none.
         total: Length of its pieces, mm, and `done` the share of those that have been taken.
-        laid: From what it has been laid out; None for one that begins elsewhere than its program has led the axes.
+        prepared: What it has been made from; None for one that begins elsewhere than its program has led the axes.
     """
 
     asks: tuple[tuple[float, float], ...]
     total: float
-    laid: Laid | None = None
+    prepared: PreparedRow | None = None
     done: float = 0.0
 
     def asked(self, share: float) -> float:

@@ -80,7 +80,7 @@ class Before:
 
 @unchanging
 @dataclass(frozen=True, slots=True)
-class Laid:
+class PreparedRow:
     """A row, or a leg of one, from which pieces have been made.
 
     Attributes:

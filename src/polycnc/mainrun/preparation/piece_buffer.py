@@ -19,7 +19,7 @@ from polycnc.motion.kernels.jerk import window_s
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
-    from polycnc.mainrun.preparation.layout import Laid, Layout
+    from polycnc.mainrun.preparation.layout import Layout, PreparedRow
     from polycnc.toolpath import Context
     from polycnc.transformation.contract import Geometry
 
@@ -94,17 +94,17 @@ class PieceBuffer:
         rested, self._rested = self._rested, False
         return rested
 
-    def lay(self, laid: Laid, layout: Layout) -> list[int]:
+    def lay(self, prepared: PreparedRow, layout: Layout) -> list[int]:
         """Lay a row out for overrides; where the records of its pieces begin."""
-        if laid.records is not None:
-            self._add(laid.records)
+        if prepared.records is not None:
+            self._add(prepared.records)
             return []
-        rows, number, called, state = laid.rows_for(layout), laid.number, laid.called, self.state
-        self._led = laid.limits
+        rows, number, called, state = prepared.rows_for(layout), prepared.number, prepared.called, self.state
+        self._led = prepared.limits
         # What a tap may do at an override, others decide (`Rates`).
         state.run.free = 1.0 if rows.kind[0] == TAP and layout.free <= 0.0 else layout.free
         while not self._kernels.lay(
-            rows, 0, laid.curves, number, self.contexts, laid.limits, self._records, state
+            rows, 0, prepared.curves, number, self.contexts, prepared.limits, self._records, state
         ):
             self._make_room()
         width, records = self._width, self._records
@@ -121,7 +121,7 @@ class PieceBuffer:
         return found
 
     def lay_again(
-        self, rows: Sequence[Laid], layout: Layout, way: float | None = None
+        self, rows: Sequence[PreparedRow], layout: Layout, way: float | None = None
     ) -> tuple[array[Any], float] | None:
         """Lay out rows again that make up the end of what is prepared.
 
@@ -147,11 +147,11 @@ class PieceBuffer:
         if way is None:
             state.run.stop, state.run.alone = 1.0, 0.0
         state.run.pieces = first
-        for k, laid in enumerate(rows):
-            if k and laid.rests:
+        for k, prepared in enumerate(rows):
+            if k and prepared.rests:
                 self.end_in_rest()
-            state.position[:] = laid.before.vectors[0]
-            self.lay(laid, layout)
+            state.position[:] = prepared.before.vectors[0]
+            self.lay(prepared, layout)
         if rested:
             self.end_in_rest()
         self._rested, self._taken = rested, taken if way is None else first

@@ -124,14 +124,14 @@ class Queue:
         self.lay_back = back
         self.layout = layout_for(rates, self.layout)
         front = self._front if row is not None else None
-        if front is not None and front.laid is not None and front.row == row:
+        if front is not None and front.prepared is not None and front.row == row:
             whole = front.total * front.done if self._row_is_prepared(front) else front.total
             done = whole - self._buffer.last_length + way
             moves = [front, *(item for item in self.items if isinstance(item, Move) and item is not front)]
         else:
             front, done = None, 0.0
             moves = self._from_rest(at_rest=at_rest)
-        rows = [move.laid for move in moves if move.laid is not None]
+        rows = [move.prepared for move in moves if move.prepared is not None]
         if not rows or len(rows) < len(moves):
             return None
         found = self._buffer.lay_again(rows, self.layout, None if front is None else done)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.mainrun.motion.geometry import row_arc, row_line, turn_arc
 from polycnc.mainrun.preparation.items import Move
-from polycnc.mainrun.preparation.layout import Before, Laid
+from polycnc.mainrun.preparation.layout import Before, PreparedRow
 from polycnc.mainrun.preparation.run_blocks import largest_override
 from polycnc.motion.kernels.arcs import facing_radius
 from polycnc.motion.kernels.columns import SHARES, ContextRecord, Form, PieceRecord, Rows, piece_width
@@ -95,8 +95,10 @@ class RowLayer:
         records = self.real.turn(turn, context, kind, called, 0)
         before, rests = Before.of(self._buffer.state), self._buffer.note_rest()
         limits = self.real.limits(context.transformation)
-        laid = Laid(None, array("d"), 0, called, limits, 0.0, context, False, rests, before, records)
-        self._buffer.lay(laid, self._queue.layout)
+        prepared = PreparedRow(
+            None, array("d"), 0, called, limits, 0.0, context, False, rests, before, records
+        )
+        self._buffer.lay(prepared, self._queue.layout)
         way = turn_arc(turn, records, self._axes)
         program, line, rapid = (
             self._toolpath.programs[chunk.program[row]],
@@ -107,7 +109,7 @@ class RowLayer:
         self._queue.items.append(
             Move(
                 way, called, kind, context, program, line, rapid, False, False, 0.0, False, False, False, 1.0,
-                inf, ((1.0, inf),), total, laid,
+                inf, ((1.0, inf),), total, prepared,
             )
         )  # fmt: skip
 
@@ -119,7 +121,7 @@ class RowLayer:
         record = chunk.context[row] * (ContextRecord.OFFSETS + n)
         per_revolution = buffer.contexts[record + ContextRecord.PER_REVOLUTION] != 0.0
         before, rests = Before.of(buffer.state), buffer.note_rest()
-        laid = Laid(
+        prepared = PreparedRow(
             rows,
             curves[:],
             chunk.first + row,
@@ -131,7 +133,7 @@ class RowLayer:
             rests,
             before,
         )
-        found = buffer.lay(laid, self._queue.layout)
+        found = buffer.lay(prepared, self._queue.layout)
         if not found:
             return
         self.skips = self.skips or kind == Kind.SKIP
@@ -157,9 +159,9 @@ class RowLayer:
                 kind == Kind.TAP and self._settings.taps_held,
                 faster(chunk.curves, buffer.state),
                 largest_override(chunk, row),
-                self._asks(curves, record, found, laid.factor(self._queue.layout), is_arc=is_arc),
+                self._asks(curves, record, found, prepared.factor(self._queue.layout), is_arc=is_arc),
                 sum(buffer.field(at, PieceRecord.LENGTH) for at in found),
-                laid,
+                prepared,
             )
         )
 

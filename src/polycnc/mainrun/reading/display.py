@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.machine.layout import axis_layout
 from polycnc.mainrun.reading.snapshot import Positions
-from polycnc.motion.frames import laid_of, real_of, work_of
+from polycnc.motion.frames import path_of, real_of, work_of
 from polycnc.toolpath.trace import Display
 
 if TYPE_CHECKING:
@@ -62,13 +62,13 @@ class MainRunDisplay:
         """The position of the absolute display at a position of the path, internal units."""
         return work_of(machine, context, self.geometry)
 
-    def real(self, laid: Sequence[float], context: Context) -> list[float]:
+    def real(self, on_path: Sequence[float], context: Context) -> list[float]:
         """The real axes at a position of the path."""
-        return real_of(laid, context, self.geometry)
+        return real_of(on_path, context, self.geometry)
 
-    def laid(self, real: Sequence[float], context: Context) -> list[float]:
+    def on_path(self, real: Sequence[float], context: Context) -> list[float]:
         """The position of the path at which the real axes are."""
-        return laid_of(real, context, self.geometry)
+        return path_of(real, context, self.geometry)
 
     def machine_factor(self, axis: int, context: Context) -> float:
         """Units of the machine display in an internal one."""

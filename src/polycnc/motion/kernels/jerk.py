@@ -23,7 +23,7 @@ ALONG, ACROSS, CORNER = 0.7, 0.3, 0.3
 #: curve by its speed and by its change of speed; at a corner by the change of speed.
 JERK_CORNER, JERK_LINES, JERK_ENTRY, JERK_CURVE, JERK_BOTH, JERK_TURN = 0.5, 0.3, 0.4, 0.25, 0.2, 0.25
 #: Parts of the tolerance: of one corner, of the acceleration across the path.
-STRAY_CORNER, STRAY_CURVE = 0.5, 0.5
+DEVIATION_CORNER, DEVIATION_CURVE = 0.5, 0.5
 #: Turns smaller than this count as none.
 NO_TURN = 1e-9
 
@@ -90,12 +90,12 @@ def corner_hold2(
                 x2 = min(x2, (JERK_CURVE * j * mean / change) ** (2.0 / 3.0))
     turn = sqrt(turn)
     if turn > NO_TURN:
-        stray = contexts[record + ContextRecord.TOLERANCE] / (blend * turn)
-        x2 = min(x2, 12.0 * STRAY_CURVE * stray / blend * (mean if smooth else shorter))
+        deviation = contexts[record + ContextRecord.TOLERANCE] / (blend * turn)
+        x2 = min(x2, 12.0 * DEVIATION_CURVE * deviation / blend * (mean if smooth else shorter))
         if not smooth:
             x2 = min(
                 x2,
-                (6.0 * STRAY_CORNER * stray) ** 2,
+                (6.0 * DEVIATION_CORNER * deviation) ** 2,
                 (contexts[record + ContextRecord.ROUNDING] / blend) ** 2,
             )
     if smooth and least < inf and x2 > 0.0:
@@ -120,7 +120,9 @@ def arc_hold(
                 a, j = min(a, limits.acceleration[i]), min(j, limits.jerk[i])
     tolerance = contexts[record + ContextRecord.TOLERANCE]
     cap2 = min(
-        speed * speed, ACROSS * a / curvature, 12.0 * STRAY_CURVE * tolerance / (blend * blend * curvature)
+        speed * speed,
+        ACROSS * a / curvature,
+        12.0 * DEVIATION_CURVE * tolerance / (blend * blend * curvature),
     )
     cap2 = min(cap2, (JERK_CURVE * j / (curvature * curvature)) ** (2.0 / 3.0))
     return cap2, min(pull, JERK_BOTH * state.row.ease * j / (3.0 * curvature * sqrt(cap2)))

@@ -38,19 +38,19 @@ def bend_corner(contexts: Floats, record: int, n: int, limits: Limits, state: St
     velocity that is allowed at a corner.
     """
     unit, tangent, turn = state.unit, state.tangent, state.turn
-    tolerance, stray, most = contexts[record + ContextRecord.TOLERANCE], 0.0, 0.0
+    tolerance, turned, most = contexts[record + ContextRecord.TOLERANCE], 0.0, 0.0
     way, x2 = 0.5 * shorter, inf
     for i in range(n):
         turn[i] = unit[i] - tangent[i]
         most = max(most, abs(turn[i]))
         if limits.rotary[i] == 0.0:
-            stray += turn[i] * turn[i]
+            turned += turn[i] * turn[i]
     if most <= SAME_DIRECTION:
         return inf
     if tolerance > 0.0:
         way = min(way, contexts[record + ContextRecord.ROUNDING])
-        if stray > SAME_DIRECTION * SAME_DIRECTION:
-            way = min(way, 4.0 * tolerance / sqrt(stray))
+        if turned > SAME_DIRECTION * SAME_DIRECTION:
+            way = min(way, 4.0 * tolerance / sqrt(turned))
     else:
         for i in range(n):
             step = abs(turn[i])

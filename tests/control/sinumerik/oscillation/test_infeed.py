@@ -8,11 +8,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from polycnc.control.sinumerik.oscillation.infeed import Way
+from polycnc.control.sinumerik.oscillation.infeed import PartialInfeeds
 
 
 def parts(way: float, partial: float, mode: int) -> list[float]:
-    made = Way(0.0, way, partial, mode)
+    made = PartialInfeeds(0.0, way, partial, mode)
     places = [0.0, *(made.after(part) for part in range(1, made.count + 1))]
     return [after - before for before, after in pairwise(places)]
 
@@ -42,4 +42,4 @@ def test_no_part_is_longer_than_told_and_all_lead_to_the_end(way: float, partial
 
 
 def test_a_way_in_very_many_parts_is_no_list() -> None:
-    assert Way(10.0, 2e9, 1.0, 0).after(3) == 13.0
+    assert PartialInfeeds(10.0, 2e9, 1.0, 0).after(3) == 13.0

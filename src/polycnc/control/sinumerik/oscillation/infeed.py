@@ -14,7 +14,7 @@ _NOTHING = 1e-9
 
 
 @dataclass(frozen=True, slots=True)
-class Way:
+class PartialInfeeds:
     """A way that is made in parts, however many they are.
 
     Attributes:
@@ -67,7 +67,7 @@ class Infeed:
 
     column: int
     speed: float
-    way: Way
+    way: PartialInfeeds
     done: int = 0
     has_been_seen: bool = True
 

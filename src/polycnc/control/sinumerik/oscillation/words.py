@@ -9,7 +9,7 @@ from polycnc.control.sinumerik.actions import axes as action_axes
 from polycnc.control.sinumerik.block.draft import axis_column
 from polycnc.control.sinumerik.block.positions import number
 from polycnc.control.sinumerik.oscillation import strokes
-from polycnc.control.sinumerik.oscillation.infeed import Infeed, Way
+from polycnc.control.sinumerik.oscillation.infeed import Infeed, PartialInfeeds
 from polycnc.control.sinumerik.oscillation.strokes import Oscillations
 from polycnc.control.sinumerik.tables import length_factor
 from polycnc.language.sinumerik.names.values import Axis
@@ -164,7 +164,11 @@ def _infeeds(
         way = float(listed[0]) * factor - work[column]
         partial, mode = float(listed[1]) * factor, int(listed[2]) if len(listed) == 3 else 0
         made.append(
-            Infeed(column, action_axes.speed_of(channel, column), Way(machine[column], way, partial, mode))
+            Infeed(
+                column,
+                action_axes.speed_of(channel, column),
+                PartialInfeeds(machine[column], way, partial, mode),
+            )
         )
         ends[column] = machine[column] + way
     return made, ends

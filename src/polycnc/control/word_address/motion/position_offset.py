@@ -42,8 +42,8 @@ def offset_move(channel: MillingChannel, words: Words) -> None:
     if motion in ARCS:
         _offset_arc(channel, words, end, amount)
         return
-    if stray := next((letter for letter in CENTER_LETTERS if letter in words), ""):
-        raise words.fail("address", stray)
+    if centre := next((letter for letter in CENTER_LETTERS if letter in words), ""):
+        raise words.fail("address", centre)
     rapid = motion == "G0"
     if not rapid and not channel.feed > 0.0:
         raise words.fail("no_feed")

@@ -66,7 +66,7 @@ class Direction:
 
 
 @dataclass(frozen=True, slots=True)
-class _Way:
+class _Cut:
     """What a cut does in the control plane: its length, and where the axis must stand at a length behind its start."""
 
     direction: Direction
@@ -154,12 +154,12 @@ class NormalStage(Stage):
             self.after.move(held)
         self._cut(way)
 
-    def _way(self, move: Move) -> _Way:
+    def _way(self, move: Move) -> _Cut:
         first, second = self.direction.places
         center = None if move.center is None else (move.center[first], move.center[second])
-        return _Way(self.direction, move, center)
+        return _Cut(self.direction, move, center)
 
-    def _cut(self, way: _Way) -> None:
+    def _cut(self, way: _Cut) -> None:
         direction, move, length = self.direction, way.move, way.length
         axis = direction.axis
         before = move.start[axis]
