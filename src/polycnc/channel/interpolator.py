@@ -7,7 +7,7 @@ one object of each channel and knows nothing of their language.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Final, NamedTuple, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     from polycnc.messages import AlarmError
     from polycnc.toolpath import Event
     from polycnc.transformation.couplings.laws import Law
+
+#: The shift of an axis by the handwheel, among those that lie over it.
+HANDWHEEL_OFFSET: Final = "DRF"
 
 
 class OnPath(NamedTuple):
@@ -194,11 +197,14 @@ class Interpolator(Protocol):
     def take_back(self, column: int) -> float:
         """The program has a commanded axis again, which stands: gives its machine position."""
 
-    def overlay(self, column: int, value: float, speed: float) -> None:
-        """Shift an axis beside everything else, no faster than a speed."""
+    def overlay(self, name: str, column: int, value: float, speed: float) -> None:
+        """Shift an axis beside everything else, no faster than a speed; `name` says which of its shifts is meant."""
 
-    def take_in_overlay(self, column: int) -> float:
-        """The shift of an axis, which stands, becomes a part of the path: gives its machine position."""
+    def overlaid(self, name: str, column: int) -> float:
+        """How far a shift of an axis has been asked to go, mm or degrees; 0 where there is none."""
+
+    def take_in_overlay(self, name: str, column: int) -> float:
+        """A shift of an axis, which stands, becomes a part of the path: gives its machine position."""
 
     def corner_angle(self) -> float | None:
         """Angle between the end of the move in execution and the next one, degrees; None where none is prepared."""

@@ -101,6 +101,7 @@ KEYS: tuple[Callable[[VirtualControl, Random], object], ...] = (
     lambda now, dice: now.set_switches(block_skip=dice.choice((False, True, (1, 2)))),
     lambda now, dice: now.set_switches(machine_lock=dice.random() < 0.3, z_lock=dice.random() < 0.3),
     lambda now, dice: now.set_switches(mst_lock=dice.random() < 0.3),
+    lambda now, dice: now.set_switches(drf=dice.random() < 0.5),
     lambda now, dice: now.block_search(dice.choice((3, 5, 8, 12, "N5", 999))),
     lambda now, dice: now.teach("G1"),
     lambda now, dice: now.jog("Y", dice.choice((1, -1)), channel=2),

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from polycnc.channel.states.snapshot import unchanging
 from polycnc.control.alarm_text import alarm_catalogue
 from polycnc.control.sinumerik import axis_names, gcodes, replaced, tables
-from polycnc.control.sinumerik.actions import actions
+from polycnc.control.sinumerik.actions import actions, overlay
 from polycnc.control.sinumerik.actions.user_data import user_data
 from polycnc.control.sinumerik.block import positions, procedures, single_block
 from polycnc.control.sinumerik.block.plain import SinumerikPlainBlocks
@@ -185,6 +185,10 @@ class Sinumerik:
     def stop_spindles(self, channel: SinumerikChannel) -> None:
         """The drives are off."""
         channel.memory.spindles.stop()
+
+    def handwheel_offset_speed(self, channel: SinumerikChannel, axis: int) -> float:
+        """DRF: MD32020 by MD32090."""
+        return overlay.handwheel_speed(channel, axis)
 
     def language_memory(self, channel: SinumerikChannel) -> LanguageMemory:
         """What the language begins with: what machine data say, and values that are retained."""

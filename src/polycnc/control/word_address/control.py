@@ -270,6 +270,10 @@ class WordAddressControl:
     def clocked(self, channel: Channel) -> None:
         """Nothing of these controls counts with the clock."""
 
+    def handwheel_offset_speed(self, _channel: Channel, _axis: int) -> float:
+        """No handwheel shifts an axis beside its program."""
+        return 0.0
+
     def stop_spindles(self, channel: Channel) -> None:
         """The drives are off."""
         channel.memory.spindle.direction = 0

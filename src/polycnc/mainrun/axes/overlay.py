@@ -1,4 +1,4 @@
-"""A shift of an axis beside everything else (`$AA_OFF`): it goes to what an action asks for, as fast as it may."""
+"""A shift of an axis beside everything else: it goes to what an action (`$AA_OFF`) or a handwheel (DRF) asks for."""
 
 from __future__ import annotations
 
@@ -18,6 +18,11 @@ class Overlay:
             return self._to
         share = (time - self._since) / (self._until - self._since)
         return self._from + (self._to - self._from) * max(share, 0.0)
+
+    @property
+    def target(self) -> float:
+        """The value that it goes to."""
+        return self._to
 
     @property
     def due(self) -> float:

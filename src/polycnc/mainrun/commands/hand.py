@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.mainrun.commands.states import Command
+from polycnc.mainrun.commands.states import PROGRAM_MODES, Command
 from polycnc.mainrun.errors import CommandRefused
 from polycnc.messages.catalogue import listed
 
@@ -26,6 +26,7 @@ class HandCommands:
         self._runs = operation.runs
         self._switches = operation.switches
         self._clock = operation.clock
+        self._status = operation.status
         self._permission = permission
 
     def jog(self, axis: str, direction: int, *, rapid: bool, channel: int) -> None:
@@ -53,9 +54,21 @@ class HandCommands:
 
     def handle(self, axis: str, way: float, *, channel: int) -> None:
         """Turn the handwheel by a way, as the machine display counts."""
+        if self._switches.panel.drf and self._status.mode in PROGRAM_MODES:
+            self._offset(axis, way, channel)
+            return
         self._permission.ask(Command.HANDLE)
         run, i = self._axis(axis, channel)
         self._shift(run, i, way, self._switches.rapid_speed(run.channel.axis_data[i]))
+
+    def _offset(self, axis: str, way: float, number: int) -> None:
+        """Shift an axis beside the program that runs, or may run (DRF)."""
+        self._permission.ask(Command.HANDWHEEL_OFFSET)
+        run, i = self._axis(axis, number)
+        self._permission.ask_machine(*_move_words(run, i))
+        speed = run.channel.control.handwheel_offset_speed(run.channel, i)
+        shift = way / run.display.machine_factor(i, run.execution.context)
+        run.interpolator.shift_by_hand(i, shift, speed)
 
     def home(self, axis: str | None, *, channel: int) -> None:
         """Approach the first reference point; with all axes of the channel where none is named."""

@@ -52,6 +52,7 @@ class Command(StrEnum):
     JOG = "jog"
     INCREMENT = "increment"
     HANDLE = "handle"
+    HANDWHEEL_OFFSET = "handwheel_offset"
     HOME = "home"
     TEACH = "teach"
     SELECT_MODE = "select_mode"
@@ -73,6 +74,7 @@ ALLOWED: dict[Command, tuple[frozenset[Mode], frozenset[State]]] = {
     Command.JOG: (frozenset((Mode.JOG, Mode.TEACH)), AT_REST),
     Command.INCREMENT: (frozenset((Mode.INCREMENT, Mode.TEACH)), AT_REST),
     Command.HANDLE: (frozenset((Mode.HANDLE, Mode.TEACH)), AT_REST),
+    Command.HANDWHEEL_OFFSET: (PROGRAM_MODES, frozenset((*AT_REST, State.RUNNING))),
     Command.HOME: (frozenset((Mode.REFERENCE,)), AT_REST),
     Command.TEACH: (frozenset((Mode.TEACH,)), frozenset((State.READY,))),
     Command.SELECT_MODE: (EVERY_MODE, frozenset((*AT_REST, State.RUNNING, State.ALARM))),

@@ -65,6 +65,8 @@ class SwitchCommands:
             if changes["single_block"] not in SINGLE_BLOCK_KINDS:
                 allowed = listed(SINGLE_BLOCK_KINDS[1:])
                 raise CommandRefused("mainrun.value", name="single_block", allowed=allowed, value=kind)
+        if changes.get("drf") and not self._shifts_by_handwheel():
+            raise CommandRefused("mainrun.value", name="drf", allowed="False", value=True)
         if changes.get("block_skip", panel.block_skip) != panel.block_skip:
             for run in operation.runs:
                 forget_skipped(run.channel)
@@ -83,6 +85,11 @@ class SwitchCommands:
             self._switches.apply_to(run.channel, typed=operation.program_mode is Mode.MDI)
         operation.runs.revise()
         operation.status.report("switch", **changes)
+
+    def _shifts_by_handwheel(self) -> bool:
+        """Whether the control lets a handwheel shift axes beside a program."""
+        channel = self._operation.runs.first.channel
+        return bool(channel.control.handwheel_offset_speed(channel, 0))
 
     def _lock(self) -> None:
         """Locked axes stand while the display runs on; when a lock ends, the display shows the axes again."""

@@ -9,7 +9,8 @@ from __future__ import annotations
 from math import acos, degrees, hypot, inf
 from typing import TYPE_CHECKING, Protocol
 
-from polycnc.channel.interpolator import Influence, OnPath
+from polycnc.channel.interpolator import HANDWHEEL_OFFSET, Influence, OnPath
+from polycnc.channel.moves.travel import limits_of
 from polycnc.mainrun.axes.commanded import CommandedAxis
 from polycnc.mainrun.axes.overlay import Overlay
 from polycnc.mainrun.preparation.items import UNINFLUENCED, Happening, Move
@@ -66,7 +67,7 @@ class ChannelInterpolator:
         self._looks = False
         self.runs_programs = True
         self._commanded: dict[int, CommandedAxis] = {}
-        self._overlays: dict[int, Overlay] = {}
+        self._overlays: dict[tuple[str, int], Overlay] = {}
         self._led: dict[int, tuple[CouplingLaw, ...]] = {}
         self._seen: tuple[float, list[float]] = (-1.0, [])
         self._before: tuple[float, list[float]] = (-1.0, [])
@@ -329,22 +330,46 @@ class ChannelInterpolator:
         self._run.execution.place_axis(column, place)
         return place
 
-    def overlay(self, column: int, value: float, speed: float) -> None:
-        """Shift an axis beside everything else, no faster than a speed."""
-        found = self._overlays.get(column)
+    def overlay(self, name: str, column: int, value: float, speed: float) -> None:
+        """Shift an axis beside everything else, no faster than a speed; `name` says which of its shifts is meant."""
+        found = self._overlays.get((name, column))
         if found is None:
-            found = self._overlays[column] = Overlay()
+            found = self._overlays[name, column] = Overlay()
             self._run.axes[column].add(found)
         found.go(value, speed, self._clock.time)
+        self._narrow_travel()
 
-    def take_in_overlay(self, column: int) -> float:
-        """The shift of an axis, which stands, becomes a part of the path: gives its machine position."""
-        found = self._overlays.pop(column, None)
+    def shift_by_hand(self, column: int, way: float, speed: float) -> None:
+        """The handwheel shifts an axis by a way more, from where it is no further than its travel allows."""
+        found, axis = self._overlays.get((HANDWHEEL_OFFSET, column)), self._run.axes[column]
+        before, now = (found.target, found.at(self._clock.time)) if found is not None else (0.0, 0.0)
+        bare = axis.setpoint(self._clock.time) - now
+        low, high = min(axis.data.limit_minus - bare, before), max(axis.data.limit_plus - bare, before)
+        self.overlay(HANDWHEEL_OFFSET, column, min(max(before + way, low), high), speed)
+
+    def _narrow_travel(self) -> None:
+        """Rows that are prepared from now on leave room for the shifts of the axes."""
+        channel = self._run.execution.preprocessing.channel
+        channel.limits = limits_of(channel.axis_data)
+        for (_, column), each in self._overlays.items() if channel.limits else ():
+            low, high = channel.limits[column]
+            room = (low - min(each.target, 0.0), high - max(each.target, 0.0))
+            channel.limits = (*channel.limits[:column], room, *channel.limits[column + 1 :])
+
+    def overlaid(self, name: str, column: int) -> float:
+        """How far a shift of an axis has been asked to go, mm or degrees; 0 where there is none."""
+        found = self._overlays.get((name, column))
+        return found.target if found is not None else 0.0
+
+    def take_in_overlay(self, name: str, column: int) -> float:
+        """A shift of an axis, which stands, becomes a part of the path: gives its machine position."""
+        found = self._overlays.pop((name, column), None)
         place = self._run.path[column]
         if found is not None:
             self._run.axes[column].remove(found)
             place += found.at(self._clock.time)
             self._run.execution.place_axis(column, place)
+            self._narrow_travel()
         return place
 
 

@@ -78,6 +78,7 @@ class PanelSwitches:
         machine_lock: The axes stand; the display runs on.
         z_lock: The same for the tool axis alone.
         mst_lock: M, S and T go to no machine; stops and program ends act.
+        drf: The handwheel shifts axes beside the program (SINUMERIK's DRF).
     """
 
     single_block: str = ""
@@ -87,6 +88,7 @@ class PanelSwitches:
     machine_lock: bool = False
     z_lock: bool = False
     mst_lock: bool = False
+    drf: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,7 +1,8 @@
-"""`$AA_OFF[axis]`: a motion that an action lays over an axis, within the limit of SD43350 (10.4.8).
+"""Motions that lie over an axis: `$AA_OFF[axis]` by an action (10.4.8), DRF by the handwheel (Fundamentals 9.7).
 
-MD36750 bit 0 says whether what is written is the shift, or is added to it in every cycle. It moves no faster than
-MD32020, and coordinates do not know of it. CORROF takes it away: the axis stays, coordinates know of it then.
+MD36750 bit 0 says whether what is written is the shift, or is added to it in every cycle; SD43350 limits it. It moves
+no faster than MD32020, the handwheel's shift than the share of it that MD32090 says. Coordinates do not know of either.
+CORROF takes them away, DRFOF the handwheel's: the axis stays, coordinates know where it is then.
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from polycnc.channel.interpolator import HANDWHEEL_OFFSET
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.block import arguments
@@ -22,6 +24,7 @@ if TYPE_CHECKING:
 
 _INTEGRAL = 1
 NAME = "AA_OFF"
+NAMES = (NAME, HANDWHEEL_OFFSET)
 
 
 @dataclass(slots=True)
@@ -48,7 +51,7 @@ def _write(channel: SinumerikChannel, indices: Indices, value: float) -> None:
     overlays[column] = value = min(max(value, -limit), limit)
     clocked = channel.actual.clocked
     if clocked is not None:
-        clocked.overlay(column, value, data.number("$MA_JOG_VELO", name) / tables.MINUTE)
+        clocked.overlay(NAME, column, value, data.number("$MA_JOG_VELO", name) / tables.MINUTE)
 
 
 def _read(channel: SinumerikChannel, indices: Indices) -> float:
@@ -62,28 +65,66 @@ def _at_limit(channel: SinumerikChannel, indices: Indices) -> int:
     return (value >= limit) - (value <= -limit)
 
 
+def _by_hand(channel: SinumerikChannel, indices: Indices) -> float:
+    """`$AC_DRF[axis]`: how far the handwheel has shifted an axis, mm or degrees."""
+    clocked = channel.actual.clocked
+    column = _column(channel, indices)
+    return 0.0 if clocked is None else clocked.overlaid(HANDWHEEL_OFFSET, column)
+
+
 def take_away(channel: SinumerikChannel, args: Arguments) -> None:
     """CORROF(axis,"AA_OFF",…): the shift is no more; the axis stays where it is, and the program knows it there."""
     pairs = list(zip(args[::2], args[1::2], strict=False))
     if len(args) % 2 or any(
-        not isinstance(axis, Axis) or str(what).upper() not in (NAME, "DRF") for axis, what in pairs
+        not isinstance(axis, Axis) or str(what).upper() not in NAMES for axis, what in pairs
     ):
         raise AlarmError("14020", text="CORROF")
-    columns = [arguments.column(channel, axis) for axis, what in pairs if str(what).upper() == NAME]
+    _take_in(channel, [(str(what).upper(), arguments.column(channel, axis)) for axis, what in pairs])
+
+
+def take_away_by_hand(channel: SinumerikChannel, args: Arguments) -> None:
+    """DRFOF: what the handwheel has shifted is no more, on all axes of the channel."""
+    if args:
+        raise AlarmError("14020", text="DRFOF")
+    _take_in(channel, [(HANDWHEEL_OFFSET, column) for column in range(len(channel.axes))])
+
+
+def _take_in(channel: SinumerikChannel, shifts: list[tuple[str, int]]) -> None:
     clocked = channel.actual.clocked
-    if clocked is None or not columns:
+    if clocked is None or not shifts:
         return
     channel.flush()
     channel.synchronise()
     machine = channel.coordinates.machine
-    for column in columns:
-        Overlays.of(channel).values.pop(column, None)
-        machine[column] = clocked.take_in_overlay(column)
+    for name, column in shifts:
+        if name == NAME:
+            Overlays.of(channel).values.pop(column, None)
+        machine[column] = clocked.take_in_overlay(name, column)
     channel.coordinates.arrive_machine(machine)
+
+
+def refuse_suppression(channel: SinumerikChannel) -> None:
+    """SUPA: takes motions out that lie over axes.
+
+    Raises:
+        AlarmError: PC0001 where there is one, as that is not executed.
+    """
+    clocked = channel.actual.clocked
+    columns = range(len(channel.axes))
+    if clocked is not None and any(clocked.overlaid(name, i) for name in NAMES for i in columns):
+        raise AlarmError("PC0001", hint="hint.not-supported", code="SUPA $AA_OFF/DRF")
+
+
+def handwheel_speed(channel: SinumerikChannel, axis: int) -> float:
+    """How fast the handwheel shifts an axis, mm/s or degrees/s: MD32020 by MD32090."""
+    data, name = channel.memory.data, channel.axes[axis]
+    share = data.number("$MA_HANDWH_VELO_OVERLAY_FACTOR", name)
+    return data.number("$MA_JOG_VELO", name) * share / tables.MINUTE
 
 
 OVERLAY_VARIABLES: dict[str, RowWithStop] = {
     "$AA_OFF": (Type.REAL, _read, _write, True),
     "$AA_OFF_VAL": (Type.REAL, _read, None, True),
     "$AA_OFF_LIMIT": (Type.INT, _at_limit, None, True),
+    "$AC_DRF": (Type.REAL, _by_hand, None, True),
 }

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.machine_words import asking, move_words, plc_of
 from polycnc.control.sinumerik import auxiliary, gcodes, replaced, tables
+from polycnc.control.sinumerik.actions import overlay
 from polycnc.control.sinumerik.block import words
 from polycnc.control.sinumerik.block.draft import Draft, Plan, Step
 from polycnc.control.sinumerik.block.positions import (
@@ -410,6 +411,8 @@ def _suppress(code: str) -> Step:
     """Frames off for a block, and back; what incremental words are still owed does not change."""
 
     def run(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+        if code == "SUPA":
+            overlay.refuse_suppression(channel)
         frames.apply(channel, code)
 
     return run

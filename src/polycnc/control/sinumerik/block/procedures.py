@@ -201,10 +201,6 @@ def editor_mark(_channel: SinumerikChannel, _args: Arguments) -> None:
     """GROUP_BEGIN, GROUP_END, GROUP_ADDEND: marks of the editor."""
 
 
-def no_overlay(_channel: SinumerikChannel, _args: Arguments) -> None:
-    """DRFOF: no handwheel has moved an axis that could be taken back."""
-
-
 PROCEDURES: dict[str, Callable[[SinumerikChannel, Arguments], None]] = {
     "MSG": message,
     "STOPRE": preprocessing_stop,
@@ -236,12 +232,12 @@ PROCEDURES: dict[str, Callable[[SinumerikChannel, Arguments], None]] = {
     "CHANDATA": channel_data,
     "SEFORM": section_of_program,
     "DIAMCHAN": diameters_of_channel,
-    "DRFOF": no_overlay,
     "WORKPIECE": workpiece,
     "GROUP_BEGIN": editor_mark,
     "GROUP_END": editor_mark,
     "GROUP_ADDEND": editor_mark,
     "CORROF": overlay.take_away,
+    "DRFOF": overlay.take_away_by_hand,
     **actions.PROCEDURES,
     **polynomials.PROCEDURES,
     **interrupts.PROCEDURES,

@@ -140,6 +140,7 @@ DATA: dict[str, tuple[int, bool | float | str]] = {
     "$MA_MAX_AX_VELO": (32000, 10000.0),
     "$MA_JOG_VELO": (32020, 2000.0),
     "$MA_POS_AX_VELO": (32060, 10000.0),
+    "$MA_HANDWH_VELO_OVERLAY_FACTOR": (32090, 0.5),
     "$MA_POSTCTRL_GAIN": (32200, 1.0),
     "$MA_MAX_AX_ACCEL": (32300, 1.0),
     "$MA_MAX_AX_JERK": (32431, 1000000.0),

@@ -1,4 +1,4 @@
-"""System variables of what surrounds the programs: version, modal call, tables of compensation, DRF.
+"""System variables of what surrounds the programs: version, modal call, tables of compensation.
 
 Tables of sag and encoder compensation lie below the setpoint: they are kept, the path is the programmed one.
 
@@ -29,14 +29,6 @@ def _version(channel: SinumerikChannel, _indices: Indices) -> float:
 
 def _modal_call(channel: SinumerikChannel, _indices: Indices) -> bool:
     return channel.memory.language.modal_call is not None
-
-
-def _offset_by_hand(channel: SinumerikChannel, indices: Indices) -> float:
-    """`$AC_DRF[axis]`: no handwheel moves an axis against a program that runs."""
-    if len(indices) != 1 or not isinstance(indices[0], Axis):
-        raise AlarmError("12400", text="$AC_DRF")
-    channel.memory.column(indices[0].name)
-    return 0.0
 
 
 def _kept(name: str, type_: Type, *kinds: type) -> Row:
@@ -104,6 +96,5 @@ _NOT_WRITTEN: Writer | None = None
 SURROUNDINGS: dict[str, RowWithStop] = {
     "$AN_NCK_VERSION": (Type.REAL, _version, _NOT_WRITTEN, False),
     "$P_MC": (Type.BOOL, _modal_call, _NOT_WRITTEN, False),
-    "$AC_DRF": (Type.REAL, _offset_by_hand, _NOT_WRITTEN, True),
     **{name: (*row, False) for name, row in _TABLES.items()},
 }

@@ -1,0 +1,41 @@
+"""The handwheel beside a program (DRF)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+
+from polycnc.mainrun import CommandRefused, VirtualControl
+from tests.mainrun.commands.test_any_key import LIMITS, limited
+from tests.mainrun.support import power_on
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+
+def test_a_handwheel_shifts_axes_beside_a_program_on_sinumerik_alone() -> None:
+    with pytest.raises(CommandRefused):
+        power_on().set_switches(drf=True)
+    virtual = VirtualControl("sinumerik-840d")
+    virtual.set_switches(drf=True)
+    virtual.handle("X", 1000)
+    virtual.run()
+    assert virtual.positions.machine["X"] == pytest.approx(1.0)
+    assert virtual.positions.work["X"] == 0.0
+
+
+def test_a_shift_by_the_handwheel_stays_within_the_travel(tmp_path: Path) -> None:
+    file = tmp_path / "machine.toml"
+    file.write_text(limited("mill3"), encoding="utf-8")
+    virtual = VirtualControl("sinumerik-840d", machine=file)
+    virtual.set_switches(drf=True)
+    virtual.handle("X", 1_000_000)
+    virtual.run()
+    assert virtual.positions.machine["X"] == pytest.approx(LIMITS[1])
+    virtual.handle("X", -1000)
+    virtual.load("G90 G1 X1 F600\nX1.5\nM30\n")
+    virtual.cycle_start()
+    virtual.run()
+    assert [alarm.code for alarm in virtual.alarms] == ["10720"]
+    assert virtual.positions.machine["X"] == pytest.approx(LIMITS[1])
