@@ -9,7 +9,7 @@
     milling              POCKET1 to POCKET4, SLOT1, SLOT2, LONGHOLE
     surfaces             CYCLE61, CYCLE71, CYCLE72, CYCLE76, CYCLE77, CYCLE79, CYCLE90
     contour              CYCLE62, and how contours are read
-    turning              CYCLE95, CYCLE97 to CYCLE99
+    turning              CYCLE95, CYCLE951, CYCLE97 to CYCLE99
     grooves              CYCLE93, CYCLE94, CYCLE96
     swivel               CYCLE800
     swivel_record        its data records

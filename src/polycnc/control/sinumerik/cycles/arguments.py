@@ -29,7 +29,7 @@ NUMBERS = _names(
     DTB DTS _DTD DTD FRF VARI _VARI _AXN _GMODE _DMODE _AMODE _UMODE SDAC SDIR SDR ENC MPIT POSS SST SST1 _PTAB
     _PTABA _PITA _TECHNO STA1 _STA INDA NUM _NUM _NUM1 _NUM2 _NSP CDIR _CDIR NSP NRC NID NUMT IANG ANG1 ANG2 TYPTH
     _ANG1 _ANG2 _STA2 AFSL SSF _ST _MODE _A _B _C _DIR _FR _TYPE _RL _AS1 _AS2 _LIM S_TOLM S_OTOL DT _LAGE _DN _XA
-    _YA PIT_INCH _IANG _NRC _NID _NUMT _GST
+    _YA PIT_INCH _IANG _NRC _NID _NUMT _GST _NR
     """
 )
 #: Path feeds, in the feed type of the caller.
@@ -39,7 +39,7 @@ FEEDS = _names(
     """
 )
 #: Diameters of turned parts, whatever DIAMON says; the value is the radius.
-DIAMETERS = _names("SPD DM1 DM2 DM3 DM4 _SPD _DM1 _DM2")
+DIAMETERS = _names("SPD DM1 DM2 DM3 DM4 _SPD _EPD _ZPD _DM1 _DM2")
 TEXTS = _names("_TC _KNAME _HIDE _TEXT NPP FORM _FORM _PITM _PRG _LAB1 _LAB2")
 
 

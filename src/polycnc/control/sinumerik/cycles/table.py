@@ -140,6 +140,10 @@ CYCLES: dict[str, Cycle] = {
         " _GST _GUD _IFLANK _PITA _PITM _PTAB _PTABA _DMODE _AMODE",
         turning.thread_of_plane,
     ),
+    "CYCLE951": Cycle(
+        "_SPD _SPL _EPD _EPL _ZPD _ZPL _LAGE _MID _FALX _FALZ _VARI _RF1 _RF2 _RF3 _SDIS _FF1 _NR _DMODE _AMODE",
+        turning.corner,
+    ),
     "CYCLE800": Cycle(
         "_FR _TC _ST _MODE _X0 _Y0 _Z0 _A _B _C _X1 _Y1 _Z1 _DIR _FR_I _DMODE",
         swivel.swivel,
