@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 #: Forms of an undercut by cycle.
 FORMS = {"CYCLE94": ("E", "F"), "CYCLE96": ("A", "B", "C", "D")}
+#: Finished parts and threads of less have no undercut.
+LEAST_DIAMETER_MM = 3.0
 #: Cutting edge positions that can turn an undercut.
 CORNERS = (1, 2, 3, 4)
 #: VARI of CYCLE93: outside or inside, lengthwise or across, side of the start; 10 more for the other kind of chamfer.
@@ -40,7 +42,7 @@ def undercut(moves: Moves, a: Arguments) -> None:
 
     Raises:
         AlarmError: 61000 without tool offset, 61608 for a tool point that cannot, 61609 for a form that does not
-            exist, 61601 for a diameter that is not above zero; else PC0001.
+            exist, 61601 for a diameter below 3 mm; else PC0001.
     """
     require_tool(moves)
     if a.text("FORM").strip().upper() not in FORMS[a.cycle]:
@@ -48,7 +50,8 @@ def undercut(moves: Moves, a: Arguments) -> None:
     edge = moves.memory.tools.edge
     if edge is None or int(edge.values[DP_TIP]) not in CORNERS:
         raise AlarmError("61608")
-    if not a["SPD" if a.cycle == "CYCLE94" else "DIATH"] > 0.0:
+    diameter = 2.0 * a["SPD"] if a.cycle == "CYCLE94" else a["DIATH"]
+    if diameter < LEAST_DIAMETER_MM - _ROUNDING:
         raise AlarmError("61601")
     raise not_supported(a.cycle)
 
