@@ -67,8 +67,9 @@ def _at_limit(channel: SinumerikChannel, indices: Indices) -> int:
 
 def _by_hand(channel: SinumerikChannel, indices: Indices) -> float:
     """`$AC_DRF[axis]`: how far the handwheel has shifted an axis, mm or degrees."""
-    clocked = channel.actual.clocked
-    column = _column(channel, indices)
+    if len(indices) != 1 or not isinstance(indices[0], Axis):
+        raise AlarmError("12400", text="$AC_DRF")
+    clocked, column = channel.actual.clocked, channel.memory.column(indices[0].name)
     return 0.0 if clocked is None else clocked.overlaid(HANDWHEEL_OFFSET, column)
 
 
