@@ -159,12 +159,7 @@ class SpatialStage(Stage):
         path = MovePath(move, self._geometry)
         error = CHORD_ERROR_MM * path.radius / (path.radius + abs(self.radius))
         points, before = list(path.chords(error)), move.start
-        places = [move.start[column] for column in move.turning.columns] if move.turning is not None else []
         for k, point in enumerate(points, 1):
-            if move.turning is not None:
-                turned = move.turning.at(places, k / len(points))
-                for column, place in zip(move.turning.columns, turned, strict=True):
-                    point[column] = place
             chord = replace(
                 move, kind=Kind.SPLINE, start=before, end=point, center=None, turns=0.0, turning=None
             )

@@ -40,6 +40,11 @@ class MovePath:
         self._sweep = 0.0
         if move.center is not None:
             self._lay_out()
+        self._places: tuple[float, ...] = ()
+        self._turning = move.turning
+        if move.turning is not None:
+            self._places = tuple(move.start[column] for column in move.turning.columns)
+            self._turning = move.turning.paced(self._places, self.length)
 
     def _lay_out(self) -> None:
         """An arc as start direction, direction of travel, angle, radii and rise along its normal."""
@@ -71,6 +76,11 @@ class MovePath:
         if part >= 1.0:
             return move.end.copy()
         point = [a + (b - a) * part for a, b in zip(move.start, move.end, strict=True)]
+        if self._turning is not None:
+            for column, place in zip(
+                self._turning.columns, self._turning.at(self._places, part), strict=True
+            ):
+                point[column] = place
         if move.center is None:
             return point
         angle, radius = self._sweep * part, self._radius + self._growth * part
@@ -206,19 +216,22 @@ class MovePath:
 
     def until(self, part: float) -> Move:
         """The move as far as a part of its way."""
-        return self._piece(self.move.start, self.at(part), part)
+        return self._piece(self.move.start, self.at(part), 0.0, part)
 
     def between(self, first: float, last: float) -> Move:
         """The piece between two parts of the way."""
-        return self._piece(self.at(first), self.at(last), last - first)
+        return self._piece(self.at(first), self.at(last), first, last)
 
     def beyond(self, part: float, start: list[float] | None = None) -> Move:
         """The rest of the move from a part of its way on; `start` where axes beside its way stand elsewhere."""
-        return self._piece(self.at(part) if start is None else start, self.move.end, 1.0 - part)
+        return self._piece(self.at(part) if start is None else start, self.move.end, part, 1.0)
 
-    def _piece(self, start: list[float], end: list[float], share: float) -> Move:
+    def _piece(self, start: list[float], end: list[float], first: float, last: float) -> Move:
+        share, turning = last - first, self._turning
         turns = max(int(abs(self._sweep) * share / (2.0 * pi) - 1e-12), 0) if self.move.turns else 0
-        return replace(self.move, start=start, end=end, turns=float(turns))
+        if turning is not None:
+            turning = turning.part(self._places, first, last) if share > 0.0 else None
+        return replace(self.move, start=start, end=end, turns=float(turns), turning=turning)
 
 
 def _unit(vector: list[float]) -> Vector:

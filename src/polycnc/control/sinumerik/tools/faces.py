@@ -166,22 +166,13 @@ class FaceStage(Stage):
                 piece = replace(move, kind=Kind.SPLINE, center=None, turns=0.0, turning=None)
             if k < count:  # displays show one motion
                 piece.context = knot_context(self._channel, move.context)
-            self._emit(piece, self._place(move, path, k / count), unit(_between(first, last, k / count)))
+            self._emit(piece, path.at(k / count), unit(_between(first, last, k / count)))
 
     def _check_square(self, path: MovePath, first: Vector, last: Vector) -> None:
         """10769 for a normal that lies along the path, at its start or end (6.2.5)."""
         along = max(abs(dot(first, path.direction(0.0))), abs(dot(last, path.direction(1.0))))
         if along > SQUARE:
             raise AlarmError("10769")
-
-    def _place(self, move: Move, path: MovePath, part: float) -> list[float]:
-        """The programmed position after a part of a move."""
-        place, turning = path.at(part), move.turning
-        if turning is not None:
-            start = [move.start[column] for column in turning.columns]
-            for column, angle in zip(turning.columns, turning.at(start, part), strict=True):
-                place[column] = angle
-        return place
 
     def _pieces(self, move: Move, first: Vector, last: Vector) -> int:
         """Chords that keep to the way of the tip."""
