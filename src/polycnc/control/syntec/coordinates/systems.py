@@ -150,8 +150,8 @@ def renew_preset_frame(memory: SyntecMemory) -> None:
     x, y, z = state.axis
     turns = state.angle != 0.0 and x * x + y * y + z * z != 0.0
     turn = turn_about((x, y, z), state.angle) if turns else IDENTITY
-    frame = turn @ state.table @ state.tilt
-    ZeroState.of(memory.channel).frame = IDENTITY if frame.is_identity else frame
+    zero = ZeroState.of(memory.channel)
+    zero.frame, zero.table, zero.plane = turn, state.table, state.tilt
 
 
 # ---- reference points, stroke limits ---------------------------------------------------------------------
