@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
     from polycnc.channel.moves.path import Move
     from polycnc.geometry.frames import Vector
+    from polycnc.transformation.orientation.turning import Turning
 
 #: Positions that differ by less (mm, degrees) are the same.
 SAME = 1e-6
@@ -227,11 +228,15 @@ class MovePath:
         return self._piece(self.at(part) if start is None else start, self.move.end, part, 1.0)
 
     def _piece(self, start: list[float], end: list[float], first: float, last: float) -> Move:
-        share, turning = last - first, self._turning
+        share = last - first
         turns = max(int(abs(self._sweep) * share / (2.0 * pi) - 1e-12), 0) if self.move.turns else 0
-        if turning is not None:
-            turning = turning.part(self._places, first, last) if share > 0.0 else None
+        turning = self.turned(first, last)
         return replace(self.move, start=start, end=end, turns=float(turns), turning=turning)
+
+    def turned(self, first: float, last: float) -> Turning | None:
+        """How the rotary axes turn between two parts of the way."""
+        turning = self._turning
+        return None if turning is None or last <= first else turning.part(self._places, first, last)
 
 
 def _unit(vector: list[float]) -> Vector:

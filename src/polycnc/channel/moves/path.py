@@ -120,7 +120,7 @@ class Move:
         """The same move between two other positions."""
         return Move(
             self.kind, start, end, self.feed, self.program, self.line, self.context,
-            self.center, self.normal, self.turns, self.parameters,
+            self.center, self.normal, self.turns, self.parameters, self.turning,
         )  # fmt: skip
 
 
