@@ -35,6 +35,7 @@ SOME = [(case, name, path) for case, name, path in CASES if not case.operate][::
 #: States by the names of their classes, each with a case that changes it, such that it is changed between two blocks.
 CHANGED_BY = {
     "ArcState": "syntec-move-full-circle",
+    "ArrivalState": "fanuc-0i-tf-s-makes-a-hole-wait",
     "AxisSettings": "sinumerik-scpara",
     "BalanceState": "fanuc-0i-tf-balance-with-m",
     "BeforeBlock": "sin-smooth-approach-without-contour",

@@ -259,7 +259,9 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         return ended
 
     def synchronise(self) -> None:
-        """A preprocessing stop: the running block, which has done nothing yet, waits for the main run.
+        """A preprocessing stop: the running block waits for the main run, and begins again then.
+
+        Rows that it has written are taken back, unless a stage holds moves: there it must have done nothing yet.
 
         Raises:
             PreprocessingStop: The main run is behind.
@@ -350,6 +352,8 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
             take_back(self, found_ahead=bool(error.line))
             self.fail(error)
         except PreprocessingStop:
+            if self.path.head is None:
+                take_back(self)
             self._level.index = self._level.current
             wait, self._wait = self._wait or PREPROCESSING, None
             return wait

@@ -113,6 +113,7 @@ class SyntecMill(WordAddressControl):
         whole_numbers.RULE,
         tip_control.RULE,
         drilling_cycles.RULE,
+        cycles.OVERLAP_RULE,
         cycles.RULE,
         borrowing.RULE,
         moves.INVERSE_TIME_RULE,

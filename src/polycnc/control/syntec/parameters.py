@@ -87,6 +87,8 @@ class SyntecParameters(ControlParameters["SyntecAxisParameters"]):
     rotates_at_start = Whole(3839, delivered=0)
     #: 3957: Oscillation stops at R (0) or at once (1).
     oscillation_stop = Whole(3957, delivered=0)
+    #: 3990: Way before the end of a G00 at which the next G00 begins, least units.
+    rapid_overlap = Whole(3990, delivered=0)
     #: 3991: Least angle of an outer corner that an intersection leads round, least units.
     least_intersection = Whole(3991, delivered=0)
     #: 3992: Largest angle of an outer corner that an arc leads round, least units; 0 for 180 degrees.
