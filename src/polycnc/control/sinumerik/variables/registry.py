@@ -265,12 +265,9 @@ def _spindle_value(attribute: str) -> Reader:
 
 
 def _turning_speed(channel: SinumerikChannel, indices: Indices) -> float:
-    """What a spindle turns with, without sign; one that stands is told by its programmed speed."""
-    memory = channel.memory
-    spindle = memory.spindles.get(arguments.spindle(indices[0]) if indices else None)
-    if SpindlePairs.of(channel).acting(spindle.number) is not None:
-        return abs(turns(channel, spindle.number))
-    return spindle_speed.turning_speed(memory, spindle, channel.mode["feed"])
+    """`$AA_S[n]`: what a spindle turns with, rpm, negative for M4; 0 while it stands."""
+    number = arguments.spindle(indices[0]) if indices else None
+    return turns(channel, channel.memory.spindles.get(number).number)
 
 
 def _direction(channel: SinumerikChannel, indices: Indices) -> int:
