@@ -32,6 +32,7 @@ from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.feed.tolerances import TOLERANCE_VARIABLES
 from polycnc.control.sinumerik.frames.variables import FRAME_VARIABLES
 from polycnc.control.sinumerik.limits import working_area
+from polycnc.control.sinumerik.motion.indexing import INDEX_VARIABLES
 from polycnc.control.sinumerik.motion.repositioning import REPOS_VARIABLES
 from polycnc.control.sinumerik.replaced import REPLACED_VARIABLES
 from polycnc.control.sinumerik.signals.measuring import MEASURE_VARIABLES
@@ -398,6 +399,7 @@ VARIABLES: dict[str, SystemVariable] = {
     **{name: SystemVariable(name, *row) for name, row in AXIS_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in TOLERANCE_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in COUPLING_VARIABLES.items()},
+    **{name: SystemVariable(name, *row) for name, row in INDEX_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in REPOS_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in MEASURE_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in DEFINITION_VARIABLES.items()},
