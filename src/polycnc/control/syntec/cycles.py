@@ -7,6 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
+from polycnc.control.syntec import tapping
 from polycnc.control.syntec.five_axes import spatial
 from polycnc.control.syntec.units import least_unit
 from polycnc.control.word_address.block.rules import Rule
@@ -52,7 +53,6 @@ CYCLES = {
     "G88": DrillCycle(partial(holes.bore_and_halt, feeds_out=True), dwells=True, bottom_from_initial=True),
     "G89": DrillCycle(holes.bore, dwells=True, bottom_from_initial=True),
 }
-TAPPING = ("G74", "G84")
 #: Pr4020: direction off the wall after the oriented stop, as geometry axis and sense.
 SHIFT_DIRECTIONS = {0: (0, 1.0), 1: (0, -1.0), 2: (1, 1.0), 3: (1, -1.0), 4: (2, 1.0), 5: (2, -1.0)}
 MAX_HOLES = 9999
@@ -68,7 +68,7 @@ class RetractState(State, lifetime=Lifetime.POWER):
 def relief(channel: SyntecChannel, code: str) -> float:
     """Pr4002 between drilling pecks; between tapping pecks Pr4004, or out to R where Pr4001 is 0."""
     parameters = channel.memory.parameters
-    if code not in TAPPING:
+    if code not in tapping.CODES:
         return parameters.peck_retract * least_unit(parameters)
     return parameters.tap_peck_retract * least_unit(parameters) if parameters.tap_fast_pecks == 1 else 0.0
 
@@ -87,6 +87,11 @@ def shift_off_wall(channel: SyntecChannel, data: CycleData, plane: tuple[int, in
 def dwell_seconds(value: float, form: str, rules: NumberRules) -> float:
     """P: seconds with a point, least input units of time without (Pr17, Pr3241)."""
     return value if form != "" or rules.calculator else value / 10.0**rules.decimals
+
+
+def dressed(channel: SyntecChannel, code: str, cycle: Cycle) -> Cycle:
+    """What the control makes of the strokes of a hole."""
+    return tapping.tap(channel, cycle) if code in tapping.CODES else out_at_feed(channel, code, cycle)
 
 
 def out_at_feed(channel: SyntecChannel, code: str, cycle: Cycle) -> Cycle:
@@ -112,7 +117,7 @@ DRILLING = Drilling(
     relief=relief,
     shift=shift_off_wall,
     lead=lead_from_feed,
-    dress=out_at_feed,
+    dress=dressed,
 )
 
 
@@ -126,7 +131,7 @@ def _with_cycle_words(builder: Builder, _plan: Plan, step: Step | None) -> Step 
     retract, threads = builder.slot("F2"), builder.slot("E")
     if code == "G81":
         builder.take("F2")
-    if code in TAPPING:
+    if code in tapping.CODES:
         builder.take("E")
     control = builder.control
 
@@ -139,7 +144,7 @@ def _with_cycle_words(builder: Builder, _plan: Plan, step: Step | None) -> Step 
                 raise control.fail("retract_feed", address="F2")
             fast = channel.memory.parameters.fast_drilling == 1
             state.feed = values[retract] * unit if fast else 0.0
-        if threads is not None and code in TAPPING and not builder.has("F"):
+        if threads is not None and code in tapping.CODES and not builder.has("F"):
             _feed_by_threads(channel, values[threads])
         step(channel, values)
 
