@@ -94,6 +94,7 @@ class Context:
             empty where the channel's names hold, an empty one for a column that it uses up.
         knot: Rows end at a knot within a motion, which the next row goes on with: displays show the motion as one.
         share: Part of its motion that a row of inverse time makes: displays show the feed of the whole.
+        dwell_signal: A signal that ends the dwell of a row (SYNTEC G04 Q); empty for none.
     """
 
     plane: str = "G17"
@@ -138,6 +139,7 @@ class Context:
     names: tuple[str, ...] = ()
     knot: bool = False
     share: float = 1.0
+    dwell_signal: str = ""
 
     @property
     def surface_m_min(self) -> float:
