@@ -95,6 +95,7 @@ CHANGED_BY = {
     "Polar": "sin-polar-without-pole",
     "PolarCoordinateState": "meldas-m-polar-and-rotation",
     "PolarState": "syntec-polar-diameter",
+    "PolynomialGroups": "sin-ori-polynomials-of-axes-alone",
     "PostureState": "syntec-tip-frame",
     "ProgrammingFrames": "fanuc-m-mirrored-arc-turns-the-other-way",
     "Preparations": "sinumerik-execute-goes-on-from-before",
