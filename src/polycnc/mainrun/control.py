@@ -65,7 +65,6 @@ if TYPE_CHECKING:
     )
     from polycnc.memory.retained import RetainedStore
     from polycnc.messages import Alarm
-    from polycnc.toolpath.table import Chunk
 
 _Name = TypeVar("_Name", bound=StrEnum)
 
@@ -277,7 +276,6 @@ class VirtualControl:
         *,
         text: str | None = None,
         channel: int = 1,
-        take: Callable[[Chunk], object] | None = None,
         block_limit: int = DEFAULT_BLOCK_LIMIT,
     ) -> Forecast:
         """Calculate what a program will do, beside the control and in pieces: nothing of the control changes.
@@ -286,7 +284,6 @@ class VirtualControl:
             name: A program of the memory; empty for the main program of the channel.
             text: Another text of it, as an editor has it.
             channel: The channel.
-            take: Called with the rows, chunk by chunk.
             block_limit: The calculation ends after so many blocks.
 
         Raises:
@@ -297,7 +294,7 @@ class VirtualControl:
             main = self._data.named(name) if name else self._programs.main(channel)
         return forecast_of(
             self._operation.runs.named(channel), self._programs, self._retained, main, text=text, name=name,
-            take=take, block_limit=block_limit,
+            block_limit=block_limit,
         )  # fmt: skip
 
     # ---- running -------------------------------------------------------------------------------------------

@@ -46,7 +46,7 @@ class Part:
 
 
 class Check:
-    """Looks for what alarms when a text runs, as `polycnc check` does: without motion, other programs being as they are.
+    """Looks for what alarms when a text runs, as `polycnc check` does: without motion; other programs are as they are.
 
     Args:
         control: The control; nothing of it changes.

@@ -1,8 +1,8 @@
 """A line through space as a typed buffer, which grows: what goes to a graphics card as it is.
 
 A point is five numbers of four bytes (`float32`, in the byte order of the host): X, Y, Z in mm, the feed with which the
-line comes to it in mm/min, and what it is: `RAPID`, `FEED` or `GAP` (no line leads there) and eight times the number of its tool's
-colour. A million points are 20 MB.
+line comes to it in mm/min, and what it is: `RAPID`, `FEED` or `GAP` (no line leads there) and eight times the number of
+its tool's colour. A million points are 20 MB.
 """
 
 from __future__ import annotations
@@ -57,7 +57,9 @@ class Lines:
         self._points.extend((*point, feed, kind + KINDS * colour))
         self._shorten()
 
-    def extend(self, columns: Sequence[Sequence[float] | None], feeds: Iterable[float], what: Iterable[int]) -> None:
+    def extend(
+        self, columns: Sequence[Sequence[float] | None], feeds: Iterable[float], what: Iterable[int]
+    ) -> None:
         """Add many points by columns.
 
         Args:

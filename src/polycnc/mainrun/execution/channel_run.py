@@ -118,7 +118,7 @@ class ChannelRun:
 
     @property
     def point(self) -> Vector:
-        """Where the tool is: X, Y and Z in the system of the work offset, mm (radius); 0 for an axis that is not there."""
+        """Where the tool is: X, Y and Z in the system of the work offset, mm (radius); 0 for no axis."""
         place, part = self.work_position, self.execution.context.part
         x, y, z = (place[i] if i >= 0 else 0.0 for i in self.display.geometry)
         return (x, y, z) if part.is_identity else part.apply(x, y, z)

@@ -40,19 +40,20 @@ class Forecast:
     Args:
         channel: A channel that nobody else has.
         main: The program.
-        take: Called with every chunk of rows that is full, and with the last one; the rows are dropped then.
 
     Attributes:
         main: The program.
+        take: Called with every chunk of rows that is full, and with the last one; the rows are dropped then.
         toolpath: Its rows.
         is_over: Nothing more comes.
         is_complete: The program was calculated to its end, or to an alarm.
     """
 
-    def __init__(self, channel: Channel, main: Program, take: Callable[[Chunk], object]) -> None:
+    def __init__(self, channel: Channel, main: Program) -> None:
         self.main, self.toolpath = main, channel.toolpath
+        self.take: Callable[[Chunk], object] = _dropped
         self.is_over = self.is_complete = False
-        self._channel, self._take = channel, take
+        self._channel = channel
         channel.burst = range(SLICE)
         channel.passes, channel.standstill = Passes(), _HandsOver()
         self._run = channel.run(main)
@@ -75,7 +76,7 @@ class Forecast:
         if wait is not None and wait.reason not in _OUT_OF_REACH:
             return True
         self.is_over, self.is_complete = True, wait is None
-        self._take(self.toolpath.chunk)
+        self.take(self.toolpath.chunk)
         return False
 
     def finish(self) -> None:
@@ -110,7 +111,6 @@ def forecast_of(
     *,
     text: str | None = None,
     name: str = "",
-    take: Callable[[Chunk], object] | None = None,
     block_limit: int = DEFAULT_BLOCK_LIMIT,
 ) -> Forecast:
     """The calculation of a program in the place of a channel.
@@ -122,7 +122,6 @@ def forecast_of(
         main: The program; None where `text` is the program.
         text: Its text, where it is not in the memory as it is now; `name` is its name there.
         name: See `text`.
-        take: See `Forecast`.
         block_limit: The calculation ends after so many blocks.
     """
     like = run.channel
@@ -131,15 +130,18 @@ def forecast_of(
         main = store.add_text(programs.key_of(name or "MAIN"), text or "\n")
     here = dict(zip(like.axes, run.machine_position, strict=True))
     setup = replace(like.setup, start={**like.setup.start, **here})
-    taken = take or _dropped
-    toolpath = Toolpath(like.axes, on_full=lambda chunk: (taken(chunk), True)[1])
+
+    def on_full(chunk: Chunk) -> bool:
+        forecast.take(chunk)
+        return True
+
     channel = Channel(
-        like.control, like.machine, setup, store, number=like.number, block_limit=block_limit, toolpath=toolpath,
-        bulk=Bulk(), retained=copied(retained, like.number),
+        like.control, like.machine, setup, store, number=like.number, block_limit=block_limit,
+        toolpath=Toolpath(like.axes, on_full=on_full), bulk=Bulk(), retained=copied(retained, like.number),
     )  # fmt: skip
-    return Forecast(channel, main, taken)
+    forecast = Forecast(channel, main)
+    return forecast
 
 
 def _dropped(_chunk: Chunk) -> None:
     """Nobody wants the rows."""
-

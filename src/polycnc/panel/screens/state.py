@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections import deque
 from dataclasses import replace
 from datetime import UTC, datetime
 from functools import cached_property
@@ -23,8 +22,6 @@ if TYPE_CHECKING:
     from polycnc.mainrun.reading.snapshot import Record, Snapshot
     from polycnc.panel.screens.pages import Column, Page, SoftKey, WindowSpec
 
-#: Points of the way that the picture shows.
-LONGEST_TRAIL = 4000
 #: The signal of the button that keeps the position.
 LATCH = "PRC"
 #: The panel's own setting: when maintenance was done.
@@ -75,7 +72,6 @@ class ScreenState:
         measuring: Measured input B; None on controls without it.
         writes_parameters: Parameters may be written.
         clock: The time of day.
-        trail: Where the axes have been, machine coordinates, the oldest first.
 
     Raises:
         CommandRefused: polycnc knows no screens of this control.
@@ -103,7 +99,6 @@ class ScreenState:
         self.latched: dict[str, float] = {}
         self.measuring = Measuring(control) if self.family.measures else None
         control.listeners.append(self._hear)
-        self.trail: deque[tuple[float, ...]] = deque(maxlen=LONGEST_TRAIL)
         self.clock: Callable[[], datetime] = lambda: datetime.now(UTC).astimezone()
         self._came: dict[str, datetime] = {}
         self._cursors: dict[str, tuple[int, int]] = {}
@@ -279,7 +274,7 @@ class ScreenState:
         self._came = {each: self._came.get(each) or self.clock() for each in now}
 
     def follow(self) -> None:
-        """Note where the axes are, and go on with what takes time; called while time passes."""
+        """Note alarms, and go on with what takes time; called while time passes."""
         if self.pending is not None:
             try:
                 if not self.pending.goes_on(self):
@@ -288,6 +283,3 @@ class ScreenState:
                 self.refusal = refusal
                 self.finish()
         self._note_alarms()
-        here = tuple(self.control.positions.real.values())
-        if not self.trail or here != self.trail[-1]:
-            self.trail.append(here)

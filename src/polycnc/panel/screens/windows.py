@@ -326,9 +326,9 @@ def _restart(at: Asked) -> Rows:
     )
 
 
-def _graph(at: Asked) -> Rows:
-    """The way of the tool so far, a point a row, mm in machine coordinates."""
-    return tuple(tuple(Cell(f"{value:.3f}") for value in point) for point in at.screen.trail)
+def _graph(_at: Asked) -> Rows:
+    """The picture lies over this window: it has no texts."""
+    return ()
 
 
 def _maintenance(at: Asked) -> Rows:
