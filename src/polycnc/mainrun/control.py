@@ -504,6 +504,11 @@ class VirtualControl:
         return self._readings.restart
 
     @property
+    def collected(self) -> tuple[str, ...]:
+        """What a block search has collected for cycle start to put out: `M3`, `S1000`, `T2`."""
+        return self._readings.collected
+
+    @property
     def feed(self) -> float:
         """Path speed now, mm/min; of the fastest axis where axes are moved by hand."""
         return self._readings.feed
