@@ -34,6 +34,7 @@ LAYERS = (
     "control",
     "motion",
     "mainrun",
+    "view",
     "panel",
     "session",
     "interchange",

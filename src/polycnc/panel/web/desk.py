@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from math import ceil
 from time import monotonic
 from typing import TYPE_CHECKING
 
 from polycnc.mainrun import State
 from polycnc.messages import UserError
+from polycnc.panel.course import Course
 from polycnc.panel.panel import Panel
 from polycnc.panel.screens.card import Card
 from polycnc.panel.screens.screen import Screen
@@ -16,6 +18,8 @@ if TYPE_CHECKING:
 
     from polycnc.mainrun import VirtualControl
 
+#: The trail of the picture has a point at the end of every part of the time, simulated s; of so many parts at most.
+PART_S, PARTS = 0.02, 16
 #: No longer than this passes at once, s: a browser that has slept does not make the machine jump.
 LONGEST_TICK_S = 0.25
 #: The key of the machine panel that starts what was typed in at MDI.
@@ -37,6 +41,7 @@ class Desk:
         screen: Its screen.
         panel: Its machine panel.
         speed: Simulated seconds in a second.
+        course: What its picture shows.
     """
 
     def __init__(self, control: VirtualControl, speed: float = 1.0, card: Path | None = None) -> None:
@@ -44,6 +49,7 @@ class Desk:
         self.screen = Screen(control)
         self.screen.card = Card(card)
         self.panel = Panel(control)
+        self.course = Course(control)
         if self.screen.measuring is not None:
             measuring = self.screen.measuring
             self.panel.locked = lambda: measuring.locked
@@ -87,8 +93,12 @@ class Desk:
         if seconds < cycle:
             self._then = now - seconds / self.speed
             return
-        self.control.step(seconds)
+        parts = max(1, min(PARTS, ceil(seconds / PART_S)))
+        for _ in range(parts):
+            self.control.step(seconds / parts)
+            self.course.note(self.control.snapshot)
         self.screen.follow()
+        self.course.go_on()
 
     def press(self, *keys: str) -> None:
         """Press keys of the machine panel together; what is refused is the screen's message."""

@@ -16,6 +16,7 @@ from polycnc.panel.panel import Light
 from polycnc.panel.screens.pages import in_language
 from polycnc.panel.web.editor import Editor
 from polycnc.panel.web.markup import of_view
+from polycnc.view.web.picture import Picture
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -49,10 +50,11 @@ class Page:
     Args:
         desk: What it shows.
         lang: Its language at first.
+        name: Name of the desk in addresses.
     """
 
-    def __init__(self, desk: Desk, lang: str) -> None:
-        self._desk = desk
+    def __init__(self, desk: Desk, lang: str, name: str) -> None:
+        self._desk, self._name = desk, name
         self._lang = desk.language or lang
         self._shown: dict[str, str] = {}
         self._refreshers: list[Callable[[], None]] = []
@@ -119,6 +121,7 @@ class Page:
             if family.side:
                 with ui.element("div").classes("sidekeys"):
                     side = [self._key("", partial(desk.screen.side, i)) for i in range(8)]
+        self._picture_over(".window.graph")
         with ui.element("div").classes("softkeys"):
             below = [self._key("", partial(desk.screen.soft, i)) for i in range(desk.screen.rows)]
 
@@ -137,6 +140,18 @@ class Page:
                             add="chosen" if soft.active else "", remove="" if soft.active else "chosen"
                         )
                         key.props(f'aria-label="{_quoted(soft.text or "soft key " + str(i + 1))}"')
+
+        self._refreshers.append(refresh)
+
+    def _picture_over(self, place: str) -> None:
+        """The picture, on the pages of the screen that have a window for it."""
+        course = self._desk.course
+        addresses = {name: f"/lines/{self._name}/{name}" for name in course.lines}
+        picture = Picture(addresses, course.bodies, self._lang, over=place)
+
+        def refresh() -> None:
+            if self._desk.screen.shows("graph"):
+                picture.show(course.pose, course.lines)
 
         self._refreshers.append(refresh)
 
