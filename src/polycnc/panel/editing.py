@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from polycnc.channel.channel import Channel
+from polycnc.deferred.records import dataclass
 from polycnc.program import Form, ProgramStore
 
 if TYPE_CHECKING:

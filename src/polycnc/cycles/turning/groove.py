@@ -6,10 +6,10 @@ base. They are those of the tool's edge that lies nearer to where the groove beg
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.cycles.count import parts
+from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from polycnc.channel.waits import Wait, Why
+from polycnc.deferred.records import dataclass
 from polycnc.program.split import split_channels
 
 if TYPE_CHECKING:
