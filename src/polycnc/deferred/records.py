@@ -54,7 +54,7 @@ def _dataclass(cls: type, *, frozen: bool, slots: bool, eq: bool) -> type:
         if frozen and not is_hashed:
             cls.__hash__ = _written_later(cls, "__hash__", lambda: _hash(cls))  # type: ignore[method-assign]
         elif not is_hashed:
-            cls.__hash__ = None  # type: ignore[method-assign]
+            cls.__hash__ = None  # type: ignore[assignment]
     if frozen:
         cls.__setattr__, cls.__delattr__ = _refusals(cls)  # type: ignore[assignment, method-assign]
     return cls

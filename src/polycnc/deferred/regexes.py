@@ -16,11 +16,11 @@ _MEMBERS = (
 
 def regex(pattern: AnyStr, flags: int | RegexFlag = 0) -> re.Pattern[AnyStr]:
     """As `re.compile`. A mistake in `pattern` shows when it is first used."""
-    return cast("re.Pattern[AnyStr]", _Regex(pattern, flags))
+    return cast("re.Pattern[AnyStr]", Regex(pattern, flags))
 
 
-class _Regex:
-    """Finds a method missing once; from then on it has those of the compiled one as its own."""
+class Regex:
+    """It finds a method missing once; from then on it has those of the compiled one as its own."""
 
     __slots__ = ("_wanted", "pattern", *_MEMBERS)
 
@@ -37,4 +37,4 @@ class _Regex:
         return getattr(compiled, name)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _Regex, (self.pattern, self._wanted)
+        return Regex, (self.pattern, self._wanted)

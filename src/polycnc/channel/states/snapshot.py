@@ -34,6 +34,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 from polycnc.channel.mode import Mode
 from polycnc.channel.states.state import State, States
 from polycnc.deferred.records import is_frozen
+from polycnc.deferred.regexes import Regex
 from polycnc.geometry.frames import Frame
 from polycnc.machine.model import Machine
 from polycnc.machine.setup.values import Parameters, Setup
@@ -54,7 +55,7 @@ _MISSING = object()
 #: Classes of objects that never change, or are none of a snapshot's: they are not followed.
 _ATOMS: set[type] = {
     type(None), type(_MISSING), type(Ellipsis), bool, int, float, complex, str, bytes, range, slice, memoryview,
-    Fraction, re.Pattern, re.Match, property, classmethod, staticmethod, weakref.ReferenceType,
+    Fraction, re.Pattern, Regex, re.Match, property, classmethod, staticmethod, weakref.ReferenceType,
     types.ModuleType, types.CodeType, types.MappingProxyType, types.MemberDescriptorType,
     types.GetSetDescriptorType, types.WrapperDescriptorType, types.MethodDescriptorType,
 }  # fmt: skip
