@@ -261,12 +261,10 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         return ended
 
     def synchronise(self) -> None:
-        """A preprocessing stop: the running block waits for the main run, and begins again then.
-
-        Rows that it has written are taken back, unless a stage holds moves: there it must have done nothing yet.
+        """A preprocessing stop: the running block waits for the main run, and begins again without its rows.
 
         Raises:
-            PreprocessingStop: The main run is behind.
+            PreprocessingStop: The main run is behind. Where a stage holds moves, the block must have done nothing yet.
         """
         if self.main_run is not None and not self.main_run.has_caught_up:
             raise PreprocessingStop

@@ -8,12 +8,13 @@ own.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from enum import Enum
 from math import degrees, isnan, nan, radians
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.path import END_OF_BLOCK, EndOfBlock, Item, Move, PlacedEvent, Rank, Stage
+from polycnc.deferred.records import dataclass
 from polycnc.geometry import offset
 from polycnc.messages import AlarmError
 from polycnc.toolpath.kinds import Kind

@@ -7,11 +7,12 @@ control turns the tool at a corner (`Rules.turns`), it does that before the arc 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import acos, degrees, sin, sqrt
 from typing import TYPE_CHECKING, Protocol
 
 from polycnc.channel.moves.path import Move, PlacedEvent, Rank, Stage
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.arcs import parts_for_chord_error
 from polycnc.geometry.vectors import cross, dot, times
 from polycnc.messages import AlarmError

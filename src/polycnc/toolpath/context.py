@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import inf
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, Frame
 from polycnc.toolpath.modes import AccelerationMode, CornerMode, FeedMode, StopWindow
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
 from typing import TYPE_CHECKING
@@ -24,6 +23,7 @@ from polycnc.control.word_address.tools import radius
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.cycles.drilling import holes, patterns
 from polycnc.cycles.drilling.holes import Action, Stroke
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.units import INCH_MM
 from polycnc.messages import AlarmError
 from polycnc.toolpath.context import STROKE

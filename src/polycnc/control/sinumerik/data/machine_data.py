@@ -7,13 +7,14 @@ read, with their delivered values. What the setup says overrides them, by number
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, retained
 from polycnc.control.sinumerik import axis_names
 from polycnc.control.sinumerik.data.delivered import DATA
 from polycnc.control.sinumerik.errors import not_supported
+from polycnc.deferred.records import dataclass
 from polycnc.memory.retained import PARAMETERS
 from polycnc.messages import AlarmError
 

@@ -8,7 +8,7 @@ Source: job planning 7.5 (CUT3D…, ISD), 7.6 (ORIC, ORID).
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 from polycnc.compensation.spatial import (
@@ -23,6 +23,7 @@ from polycnc.compensation.spatial import (
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tools.edges import DP_RADIUS
 from polycnc.control.sinumerik.tools.sides import SIDES, Contour
+from polycnc.deferred.records import dataclass
 from polycnc.machine.kinematics import unit
 from polycnc.messages import AlarmError
 from polycnc.transformation.chain import Chain

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, lasting
@@ -15,6 +15,7 @@ from polycnc.control.word_address.coordinates.systems import ZeroState, go_to_re
 from polycnc.control.word_address.memory import EXTERNAL
 from polycnc.control.word_address.tools.data_input import TOOL_FIELDS
 from polycnc.control.word_address.tools.length import renew_length
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, about, scaling
 from polycnc.geometry.planes import PLANES
 from polycnc.language.syntec.values import to_long

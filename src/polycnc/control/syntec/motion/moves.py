@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import partial
 from math import copysign, hypot, nan, sqrt
 from typing import TYPE_CHECKING
@@ -24,6 +24,7 @@ from polycnc.control.word_address.motion.skip import LastSkip
 from polycnc.control.word_address.tools import radius
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.normal_stage import NormalStage
+from polycnc.deferred.records import dataclass
 from polycnc.geometry import arcs
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.planes import PLANES

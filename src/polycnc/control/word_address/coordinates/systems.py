@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contextlib import nullcontext
-from dataclasses import dataclass, field
+from dataclasses import field
 from math import nan
 from typing import TYPE_CHECKING
 
@@ -11,6 +11,7 @@ from polycnc.channel.states.state import Lifetime, State, lasting
 from polycnc.control.word_address.auxiliary.interlocks import note_reference_return
 from polycnc.control.word_address.memory import EXTERNAL
 from polycnc.control.word_address.tools.radius import suspended
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, Frame
 from polycnc.toolpath import Kind
 

@@ -6,7 +6,6 @@ of the tip; their context turns them into positions of the axes.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import nan
 from typing import TYPE_CHECKING
 
@@ -18,6 +17,7 @@ from polycnc.control.word_address.motion.path import reach
 from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.tilted_plane import TiltState
+from polycnc.deferred.records import dataclass
 from polycnc.machine.kinematics import Kinematics
 from polycnc.toolpath import Kind
 from polycnc.transformation.orientation.solutions import angles_for
