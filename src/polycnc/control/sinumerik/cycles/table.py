@@ -52,6 +52,10 @@ CYCLES: dict[str, Cycle] = {
     "CYCLE83": Cycle(
         f"{_HOLE} FDEP FDPR DAM DTB DTS FRF VARI _AXN _MDEP _VRT _DTD _DIS1 {_SL}", drilling.deep_hole
     ),
+    "CYCLE830": Cycle(
+        f"RTP RFP SDIS DP FDEP _DAM DTB DTS FRF VARI _MDEP _VRT _DTD _DIS1 {' '.join(drilling.REST)}",
+        drilling.deep_hole_2,
+    ),
     "CYCLE84": Cycle(
         f"{_HOLE} DTB SDAC MPIT PIT POSS SST SST1 _AXN _PITA _TECHNO _VARI _DAM _VRT {_PITCHES} {_SL}",
         drilling.rigid_tapping,
