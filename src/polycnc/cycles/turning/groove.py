@@ -43,7 +43,7 @@ DWELL = GrooveStroke(None)
 
 
 class Corner(NamedTuple):
-    """What becomes of a corner: an arc of a radius, a chamfer that leaves out `leg` of both edges, or of a length."""
+    """What becomes of a corner: an arc of a radius, a chamfer that leaves out `leg` of its edges, or of a length."""
 
     radius: float = 0.0
     leg: float = 0.0
