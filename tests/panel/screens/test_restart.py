@@ -18,7 +18,12 @@ FAMILIES = ("fanuc-0i-tf", "sinumerik-840d", "syntec-mill")
 
 def bench_of(control: str, lang: str) -> Bench:
     tools = {"tools": {2: {"length": 0.0}}} if control == "sinumerik-840d" else {}
-    return Bench(control, lang, setup=tools, program={"sinumerik-840d": SINUMERIK, "fanuc-0i-tf": LATHE}.get(control, PROGRAM))
+    return Bench(
+        control,
+        lang,
+        setup=tools,
+        program={"sinumerik-840d": SINUMERIK, "fanuc-0i-tf": LATHE}.get(control, PROGRAM),
+    )
 
 
 def side(panel: Bench, *texts: str) -> None:
