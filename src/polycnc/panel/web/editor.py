@@ -117,6 +117,7 @@ class Editor:
 
     def _save(self) -> None:
         """Into the memory; what the control refuses is said here."""
+        self._desk.recording.note("store_program", name=self._name.value or "MAIN", text=self._text.value)
         try:
             self._desk.control.store_program(self._name.value or "MAIN", self._text.value)
         except UserError as refusal:
