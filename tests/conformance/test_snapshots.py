@@ -35,6 +35,7 @@ SOME = [(case, name, path) for case, name, path in CASES if not case.operate][::
 #: States by the names of their classes, each with a case that changes it, such that it is changed between two blocks.
 CHANGED_BY = {
     "ArcState": "syntec-move-full-circle",
+    "ArrivalState": "fanuc-0i-tf-s-makes-a-hole-wait",
     "AxisSettings": "sinumerik-scpara",
     "BalanceState": "fanuc-0i-tf-balance-with-m",
     "BeforeBlock": "sin-smooth-approach-without-contour",
@@ -69,6 +70,7 @@ CHANGED_BY = {
     "LanguageMemory": "sinumerik-value-proc-second-line",
     "LastMove": "sin-program-without-end",
     "LastSkip": "fanuc-0i-tf-g31-without-signal",
+    "LastTap": "syntec-tap-retract-other-lead",
     "LengthState": "syntec-setting-no-z",
     "LimitState": "fanuc-0i-tf-largest-increment",
     "LoadedTool": "syntec-t",
@@ -112,10 +114,12 @@ CHANGED_BY = {
     "RotationState": "fanuc-0i-tf-rotation-refuses-g54",
     "ScaleState": "syntec-move-scale",
     "Sections": "sin-sections",
+    "SectionState": "syntec-call-file-of-several-groups",
     "SentCodes": "meldas-m-4-levels-of-macros",
     "SingleCycleState": "fanuc-0i-tf-g92-inside-backwards",
     "SkipState": "syntec-skip-groups-order",
     "Smoothing": "sin-cycle832",
+    "SmoothingState": "syntec-tolerance-in-tip-control",
     "SpaceState": "syntec-user-memory-of-the-axis-group",
     "SpatialState": "syntec-spatial-arc",
     "SpindleCommand": "fanuc-m-sign-in-speed",

@@ -8,7 +8,7 @@ turns the tool at a corner (`Rules.turns`), it does that before the arc about it
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from itertools import pairwise
 from math import acos, degrees, sin, sqrt
@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Protocol
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move, PlacedEvent, Rank, Stage
 from polycnc.compensation.spatial_arcs import is_across, meeting, turns_left
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.arcs import parts_for_chord_error
 from polycnc.geometry.vectors import cross, dot, minus, times
 from polycnc.messages import AlarmError

@@ -8,11 +8,12 @@ the way: it does not notice.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
 from math import radians
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.records import dataclass
 from polycnc.transformation.orientation.choice import nearest
 from polycnc.transformation.orientation.directions import angle_between
 from polycnc.transformation.orientation.solutions import pole_angle, solutions_for

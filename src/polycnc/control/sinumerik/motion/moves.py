@@ -6,7 +6,7 @@ Source: Fundamentals (G0, G1, G4, G33 to G35, G331/G332, G63, G74, G75, POS, POS
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import field
 from math import cos, isnan, nan, radians, sin, tan
 from typing import TYPE_CHECKING, Any
 
@@ -23,6 +23,7 @@ from polycnc.control.sinumerik.motion.polar import Polar
 from polycnc.control.sinumerik.tables import length_factor
 from polycnc.control.sinumerik.transformations import point_to_point, seat
 from polycnc.control.sinumerik.variables.clock import Clock
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.geometry.units import INCH_MM

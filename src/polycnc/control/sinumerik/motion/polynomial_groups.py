@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.states.state import Lifetime, State
+from polycnc.deferred.records import dataclass
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:

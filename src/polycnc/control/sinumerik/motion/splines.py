@@ -6,7 +6,7 @@ spline and the coefficients of a polynomial give curves of their own. All are cu
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from itertools import pairwise
 from math import hypot
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -25,6 +25,7 @@ from polycnc.control.sinumerik.motion.polynomial_groups import AXES, PolynomialG
 from polycnc.control.sinumerik.motion.spline_stage import TOLERANCE_MM
 from polycnc.control.sinumerik.tables import length_factor
 from polycnc.control.sinumerik.tools import stages
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.through_points import End
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.language.sinumerik.words import WordAlarm

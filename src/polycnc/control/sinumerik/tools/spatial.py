@@ -9,7 +9,7 @@ Source: job planning 7.5 (CUT3D…, ISD), 7.6 (ORIC, ORID).
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, NamedTuple, Protocol, runtime_checkable
 
@@ -28,6 +28,7 @@ from polycnc.control.sinumerik.tools.edges import DP_CORNER_RADIUS, DP_RADIUS
 from polycnc.control.sinumerik.tools.sides import SIDES, Contour
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.transformations.posture import Orienting
+from polycnc.deferred.records import dataclass
 from polycnc.machine.kinematics import unit
 from polycnc.messages import AlarmError
 from polycnc.transformation.chain import Chain

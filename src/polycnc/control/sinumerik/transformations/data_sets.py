@@ -6,10 +6,11 @@ whose data say nothing has what its kinematic chain allows, one of each kind. Th
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import atan2, degrees
 from typing import TYPE_CHECKING, NamedTuple
 
+from polycnc.deferred.records import dataclass
 from polycnc.machine.kinematics import Kinematics, unit
 from polycnc.messages import AlarmError
 from polycnc.transformation.kinematic.cylinder import Cylinder

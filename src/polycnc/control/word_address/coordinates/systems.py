@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contextlib import nullcontext
-from dataclasses import dataclass, field
+from dataclasses import field
 from math import nan
 from typing import TYPE_CHECKING
 
@@ -12,6 +12,7 @@ from polycnc.control.word_address.auxiliary.interlocks import note_reference_ret
 from polycnc.control.word_address.coordinates import tip
 from polycnc.control.word_address.memory import EXTERNAL
 from polycnc.control.word_address.tools.radius import suspended
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, Frame, translation
 from polycnc.toolpath import Kind
 

@@ -6,7 +6,7 @@ with the table when the tool is aligned; on one with a swivel head the length of
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from math import nan
 from typing import TYPE_CHECKING
 
@@ -16,6 +16,7 @@ from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_
 from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.tools import length
 from polycnc.control.word_address.tools.length import LengthState
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, Frame, rotation, translation
 from polycnc.machine.kinematics import Kinematics
 from polycnc.toolpath import Kind
