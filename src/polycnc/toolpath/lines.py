@@ -177,13 +177,24 @@ class _Rows:
             key = key << 1 | ~np.isnan(number)
         knots = np.array([each.knot for each in self._display.toolpath.contexts], bool)
         alone = (kind == Kind.EVENT) | ((curve >= 0) & ~np.isin(kind, tuple(ARC_KINDS)))
-        left_out = knots[context] & (kind != Kind.EVENT)
+        left_out = knots[context] & (kind != Kind.EVENT) & self._goes_on(shown)
         forms = np.full(len(key), LEFT_OUT, np.int32)
         forms[alone & ~left_out] = ALONE
         common = np.flatnonzero(~alone & ~left_out)
         _, first, own = np.unique(key[common], return_index=True, return_inverse=True)
         forms[common] = own
         return forms, common[first].tolist()
+
+    def _goes_on(self, shown: Shown) -> NDArray[np.bool_]:
+        """Whether the next row of each one is of the same block: a motion that is broken off has its last row shown."""
+        import numpy as np
+
+        columns = shown.columns
+        found = np.zeros(len(columns.kind), bool)
+        found[:-1] = columns.kind[1:] != Kind.EVENT
+        for column in (columns.line, columns.program):
+            found[:-1] &= column[1:] == column[:-1]
+        return found
 
     def marked(self, row: int) -> Record:
         """The record of a row with a mark in place of every number: the character of its column."""
