@@ -17,6 +17,7 @@ from polycnc.control.sinumerik.block.plain import SinumerikPlainBlocks
 from polycnc.control.sinumerik.block.plan import ExactStop, make_plan
 from polycnc.control.sinumerik.channels import axis_exchange, coordination
 from polycnc.control.sinumerik.contours import preparation
+from polycnc.control.sinumerik.couplings import gantry
 from polycnc.control.sinumerik.couplings.links import Couplings
 from polycnc.control.sinumerik.couplings.spindle_pairs import SpindlePairs, turns
 from polycnc.control.sinumerik.curve_tables import definition as curve_definition
@@ -144,6 +145,7 @@ class Sinumerik:
         PathFeed.of(channel).mode = tables.feed_type(channel.mode).mode
         memory.frames.select(gcodes.number_of(channel.mode["wcs"]) - 1)
         memory.tools.stand_in(channel.setup.tool_at_start(channel.number))
+        gantry.close(channel)
         frames.apply(channel)
         working_area.refresh(channel)
         if channel.group is None or channel is channel.group.first:
@@ -185,6 +187,10 @@ class Sinumerik:
     def stop_spindles(self, channel: SinumerikChannel) -> None:
         """The drives are off."""
         channel.memory.spindles.stop()
+
+    def moved_together(self, channel: SinumerikChannel, axis: int) -> tuple[int, ...]:
+        """The axes of a gantry."""
+        return gantry.moved_together(channel, axis)
 
     def handwheel_offset_speed(self, channel: SinumerikChannel, axis: int) -> float:
         """DRF: MD32020 by MD32090."""

@@ -57,7 +57,7 @@ class Gear:
     """A gear that EGDEF has defined.
 
     Attributes:
-        types: What each leading axis leads by, by its column in the order of the definition: 0 actual value, 1 setpoint.
+        types: What each leading axis leads by, by its column, in order: 0 actual value, 1 setpoint.
         wheels: What it was switched on with, by the column of the leading axis.
         place: Synchronous place of the following axis.
         block_change: When the block that switched it on ended.

@@ -161,6 +161,7 @@ DATA: dict[str, tuple[int, bool | float | str]] = {
     "$MA_POS_LIMIT_PLUS2": (36130, 100000000.0),
     "$MA_AX_VELO_LIMIT": (36200, 11500.0),
     "$MA_AA_OFF_MODE": (36750, 0),
+    "$MA_GANTRY_AXIS_TYPE": (37100, 0),
     "$MA_COUPLE_POS_TOL_COARSE": (37200, 1.0),
     "$MA_MS_COUPLING_ALWAYS_ACTIVE": (37262, 0),
     "$MA_MS_SPIND_COUPLING_MODE": (37263, 0),

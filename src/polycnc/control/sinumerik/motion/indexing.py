@@ -30,7 +30,7 @@ class Grid(NamedTuple):
     """The positions of an indexing axis.
 
     Attributes:
-        places: Those of a table, or of one turn, ascending, mm or degrees; of a linear axis with even distances the first.
+        places: Those of a table, or of one turn, ascending, mm or degrees; the first one of even ones of a linear axis.
         period: After what they come again; 0 for a table that does not.
         count: How many there are in a period; 0 where they go on without end.
     """
@@ -48,7 +48,11 @@ class Grid(NamedTuple):
     def step(self, here: float, steps: int) -> float | None:
         """The position so many steps from a place, the next one being the first; None beyond the table."""
         turn, among = self._turn(here)
-        first = bisect_right(self.places, among + NO_WAY) - 1 if steps >= 0 else bisect_left(self.places, among - NO_WAY)
+        first = (
+            bisect_right(self.places, among + NO_WAY) - 1
+            if steps >= 0
+            else bisect_left(self.places, among - NO_WAY)
+        )
         turns, number = divmod(first + steps, len(self.places)) if self.period else (0, first + steps)
         if not 0 <= number < len(self.places):
             return None
@@ -64,7 +68,7 @@ class Grid(NamedTuple):
 
     def beyond(self, here: float, direction: int) -> float:
         """The first position at or behind a place, in a direction; the place itself where there is none."""
-        turn, among = self._turn(here)
+        turn, _ = self._turn(here)
         for each in (turn - 1, turn, turn + 1) if direction > 0 else (turn + 1, turn, turn - 1):
             for place in self.places if direction > 0 else reversed(self.places):
                 at = place + each * self.period
