@@ -334,8 +334,9 @@ class ChannelInterpolator:
         """Shift an axis beside everything else, no faster than a speed; `name` says which of its shifts is meant."""
         found = self._overlays.get((name, column))
         if found is None:
-            found = self._overlays[name, column] = Overlay()
-            self._run.axes[column].add(found)
+            axis = self._run.axes[column]
+            found = self._overlays[name, column] = Overlay(axis.data.acceleration)
+            axis.add(found)
         found.go(value, speed, self._clock.time)
         self._narrow_travel()
 
