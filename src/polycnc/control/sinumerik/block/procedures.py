@@ -26,6 +26,7 @@ from polycnc.control.sinumerik.punching import block as punching
 from polycnc.control.sinumerik.signals import interrupts, retraction, sections
 from polycnc.control.sinumerik.tangential import definitions as tangential
 from polycnc.control.sinumerik.tools import d_numbers, online
+from polycnc.control.sinumerik.tools.management import lists, magazines, monitoring
 from polycnc.control.sinumerik.transformations import seat, selection, start
 from polycnc.control.sinumerik.variables.stored import Stored
 from polycnc.language.sinumerik.names.initialisation import NEW_CONFIGURATION, initialise
@@ -252,6 +253,9 @@ PROCEDURES: dict[str, Callable[[SinumerikChannel, Arguments], None]] = {
     **selection.PROCEDURES,
     **start.PROCEDURES,
     **online.PROCEDURES,
+    **lists.PROCEDURES,
+    **magazines.PROCEDURES,
+    **monitoring.PROCEDURES,
     **punching.PROCEDURES,
     **geometry.PROCEDURES,
     **tangential.PROCEDURES,

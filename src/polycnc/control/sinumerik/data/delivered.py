@@ -85,6 +85,7 @@ DATA: dict[str, tuple[int, bool | float | str]] = {
     "$MC_CUTCOM_MAXNUM_DUMMY_BLOCKS": (20250, 3),
     "$MC_CUTTING_EDGE_DEFAULT": (20270, 1),
     "$MC_SUMCORR_DEFAULT": (20272, 0),
+    "$MC_TOOL_MANAGEMENT_MASK": (20310, 0),
     "$MC_TOOL_GRIND_AUTO_TMON": (20350, False),
     "$MC_TOOL_TEMP_COMP_ON": (20390, True),
     "$MC_COMPRESSOR_MODE": (20482, 0),

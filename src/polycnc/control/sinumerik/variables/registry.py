@@ -38,6 +38,9 @@ from polycnc.control.sinumerik.replaced import REPLACED_VARIABLES
 from polycnc.control.sinumerik.signals.measuring import MEASURE_VARIABLES
 from polycnc.control.sinumerik.signals.sections import SECTION_VARIABLES
 from polycnc.control.sinumerik.tables import MINUTE
+from polycnc.control.sinumerik.tools.management.lists import LIST_VARIABLES
+from polycnc.control.sinumerik.tools.management.magazines import MAGAZINE_VARIABLES
+from polycnc.control.sinumerik.tools.management.monitoring import MONITORING_VARIABLES
 from polycnc.control.sinumerik.tools.online import OVERLAY_VARIABLES
 from polycnc.control.sinumerik.tools.sides import Contour
 from polycnc.control.sinumerik.tools.variables import IN_MAIN_RUN, TOOL_VARIABLES
@@ -392,6 +395,10 @@ VARIABLES: dict[str, SystemVariable] = {
     **{name: SystemVariable(name, *row) for name, row in GEOMETRY_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in FRAME_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in TOOL_VARIABLES.items()},
+    **{
+        name: SystemVariable(name, *row)
+        for name, row in {**LIST_VARIABLES, **MAGAZINE_VARIABLES, **MONITORING_VARIABLES}.items()
+    },
     **{name: SystemVariable(name, *TOOL_VARIABLES[of], stop=True) for name, of in IN_MAIN_RUN.items()},
     **{name: SystemVariable(name, *row) for name, row in OVERLAY_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in working_area.AREA_VARIABLES.items()},
