@@ -176,6 +176,7 @@ def new_configuration(channel: SinumerikChannel, _args: Arguments) -> None:
     memory = channel.memory
     working_area.refresh(channel)
     masters.reconfigure(channel)
+    channel.context_changed()
     initialise(channel, NEW_CONFIGURATION, keep_values=memory.data.keeps_first_values)
 
 
