@@ -31,7 +31,7 @@ from polycnc.control.sinumerik.transformations import seat, selection, start
 from polycnc.control.sinumerik.variables.stored import Stored
 from polycnc.language.sinumerik.names.initialisation import NEW_CONFIGURATION, initialise
 from polycnc.messages import Alarm, AlarmError
-from polycnc.toolpath.events import Message, Raised
+from polycnc.toolpath.events import Message, Print, Raised
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -72,6 +72,13 @@ def preprocessing_stop(channel: SinumerikChannel, _args: Arguments) -> None:
     definition.refuse(channel, "STOPRE")
     channel.flush()
     channel.synchronise()
+
+
+def log(channel: SinumerikChannel, args: Arguments) -> None:
+    """WRTPR(text[, n]): a line for the log, written along with the path, which goes on without a stop."""
+    if not 1 <= len(args) <= 2 or not isinstance(args[0], str):
+        raise AlarmError("14020", text="WRTPR")
+    channel.event(Print(args[0]))
 
 
 def set_alarm(channel: SinumerikChannel, args: Arguments) -> None:
@@ -205,6 +212,7 @@ def editor_mark(_channel: SinumerikChannel, _args: Arguments) -> None:
 
 PROCEDURES: dict[str, Callable[[SinumerikChannel, Arguments], None]] = {
     "MSG": message,
+    "WRTPR": log,
     "STOPRE": preprocessing_stop,
     "SETAL": set_alarm,
     "SETMS": set_master_spindle,
