@@ -15,7 +15,7 @@ from polycnc.control.sinumerik.actions.user_data import user_data
 from polycnc.control.sinumerik.block import positions, procedures, single_block
 from polycnc.control.sinumerik.block.plain import SinumerikPlainBlocks
 from polycnc.control.sinumerik.block.plan import ExactStop, make_plan
-from polycnc.control.sinumerik.channels import axis_exchange, coordination
+from polycnc.control.sinumerik.channels import axis_containers, axis_exchange, coordination
 from polycnc.control.sinumerik.contours import preparation
 from polycnc.control.sinumerik.couplings import gantry
 from polycnc.control.sinumerik.couplings.links import Couplings
@@ -207,7 +207,7 @@ class Sinumerik:
             user_variables=retained.table(USER_VARIABLES, channel.number),
             nck_user_variables=retained.table(USER_VARIABLES),
             r=filled(parameters, "R", [0.0] * count),
-            axes=axis_names.identifiers(channel),
+            axes={**axis_names.identifiers(channel), **axis_containers.identifiers(channel)},
             default_axis=Axis(str(data.read("$MC_AXCONF_CHANAX_DEFAULT_NAME")).upper()),
             exact_order=bool(data.integer("$MN_PROG_FUNCTION_MASK") & 1),
             main_variables_everywhere=bool(data.integer("$MN_LUD_EXTENDED_SCOPE")),

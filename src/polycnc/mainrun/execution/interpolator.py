@@ -319,6 +319,14 @@ class ChannelInterpolator:
         self._run.execution.lead_axis(column, place)
         axis.base = place
 
+    def stand_at(self, column: int, place: float) -> None:
+        """An axis, which stands, is called another position; nothing moves."""
+        axis = self._commanded.get(column)
+        if axis is not None:
+            axis.stand(place, place)
+        self._seen = (-1.0, [])
+        self._run.execution.lead_axis(column, place)
+
     def take_back(self, column: int) -> float:
         """The program has a commanded axis again, which stands: gives its machine position."""
         axis = self._commanded.get(column)

@@ -13,7 +13,7 @@ from polycnc.control.sinumerik.axes import geometry
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.arguments import Arguments
 from polycnc.control.sinumerik.block.positions import DIAMETER_OF_AXIS, diameter_of_channel
-from polycnc.control.sinumerik.channels import axis_exchange, coordination
+from polycnc.control.sinumerik.channels import axis_containers, axis_exchange, coordination
 from polycnc.control.sinumerik.contours import preparation, use
 from polycnc.control.sinumerik.couplings import gears, leading, masters, synchronous, trailing
 from polycnc.control.sinumerik.curve_tables import administration, definition
@@ -142,11 +142,12 @@ def preset(channel: SinumerikChannel, args: Arguments) -> None:
     if not args or len(args) % 2:
         raise AlarmError("14020", text="PRESETON")
     seat.refuse_transformed(channel, [arguments.column(channel, axis) for axis in args[::2]], "17600")
-    coordinates = channel.coordinates
-    machine = coordinates.machine
-    for axis, value in zip(args[::2], args[1::2], strict=True):
-        machine[arguments.column(channel, axis)] = arguments.real(value)
-    coordinates.arrive_machine(machine)
+    values = zip(args[::2], args[1::2], strict=True)
+    action_axes.call(
+        channel,
+        "PRESETON",
+        {arguments.column(channel, axis): arguments.real(value) for axis, value in values},
+    )
 
 
 def dynamics(name: str) -> Callable[[SinumerikChannel, Arguments], None]:
@@ -253,6 +254,7 @@ PROCEDURES: dict[str, Callable[[SinumerikChannel, Arguments], None]] = {
     **interrupts.PROCEDURES,
     **coordination.PROCEDURES,
     **axis_exchange.PROCEDURES,
+    **axis_containers.PROCEDURES,
     **retraction.PROCEDURES,
     **splines.PROCEDURES,
     **protection.PROCEDURES,

@@ -20,6 +20,7 @@ from polycnc.control.sinumerik.axes.geometry import GEOMETRY_VARIABLES
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.positions import shown
 from polycnc.control.sinumerik.channels import link_memory
+from polycnc.control.sinumerik.channels.axis_containers import CONTAINER_VARIABLES
 from polycnc.control.sinumerik.couplings import links
 from polycnc.control.sinumerik.couplings.spindle_pairs import SpindlePairs, turns
 from polycnc.control.sinumerik.couplings.variables import COUPLING_VARIABLES
@@ -406,6 +407,7 @@ VARIABLES: dict[str, SystemVariable] = {
     **{name: SystemVariable(name, *row) for name, row in AXIS_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in TOLERANCE_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in COUPLING_VARIABLES.items()},
+    **{name: SystemVariable(name, *row) for name, row in CONTAINER_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in INDEX_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in REPOS_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in MEASURE_VARIABLES.items()},
