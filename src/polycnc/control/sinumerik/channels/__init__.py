@@ -1,1 +1,3 @@
-"""Several channels: `coordination` (INIT, WAITM …), `axis_exchange` (GET, RELEASE), `axis_containers` (AXCTSWE), `link_memory` (`$A_DLB`)."""
+"""Several channels: `coordination` (INIT, WAITM …), `axis_exchange` (GET, RELEASE), `axis_containers` (AXCTSWE),
+`link_memory` (`$A_DLB`).
+"""

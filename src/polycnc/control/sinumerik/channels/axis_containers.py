@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 #: Containers of a control, and slots of a container.
 CONTAINERS, SLOTS = 16, 32
-_SLOTS, _NAMES, _WIDTH = "$MN_AXCT_AXCONF_ASSIGN_TAB", "$MN_AXCT_NAME_TAB", "$SN_AXCT_SWWIDTH"
+_NAMES, _WIDTH = "$MN_AXCT_NAME_TAB", "$SN_AXCT_SWWIDTH"
 
 
 @dataclass(slots=True)
@@ -39,12 +39,17 @@ class Containers(State, lifetime=Lifetime.POWER):
     turned: dict[int, int] = field(default_factory=dict)
 
 
+def _slots(container: int) -> str:
+    """The machine datum with the axes of a container."""
+    return f"$MN_AXCT_AXCONF_ASSIGN_TAB{container}"
+
+
 def names(channel: Channel) -> dict[str, int]:
     """Numbers of the containers that the machine data fill, by what programs call them."""
     data = MachineData.of(channel)
     found = {}
     for number in range(1, CONTAINERS + 1):
-        if data.is_set(f"{_SLOTS}{number}", 0):
+        if data.is_set(_slots(number), 0):
             found[f"CT{number}"] = number
             if data.is_set(_NAMES, number - 1):
                 found[str(data.read(_NAMES, number - 1)).upper()] = number
@@ -65,7 +70,7 @@ def _number(channel: SinumerikChannel, name: str, value: Any) -> int:
 
 def _columns(channel: SinumerikChannel, name: str, container: int) -> list[int]:
     """Columns of the axes in the slots; PC0001 for one that another channel or another control has."""
-    data, key = channel.memory.data, f"{_SLOTS}{container}"
+    data, key = channel.memory.data, _slots(container)
     found = []
     for slot in range(SLOTS):
         axis = str(data.read(key, slot)).upper() if data.is_set(key, slot) else ""
