@@ -1,3 +1,4 @@
-"""Several channels: `coordination` (INIT, WAITM …), `axis_exchange` (GET, RELEASE), `axis_containers` (AXCTSWE),
-`link_memory` (`$A_DLB`).
+"""Several channels: `coordination` (INIT, WAITM …), `axis_exchange` (GET, RELEASE), `link_memory` (`$A_DLB`).
+
+`axis_containers` lets channel axes mean other machine axes (AXCTSWE).
 """

@@ -32,18 +32,18 @@ class Grid(NamedTuple):
     Attributes:
         places: Those of a table, or of one turn, ascending, mm or degrees; the first one of even ones of a linear axis.
         period: After what they come again; 0 for a table that does not.
-        count: How many there are in a period; 0 where they go on without end.
+        size: How many there are in a period; 0 where they go on without end.
     """
 
     places: list[float]
     period: float
-    count: int
+    size: int
 
     def place(self, number: int) -> float | None:
         """The position of a number; None where there is none."""
-        if not self.count:
+        if not self.size:
             return self.places[0] + number * self.period
-        return self.places[number] if 0 <= number < self.count else None
+        return self.places[number] if 0 <= number < self.size else None
 
     def step(self, here: float, steps: int) -> float | None:
         """The position so many steps from a place, the next one being the first; None beyond the table."""
@@ -62,9 +62,9 @@ class Grid(NamedTuple):
         """The number of the position last reached in positive direction, from 0."""
         turn, among = self._turn(here)
         number = bisect_right(self.places, among + NO_WAY) - 1
-        if not self.count:
+        if not self.size:
             return int(turn)
-        return number % self.count if self.period else max(number, 0)
+        return number % self.size if self.period else max(number, 0)
 
     def beyond(self, here: float, direction: int) -> float:
         """The first position at or behind a place, in a direction; the place itself where there is none."""
