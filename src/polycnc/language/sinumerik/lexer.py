@@ -11,6 +11,7 @@ import re
 from math import isinf
 from typing import NamedTuple
 
+from polycnc.deferred.regexes import regex
 from polycnc.language.sinumerik.errors import NcSyntaxError, syntax
 
 
@@ -43,7 +44,7 @@ class Token(NamedTuple):
 
 
 _NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:EX[+-]?\d+)?"
-_TOKEN = re.compile(
+_TOKEN = regex(
     rf"""[ \t]*(?:
       (?P<word>[A-Z](?:\d+(?:\.\d*)?(?:EX[+-]?\d+)?))
     | (?P<name>\$\$?[A-Z]\w*|[A-Z_]{{2}}\w*|[A-Z])
@@ -56,8 +57,8 @@ _TOKEN = re.compile(
     re.VERBOSE | re.IGNORECASE | re.ASCII,
 )
 _BLANK = " \t\r\n\x00"
-LABEL = re.compile(r"[ \t]*([A-Z_]{2}\w{0,30})[ \t]*:", re.IGNORECASE | re.ASCII)
-PREFIX = re.compile(
+LABEL = regex(r"[ \t]*([A-Z_]{2}\w{0,30})[ \t]*:", re.IGNORECASE | re.ASCII)
+PREFIX = regex(
     r"[ \t]*(?:/(?P<skip>\d?)[ \t]*)?(?:(?P<number>N[ \t]*\d+|:[ \t]*\d+)[ \t]*)?", re.IGNORECASE | re.ASCII
 )
 MAX_EXPONENT = 300

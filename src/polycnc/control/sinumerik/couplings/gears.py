@@ -6,7 +6,7 @@ Synchronised gears lead it to its place first, beside the path, if the machine's
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from polycnc.channel.states.state import Lifetime, State
@@ -19,6 +19,7 @@ from polycnc.control.sinumerik.curve_tables import definition as curve_definitio
 from polycnc.control.sinumerik.curve_tables.memory import table_of
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tables import length_factor
+from polycnc.deferred.records import dataclass
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.messages import AlarmError
 from polycnc.transformation.couplings.laws import ByCurve, Ratio
@@ -57,7 +58,7 @@ class Gear:
     """A gear that EGDEF has defined.
 
     Attributes:
-        types: What each leading axis leads by, by its column, in order: 0 actual value, 1 setpoint.
+        types: What each leading axis leads by, by its column in the order of definition: 0 actual value, 1 setpoint.
         wheels: What it was switched on with, by the column of the leading axis.
         place: Synchronous place of the following axis.
         block_change: When the block that switched it on ended.

@@ -30,29 +30,26 @@ class Grid(NamedTuple):
     """The positions of an indexing axis.
 
     Attributes:
-        places: Those of a table, or of one turn, ascending, mm or degrees; the first one of even ones of a linear axis.
+        places: Those of a table, or of one turn, ascending, mm or degrees; of a linear axis with even steps the first.
         period: After what they come again; 0 for a table that does not.
-        size: How many there are in a period; 0 where they go on without end.
+        in_period: How many there are in a period; 0 where they go on without end.
     """
 
     places: list[float]
     period: float
-    size: int
+    in_period: int
 
     def place(self, number: int) -> float | None:
         """The position of a number; None where there is none."""
-        if not self.size:
+        if not self.in_period:
             return self.places[0] + number * self.period
-        return self.places[number] if 0 <= number < self.size else None
+        return self.places[number] if 0 <= number < self.in_period else None
 
     def step(self, here: float, steps: int) -> float | None:
         """The position so many steps from a place, the next one being the first; None beyond the table."""
         turn, among = self._turn(here)
-        first = (
-            bisect_right(self.places, among + NO_WAY) - 1
-            if steps >= 0
-            else bisect_left(self.places, among - NO_WAY)
-        )
+        behind = bisect_right(self.places, among + NO_WAY) - 1
+        first = behind if steps >= 0 else bisect_left(self.places, among - NO_WAY)
         turns, number = divmod(first + steps, len(self.places)) if self.period else (0, first + steps)
         if not 0 <= number < len(self.places):
             return None
@@ -62,9 +59,9 @@ class Grid(NamedTuple):
         """The number of the position last reached in positive direction, from 0."""
         turn, among = self._turn(here)
         number = bisect_right(self.places, among + NO_WAY) - 1
-        if not self.size:
+        if not self.in_period:
             return int(turn)
-        return number % self.size if self.period else max(number, 0)
+        return number % self.in_period if self.period else max(number, 0)
 
     def beyond(self, here: float, direction: int) -> float:
         """The first position at or behind a place, in a direction; the place itself where there is none."""

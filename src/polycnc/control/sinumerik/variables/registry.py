@@ -9,8 +9,6 @@ Source: job planning 1.1.2 (prefixes), 5.1 (actual values), and the manual of sy
 
 from __future__ import annotations
 
-import re
-from dataclasses import dataclass
 from math import isnan
 from typing import TYPE_CHECKING, Any
 
@@ -53,6 +51,8 @@ from polycnc.control.sinumerik.variables.row import Indices, Reader, Writer
 from polycnc.control.sinumerik.variables.run_times import KEPT_TIMES, RUN_TIMES
 from polycnc.control.sinumerik.variables.stored import Stored
 from polycnc.control.sinumerik.variables.surroundings import SURROUNDINGS
+from polycnc.deferred.records import dataclass
+from polycnc.deferred.regexes import regex
 from polycnc.language.sinumerik.names.frame import NcFrame
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.messages import AlarmError
@@ -166,7 +166,7 @@ def _spindle_of(channel: SinumerikChannel, axis: str) -> Spindle | None:
 # ---- machine and setting data
 
 #: Data that polycnc knows by their names alone: these are texts.
-_TEXT_DATUM = re.compile(r"_(NAME|NAME_TAB|PATH|SERIAL_NUMBER|VERSION)$")
+_TEXT_DATUM = regex(r"_(NAME|NAME_TAB|PATH|SERIAL_NUMBER|VERSION)$")
 
 #: Data that a program may only clear: what they switch on is not executed.
 NOT_EXECUTED = frozenset(("$SC_CUTDIRMOD",))
