@@ -47,6 +47,7 @@ CHANGED_BY = {
     "CodeState": "fanuc-0i-tf-point-in-m",
     "CommonVariables": "meldas-m-8-levels-of-subprograms",
     "Contour": "sin-cut2d-machine-plane",
+    "Containers": "sin-container-turns-by-a-slot",
     "ControlSwitches": "fanuc-0i-tf-3004-is-read-back",
     "CurveState": "meldas-m-nurbs-falling-knot",
     "Couplings": "sin-trail-chain",

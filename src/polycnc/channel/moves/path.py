@@ -65,6 +65,8 @@ class Rank(IntEnum):
     AXES = auto()
     #: Slave axes, which only their master moves.
     SLAVES = auto()
+    #: Following axes of a gantry, which no program moves.
+    GANTRY = auto()
     #: Axes that wait for their leading axes: they see where those are.
     COUPLINGS = auto()
     #: Protection zones: they see where the machine would go.
