@@ -162,6 +162,10 @@ class Interpolator(Protocol):
         """Whether no axis of the channel moves."""
 
     @property
+    def spindle_rpm(self) -> float:
+        """Speed of the spindle in the block in execution, signed."""
+
+    @property
     def is_held(self) -> bool:
         """Whether the program is held, is being given up, or has ended in an alarm."""
 

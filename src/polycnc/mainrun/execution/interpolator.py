@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from polycnc.mainrun.motion.geometry import Segment
     from polycnc.mainrun.preparation.items import Block
     from polycnc.messages import AlarmError
-    from polycnc.toolpath import Event
+    from polycnc.toolpath import Context, Event
     from polycnc.transformation.couplings.laws import Law as CouplingLaw
 
 
@@ -45,6 +45,9 @@ class Led(Protocol):
     @property
     def machine_position(self) -> list[float]:
         """Their setpoints."""
+
+    def spindle_rpm(self, context: Context) -> float:
+        """Speed of the spindle where a context holds, 1/min."""
 
 
 class ChannelInterpolator:
@@ -136,6 +139,12 @@ class ChannelInterpolator:
         """An alarm stops motions: those of actions too."""
         for axis in self._commanded.values():
             axis.stop()
+
+    @property
+    def spindle_rpm(self) -> float:
+        """Speed of the spindle in the block in execution, signed."""
+        context = self._run.execution.context
+        return context.spindle_direction * self._run.spindle_rpm(context)
 
     @property
     def goes_home(self) -> bool:

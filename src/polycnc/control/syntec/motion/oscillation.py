@@ -77,7 +77,7 @@ def start(channel: SyntecChannel, words: Words) -> None:
         raise words.fail("argument", SIMPLE)
     axis, upper, _ = named[0]
     strokes = Strokes((upper, upper + stroke), channel.feed)
-    _begin(channel, Oscillation(axis, Fixed(strokes), upper + home), words)
+    _begin(channel, Oscillation(axis, Fixed(strokes), upper + home))
 
 
 def end(channel: SyntecChannel, _words: Words) -> None:
@@ -118,7 +118,7 @@ def start_precise(channel: SyntecChannel, words: Words) -> None:
         state.running = new
         Oscillator.of(channel).change(new.source, _place_of_hold(channel, new, precise=True))
         return
-    _begin(channel, new, words, precise=True)
+    _begin(channel, new, precise=True)
 
 
 def _in_registers(memory: SyntecMemory, places: int, speed: int) -> Strokes:
@@ -188,15 +188,9 @@ def _axis(channel: SyntecChannel, words: Words) -> int:
     raise words.fail("oscillation_axis", "P" if told is not None else PRECISE)
 
 
-def _begin(channel: SyntecChannel, oscillation: Oscillation, words: Words, *, precise: bool = False) -> None:
+def _begin(channel: SyntecChannel, oscillation: Oscillation, *, precise: bool = False) -> None:
     """To R at rapid; the strokes begin there."""
     channel.on_clock()
-    strokes = oscillation.source.read()
-    if channel.limits:
-        low, high = channel.limits[oscillation.axis]
-        for vertex in strokes.vertices:
-            if not low <= vertex <= high:
-                raise words.fail("over_travel_minus" if vertex < low else "over_travel_plus")
     channel.flush()
     state = OscillationState.of(channel)
     state.running = oscillation

@@ -77,8 +77,16 @@ class Oscillator(State, lifetime=Lifetime.POWER):
     # ---- commands of the program -----------------------------------------------------------------------------
 
     def begin(self, column: int, source: Source, home: float | None) -> None:
-        """The strokes begin when the axes are there."""
-        clocked = self.channel.on_clock()
+        """The strokes begin when the axes are there.
+
+        Raises:
+            AlarmError: A vertex lies beyond the travel of the axis.
+        """
+        channel, clocked = self.channel, self.channel.on_clock()
+        for place in source.read().vertices if channel.limits else ():
+            low, high = channel.limits[column]
+            if not low <= place <= high:
+                raise channel.control.over_travel(channel.axes[column], 1 if place > high else -1)
 
         def start() -> None:
             self.column, self.source, self.home = column, source, home
