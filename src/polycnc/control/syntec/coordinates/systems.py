@@ -265,10 +265,13 @@ def rotate(channel: SyntecChannel, words: Words) -> None:
     base_frames.end_rotation(channel, words)
     u, v, _ = PLANES[channel.mode["plane"]]
     point = [c.programmed[axis] if axis >= 0 else 0.0 for axis in c.geometry]
-    for axis, value, _ in words.axes():
+    named = words.axes()
+    for axis, value, _ in named:
         for i in (u, v):
             if c.geometry[i] == axis:
                 point[i] = value
+    if named and not any(axis in (c.geometry[u], c.geometry[v]) for axis, _, _ in named):
+        return  # a centre beside the plane: the rotation does not act (2.43.3)
     frames.rotation = base_frames.rotation_frame(channel, point, angle)
     c.set_programming(frames.product())
 
