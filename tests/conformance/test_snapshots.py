@@ -85,7 +85,6 @@ CHANGED_BY = {
     "OffsetMemory": "fanuc-0i-tf-g10-rules",
     "OffsetState": "fanuc-0i-tf-rotation-ended-allows-all",
     "OpenLine": "sin-contour-angle-without-end",
-    "OscillationState": "syntec-oscillation-frame",
     "OverrideState": "fanuc-m-override-codes",
     "Overrides": "sin-acc",
     "ParameterTable": "fanuc-0i-tf-parameter-input-foreign-code",
