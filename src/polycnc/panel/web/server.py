@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
     from polycnc.panel.web.desk import Desk
 
+#: A browser that a busy computer keeps away for so long, s, goes on with the same page.
+RECONNECT_S = 30.0
 #: How often the time of the controls goes on, s.
 TICK_S = 0.02
 
@@ -85,5 +87,5 @@ def serve(*, host: str, port: int, opens: bool) -> None:
     """Run the server until it is interrupted."""
     ui.run(
         host=host, port=port, show=opens, reload=False, title="polycnc", favicon="⚙", show_welcome_message=False,
-        binding_refresh_interval=None,
+        binding_refresh_interval=None, reconnect_timeout=RECONNECT_S,
     )  # fmt: skip
