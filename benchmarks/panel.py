@@ -16,7 +16,7 @@ from pathlib import Path
 from statistics import median
 from tempfile import TemporaryDirectory
 from time import perf_counter, process_time
-from typing import Any
+from typing import Any, Self
 
 from benchmarks.measure import Figure, best_of, rate, skipped
 from polycnc.mainrun import VirtualControl
@@ -100,7 +100,6 @@ def page() -> Iterator[Figure]:
     """The page in a browser while short lines run in real time, and its picture."""
     try:
         import nicegui  # noqa: F401 - the extra `panel`
-
         from tests.panel.web.browser import CHROMIUM
     except ImportError:
         yield skipped("the panel", "the extra panel is not installed")
@@ -186,7 +185,7 @@ class _Server:
         self._command = [sys.executable, "-m", "polycnc", "panel", str(self._file), "--control", "fanuc-m"]
         self._command += ["--no-open", "--port", str(port)]
 
-    async def __aenter__(self) -> _Server:
+    async def __aenter__(self) -> Self:
         from tests.panel.web.test_server import status
 
         self._process = subprocess.Popen(self._command, stdout=subprocess.DEVNULL, env=dict(os.environ))

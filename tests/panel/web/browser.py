@@ -47,7 +47,8 @@ class Browser:
         answer = await self.ask(
             "Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True
         )
-        assert "exceptionDetails" not in answer and "result" in answer, answer
+        assert "exceptionDetails" not in answer, answer
+        assert "result" in answer, answer
         return answer["result"].get("value")
 
     async def until(self, condition: str) -> None:
