@@ -44,8 +44,9 @@ def build(desks: Mapping[str, Desk], lang: str, token: str = "") -> None:
 
     def index() -> None:
         ui.add_css(style)
-        with ui.element("main").classes("half"):
-            ui.label(text("panel.index", lang))
+        ui.run_javascript(f"document.documentElement.lang = '{lang}'")
+        with ui.element("div").classes("half index"):
+            ui.html(f"<h1>{text('panel.index', lang)}</h1>", sanitize=False)
             for name, desk in desks.items():
                 ui.link(f"{name}: {desk.control.control.id}", f"/{name}")
 

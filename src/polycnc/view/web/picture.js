@@ -116,8 +116,8 @@ class Line {
 
 export default {
   template: `
-    <div class="picture" role="img" :aria-label="words.name" :data-points="points">
-      <canvas></canvas>
+    <div class="picture" :data-points="points">
+      <canvas role="img" :aria-label="words.name"></canvas>
       <p v-if="!works">{{ words["no-webgl"] }}</p>
       <div class="picture-keys">
         <button v-for="name in names" :key="name" type="button" class="k" @click="press(name)"
