@@ -42,7 +42,7 @@ class Course:
         self._forecast: Forecast | None = None
         self._program: tuple[str, Sequence[str]] = ("", ())
         self._state = State.READY
-        self._pen = ""
+        self._pen, self._ran = "", False
         control.listeners.append(self._hear)
 
     @property
@@ -69,13 +69,14 @@ class Course:
         started = snapshot.state is State.RUNNING and self._state in (State.READY, State.ALARM)
         self._state = snapshot.state
         trail, point = self.lines["trail"], snapshot.channels[1].point
+        by_program, self._ran = self._ran or snapshot.channels[1].runs, snapshot.channels[1].runs
         if started:
             trail.clear()
             self._pen = ""
         last = trail.last()
         if last and all(abs(a - b) < 1e-4 for a, b in zip(last, point, strict=True)):
             return
-        is_rapid = snapshot.modal.get("motion") in _RAPID or not snapshot.channels[1].runs
+        is_rapid = snapshot.modal.get("motion") in _RAPID or not by_program
         tool = self._pen or snapshot.tool.name or f"T{snapshot.tool.tool}"
         trail.add(point, snapshot.feed, RAPID if is_rapid else FEED, trail.colour(tool))
 

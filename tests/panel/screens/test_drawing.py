@@ -19,7 +19,7 @@ G00 X10. Y5.;
 DRAWHOLE();
 #2 := SETDRAW(65280);
 G01 X20. F1000;
-@500 := #2;
+@1 := #2;
 M30;
 """
 
@@ -44,7 +44,7 @@ def test_colour_and_circle_of_a_program_stand_in_the_picture(lang: str, line: st
         panel.control.step(0.04)
         panel.course.note(panel.control.snapshot)
     assert panel.control.parts == 1
-    assert panel.control.read_variable("@500") == 255
+    assert panel.control.read_variable("@1") == 255
     lines = panel.course.lines[line]
     red, green = lines.colour("#ff0000"), lines.colour("#00ff00")
     assert lines.tools[green] == "#00ff00"

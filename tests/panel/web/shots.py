@@ -24,6 +24,9 @@ SHOTS = {
                                   ("alarms", "ALARM", "中")),
     ("syntec-mill", "plate"): (("coordinates", "COOR", "中"), ("restart", "PROG > Restart", "EN")),
 }  # fmt: skip
+#: A fault comes over the wire.
+_FAULT = """new Promise(done => { const wire = new WebSocket(`ws://${location.host}/api/%s`);
+  wire.onopen = () => wire.send('{"do": "fault", "with": {"name": "tool"}}'); wire.onmessage = done; }).then(() => 0)"""
 _LANGUAGES = {"EN": "en", "中": "zh-TW"}
 
 
@@ -33,7 +36,7 @@ async def shoot(control: str, example: str, folder: Path) -> None:
     file = file or EXAMPLES / f"{control}-{example}.mpf"
     setup = file.with_name(f"{file.stem}.setup.yaml")
     port = free_port()
-    words = ["panel", str(file), "--control", control, "--no-open", "--port", str(port), "--speed", "10"]
+    words = ["panel", str(file), "--control", control, "--no-open", "--port", str(port), "--speed", "2"]
     words += ["--setup", str(setup)] if setup.exists() else []
     server = subprocess.Popen([sys.executable, "-m", "polycnc", *words], stdout=subprocess.DEVNULL)
     try:
@@ -45,6 +48,8 @@ async def shoot(control: str, example: str, folder: Path) -> None:
                 await page.evaluate("document.querySelector('button.k.start').click()")
                 await asyncio.sleep(6.0)
                 for name, keys, lang in SHOTS[control, example]:
+                    if name == "alarms":
+                        await page.evaluate(_FAULT % control)
                     await page.press(lang)
                     for key in keys.split(" > "):
                         await asyncio.sleep(1.0)
