@@ -42,7 +42,7 @@ class Course:
         self._forecast: Forecast | None = None
         self._program: tuple[str, Sequence[str]] = ("", ())
         self._state = State.READY
-        self._pen, self._ran = "", False
+        self._pen, self._cut = "", False
         control.listeners.append(self._hear)
 
     @property
@@ -52,8 +52,13 @@ class Course:
         return self.bodies.pose(control.snapshot.channels[1].point, control.machine_position)
 
     def _hear(self, record: Record) -> None:
-        """The program draws: the trail has another colour, or a circle."""
+        """A run begins, or the program draws: the trail begins anew, has another colour, or a circle."""
         data, trail = record.data, self.lines["trail"]
+        if record.what == "state":
+            before, self._state = self._state, State(str(data["state"]))
+            if self._state is State.RUNNING and before in (State.READY, State.ALARM):
+                trail.clear()
+                self._pen = ""
         if record.what != "event":
             return
         if data.get("type") == Pen.type:
@@ -66,19 +71,14 @@ class Course:
 
     def note(self, snapshot: Snapshot) -> None:
         """The tool is somewhere: the trail leads there."""
-        started = snapshot.state is State.RUNNING and self._state in (State.READY, State.ALARM)
-        self._state = snapshot.state
         trail, point = self.lines["trail"], snapshot.channels[1].point
-        by_program, self._ran = self._ran or snapshot.channels[1].runs, snapshot.channels[1].runs
-        if started:
-            trail.clear()
-            self._pen = ""
+        now = snapshot.channels[1].runs and snapshot.modal.get("motion") not in _RAPID
+        cuts, self._cut = self._cut or now, now
         last = trail.last()
         if last and all(abs(a - b) < 1e-4 for a, b in zip(last, point, strict=True)):
             return
-        is_rapid = snapshot.modal.get("motion") in _RAPID or not by_program
         tool = self._pen or snapshot.tool.name or f"T{snapshot.tool.tool}"
-        trail.add(point, snapshot.feed, RAPID if is_rapid else FEED, trail.colour(tool))
+        trail.add(point, snapshot.feed, FEED if cuts else RAPID, trail.colour(tool))
 
     def go_on(self) -> None:
         """Calculate the path of the program a little further; it begins anew where another one is loaded."""
