@@ -27,7 +27,9 @@ def line_of(control: str, text: str) -> tuple[Lines, list[tuple[float, ...]]]:
     maker = RowLine(lines, result.toolpath, geometry)
     for chunk in result.toolpath.chunks:
         maker.add(chunk)
-    drawn = [point for each in strokes(result.toolpath, geometry, CHORD_ERROR) for point in each.points]
+    drawn: list[tuple[float, ...]] = []
+    for each in strokes(result.toolpath, geometry, CHORD_ERROR):
+        drawn.extend(each.points)
     return lines, drawn
 
 

@@ -261,10 +261,10 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         return ended
 
     def synchronise(self) -> None:
-        """A preprocessing stop: the running block, which has done nothing yet, waits for the main run.
+        """A preprocessing stop: the running block waits for the main run, and begins again without its rows.
 
         Raises:
-            PreprocessingStop: The main run is behind.
+            PreprocessingStop: The main run is behind. Where a stage holds moves, the block must have done nothing yet.
         """
         if self.main_run is not None and not self.main_run.has_caught_up:
             raise PreprocessingStop
@@ -352,6 +352,8 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
             take_back(self, found_ahead=bool(error.line))
             self.fail(error)
         except PreprocessingStop:
+            if self.path.head is None:
+                take_back(self)
             self._level.index = self._level.current
             wait, self._wait = self._wait or PREPROCESSING, None
             return wait

@@ -7,10 +7,10 @@ the machine moves about it, for the path is drawn on the work.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import isfinite
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.records import dataclass
 from polycnc.machine.kinematics import Kinematics
 
 if TYPE_CHECKING:

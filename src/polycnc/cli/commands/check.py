@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import sys
 from contextlib import ExitStack, nullcontext
-from dataclasses import dataclass
 from enum import StrEnum
 from functools import partial
 from pathlib import Path
@@ -15,6 +14,7 @@ import typer
 
 from polycnc.cli import diagnostics, options
 from polycnc.cli.console import note, show
+from polycnc.deferred.records import dataclass
 from polycnc.messages import UserError, text
 from polycnc.messages.catalogue import language, listed, set_language
 

@@ -5,11 +5,11 @@ What is confirmed lasts: each command ends with a `commit` of the retained memor
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from polycnc.control.parameters import known_parameters
 from polycnc.control.word_address.macro_b.parameter_input import set_parameter
+from polycnc.deferred.records import dataclass
 from polycnc.machine.setup.values import parameter_key
 from polycnc.mainrun.commands.states import Command
 from polycnc.mainrun.errors import CommandRefused

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, TypeAlias
 
 from polycnc.control.fanuc.lathe.tools import screens as lathe
 from polycnc.control.fanuc.lathe.tools.screens import Page
+from polycnc.deferred.regexes import regex
 from polycnc.mainrun import CommandRefused
 from polycnc.panel.screens.sources import SOURCES
 from polycnc.panel.screens.tables import Table
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 Action: TypeAlias = Callable[["ScreenState"], None]
 
 #: An axis with a value behind it, which may be missing; a name with a number wants an equals sign (`Q1=5`).
-_AXIS_VALUE = re.compile(r"(?P<axis>[A-Z]+\d+(?==)|[A-Z])\s*=?\s*(?P<value>[+-]?\d*\.?\d*)")
+_AXIS_VALUE = regex(r"(?P<axis>[A-Z]+\d+(?==)|[A-Z])\s*=?\s*(?P<value>[+-]?\d*\.?\d*)")
 
 
 def _number(screen: ScreenState) -> float:
@@ -210,7 +210,7 @@ def to_top(screen: ScreenState) -> None:
 
 
 #: A number behind a sign, and the operators between numbers.
-_TERM = re.compile(r"\s*([+-]?\d*\.?\d+|[+-]?\d+\.)\s*")
+_TERM = regex(r"\s*([+-]?\d*\.?\d+|[+-]?\d+\.)\s*")
 
 
 def calculate(screen: ScreenState) -> None:

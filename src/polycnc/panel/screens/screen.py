@@ -11,9 +11,9 @@ Whoever looks at the control looks at the same screen: all browsers share one.
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.regexes import regex
 from polycnc.mainrun import CommandRefused, Mode
 from polycnc.messages import UserError
 from polycnc.messages.catalogue import language
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 #: Blocks that are looked through for a number.
 LONGEST_LOOK = 500
 #: A block with its number.
-_NUMBERED = re.compile(r"\s*/?\d?\s*[Nn](\d+)")
+_NUMBERED = regex(r"\s*/?\d?\s*[Nn](\d+)")
 #: Characters that the key-in buffer takes.
 LONGEST_BUFFER = 127
 #: Keys whose name is not what they type.

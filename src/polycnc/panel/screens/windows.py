@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
-from dataclasses import dataclass
 from itertools import zip_longest
 from typing import TYPE_CHECKING, TypeAlias
 
 from polycnc.control.fanuc.lathe.tools.screens import modal_codes
+from polycnc.deferred.records import dataclass
+from polycnc.deferred.regexes import regex
 from polycnc.messages import text
 from polycnc.panel.description import RETURNED, is_returned
 from polycnc.panel.screens import operate, tables
@@ -38,7 +38,7 @@ class Asked:
 Reader: TypeAlias = Callable[[Asked], Rows]
 
 #: A G code: its number, and what stands behind the point.
-_G_CODE = re.compile(r"G(\d+)((?:\.\d+)?)")
+_G_CODE = regex(r"G(\d+)((?:\.\d+)?)")
 #: Blocks that a program window shows in front of the one in execution.
 _BEFORE = 3
 

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import tomllib
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache
 from importlib import resources
 from typing import TYPE_CHECKING, Any
 
+from polycnc.deferred.records import dataclass
 from polycnc.machine.plc import PlcAlarm
 from polycnc.machine.rules import signals_in
 from polycnc.machine.text import Text

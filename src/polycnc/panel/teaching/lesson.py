@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.records import dataclass
 from polycnc.messages import text
 from polycnc.panel.screens.pages import in_language
 from polycnc.panel.teaching.exercise import holds
