@@ -76,7 +76,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         level: The running program level, `stack[-1]`.
         running: The run that was begun last; None before the first one.
         limits: Lowest and highest machine position of every axis; nothing where no axis has a limit.
-        start_position: Position at power-on, all axes.
+        stands_at: Machine position at the beginning of the run; of the running block, where somebody executes it.
         path: The stages that moves pass on their way to the toolpath.
         mark: Rows of the chunk when the running block began.
         control: The control. Handlers of a family know its class: `channel.family`.
@@ -143,8 +143,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         self.axis_data: tuple[Axis, ...] = tuple(machine.axis[name] for name in definition.axes)
         start = [setup.start.get(name, 0.0) for name in self.axes]
         self.coordinates = Coordinates(self.axes, machine.geometry_indices(number), start)
-        self.start_position = tuple(start)
-        self._stands_at = start[:]
+        self.stands_at = self.coordinates.machine
         self.toolpath = Toolpath(self.axes) if toolpath is None else toolpath
         self.modes = ModeTable()
         self.mode: Mode = self.modes.mode({})
@@ -329,6 +328,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
                 self.control.start(self)
             else:
                 self.control.begin(self)
+            self.stands_at = self.coordinates.machine
         except AlarmError as error:
             self.fail(error)
         except ArithmeticError as error:
@@ -390,7 +390,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
             level.index = index + 1
             self.mark = len(kinds)
             if is_executed:
-                self._stands_at = self.coordinates.machine
+                self.stands_at = self.coordinates.machine
             step(self)
             self.blocks += 1
             if self.attention:
@@ -401,7 +401,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         """The running block waits for the main run and begins again then: what it has written so far vanishes."""
         if self.path.head is None and len(self.toolpath.chunk) > self.mark:
             self.toolpath.truncate(self.mark)
-            self.coordinates.arrive_machine(self._stands_at)
+            self.coordinates.arrive_machine(self.stands_at)
 
     def _look_up(self, level: Level, step: Step | None) -> None:
         """What must be seen to between bursts: stages that count blocks, single block, the block limit."""
