@@ -61,6 +61,7 @@ CHANGED_BY = {
     "Frames": "sinumerik-value-proc-second-line",
     "FunctionState": "syntec-lang-stack-empty",
     "Gears": "sin-gear-cascade",
+    "InitialisedState": "sin-initial-ini-sets-standard-values",
     "GlobalState": "syntec-getarg-integer",
     "GrindingState": "fanuc-0i-tf-grind-axis-by-its-name",
     "HypotheticalState": "meldas-m-hypothetical-third-axis",

@@ -164,6 +164,7 @@ class Sinumerik:
 
     def begin(self, channel: SinumerikChannel) -> None:
         """A main program begins in the state that the channel is in."""
+        init_programs.call(channel)
         run_times.begin(channel)
 
     def clocked(self, channel: SinumerikChannel) -> None:

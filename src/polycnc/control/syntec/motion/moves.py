@@ -80,6 +80,9 @@ def recorded(channel: SyntecChannel, context: Context) -> Context:
     rapid = state.rapid_overlap if overlap == NO_OVERLAP else 0.0
     if rapid is None:
         rapid = channel.memory.parameters.rapid_overlap * least_unit(channel.memory.parameters)
+    as_it_is = (context.feed_mode, context.rapid_speed, context.overlap, context.rapid_overlap)
+    if (mode, state.rapid_speed, overlap, rapid) == as_it_is:
+        return context
     return replace(
         context, feed_mode=mode, rapid_speed=state.rapid_speed, overlap=overlap, rapid_overlap=rapid
     )
