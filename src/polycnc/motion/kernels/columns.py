@@ -231,6 +231,7 @@ class RunState(Structure):
         ease: Factor on the limits at the end of the row before; `corner_ease` for its corner.
         overlap: OVERLAP of the row before.
         is_bent: The row before is bent already for the corner to the row at hand (1): the latter is laid out again.
+        unseen: Nobody asks where the axes are within a piece (1).
     """
 
     stop: float
@@ -257,6 +258,7 @@ class RunState(Structure):
     corner_ease: float
     overlap: float
     is_bent: float
+    unseen: float
 
 
 @record
