@@ -6,8 +6,10 @@ one object of each channel and knows nothing of their language.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING, Final, NamedTuple, Protocol
+
+from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from enum import StrEnum
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, Protocol
 
 from polycnc.channel.family import ProgramT_co
+from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -7,10 +7,10 @@ within one turn.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, NamedTuple, NotRequired, TypedDict, cast
 
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath.digits import STEPS
 from polycnc.toolpath.events import Raised

@@ -11,12 +11,12 @@ out; `Path.divert` lays the whole path aside while a control reads a contour wit
 from __future__ import annotations
 
 from contextlib import contextmanager
-from dataclasses import dataclass
 from enum import IntEnum, auto
 from itertools import pairwise
 from math import nan
 from typing import TYPE_CHECKING, ClassVar, TypeVar
 
+from polycnc.deferred.records import dataclass
 from polycnc.toolpath.kinds import Kind
 
 if TYPE_CHECKING:

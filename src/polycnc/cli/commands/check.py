@@ -6,7 +6,6 @@ import gc
 import os
 import sys
 from contextlib import ExitStack, nullcontext
-from dataclasses import dataclass
 from enum import StrEnum
 from functools import partial
 from itertools import chain
@@ -17,6 +16,7 @@ import typer
 
 from polycnc.cli import diagnostics, options
 from polycnc.cli.console import note, show
+from polycnc.deferred.records import dataclass
 from polycnc.messages import UserError, text
 from polycnc.messages.catalogue import language, listed, set_language
 

@@ -42,6 +42,7 @@ from polycnc.control.sinumerik.transformations import seat, smoothing
 from polycnc.control.sinumerik.transformations.point_to_point import PointToPoint
 from polycnc.control.sinumerik.variables import by_name, functions, part_counts, run_times
 from polycnc.control.sinumerik.variables.registry import SystemVariables
+from polycnc.deferred.regexes import regex
 from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.emitter import nc_shapes
 from polycnc.language.sinumerik.errors import arithmetic
@@ -82,7 +83,7 @@ EULER_ANGLES = "$MN_FRAME_ANGLE_INPUT_MODE"
 #: The older way of CUTMOD (7.11), which polycnc does not execute: only an empty text is taken.
 CUTTING_DIRECTION = "$SC_CUTDIRMOD"
 #: What stands behind the name of a variable: the number of an R parameter, indices.
-_INDEX = re.compile(r"(?<=^R)\d+$|\[.*", re.IGNORECASE)
+_INDEX = regex(r"(?<=^R)\d+$|\[.*", re.IGNORECASE)
 
 
 @unchanging

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from array import array
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeAlias
 
 from polycnc.channel.stack import Executable
 from polycnc.channel.states.snapshot import unchanging
+from polycnc.deferred.records import dataclass
 from polycnc.language.bulk import layout
 from polycnc.language.bulk.kernels import Tables
 from polycnc.language.bulk.layout import State, new_state

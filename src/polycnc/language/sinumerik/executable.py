@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.states.snapshot import unchanging
 from polycnc.channel.steps import forget_steps, kept_steps
+from polycnc.deferred.regexes import regex
 from polycnc.language.expressions.joined import led_by
 from polycnc.language.sinumerik.blocks import CompiledBlock, compile_block, compile_text, expanded
 from polycnc.language.sinumerik.emitter import Emitter
@@ -40,7 +41,7 @@ if TYPE_CHECKING:
     from polycnc.language.sinumerik.interface import LanguageControl, LanguageMemory, NcChannel
     from polycnc.program import Program
 
-_DEFINITION = re.compile(r"[ \t]*(?:DEF|REDEF|DEFINE|PROC|EXTERN)\b", re.IGNORECASE)
+_DEFINITION = regex(r"[ \t]*(?:DEF|REDEF|DEFINE|PROC|EXTERN)\b", re.IGNORECASE)
 #: Type of comments and of the screens of own cycles (cov.com, uc.com, 1.25.4): texts, not programs.
 _COMMENT_FILE = "_COM"
 #: Joined steps that a block may be part of: a program that is entered at many places is not joined from each anew.
@@ -49,7 +50,7 @@ MOST_JOINS = 8
 _MOST_TEXTS = 1024
 #: A line that begins with none of these is a block.
 _BLANK = " \t;%\r\x00"
-_EMPTY = re.compile(r"[ \t\r\x00]*(?:;|%|$)")
+_EMPTY = regex(r"[ \t\r\x00]*(?:;|%|$)")
 
 
 @unchanging

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_right
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.snapshot import unchanging
 from polycnc.channel.steps import kept_steps, several
+from polycnc.deferred.records import dataclass
+from polycnc.deferred.regexes import regex
 from polycnc.language.expressions.code import listed
 from polycnc.language.expressions.joined import MAX_JOINED, led_by
 from polycnc.language.word_address.joining import JOINABLE, join, join_loop
@@ -30,24 +32,24 @@ if TYPE_CHECKING:
 #: Longer blocks are refused: no control stores one, and a damaged file must not fill the memory.
 MAX_BLOCK_LENGTH = 4096
 #: A number can match in one way only, so a line that fails does so at once.
-_PLAIN = re.compile(r"(?:[A-Z][-+]?(?:\d+(?:\.\d*)?|\.\d+)[ \t]*)+;?")
-_WORD = re.compile(r"([A-Z])([-+]?)([\d.]+)")
-_BLANK = re.compile(r"[ \t]*%?[ \t]*")
-_COMMENT = re.compile(r"\([^)]*\)?")
-_SEQUENCE = re.compile(r"[ \t]*(?:/\d?[ \t]*)*N[ \t]*(\d+)", re.IGNORECASE)
-_STATEMENT = re.compile(rf"[ \t]*(?:/\d?[ \t]*)*(?:N[ \t]*\d+)?[ \t]*(?:/\d?[ \t]*)*(?:{KEYWORD.pattern})")
-_NUMBERS = re.compile(
+_PLAIN = regex(r"(?:[A-Z][-+]?(?:\d+(?:\.\d*)?|\.\d+)[ \t]*)+;?")
+_WORD = regex(r"([A-Z])([-+]?)([\d.]+)")
+_BLANK = regex(r"[ \t]*%?[ \t]*")
+_COMMENT = regex(r"\([^)]*\)?")
+_SEQUENCE = regex(r"[ \t]*(?:/\d?[ \t]*)*N[ \t]*(\d+)", re.IGNORECASE)
+_STATEMENT = regex(rf"[ \t]*(?:/\d?[ \t]*)*(?:N[ \t]*\d+)?[ \t]*(?:/\d?[ \t]*)*(?:{KEYWORD.pattern})")
+_NUMBERS = regex(
     r"^[ \t]*(?:[O:][ \t]*\d+|<[^>]*>)?[ \t]*(?:/\d?[ \t]*)*(?:N[ \t]*\d+)?[ \t]*(?:/\d?[ \t]*)*"
 )
 #: A block that begins with a word and its number is neither a statement nor nothing.
-_PLAIN_BEGIN = re.compile(r"(?:N\d+[ \t]*)?[A-MO-Z][-+\d.]")
-_SEQUENCE_WORD = re.compile(r"N[ \t]*\d+\.?\d*")
-_LOOP = re.compile(r"(?<![A-Z])(DO|END)[ \t]*(\d+)")
-_HEAD = re.compile(r"[ \t]*(?:[O:][ \t]*\d+|<[^>]*>)?")
-_SKIP = re.compile(r"[ \t]*/[ \t]*(\d?)")
-_NUMBER_TEXT = re.compile(r"[ \t]*([-+]?)[ \t]*(\d+\.?\d*|\.\d+)")
-_VALUE = re.compile(r"[ \t]*[-+]?[ \t]*[#\[]")
-_NAME = re.compile(r"[ \t]*P?[ \t]*(<[^<>]+>)")
+_PLAIN_BEGIN = regex(r"(?:N\d+[ \t]*)?[A-MO-Z][-+\d.]")
+_SEQUENCE_WORD = regex(r"N[ \t]*\d+\.?\d*")
+_LOOP = regex(r"(?<![A-Z])(DO|END)[ \t]*(\d+)")
+_HEAD = regex(r"[ \t]*(?:[O:][ \t]*\d+|<[^>]*>)?")
+_SKIP = regex(r"[ \t]*/[ \t]*(\d?)")
+_NUMBER_TEXT = regex(r"[ \t]*([-+]?)[ \t]*(\d+\.?\d*|\.\d+)")
+_VALUE = regex(r"[ \t]*[-+]?[ \t]*[#\[]")
+_NAME = regex(r"[ \t]*P?[ \t]*(<[^<>]+>)")
 
 #: Steps that lines of one pattern share.
 REPEATABLE = (WordBlock, ExpressionBlock, Assignment)

@@ -10,9 +10,10 @@ as they are written, so a number of which the reader says nothing is never taken
 
 from __future__ import annotations
 
-import re
 from operator import itemgetter
 from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
+
+from polycnc.deferred.regexes import regex
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Sequence
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
     Reading: TypeAlias = Callable[[str], float]
     Choice: TypeAlias = Callable[[Sequence[str]], tuple[str, ...]]
 
-NUMBER = re.compile(r"\d+\.?\d*|\.\d+")
+NUMBER = regex(r"\d+\.?\d*|\.\d+")
 #: Lines that are kept; when there are more, all are forgotten.
 MOST_LINES = 4096
 #: Longer ones may be out of the range of numbers, which only the reader finds out.

@@ -7,13 +7,14 @@ When a coupling ends, the axes stay where they are, and words mean their places 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from enum import IntEnum
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.curve_tables.memory import CurveTables
 from polycnc.control.sinumerik.data.machine_data import MachineData
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY
 from polycnc.transformation.couplings.coupled import Coupled, Shown
 from polycnc.transformation.seated import Seated

@@ -5,12 +5,13 @@ Source: Fundamentals; job planning 16.1 (statement list).
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from math import inf, pi
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik import gcodes, tables
+from polycnc.deferred.records import dataclass
 from polycnc.toolpath.context import Pace
 
 if TYPE_CHECKING:

@@ -5,7 +5,7 @@ Source: job planning 7.1 (tool parameters), 7.3 (assignment of lengths); Fundame
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, retained
@@ -23,6 +23,7 @@ from polycnc.control.sinumerik.tools.edges import (
     Edge,
 )
 from polycnc.control.sinumerik.tools.lengths import OTHER_LENGTHS, TURNING_LENGTHS, Rules, along_axes
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.vectors import minus, times
 from polycnc.memory.encoding import encoded
@@ -97,7 +98,7 @@ class Tools(State, lifetime=Lifetime.POWER):
     @classmethod
     def first(cls, channel: Channel) -> Self:
         """No tool in the spindle; in the memory is what is retained, else what the setup says."""
-        tools = super(Tools, cls).first(channel)
+        tools = super().first(channel)
         if not tools.tools and channel.states.get(cls) is None:  # a program may have taken all tools out
             tools.tools.update(tools_of_setup(channel.setup.tools))
         if MachineData.of(channel).integer("$MN_MM_TYPE_OF_CUTTING_EDGE") == 1:
@@ -110,7 +111,7 @@ class Tools(State, lifetime=Lifetime.POWER):
 
     def end(self, channel: Channel, lifetime: Lifetime) -> None:
         """After a reset the tool stays in the spindle; bit 6 of MD20110 keeps its offsets, else MD20130 says which."""
-        super(Tools, self).end(channel, lifetime)
+        super().end(channel, lifetime)
         data = MachineData.of(channel)
         if lifetime is Lifetime.RESET and data.integer("$MC_RESET_MODE_MASK") & (1 | KEEPS_EDGE) == 1:
             edge = data.integer("$MC_CUTTING_EDGE_RESET_VALUE")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, lasting
@@ -15,6 +15,7 @@ from polycnc.control.word_address.coordinates.systems import ZeroState, go_to_re
 from polycnc.control.word_address.memory import EXTERNAL
 from polycnc.control.word_address.tools.data_input import TOOL_FIELDS
 from polycnc.control.word_address.tools.length import renew_length
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, about, scaling
 from polycnc.geometry.planes import PLANES
 from polycnc.language.syntec.values import to_long
@@ -263,21 +264,6 @@ def switch_diameter(channel: SyntecChannel, words: Words) -> None:
 
 
 # ---- dwell, data input, cutting modes --------------------------------------------------------------------
-
-
-def dwell(channel: SyntecChannel, words: Words) -> None:
-    """G04 X or P: X with a point seconds, without milliseconds; P milliseconds, decimals cut off (2.8)."""
-    if "Q" in words:
-        raise channel.control.not_yet("G4 Q", "Q")
-    milliseconds = words.typed("P")
-    if milliseconds is not None:
-        channel.dwell(seconds=int(milliseconds) / 1000.0)
-        return
-    value = words.typed("X")
-    if value is None:
-        raise words.fail("argument", "G4")
-    whole = words.form("X") == "" and not words.plan.rules.calculator
-    channel.dwell(seconds=value / 1000.0 if whole else value)
 
 
 def input_data(channel: SyntecChannel, words: Words) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
@@ -13,6 +12,7 @@ from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.normal_stage import NormalStage
 from polycnc.control.word_address.transformations.polar_interpolation import PolarState
+from polycnc.deferred.records import dataclass
 from polycnc.machine.kinematics import Kinematics
 from polycnc.transformation.orientation.solutions import Posture
 

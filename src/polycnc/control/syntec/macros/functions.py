@@ -11,6 +11,7 @@ from polycnc.control.syntec.macros import diagnosis, records
 from polycnc.control.syntec.macros.machine_parameters import read_long, write_long
 from polycnc.control.syntec.macros.system_variables import system_variable
 from polycnc.control.syntec.macros.variables import BitState, FunctionState
+from polycnc.deferred.regexes import regex
 from polycnc.language.syntec.values import VACANT, Text, Vacant, Value, number, whole
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import Message, Print
@@ -206,7 +207,7 @@ def sleep(memory: SyntecMemory) -> Value:
 
 # ---- files -----------------------------------------------------------------------------------------------
 
-_ESCAPE = re.compile(r'\\([\\@#p"*])|([#@])(\d+)(?:\[(\d)\])?')
+_ESCAPE = regex(r'\\([\\@#p"*])|([#@])(\d+)(?:\[(\d)\])?')
 _ESCAPED = {"p": "%"}
 
 

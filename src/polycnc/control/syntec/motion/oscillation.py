@@ -6,7 +6,6 @@ the path the axis stands at its R point, and at the end it stands where the end 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import nan
 from typing import TYPE_CHECKING
 
@@ -15,6 +14,7 @@ from polycnc.control.syntec.axis_groups.names import CODES, axis_of_code
 from polycnc.control.syntec.units import least_unit
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.transformations.normal_stage import NormalStage
+from polycnc.deferred.records import dataclass
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 

@@ -9,7 +9,6 @@ modal state; later blocks of the same shape only bring new numbers.
 from __future__ import annotations
 
 from copy import copy
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from polycnc.channel.intervention import NOTHING_BACK, TakesBack
@@ -18,6 +17,7 @@ from polycnc.control.word_address.block.numbers import Convert, NumberRules, len
 from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.memory import SentCodes
 from polycnc.control.word_address.motion.path_modes import end_of_exact_stop, exact_stop_block
+from polycnc.deferred.records import dataclass
 from polycnc.language.bulk import Idle, Note, declare
 from polycnc.language.word_address.words import FORMS, is_fixed_code
 from polycnc.messages import AlarmError
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
     from polycnc.channel.mode import Mode
-    from polycnc.control.word_address.block.codes import Handler, MotionPlanner
+    from polycnc.control.word_address.block.codes import Handler, MotionPlanner, Planner
     from polycnc.control.word_address.block.rules import Rule
     from polycnc.control.word_address.control import WordAddressControl
     from polycnc.control.word_address.cycles.drilling import Drilling
@@ -388,7 +388,7 @@ class Builder:
             for key in self.order
             if key[0] == "M" and is_fixed_code(key)
         }
-        meanings = dict(self.control.addresses)
+        meanings: dict[str, Planner | None] = dict(self.control.addresses)
         for rule in self.acting:
             meanings.update(rule.addresses)
         for row in m_rows.values():

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.stack import LevelKind
@@ -12,6 +12,7 @@ from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.macro_b import subprograms
 from polycnc.control.word_address.macro_b.variables import LOCALS
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.units import INCH_MM
 
 if TYPE_CHECKING:
