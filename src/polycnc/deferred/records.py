@@ -56,7 +56,7 @@ def _dataclass(cls: type, *, frozen: bool, slots: bool, eq: bool) -> type:
         elif not is_hashed:
             cls.__hash__ = None  # type: ignore[assignment]
     if frozen:
-        cls.__setattr__, cls.__delattr__ = _refusals(cls)  # type: ignore[assignment, method-assign]
+        cls.__setattr__, cls.__delattr__ = _refusals(cls)  # type: ignore[method-assign]
     return cls
 
 

@@ -7,6 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.language.bulk.both_ways import differences, run, scanned
+from tests.language.bulk.programs import arc
 
 CONTROLS = ("fanuc-m", "meldas-m", "syntec-mill")
 SETUP = {
@@ -40,6 +41,8 @@ def contour(draw: st.DrawFn) -> str:
             ]
             lines.append("".join(words) + draw(st.sampled_from(("", "", "", " F300.", "(C)", ";"))))
         lines.append(draw(st.sampled_from(BETWEEN)))
+        if draw(st.integers(0, 2)) == 0:
+            lines += [f"G91 {draw(arc(('(C)',)))}", draw(st.sampled_from(("", "G90")))]
     return "\n".join([*lines, "G90 G40 G1 X-20. Y-20.", "M30", ""])
 
 

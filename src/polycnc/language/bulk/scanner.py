@@ -236,7 +236,7 @@ class Scanner:
             self._call(channel, moves)
         run = StagedRun(channel, self._columns)
         try:
-            run.lead(moves)
+            run.lead(moves, at.first_curve)
         except (AlarmError, ArithmeticError):
             self._call(channel, run.moved)
             self._go_on(channel, run.moved)
