@@ -35,6 +35,7 @@ LAYERS = (
     "control",
     "motion",
     "mainrun",
+    "view",
     "panel",
     "session",
     "interchange",

@@ -12,11 +12,12 @@ import pytest
 
 from polycnc.motion import Plan, Settings
 from polycnc.motion import planner as planner_module
-from polycnc.motion.compiled import LIBRARY
+from polycnc.motion.compiled import LIBRARY, PLAIN, Kernels
 from polycnc.motion.planner import Planner
 from polycnc.toolpath import Context, Kind, Toolpath
 from polycnc.toolpath.events import Auxiliary
 from polycnc.toolpath.modes import AccelerationMode, CornerMode
+from tests.kernels.strict import strict
 from tests.motion.paths import MILL, Build
 
 if TYPE_CHECKING:
@@ -78,6 +79,17 @@ def test_compiled_kernels_give_the_same_bits(monkeypatch: pytest.MonkeyPatch) ->
     monkeypatch.setattr(planner_module, "FULL_ROOM", 256)
     build = varied(1500)
     assert bits(build.plan(compiled=True)) == bits(build.plan(compiled=False))
+
+
+@pytest.mark.parametrize("acceleration", AccelerationMode)
+def test_no_index_counts_from_the_end(
+    acceleration: AccelerationMode, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Compiled kernels would read what lies in front of the array."""
+    lead = Settings(acceleration=acceleration)
+    whole = varied(400).plan(MILL, settings=lead, compiled=False)
+    monkeypatch.setattr(planner_module, "PLAIN", Kernels(*map(strict, PLAIN)))
+    assert bits(varied(400).plan(MILL, settings=lead, compiled=False)) == bits(whole)
 
 
 def test_a_toolpath_is_planned_while_it_grows() -> None:

@@ -10,13 +10,12 @@ from __future__ import annotations
 
 from dataclasses import field, replace
 from enum import Enum
-from math import cos, degrees, hypot, isnan, nan, pi, radians
+from math import degrees, isnan, nan, radians
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.path import END_OF_BLOCK, EndOfBlock, Item, Move, PlacedEvent, Rank, Stage
 from polycnc.deferred.records import dataclass
-from polycnc.geometry import arcs, offset
-from polycnc.geometry.tolerances import NO_WAY
+from polycnc.geometry import offset
 from polycnc.messages import AlarmError
 from polycnc.toolpath.kinds import Kind
 
@@ -281,7 +280,7 @@ class CornerStage(Stage):
         self._let_go(held)
         return move
 
-    def _cut(self, held: _Held, move: Move, cuts: _Cuts, ccw: bool) -> Move:
+    def _cut(self, held: _Held, move: Move, cuts: offset.Cuts, ccw: bool) -> Move:
         plane, first = self.plane, held.move
         own_end = plane.at(_between(first, cuts.part_a), cuts.leaving)
         leaving, entering = own_end, plane.at(_between(move, cuts.part_b), cuts.entering)
@@ -303,41 +302,11 @@ class CornerStage(Stage):
         return _rest(replace(move, start=start), cuts.part_b < 1.0)
 
 
-@dataclass(frozen=True, slots=True)
-class _Cuts:
-    """Where a corner is cut off: points, the part of each move before them (0 to 1), a rounding's centre."""
-
-    leaving: Point
-    part_a: float
-    entering: Point
-    part_b: float
-    center: Point | None = None
-
-
-def _cuts(shape: Shape, a: offset.Edge, b: offset.Edge, size: float) -> _Cuts | None:
+def _cuts(shape: Shape, a: offset.Edge, b: offset.Edge, size: float) -> offset.Cuts | None:
     """The cuts for a shape between two edges; None where it does not fit."""
-    turn = offset.turn(a, b)
-    if abs(turn) > pi - _STRAIGHT_ON:
-        return None
     if shape is Shape.ROUNDING:
-        distance = size if turn > 0.0 else -size
-        center = offset.meet(a, b, distance, distance)
-        if center is None:
-            return None
-        leaving, entering = _nearest(a, center), _nearest(b, center)
-        part_a, part_b = _part(a, leaving), _part(b, entering)
-        if abs(arcs.radius_of(center, leaving) - size) + abs(arcs.radius_of(center, entering) - size) > 1e-6:
-            # A rounding larger than an arc does not fit inside it.
-            return None
-    else:
-        leg = size if shape is Shape.CHAMFER else 0.5 * size / cos(0.5 * turn)
-        center = None
-        part_a, part_b = 1.0 - leg / a.length, leg / b.length
-        leaving, entering = _at(a, part_a), _at(b, part_b)
-    slack = 1e-9
-    if not (-slack <= part_a < 1.0 and 0.0 < part_b <= 1.0 + slack):
-        return None
-    return _Cuts(leaving, max(part_a, 0.0), entering, min(part_b, 1.0), center)
+        return offset.rounded(a, b, size)
+    return offset.chamfered(a, b, size if shape is Shape.CHAMFER else offset.leg_of_chamfer(a, b, size))
 
 
 def _largest(shape: Shape, a: offset.Edge, b: offset.Edge, size: float) -> float:
@@ -350,33 +319,6 @@ def _largest(shape: Shape, a: offset.Edge, b: offset.Edge, size: float) -> float
         else:
             low = middle
     return low
-
-
-def _nearest(edge: offset.Edge, center: Point) -> Point:
-    """Where a circle about `center` touches the line or circle of an edge."""
-    if edge.center is None:
-        du, dv = edge.departing
-        along = (center[0] - edge.start[0]) * du + (center[1] - edge.start[1]) * dv
-        return (edge.start[0] + along * du, edge.start[1] + along * dv)
-    radius = arcs.radius_of(edge.center, edge.end)
-    return arcs.point_at(edge.center, radius, arcs.angle_at(edge.center, center))
-
-
-def _part(edge: offset.Edge, point: Point) -> float:
-    """How much of an edge lies before a point on it; below 0 before its start, above 1 behind its end."""
-    if edge.center is None:
-        du, dv = edge.departing
-        return ((point[0] - edge.start[0]) * du + (point[1] - edge.start[1]) * dv) / edge.length
-    if hypot(point[0] - edge.start[0], point[1] - edge.start[1]) <= NO_WAY:
-        return 0.0
-    return abs(arcs.sweep_angle(edge.start, point, edge.center, edge.ccw)) / edge.sweep
-
-
-def _at(edge: offset.Edge, part: float) -> Point:
-    if edge.center is None:
-        (u0, v0), (u1, v1) = edge.start, edge.end
-        return (u0 + part * (u1 - u0), v0 + part * (v1 - v0))
-    return arcs.point_on_arc(edge.start, edge.end, edge.center, edge.ccw, part)
 
 
 def _rest(move: Move, is_left: bool) -> Move:

@@ -103,6 +103,10 @@ def yaml_values(text: str, dialect: Dialect = SETUP) -> object:
         mark = getattr(error, "problem_mark", None)
         place = (mark.line + 1, mark.column + 1) if mark else (0, 0)
         detail = getattr(error, "problem", None) or " ".join(str(error).split())
+        if (
+            "maximum nesting depth" in detail
+        ):  # libyaml's own limit; its scanner may be far ahead of what is read
+            raise DocumentError(place[0], place[1], "too-deep") from None
         raise DocumentError(place[0], place[1], "not-yaml", detail=detail) from None
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import inf
 from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass
@@ -14,10 +15,10 @@ if TYPE_CHECKING:
 
 #: Metres in a foot, in which surface speeds count where the program is in inches.
 FOOT_M = 0.3048
-#: How a stroke of a drilling cycle meets the next one: it is none, or waits for the axes to rest; it is one whose
-#: start may overlap; it is one whose end may too: the next stroke of the cycle begins while the axes come to rest.
-Overlap = int
-NO_OVERLAP, STROKE, OVERLAPS = 0, 1, 2
+#: How a stroke of a cycle meets the next one: none of its ends overlaps; only its start may; its end may too: the next
+#: stroke begins so many mm before its end, or as soon as the axes come to rest.
+Overlap = float
+NO_OVERLAP, STROKE, OVERLAPS = -1.0, 0.0, inf
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,7 +80,8 @@ class Context:
             was entered.
         lag_s: Acceleration after interpolation of thread cycles: seconds by which the axes are behind at speed (FANUC
             1626), 0 for what the axes can do. `lag_from` is the speed, mm/s, from which on it acts (1627).
-        overlap: Whether strokes of a drilling cycle overlap (FANUC 1681): `Overlap`.
+        overlap: How strokes of a cycle overlap (FANUC 1681, SYNTEC Pr4008, G53 Q): `Overlap`.
+        rapid_overlap: How far before the end of a rapid the next one begins, mm (SYNTEC G00 Q); 0: when the axes rest.
         transformation: From the positions of the toolpath to those of the real axes, where they differ.
         machine_diameters: As `diameter_axes`, of the machine display where that differs: an axis of the plane of polar
             interpolation may be a radius. None where it does not.
@@ -92,6 +94,7 @@ class Context:
             empty where the channel's names hold, an empty one for a column that it uses up.
         knot: Rows end at a knot within a motion, which the next row goes on with: displays show the motion as one.
         share: Part of its motion that a row of inverse time makes: displays show the feed of the whole.
+        dwell_signal: A signal that ends the dwell of a row (SYNTEC G04 Q); empty for none.
     """
 
     plane: str = "G17"
@@ -126,7 +129,8 @@ class Context:
     stop_delay: bool = False
     lag_s: float = 0.0
     lag_from: float = 0.0
-    overlap: Overlap = 0
+    overlap: Overlap = NO_OVERLAP
+    rapid_overlap: float = 0.0
     transformation: Transformation | None = None
     machine_diameters: int | None = None
     unrolled: tuple[int, float] | None = None
@@ -135,11 +139,18 @@ class Context:
     names: tuple[str, ...] = ()
     knot: bool = False
     share: float = 1.0
+    dwell_signal: str = ""
 
     @property
     def surface_m_min(self) -> float:
         """Programmed surface speed under constant surface speed, m/min."""
         return self.spindle_rpm * FOOT_M if self.inch else self.spindle_rpm
+
+    def begins_early(self, before: Context, *, rapid: bool) -> bool:
+        """Whether a move, `rapid` or not, begins before the axes rest behind one in the context `before`."""
+        if self.overlap == NO_OVERLAP:
+            return rapid and before.rapid_overlap > 0.0
+        return before.overlap > 0.0
 
     def rapid_top(self, limit: float) -> float:
         """Highest speed of an axis that runs a rapid alone; `limit` is what the machine allows."""

@@ -40,13 +40,6 @@ def test_what_a_control_shows_is_never_markup() -> None:
     assert of_view(view).count("&lt;script") == 8
 
 
-def test_the_way_of_the_tool_is_a_line() -> None:
-    rows = tuple(tuple(Cell(f"{v}") for v in point) for point in ((0, 0, 0), (10, 0, 0), (10, 5, -2)))
-    markup = of_view(View("graph", "", "", (Window("graph", "", rows),), ()))
-    assert markup.count("<polyline") == 1
-    assert "8.660,-5.000" in markup
-
-
 # ---- the desk ----------------------------------------------------------------------------------------------
 
 

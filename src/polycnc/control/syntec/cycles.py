@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from functools import partial
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
+from polycnc.control.syntec import tapping
 from polycnc.control.syntec.five_axes import spatial
 from polycnc.control.syntec.units import least_unit
 from polycnc.control.word_address.block.rules import Rule
@@ -24,6 +26,7 @@ from polycnc.cycles.drilling.holes import Action, Stroke
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.units import INCH_MM
 from polycnc.messages import AlarmError
+from polycnc.toolpath.context import STROKE
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -52,7 +55,8 @@ CYCLES = {
     "G88": DrillCycle(partial(holes.bore_and_halt, feeds_out=True), dwells=True, bottom_from_initial=True),
     "G89": DrillCycle(holes.bore, dwells=True, bottom_from_initial=True),
 }
-TAPPING = ("G74", "G84")
+#: Words for the overlap of the positioning axis and of the drilling axis.
+OVERLAPS = {"G81": ("D", "Q"), "G74": ("I", "J"), "G84": ("I", "J")}
 #: Pr4020: direction off the wall after the oriented stop, as geometry axis and sense.
 SHIFT_DIRECTIONS = {0: (0, 1.0), 1: (0, -1.0), 2: (1, 1.0), 3: (1, -1.0), 4: (2, 1.0), 5: (2, -1.0)}
 MAX_HOLES = 9999
@@ -68,7 +72,7 @@ class RetractState(State, lifetime=Lifetime.POWER):
 def relief(channel: SyntecChannel, code: str) -> float:
     """Pr4002 between drilling pecks; between tapping pecks Pr4004, or out to R where Pr4001 is 0."""
     parameters = channel.memory.parameters
-    if code not in TAPPING:
+    if code not in tapping.CODES:
         return parameters.peck_retract * least_unit(parameters)
     return parameters.tap_peck_retract * least_unit(parameters) if parameters.tap_fast_pecks == 1 else 0.0
 
@@ -89,7 +93,40 @@ def dwell_seconds(value: float, form: str, rules: NumberRules) -> float:
     return value if form != "" or rules.calculator else value / 10.0**rules.decimals
 
 
-def out_at_feed(channel: SyntecChannel, code: str, cycle: Cycle) -> Cycle:
+def overlap(channel: SyntecChannel, code: str) -> float | None:
+    """How far before the hole the way to R begins, mm: D of G81, I of taps (2.48.2, 2.52.2).
+
+    Taps and holes without one do not overlap with each other as G00 blocks do by Pr3990; None where that is 0 too.
+    """
+    return _overlaps(channel, code)[0]
+
+
+def _overlaps(channel: SyntecChannel, code: str) -> tuple[float | None, float | None]:
+    """Overlaps of the positioning and the drilling axis; above R only, so none with G99."""
+    parameters, data = channel.memory.parameters, CycleState.of(channel).active
+    over, out = (data.amount(word) for word in OVERLAPS.get(code, ("", "")))
+    acts = parameters.fast_drilling == 1 and channel.mode.codes.get("return") != "G99"
+    if acts and (over > 0.0 or out > 0.0):
+        return max(over, STROKE), max(out, STROKE)
+    return (STROKE, STROKE) if parameters.rapid_overlap else (None, None)
+
+
+def dress(channel: SyntecChannel, code: str, cycle: Cycle) -> Cycle:
+    """What the control makes of the strokes of a hole: of taps, of the way out of G81, and what overlaps."""
+    cycle = tapping.tap(channel, cycle) if code in tapping.CODES else _out_at_feed(channel, code, cycle)
+    out = _overlaps(channel, code)[1]
+    if out is None:
+        return cycle
+
+    def lapping(hole: Hole) -> Iterator[Stroke]:
+        for stroke, following in pairwise((*cycle(hole), None)):
+            if stroke is not None:
+                yield stroke._replace(overlaps=STROKE if following is not None else out)
+
+    return lapping
+
+
+def _out_at_feed(channel: SyntecChannel, code: str, cycle: Cycle) -> Cycle:
     """Fast drilling (Pr4008 = 1): the tool leaves a hole of G81 at the speed F2 (2.52)."""
     speed: float = RetractState.of(channel).feed
     if code != "G81" or not speed > 0.0 or not channel.feed > 0.0:
@@ -112,7 +149,8 @@ DRILLING = Drilling(
     relief=relief,
     shift=shift_off_wall,
     lead=lead_from_feed,
-    dress=out_at_feed,
+    dress=dress,
+    overlaps=overlap,
 )
 
 
@@ -126,7 +164,7 @@ def _with_cycle_words(builder: Builder, _plan: Plan, step: Step | None) -> Step 
     retract, threads = builder.slot("F2"), builder.slot("E")
     if code == "G81":
         builder.take("F2")
-    if code in TAPPING:
+    if code in tapping.CODES:
         builder.take("E")
     control = builder.control
 
@@ -139,7 +177,7 @@ def _with_cycle_words(builder: Builder, _plan: Plan, step: Step | None) -> Step 
                 raise control.fail("retract_feed", address="F2")
             fast = channel.memory.parameters.fast_drilling == 1
             state.feed = values[retract] * unit if fast else 0.0
-        if threads is not None and code in TAPPING and not builder.has("F"):
+        if threads is not None and code in tapping.CODES and not builder.has("F"):
             _feed_by_threads(channel, values[threads])
         step(channel, values)
 
@@ -234,3 +272,11 @@ def _drill(channel: SyntecChannel, points: Iterator[Point]) -> None:
 
 #: Words of drilling blocks that only these cycles have.
 RULE = Rule("words of drilling cycles", unless={"cycle": "G80"}, wrap=_with_cycle_words)
+
+
+def _drills_plainly(builder: Builder) -> bool:
+    return bool(builder.mode["cycle"] == "G81")
+
+
+#: In G81 D is the overlap of the positioning axis, and chooses no radius (2.52).
+OVERLAP_RULE = Rule("overlap of holes", where=_drills_plainly, addresses={"D": None})

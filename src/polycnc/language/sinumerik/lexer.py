@@ -51,6 +51,7 @@ _TOKEN = regex(
     | (?P<number>{_NUMBER})
     | "(?P<string>[^"]*)"
     | '(?P<literal>[HB][0-9A-F]+)'
+    | '(?P<char>[^'])'
     | (?P<op><<|==|<>|<=|>=|[-+*/=()\[\],:<>])
     )""",
     re.VERBOSE | re.IGNORECASE | re.ASCII,
@@ -106,10 +107,10 @@ def tokenize(line: str, start: int = 0) -> list[Token]:
         begin, position = found.span(kind)
         text = found[kind]
         column = begin + 1
-        if kind == "string":
+        if kind in ("string", "char"):  # a character stands in quotes of either kind (10.5.2)
             position += 1
             begin -= 1
-            tokens.append(Token(kind, text, 0, begin, position))
+            tokens.append(Token("string", text, 0, begin, position))
         elif kind == "number":
             tokens.append(Token(kind, text.upper(), number_of(text, column), begin, position))
         elif kind == "word":

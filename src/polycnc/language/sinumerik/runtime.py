@@ -147,11 +147,12 @@ def real_quotient(a: float, b: float) -> float:
     return float(trunc(a / b))
 
 
-def remainder(a: int, b: int) -> int:
-    """MOD: the remainder has the sign of the dividend."""
+def remainder(a: float, b: float) -> float:
+    """MOD: the remainder has the sign of the dividend; of two INT an INT, else a REAL (job planning 10.2)."""
     if b == 0:
         raise ZeroDivisionError
-    return int(fmod(a, b))
+    rest = fmod(a, b)
+    return int(rest) if isinstance(a, int) and isinstance(b, int) else rest
 
 
 def number_in(text: str) -> float:

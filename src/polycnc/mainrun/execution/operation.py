@@ -396,8 +396,9 @@ class Operation:
         if name in self.keys and value:
             self._pressed.append(name)
             self._call_attention()
-        if name == SKIP_SIGNAL and value:
-            for run in self.runs:
+        for run in self.runs if value else ():
+            run.execution.end_dwell(name)
+            if name == SKIP_SIGNAL:
                 run.skip_signal()
         if name == FEED_IS_100:
             self.set_rates()

@@ -111,6 +111,7 @@ class ChannelSnapshot:
         messages: Texts that its program has put out.
         program: Name of the program that is loaded in it; empty for none.
         parts: How often a program that an operator has started in it has come to its end.
+        point: Where its tool is: X, Y and Z in the system of the work offset, mm (radius).
     """
 
     number: int
@@ -126,6 +127,7 @@ class ChannelSnapshot:
     messages: tuple[str, ...] = ()
     program: str = ""
     parts: int = 0
+    point: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True, slots=True)

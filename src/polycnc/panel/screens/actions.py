@@ -182,10 +182,31 @@ def delete_program(screen: ScreenState) -> None:
 
 
 def search_block(screen: ScreenState) -> None:
-    """Block search: cycle start goes on at the block number or line that has been keyed in."""
+    """Block search: cycle start goes on at the block number or line that has been keyed in, or at the cursor."""
     typed = screen.buffer.strip()
-    screen.control.block_search(int(typed) if typed.isdigit() else typed)
-    screen.buffer = ""
+    if not typed and screen.program_row is not None:
+        screen.control.block_search(screen.control.first_line(screen.control.program) + screen.program_row)
+    else:
+        screen.control.block_search(int(typed) if typed.isdigit() else typed)
+    screen.program_row, screen.buffer = None, ""
+
+
+def search_interruption(screen: ScreenState) -> None:
+    """The cursor goes to the block of the main program that was in execution last."""
+    block = screen.interrupted
+    if not block.program or block.program != screen.control.program:
+        raise CommandRefused("screen.no-interruption")
+    screen.look_at(block.line - screen.control.first_line(block.program))
+
+
+def search_text(screen: ScreenState) -> None:
+    """The cursor goes to the next block with the text that has been keyed in."""
+    screen.find(screen.buffer, 1)
+
+
+def to_top(screen: ScreenState) -> None:
+    """The cursor goes to the first block of the program; what has been searched is given up."""
+    screen.look_at(0)
 
 
 #: A number behind a sign, and the operators between numbers.
@@ -308,6 +329,9 @@ ACTIONS: dict[str, Action] = {
     "search-program": search_program,
     "delete-program": delete_program,
     "search-block": search_block,
+    "search-interruption": search_interruption,
+    "search-text": search_text,
+    "to-top": to_top,
     "insert": insert,
     "erase-mdi": erase_mdi,
     "write-enable": write_enable,

@@ -5,13 +5,14 @@ from __future__ import annotations
 from importlib import resources
 from typing import TYPE_CHECKING
 
-from fastapi import WebSocket, WebSocketDisconnect
+from fastapi import Response, WebSocket, WebSocketDisconnect
 from nicegui import app, ui
 
 from polycnc.messages import text
 from polycnc.panel.web.guard import LOOPBACK, Guard
 from polycnc.panel.web.messages import answer
 from polycnc.panel.web.page import Page
+from polycnc.view.web import delivery
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -32,10 +33,10 @@ def build(desks: Mapping[str, Desk], lang: str, token: str = "") -> None:
     """
     style = resources.files("polycnc.panel.web").joinpath("panel.css").read_text(encoding="utf-8")
 
-    def page_of(desk: Desk) -> Callable[[], None]:
+    def page_of(name: str) -> Callable[[], None]:
         def show() -> None:
             ui.add_css(style)
-            Page(desk, lang)
+            Page(desks[name], lang, name)
 
         return show
 
@@ -57,9 +58,14 @@ def build(desks: Mapping[str, Desk], lang: str, token: str = "") -> None:
         except WebSocketDisconnect:
             return
 
-    ui.page("/", title="polycnc")(page_of(next(iter(desks.values()))) if len(desks) == 1 else index)
-    for name, desk in desks.items():
-        ui.page(f"/{name}", title=f"polycnc {name}")(page_of(desk))
+    def line(name: str, which: str, era: int = -1, first: int = 0) -> Response:
+        lines = desks[name].course.lines.get(which) if name in desks else None
+        return Response(status_code=404) if lines is None else delivery.answer(lines, era, first)
+
+    ui.page("/", title="polycnc")(page_of(next(iter(desks))) if len(desks) == 1 else index)
+    for name in desks:
+        ui.page(f"/{name}", title=f"polycnc {name}")(page_of(name))
+    app.add_api_route("/lines/{name}/{which}", line)
     app.add_api_websocket_route("/api/{name}", talk)
     app.add_middleware(Guard, token=token)
 

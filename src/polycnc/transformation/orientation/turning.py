@@ -79,7 +79,7 @@ class Turning:
         if not course.both_ends:
             shares, places = tuple(part * share for share in self.shares), self.places
             return Turning(self.columns, (*shares, 1.0), (*places, places[-1]))
-        middle = self._at(tuple(start), HALF)
+        middle = self.at(start, HALF)
         early = [(part * s, p) for s, p in zip(self.shares, self.places, strict=True) if s < HALF]
         late = [
             (1.0 - part * (1.0 - s), p) for s, p in zip(self.shares, self.places, strict=True) if s > HALF
@@ -87,9 +87,9 @@ class Turning:
         knots = [*early, (part * HALF, middle), (1.0 - part * HALF, middle), *late]
         return Turning(self.columns, tuple(share for share, _ in knots), tuple(place for _, place in knots))
 
-    def _at(self, start: tuple[float, ...], share: float) -> tuple[float, ...]:
-        """Positions after a share of the turn."""
-        before, places = 0.0, start
+    def at(self, start: Sequence[float], share: float) -> tuple[float, ...]:
+        """Positions after a share of the turn; `start` are those in front of it."""
+        before, places = 0.0, tuple(start)
         for after, ahead in zip(self.shares, self.places, strict=True):
             if share <= after:
                 part = (share - before) / (after - before)

@@ -21,7 +21,7 @@ from polycnc.control.sinumerik.data import archive
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed import axis_settings, pace, spindle_speed, wheels
 from polycnc.control.sinumerik.limits import protection, working_area
-from polycnc.control.sinumerik.motion import splines
+from polycnc.control.sinumerik.motion import polynomial_groups, splines
 from polycnc.control.sinumerik.punching import block as punching
 from polycnc.control.sinumerik.signals import interrupts, retraction, sections
 from polycnc.control.sinumerik.tangential import definitions as tangential
@@ -245,6 +245,7 @@ PROCEDURES: dict[str, Callable[[SinumerikChannel, Arguments], None]] = {
     **axis_exchange.PROCEDURES,
     **retraction.PROCEDURES,
     **splines.PROCEDURES,
+    **polynomial_groups.PROCEDURES,
     **protection.PROCEDURES,
     **preparation.PROCEDURES,
     **use.PROCEDURES,

@@ -175,18 +175,18 @@ def goal_of(draft: Draft) -> Goal | None:
 
     None if the block names no end point.
     """
-    goal, lead = _goal_of_tip(draft), draft.take_lead()
+    goal, lead = goal_of_tip(draft), draft.take_lead()
     if lead is None:
         return goal
 
     def led(channel: SinumerikChannel, values: Values) -> list[float]:
         end = channel.coordinates.position.copy() if goal is None else goal(channel, values)
-        return lead(channel, values, end)
+        return lead(channel, values, end, None)
 
     return led
 
 
-def _goal_of_tip(draft: Draft) -> Goal | None:
+def goal_of_tip(draft: Draft) -> Goal | None:
     """The same, as far as axis words, polar coordinates and a contour angle say."""
     angle, radius = draft.take_shape("AP", "AC", "IC"), draft.take_shape("RP", "AC", "IC")
     contour_angle = draft.take("ANG")

@@ -396,8 +396,8 @@ def _is_active(channel: SinumerikChannel, indices: Indices) -> bool:
 
 
 MEASURE_VARIABLES: dict[str, RowWithStop] = {
-    **{f"$AA_MM{slot or ''}": (Type.REAL, _measured(slot, work=False), None, False) for slot in range(5)},
-    **{f"$AA_MW{slot or ''}": (Type.REAL, _measured(slot, work=True), None, False) for slot in range(5)},
+    **{f"$AA_MM{slot or ''}": (Type.REAL, _measured(slot, work=False), None, True) for slot in range(5)},
+    **{f"$AA_MW{slot or ''}": (Type.REAL, _measured(slot, work=True), None, True) for slot in range(5)},
     "$AC_MEA": (Type.INT, _of_probe("$AC_MEA", lambda state: state.triggered), None, True),
     "$A_PROBE": (
         Type.INT,

@@ -57,6 +57,9 @@ def plan(draft: Draft) -> None:
         return
     if draft.mode["point_to_point"] == "PTP" and draft.mode["compensation"] != "G40":
         raise AlarmError("14144")
+    moves = draft.lead is not None or bool(draft.axis_terms())
+    if draft.mode["point_to_point"] == "PTP" and moves and draft.mode["motion"] not in ("G0", "G1"):
+        raise AlarmError("14144")
     if is_point_to_point(draft.mode):
         draft.by_axes = True
 

@@ -317,11 +317,14 @@ def refuse_transformed(channel: SinumerikChannel, columns: Iterable[int], code: 
 def check_positioning(channel: SinumerikChannel, name: str, column: int, *, by_axes: bool) -> None:
     """17610 for a positioning axis that the transformation uses up; of point to point travel for any of its axes.
 
-    The axes that it makes may be positioned: X of an inclined axis (6.8.3, example).
+    The axes that it makes may be positioned: X of an inclined axis (6.8.3, example); but not the one round the
+    cylinder, nor the one for groove walls, of TRACYL (6.8.2).
     """
     build = Transformations.of(channel).build
     if build is None:
         return
+    if column in build.bound:
+        raise AlarmError("17610", axis=name)
     is_made = name in channel.memory.columns
     if (column in build.used and not is_made) or (by_axes and column in transformed(channel)):
         raise AlarmError("17610", axis=channel.axes[column])

@@ -30,6 +30,7 @@ from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.feed.tolerances import TOLERANCE_VARIABLES
 from polycnc.control.sinumerik.frames.variables import FRAME_VARIABLES
 from polycnc.control.sinumerik.limits import working_area
+from polycnc.control.sinumerik.motion.indexing import INDEX_VARIABLES
 from polycnc.control.sinumerik.motion.repositioning import REPOS_VARIABLES
 from polycnc.control.sinumerik.replaced import REPLACED_VARIABLES
 from polycnc.control.sinumerik.signals.measuring import MEASURE_VARIABLES
@@ -265,12 +266,9 @@ def _spindle_value(attribute: str) -> Reader:
 
 
 def _turning_speed(channel: SinumerikChannel, indices: Indices) -> float:
-    """What a spindle turns with, without sign; one that stands is told by its programmed speed."""
-    memory = channel.memory
-    spindle = memory.spindles.get(arguments.spindle(indices[0]) if indices else None)
-    if SpindlePairs.of(channel).acting(spindle.number) is not None:
-        return abs(turns(channel, spindle.number))
-    return spindle_speed.turning_speed(memory, spindle, channel.mode["feed"])
+    """`$AA_S[n]`: what a spindle turns with, rpm, negative for M4; 0 while it stands."""
+    number = arguments.spindle(indices[0]) if indices else None
+    return turns(channel, channel.memory.spindles.get(number).number)
 
 
 def _direction(channel: SinumerikChannel, indices: Indices) -> int:
@@ -401,6 +399,7 @@ VARIABLES: dict[str, SystemVariable] = {
     **{name: SystemVariable(name, *row) for name, row in AXIS_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in TOLERANCE_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in COUPLING_VARIABLES.items()},
+    **{name: SystemVariable(name, *row) for name, row in INDEX_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in REPOS_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in MEASURE_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in DEFINITION_VARIABLES.items()},

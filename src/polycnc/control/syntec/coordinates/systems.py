@@ -266,21 +266,6 @@ def switch_diameter(channel: SyntecChannel, words: Words) -> None:
 # ---- dwell, data input, cutting modes --------------------------------------------------------------------
 
 
-def dwell(channel: SyntecChannel, words: Words) -> None:
-    """G04 X or P: X with a point seconds, without milliseconds; P milliseconds, decimals cut off (2.8)."""
-    if "Q" in words:
-        raise channel.control.not_yet("G4 Q", "Q")
-    milliseconds = words.typed("P")
-    if milliseconds is not None:
-        channel.dwell(seconds=int(milliseconds) / 1000.0)
-        return
-    value = words.typed("X")
-    if value is None:
-        raise words.fail("argument", "G4")
-    whole = words.form("X") == "" and not words.plan.rules.calculator
-    channel.dwell(seconds=value / 1000.0 if whole else value)
-
-
 def input_data(channel: SyntecChannel, words: Words) -> None:
     """G10 L2 work offsets, L10 to L13 tool data (2.14), L450 corners, L801 virtual axes, L1000 registers; G91 adds."""
     kind, number = words.typed("L"), words.typed("P")

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from polycnc.channel.stack import LevelKind
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.machine_words import refuse
+from polycnc.control.syntec.axis_groups import groups
 from polycnc.control.syntec.builder import CALLS, SyntecBuilder, may_call_by_g
 from polycnc.control.syntec.macros import interrupts
 from polycnc.control.syntec.macros.variables import INDEXED_LETTERS, Locals
@@ -152,8 +153,7 @@ def _program(channel: SyntecChannel, number: Value | None) -> Program:
         return program
     if not isinstance(number, int | float) or number != int(number) or number < 0:
         raise control.fail("program_number", address="P")
-    found: Program = control.find_program(channel, int(number))
-    return found
+    return groups.section(channel, control.find_program(channel, int(number)))
 
 
 def _plan_modal_call(builder: Builder, plan: Plan) -> Step | None:
@@ -328,7 +328,7 @@ def _enter_subprogram(channel: SyntecChannel, words: Words, program: Program) ->
     count = _whole(words, "L", "repeat_count") if "L" in words else 1
     sequence = _whole(words, "H", "program_number") if "H" in words else None
     if count > 0:
-        enter_shared(channel, program, LevelKind.SUBPROGRAM, count, sequence)
+        enter_shared(channel, groups.section(channel, program), LevelKind.SUBPROGRAM, count, sequence)
 
 
 def _whole(words: Words, address: str, mistake: str) -> int:

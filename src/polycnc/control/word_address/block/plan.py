@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
     from polycnc.channel.mode import Mode
-    from polycnc.control.word_address.block.codes import Handler, MotionPlanner
+    from polycnc.control.word_address.block.codes import Handler, MotionPlanner, Planner
     from polycnc.control.word_address.block.rules import Rule
     from polycnc.control.word_address.control import WordAddressControl
     from polycnc.control.word_address.cycles.drilling import Drilling
@@ -405,7 +405,7 @@ class Builder:
             for key in self.order
             if key[0] == "M" and is_fixed_code(key)
         }
-        meanings = dict(self.control.addresses)
+        meanings: dict[str, Planner | None] = dict(self.control.addresses)
         for rule in self.acting:
             meanings.update(rule.addresses)
         for row in m_rows.values():

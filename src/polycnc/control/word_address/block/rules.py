@@ -60,7 +60,8 @@ class Rule:
         check: Raises the alarm for what the block must not hold.
         replace: The step that stands in place of the whole block.
         before: A step in front.
-        addresses: Words of the block that mean something else than usual, each with what plans it.
+        addresses: Words of the block that mean something else than usual, each with what plans it; None where the step
+            of the axis words takes it.
         axis_words: Axis words beside those whose addresses name axes.
         takes_back: What the block takes back of a manual intervention.
         motion: The step of the axis words; it may refuse them, or take other words, and leave them to the next rule.
@@ -83,7 +84,7 @@ class Rule:
     check: Callable[[Builder], None] | None = None
     replace: Callable[[Builder, Plan], Step | None] | None = None
     before: Callable[[Builder, Plan], Step | None] | None = None
-    addresses: Mapping[str, Planner] = field(default_factory=dict)
+    addresses: Mapping[str, Planner | None] = field(default_factory=dict)
     axis_words: Callable[[Builder], Collection[AxisWord]] | None = None
     takes_back: Callable[[Builder, Plan], TakesBack | None] | None = None
     motion: Callable[[Builder, Plan], Step | None] | None = None

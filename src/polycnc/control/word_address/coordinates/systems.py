@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, lasting
 from polycnc.control.word_address.auxiliary.interlocks import note_reference_return
+from polycnc.control.word_address.coordinates import tip
 from polycnc.control.word_address.memory import EXTERNAL
 from polycnc.control.word_address.tools.radius import suspended
 from polycnc.deferred.records import dataclass
@@ -50,7 +51,11 @@ class ZeroState(State, lifetime=Lifetime.POWER):
 
 def refresh_zero(channel: WordAddressChannel, *, travelled: bool = False) -> None:
     """Work out the shift from display to machine anew: external + work + local + G92 offset + tool length."""
-    channel.coordinates.set_zero(ZeroState.of(channel).frame, zero_offsets(channel), travelled=travelled)
+    frame, offsets, leading = ZeroState.of(channel).frame, zero_offsets(channel), tip.TipState.of(channel)
+    if leading.active is not None and leading.is_leading(channel):
+        tip.lead(channel, leading.active, frame, offsets)
+    else:
+        channel.coordinates.set_zero(frame, offsets, travelled=travelled)
     channel.context_changed()
 
 

@@ -29,8 +29,8 @@ from polycnc.deferred.records import dataclass
 from polycnc.geometry.planes import PLANES
 from polycnc.language.word_address.functions import round_half_away
 from polycnc.toolpath import Kind
-from polycnc.toolpath.context import NO_OVERLAP, OVERLAPS, STROKE, Overlap
-from polycnc.toolpath.events import Auxiliary
+from polycnc.toolpath.context import NO_OVERLAP, Overlap
+from polycnc.toolpath.events import Auxiliary, SpindleWait
 from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
@@ -48,6 +48,8 @@ BOTTOM = "bottom"
 #: Strokes of taps: overrides do not act in them.
 TAPS = frozenset({tap, lathe.tap, lathe.tap_clearing_chips})
 _M_OF_DIRECTION = {1: 3, -1: 4, 0: 5}
+#: The spindle that drilling cycles turn.
+_SPINDLE = 1
 
 
 @dataclass(frozen=True, slots=True)
@@ -201,8 +203,8 @@ class Drilling:
         choices: Words that choose by a plain number, in taps.
         dress: What the machine makes of the strokes of a hole (clamping an axis), by cycle code.
         halts: Where single block halts in a hole, by cycle code.
-        overlaps: Whether the first stroke of a hole begins before the axes rest over it, by cycle code; None where no
-            strokes overlap.
+        overlaps: How far before the place of a hole its first stroke begins, mm, as in `Stroke`, by cycle code; None
+            where no strokes overlap.
     """
 
     cycles: Mapping[str, DrillCycle]
@@ -227,7 +229,7 @@ class Drilling:
     choices: Sequence[str] = ()
     dress: Callable[[Channel, str, Cycle], Cycle] = as_it_is
     halts: Callable[[Channel, str], Halts] = halts_nowhere
-    overlaps: Callable[[Channel, str], bool | None] = no_overlap
+    overlaps: Callable[[Channel, str], float | None] = no_overlap
 
     @property
     def words(self) -> tuple[str, ...]:
@@ -486,9 +488,9 @@ def _perform(channel: WordAddressChannel, code: str, data: CycleData, halts: Hal
         _meet(channel, None)
 
 
-def _meet(channel: WordAddressChannel, overlaps: bool | None) -> None:
-    """Say how the next stroke ends: whether the one behind it may begin before the axes rest."""
-    kind = NO_OVERLAP if overlaps is None else OVERLAPS if overlaps else STROKE
+def _meet(channel: WordAddressChannel, overlaps: float | None) -> None:
+    """Say how the next stroke ends: how far before that the one behind it may begin."""
+    kind = NO_OVERLAP if overlaps is None else overlaps
     state = CycleState.of(channel)
     if state.overlap != kind:
         state.overlap = kind
@@ -513,6 +515,8 @@ def _work(channel: WordAddressChannel, strokes: Iterator[Stroke], data: CycleDat
             orient_spindle(channel)
         elif stroke.action is Action.OUTPUT:
             channel.event(Auxiliary(int(stroke.value)))
+        elif stroke.action is Action.ARRIVAL:
+            channel.event(SpindleWait(_SPINDLE, stroke.value))
         elif stroke.action is Action.HALT:
             channel.stop("M00")
         else:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.coordinates import frames
 from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
+from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.tools import length
 from polycnc.control.word_address.tools.length import LengthState
 from polycnc.deferred.records import dataclass
@@ -52,6 +53,7 @@ class TiltState(State, lifetime=Lifetime.RESET):
 
 def tilt_plane(channel: WordAddressChannel, words: Words) -> None:
     """G68.2 [P0, P1 Q, P4] X Y Z I J K: origin in the work system, and the turn; P2, P3 in several blocks."""
+    _check_tip(channel, words, "G68.2")
     plane = _told(channel, words)
     if plane is not None:
         _tilt(channel, plane)
@@ -72,6 +74,7 @@ def tilt_by_tool(channel: WordAddressChannel, words: Words) -> None:
 
     X of the plane is square on the tool and on Z of the machine; R turns it about the tool.
     """
+    _check_tip(channel, words, "G68.3")
     c, kinematics = channel.coordinates, Kinematics.of(channel.machine)
     given = {axis for axis, _, _ in words.axes()}
     if given and len(given & set(c.geometry)) < len(c.geometry):
@@ -87,6 +90,12 @@ def tilt_by_tool(channel: WordAddressChannel, words: Words) -> None:
         place = (translation(*place) @ turn).apply(here[0], here[1], here[2])
         _renew(channel, translation(*place) @ turn, tool)
     TiltState.of(channel).plane = table.inverse() @ translation(*place) @ turn
+
+
+def _check_tip(channel: WordAddressChannel, words: Words, code: str) -> None:
+    """A plane is told and the tool stood on it in front of tool centre point control, not under it."""
+    if TipState.of(channel).active is not None:
+        raise words.fail("tip_mode", code)
 
 
 def _told(channel: WordAddressChannel, words: Words) -> Frame | None:
@@ -165,6 +174,7 @@ def align_tool_about_tip(channel: WordAddressChannel, words: Words) -> None:
 
 
 def _align(channel: WordAddressChannel, words: Words, code: str, *, holds_tip: bool) -> None:
+    _check_tip(channel, words, code)
     c, plane = channel.coordinates, TiltState.of(channel).plane
     if plane is None:
         raise words.fail("tilt_missing", code)

@@ -111,9 +111,12 @@ def check(channel: LatheChannel, data: CycleData) -> None:
 
 def gear_limit(channel: LatheChannel) -> float:
     """Highest speed of the spindle in the gear that the machine reports (GR1, GR2), rev/min; 0 for none."""
+    parameters = channel.memory.parameters
+    if not any(parameters.value(limit) for limit in _GEAR_LIMITS):
+        return 0.0  # no need to stop preparation for the signals
     signals = channel.memory.signals
     gear = int(bool(signals.get("GR1"))) + 2 * int(bool(signals.get("GR2")))
-    return channel.memory.parameters.value(_GEAR_LIMITS[gear])
+    return parameters.value(_GEAR_LIMITS[gear])
 
 
 def largest_override(channel: LatheChannel) -> float:
