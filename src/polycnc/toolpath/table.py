@@ -404,6 +404,23 @@ class Toolpath:
             machine = [value + offset for value, offset in zip(machine, context.offsets, strict=True)]
         return machine
 
+    def seen_from(
+        self, end: list[float], made_in: int, context: int, geometry: tuple[int, ...]
+    ) -> list[float]:
+        """Where the end of a row of one context stands in the coordinates of another one."""
+        old, new = self.contexts[made_in], self.contexts[context]
+        if old.offsets == new.offsets and old.frame == new.frame and old.transformation is new.transformation:
+            return end
+        found = self.to_machine(end, old, geometry)
+        if new.offsets:
+            found = [value - offset for value, offset in zip(found, new.offsets, strict=True)]
+        if not new.frame.is_identity:
+            image = new.frame.inverse().apply(*(found[i] if i >= 0 else 0.0 for i in geometry))
+            for i, value in zip(geometry, image, strict=True):
+                if i >= 0:
+                    found[i] = value
+        return found if new.transformation is None else new.transformation.to_work(found)
+
 
 def _ways(chunk: Chunk) -> int:
     """How many rows of a chunk move an axis."""

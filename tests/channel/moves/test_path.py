@@ -9,6 +9,7 @@ import pytest
 
 from polycnc.channel.moves.path import Rank, Recorder, Stage
 from polycnc.session import open_session
+from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
     from polycnc.channel.moves.path import Move, Path
@@ -111,3 +112,17 @@ def test_a_hypothetical_axis_stands_behind_normal_line_control() -> None:
     assert not result.alarms
     assert [stage.rank for stage in session.channel.path.stages] == [Rank.NORMAL, Rank.AXES]
     assert result.final["work"]["Y"] == 0.0
+
+
+def test_an_event_behind_another_zero_stands_where_the_axes_stand() -> None:
+    program = "G90 G17 G1 G41 D1 X10. F1000\nY10.\nM8\nG10 L2 P1 X7.\nM9\nM30\n"
+    session = open_session(program, control="fanuc-m", setup={"tools": {1: {"radius": 3}}})
+    result = session.run()
+    rows = result.toolpath.chunks[-1]
+    events = [i for i, kind in enumerate(rows.kind) if kind == Kind.EVENT]
+    axes = len(result.toolpath.axes)
+    assert [list(rows.end[axes * i : axes * i + 2]) for i in events] == [
+        [7.0, 10.0],
+        [0.0, 10.0],
+        [0.0, 10.0],
+    ]

@@ -228,7 +228,7 @@ class TableStage(Sink):
     """Writes rows: the end of every path.
 
     Attributes:
-        end: End of the last move that came this way; empty where moves go past the stages.
+        end: End of the last move that came this way, in `context`; empty where moves go past the stages.
     """
 
     rank = Rank.TABLE
@@ -236,17 +236,24 @@ class TableStage(Sink):
     def __init__(self, channel: Channel) -> None:
         self._channel = channel
         self.end: list[float] = []
+        self.context = 0
 
     def move(self, move: Move) -> None:
         """Write a move; one without way and without parameters gives no row."""
         self.end = move.end
+        self.context = move.context
         if move.end != move.start or move.center is not None or move.parameters:
             self._channel.write(move)
 
     def event(self, event: PlacedEvent) -> None:
-        """Write an event at the place of the last move."""
-        end = self.end or self._channel.coordinates.position
-        self._channel.toolpath.append_event(event.event, event.program, event.line, event.context, end)
+        """Write an event at the place of the last move, as the event's own coordinates have it."""
+        channel = self._channel
+        end = self.end
+        if not end:
+            end = channel.coordinates.position
+        elif self.context != event.context:
+            end = channel.toolpath.seen_from(end, self.context, event.context, channel.coordinates.geometry)
+        channel.toolpath.append_event(event.event, event.program, event.line, event.context, end)
 
 
 S = TypeVar("S", bound=Stage)

@@ -329,7 +329,8 @@ class Scanner:
         program, context = channel.level.program_number, channel.context_number()
         channel.toolpath.chunk.extend(first, end, program, context, self._views)
         if channel.path.head is not None:
-            channel.path.table.end = position  # the moves have gone past a stage that had nothing to do
+            # The moves have gone past a stage that had nothing to do.
+            channel.path.table.end, channel.path.table.context = position, context
 
     def _take_state(self, channel: Channel) -> None:
         """Where the blocks have left the channel."""
