@@ -72,7 +72,7 @@ def forget(channel: SinumerikChannel, args: Arguments) -> int:
 
 
 def numbers_of(channel: SinumerikChannel, args: Arguments) -> int:
-    """GETTENV(name, VAR field): T, D and DL of an environment go into a field of three INT. 0, or -1 for no such name."""
+    """GETTENV(name, VAR field): T, D and DL of an environment go into a field of three INT. 0; -1 for no such name."""
     found = Environments.of(channel).named.get(str(args[0]))
     _field("GETTENV", args[1], (3,))
     if found is None:
