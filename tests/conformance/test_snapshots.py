@@ -57,6 +57,7 @@ CHANGED_BY = {
     "CylinderState": "fanuc-m-transform-cylinder-twice",
     "DiameterState": "syntec-polar-diameter",
     "DrawingState": "fanuc-0i-tf-drawing-next-block-incomplete",
+    "Environments": "sin-tool-environment-is-noted",
     "FeedState": "syntec-move-inverse-time-missing",
     "Frames": "sinumerik-value-proc-second-line",
     "FunctionState": "syntec-lang-stack-empty",

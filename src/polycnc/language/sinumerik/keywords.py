@@ -129,11 +129,11 @@ GETFREELOC  (VVIII)     INT
 GETMDACT    ()          INT
 GETT        (Si)        INT
 GETTCOR     ([ssiii)    INT
-GETTENV     (SV)        INT
+GETTENV     (S[)        INT
 DELTOOLENV  (s)         INT
 INTERSEC    (WW[i)      BOOL
 ISAXIS      (I)         BOOL
-LENTOAX     ([[sb)      INT
+LENTOAX     ([[s)       INT
 MEAFRAME    ([[V)       FRAME
 MEASURE     ()          INT
 MODAXVAL    (AR)        REAL

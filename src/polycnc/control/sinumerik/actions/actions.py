@@ -23,7 +23,7 @@ from polycnc.messages import AlarmError
 from polycnc.toolpath.events import Deed
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
     from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.block.arguments import Arguments
@@ -151,24 +151,24 @@ class SynchronisedActions(State, lifetime=Lifetime.POWER):
         clocked = run.clocked
         self._last_look, before = clocked.time, run.influence
         run.influence, run.changed = Influence(), False
-        in_program, unit = clocked.runs_programs, clocked.modal.get("unit", "")
+        in_program, modal = clocked.runs_programs, clocked.modal
         for number in sorted(self.modal):
             action = self.modal.get(number)
             if action is not None and number not in self.locked and (in_program or action.is_static):
-                self._try(action, unit)
+                self._try(action, modal)
         for action in tuple(self.of_block) if in_program else ():
-            self._try(action, unit)
+            self._try(action, modal)
         self.looks += 1
         if run.influence != before or run.changed:
             run.changed = True
         clocked.influence(run.influence)
 
-    def _try(self, action: Action, unit: str) -> None:
-        """Look at one action, in the measuring system of the block; an alarm ends it, and the program."""
+    def _try(self, action: Action, modal: Mapping[str, str]) -> None:
+        """Look at one action, with the modal functions of the block; an alarm ends it, and the program."""
         if action.is_done and not action.cycles:
             return
         run, code = self.run, action.code
-        run.begin(action, unit)
+        run.begin(action, modal)
         try:
             if action.cycles:
                 if action.cycles[0].step(run):

@@ -14,6 +14,7 @@ from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.couplings.links import Couplings
 from polycnc.control.sinumerik.curve_tables.memory import table_of
 from polycnc.control.sinumerik.errors import not_supported
+from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError
 from polycnc.transformation.couplings.graph import CircularCouplingError
 from polycnc.transformation.couplings.laws import ByCurve, Ratio
@@ -26,8 +27,8 @@ if TYPE_CHECKING:
     from polycnc.transformation.couplings.laws import Law
 
 MOST_LEADING = 2
-#: An axis that is as near as this to its place, mm or degrees, is there.
-_IN_PLACE = 1e-3
+#: How far an axis may be from its place when it begins to follow.
+_TOLERANCE = "$MA_COUPLE_POS_TOL_COARSE"
 
 
 def _pair(run: Running, name: str, args: Arguments, least: int, most: int) -> tuple[int, int]:
@@ -65,7 +66,13 @@ def trail(run: Running, args: Arguments) -> None:
 
 
 def lead(run: Running, args: Arguments) -> None:
-    """LEADON(following,leading,n[,overwrite]): PC0001 where the axis is not at its place."""
+    """LEADON(following,leading,n[,overwrite]): the axis goes to its place as fast as it can, and follows from there.
+
+    Overwrite 1 lets another table act at once (10.4.22); else an axis that follows already stays with its table.
+
+    Raises:
+        AlarmError: PC0001 for an axis that is farther from its place than MD37200 says, without overwrite.
+    """
     following, leading = _pair(run, "LEADON", args, 3, 4)
     table = table_of(run.channel, arguments.whole(args[2]))
     overwrites = len(args) > 3 and args[3] is not None and bool(arguments.whole(args[3]))
@@ -73,9 +80,15 @@ def lead(run: Running, args: Arguments) -> None:
     if curves and not overwrites:
         return
     wanted = table.followed(run.clocked.machine(leading)).place
-    if abs(wanted - run.clocked.machine(following)) > _IN_PLACE:
+    if any(law.leading == leading and law.curve is table for law in curves):
+        return
+    off = abs(wanted - run.clocked.machine(following))
+    if off > run.channel.memory.data.number(_TOLERANCE, run.channel.axes[following]) and not overwrites:
         raise not_supported(f"DO LEADON({run.channel.axes[following]}): CTAB")
     _follow(run, following, [ByCurve(leading, table, wanted)])
+    if off > NO_WAY:
+        speed = run.channel.axis_data[following].rapid
+        run.clocked.commanded(following).move_to(wanted, speed)
 
 
 def _end(kind: type, name: str) -> Callable[[Running, Arguments], None]:

@@ -9,6 +9,7 @@ from polycnc.control.sinumerik.actions import couplings, polynomials
 from polycnc.control.sinumerik.actions.run import Deleted
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.channels.coordination import group_of
+from polycnc.control.sinumerik.oscillation.strokes import Oscillations
 from polycnc.control.sinumerik.tools import online
 from polycnc.messages import Alarm, AlarmError
 
@@ -41,7 +42,8 @@ def delete_distance(run: Running, args: Arguments) -> None:
         column = arguments.column(channel, axis)
         commanded = run.clocked.commanded(column)
         deleted.axes[column] = commanded.left
-        commanded.stop()
+        if not Oscillations.of(channel).break_off(column):
+            commanded.stop()
     run.changed = True
 
 

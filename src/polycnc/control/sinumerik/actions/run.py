@@ -12,7 +12,7 @@ from polycnc.control.sinumerik.actions.axes import ActionAxes
 from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
     from polycnc.channel.interpolator import Interpolator
     from polycnc.control.sinumerik.actions.action import Action
@@ -64,16 +64,24 @@ class Running:
         """The main run."""
         return self.channel.on_clock()
 
-    def begin(self, action: Action, unit: str) -> None:
-        """An action is looked at: in its own measuring system, or in that of the block in execution, `unit`."""
+    def begin(self, action: Action, modal: Mapping[str, str]) -> None:
+        """An action is looked at: in its own measuring system, or in that of the block in execution; so with diameters.
+
+        `modal` are the codes of that block, by their groups; none before the first one.
+        """
         self.action, self._kept = action, self.channel.mode
-        self.use_unit(action.code.unit or unit)
+        if self.channel.memory.transverse >= 0:
+            self._use("diameter", modal.get("diameter", ""))
+        self.use_unit(action.code.unit or modal.get("unit", ""))
 
     def use_unit(self, code: str) -> None:
         """`G70` … hold for what follows in this action; empty for those of the program."""
+        self._use("unit", code)
+
+    def _use(self, group: str, code: str) -> None:
         mode = self.channel.mode
-        if code and mode["unit"] != code:
-            self.channel.mode = mode.with_code("unit", code)
+        if code and mode[group] != code:
+            self.channel.mode = mode.with_code(group, code)
 
     def end(self) -> None:
         """The action has been looked at: what is prepared goes on as it was."""

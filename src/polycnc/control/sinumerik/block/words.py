@@ -119,6 +119,7 @@ def axis_feed(draft: Draft, position: int, shape: WordShape) -> Step:
         if value <= 0.0:
             raise WordAlarm("14810" if value < 0.0 else "10861", position, axis=channel.axes[column])
         PathFeed.of(channel).of_axes[column] = value
+        oscillation.take_feed(channel, column)
 
     return run
 

@@ -14,7 +14,7 @@ from polycnc.channel.moves.path import Rank, Stage
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.plan import ExactStop
-from polycnc.control.sinumerik.block.positions import diameter_of_channel
+from polycnc.control.sinumerik.block.positions import diameter_function
 from polycnc.control.sinumerik.contours import tables
 from polycnc.control.sinumerik.contours.elements import Element, Side, is_full_circle
 from polycnc.control.sinumerik.errors import not_supported
@@ -234,7 +234,7 @@ def _begin(channel: SinumerikChannel, name: str, args: Arguments) -> None:
         raise AlarmError("10931", text=channel.mode["compensation"])
     columns = _plane_columns(channel)
     transverse = channel.memory.transverse
-    if transverse in columns and diameter_of_channel(channel.mode, transverse, transverse) != "DIAMOF":
+    if transverse in columns and diameter_function(channel.mode, transverse, transverse) != "DIAMOF":
         raise not_supported(f"{name} DIAMON")
     reading = reading_from_here(channel, keeps_modes=False)
     reading.arcs_need_centre = name != "CONTDCON"

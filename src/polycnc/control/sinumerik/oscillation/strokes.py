@@ -26,8 +26,11 @@ DWELL = ("$SA_OSCILL_DWELL_TIME1", "$SA_OSCILL_DWELL_TIME2")
 VELOCITY, SPARKS = "$SA_OSCILL_VELO", "$SA_OSCILL_NUM_SPARK_CYCLES"
 END, START = "$SA_OSCILL_END_POS", "$SA_OSCILL_START_POS"
 OPTIONS, ACTIVE = "$SA_OSCILL_CTRL_MASK", "$SA_OSCILL_IS_ACTIVE"
-#: Bits of the options: where it stops (two of them), to the end position, single sparking-out strokes, start first.
-STOPS_AT, TO_END, SINGLE_SPARKS, FROM_START = 3, 4, 256, 512
+#: Bits of the options: where it stops (two of them), to the end position; behind DELDTG strokes and end position all
+#: the same, or the reversal point first; a new speed waits for the next reversal; a rotary axis takes the
+#: shorter way; single sparking-out strokes, start position first.
+STOPS_AT, TO_END, ENDS_IF_BROKEN, REVERSES_IF_BROKEN, SPEED_WAITS, SHORTEST = 3, 4, 8, 16, 32, 128
+SINGLE_SPARKS, FROM_START = 256, 512
 AT_NEXT, AT_FIRST, AT_SECOND, AT_ONCE = range(4)
 
 
@@ -39,7 +42,8 @@ class Strokes:
         column: The axis.
         goes_to: The reversal point that it goes to, 0 or 1; -1 for the start position, -2 for the end position.
         left: Single sparking-out strokes that are left; None before it is switched off.
-        shall_stop: It has been switched off.
+        shall_stop: It has been switched off, or broken off by DELDTG.
+        ends: Sparking-out strokes and end position come behind that.
         dwells_until: When a dwell ends, s.
         datum: The setting datum with the position that it goes to, of the work; `speed` how fast.
     """
@@ -48,6 +52,7 @@ class Strokes:
     goes_to: int = -1
     left: int | None = None
     shall_stop: bool = False
+    ends: bool = True
     dwells_until: float = -1.0
     dwelt: bool = True
     datum: str = REVERSAL[0]
@@ -83,6 +88,25 @@ class Strokes:
         else:
             self._go(channel, REVERSAL[0], 0)
 
+    def take_speed(self, channel: SinumerikChannel) -> None:
+        """A new feed acts at once, unless the options let it wait for the next reversal point."""
+        speed = self._number(channel, VELOCITY) / tables.MINUTE
+        if speed != self.speed and not self._options(channel) & SPEED_WAITS:
+            self.speed = speed
+            channel.on_clock().commanded(self.column).change_speed(speed)
+
+    def break_off(self, channel: SinumerikChannel) -> bool:
+        """DELDTG: the options say what is still to come; whether nothing is, and the axis stops where it is."""
+        options = self._options(channel)
+        self.shall_stop, self.ends = True, bool(options & ENDS_IF_BROKEN)
+        if options & REVERSES_IF_BROKEN:
+            return False
+        channel.on_clock().commanded(self.column).stop()
+        if self.ends:
+            self.dwelt = True
+            self._begin_sparks(channel)
+        return not self.ends
+
     def _next(self, channel: SinumerikChannel) -> bool:
         self.dwells_until = -1.0
         if self.goes_to == -2:
@@ -101,13 +125,13 @@ class Strokes:
             other = 1 - self.goes_to
             self._go(channel, REVERSAL[other], other)
             return False
-        if self._options(channel) & TO_END:
+        if self.ends and self._options(channel) & TO_END:
             self._go(channel, END, -2)
             return False
         return True
 
     def _begin_sparks(self, channel: SinumerikChannel) -> None:
-        strokes = int(self._number(channel, SPARKS))
+        strokes = int(self._number(channel, SPARKS)) if self.ends else 0
         self.left = strokes if self._options(channel) & SINGLE_SPARKS else 2 * strokes
 
     def _go(self, channel: SinumerikChannel, datum: str, goes_to: int) -> None:
@@ -167,6 +191,14 @@ class Oscillations(State, lifetime=Lifetime.POWER):
         if column in self.axes:
             self.axes[column].shall_stop = True
 
+    def break_off(self, column: int) -> bool:
+        """DELDTG of an axis: its oscillation ends as the options say; False for an axis that does not oscillate."""
+        strokes = self.axes.get(column)
+        if strokes is not None and strokes.break_off(self.channel):
+            del self.axes[column]
+            ActionAxes.of(self.channel).held.discard(column)
+        return strokes is not None
+
     def look(self) -> None:
         """An interpolation cycle has come."""
         for column, strokes in tuple(self.axes.items()):
@@ -191,7 +223,9 @@ class Oscillations(State, lifetime=Lifetime.POWER):
         return not self.infeeds and not any(strokes.waits for strokes in self.axes.values())
 
     def block_begins(self) -> None:
-        """Oscillation knows no blocks."""
+        """The program may have written another feed since the block before."""
+        for strokes in self.axes.values():
+            strokes.take_speed(self.channel)
 
     def block_ends(self) -> None:
         """Oscillation knows no blocks."""

@@ -5,9 +5,12 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING
 
+from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.actions import axes as action_axes
+from polycnc.control.sinumerik.actions.axes import ActionAxes
 from polycnc.control.sinumerik.block.draft import axis_column
 from polycnc.control.sinumerik.block.positions import number
+from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.oscillation import strokes
 from polycnc.control.sinumerik.oscillation.infeed import Infeed, PartialInfeeds
 from polycnc.control.sinumerik.oscillation.strokes import Oscillations
@@ -67,6 +70,8 @@ def options(draft: Draft, position: int, shape: WordShape) -> Step:
         if not 1 <= len(listed) <= 2 or any(int(value) != value or value < 0 for value in listed):
             raise WordAlarm("12560", position, text="OSCTRL")
         on, off = (int(value) for value in (*listed, 0)[:2])
+        if on & strokes.SHORTEST and channel.memory.axes[column].modulo:
+            raise not_supported(f"OSCTRL {strokes.SHORTEST}")
         data, axis = channel.memory.data, Axis(channel.axes[column])
         data.write(strokes.OPTIONS, (axis,), data.integer(strokes.OPTIONS, axis.name) & ~off | on)
 
@@ -95,13 +100,22 @@ def switch(draft: Draft, position: int, shape: WordShape) -> Step:
     return run
 
 
+def take_feed(channel: SinumerikChannel, column: int) -> None:
+    """FA of an axis that may oscillate: SD43740 has it when the axes are there (11.1)."""
+    if channel.actual.clocked is None or column not in ActionAxes.of(channel).may_move:
+        return
+    place = strokes.VELOCITY, (Axis(channel.axes[column]),)
+    speed = action_axes.speed_of(channel, column) * tables.MINUTE
+    channel.event(Deed("FA", None, lambda: channel.memory.data.write(*place, speed)))
+
+
 def _begin(channel: SinumerikChannel, column: int) -> None:
     """An axis is about to leave the path; its velocity is FA."""
     oscillations = Oscillations.of(channel)
     channel.on_clock().watch(oscillations)
     action_axes.expect(channel, (column,))
     name = channel.axes[column]
-    speed = action_axes.speed_of(channel, column) * 60.0
+    speed = action_axes.speed_of(channel, column) * tables.MINUTE
     channel.memory.data.write(strokes.VELOCITY, (Axis(name),), speed)
 
 

@@ -37,6 +37,7 @@ from polycnc.control.sinumerik.replaced import REPLACED_VARIABLES
 from polycnc.control.sinumerik.signals.measuring import MEASURE_VARIABLES
 from polycnc.control.sinumerik.signals.sections import SECTION_VARIABLES
 from polycnc.control.sinumerik.tables import MINUTE
+from polycnc.control.sinumerik.tools.management.environments import ENVIRONMENT_VARIABLES
 from polycnc.control.sinumerik.tools.management.lists import LIST_VARIABLES
 from polycnc.control.sinumerik.tools.management.magazines import MAGAZINE_VARIABLES
 from polycnc.control.sinumerik.tools.management.monitoring import MONITORING_VARIABLES
@@ -398,7 +399,12 @@ VARIABLES: dict[str, SystemVariable] = {
     **{name: SystemVariable(name, *row) for name, row in TOOL_VARIABLES.items()},
     **{
         name: SystemVariable(name, *row)
-        for name, row in {**LIST_VARIABLES, **MAGAZINE_VARIABLES, **MONITORING_VARIABLES}.items()
+        for name, row in {
+            **LIST_VARIABLES,
+            **MAGAZINE_VARIABLES,
+            **MONITORING_VARIABLES,
+            **ENVIRONMENT_VARIABLES,
+        }.items()
     },
     **{name: SystemVariable(name, *TOOL_VARIABLES[of], stop=True) for name, of in IN_MAIN_RUN.items()},
     **{name: SystemVariable(name, *row) for name, row in OVERLAY_VARIABLES.items()},

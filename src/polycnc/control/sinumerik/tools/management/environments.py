@@ -1,0 +1,141 @@
+"""Tool environments, and which length acts on which axis: TOOLENV, DELTOOLENV, GETTENV, LENTOAX.
+
+An environment notes what holds for the lengths of the tool: T, D, DL and the rules by which lengths become offsets.
+Source: job planning 16.1 (what the functions do); Function Manual W1 (arguments and results).
+"""
+
+from __future__ import annotations
+
+from dataclasses import field
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from polycnc.channel.states.state import Lifetime, State
+from polycnc.control.sinumerik.errors import not_supported
+from polycnc.control.sinumerik.tools.lengths import Rules, axes_of
+from polycnc.control.sinumerik.tools.selection import rules_of
+from polycnc.deferred.records import dataclass
+from polycnc.geometry.frames import IDENTITY
+from polycnc.language.sinumerik.names.values import Type
+from polycnc.messages import AlarmError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from polycnc.control.sinumerik.block.arguments import Arguments
+    from polycnc.control.sinumerik.family import SinumerikChannel
+    from polycnc.control.sinumerik.variables.row import Indices, Row
+
+#: Results: done, no such environment or no edge, a name that is none.
+DONE, NOTHING, NO_NAME = 0, -1, -4
+LONGEST_NAME = 31
+#: Geometry axes of abscissa, ordinate and applicate by the plane.
+_ORDER = {"G17": (0, 1, 2), "G18": (2, 0, 1), "G19": (1, 2, 0)}
+#: Systems of LENTOAX: the work, and the basic one, which is that of the machine where no transformation acts.
+_WORK, _BASIC = ("W", "WCS"), ("B", "BCS", "M", "MCS")
+#: What counts as no part of a direction.
+_NONE = 1e-9
+
+
+class Environment(NamedTuple):
+    """What was noted: numbers of tool, edge and additive offset, and how the lengths are evaluated."""
+
+    tool: int
+    edge: int
+    additive: int
+    rules: Rules
+
+
+@dataclass(slots=True)
+class Environments(State, lifetime=Lifetime.POWER):
+    """What TOOLENV has noted, by name."""
+
+    named: dict[str, Environment] = field(default_factory=dict)
+
+
+def note(channel: SinumerikChannel, args: Arguments) -> int:
+    """TOOLENV(name): note what holds for the tool now; a name that is there is noted anew. 0, or -4 for no name."""
+    name, tools = str(args[0]), channel.memory.tools
+    if not 0 < len(name) <= LONGEST_NAME:
+        return NO_NAME
+    rules = tools.rules or rules_of(channel)
+    Environments.of(channel).named[name] = Environment(tools.active, tools.edge_number, tools.additive, rules)
+    return DONE
+
+
+def forget(channel: SinumerikChannel, args: Arguments) -> int:
+    """DELTOOLENV([name]): forget one environment, or all. 0, or -1 where there is none of this name."""
+    named = Environments.of(channel).named
+    if not args or args[0] is None:
+        named.clear()
+        return DONE
+    return DONE if named.pop(str(args[0]), None) is not None else NOTHING
+
+
+def numbers_of(channel: SinumerikChannel, args: Arguments) -> int:
+    """GETTENV(name, VAR field): T, D and DL of an environment go into a field of three INT. 0; -1 for no such name."""
+    found = Environments.of(channel).named.get(str(args[0]))
+    _field("GETTENV", args[1], (3,))
+    if found is None:
+        return NOTHING
+    args[1].items[:3] = [found.tool, found.edge, found.additive]
+    return DONE
+
+
+def assignment(channel: SinumerikChannel, args: Arguments) -> int:
+    """LENTOAX(VAR lengths, VAR matrix[, system]): which length acts on abscissa, ordinate and applicate.
+
+    `lengths` gets the number of the length of each axis, negative where it counts against it, 0 for none. The matrix
+    makes offsets along these axes of lengths 1 to 3. The system is the work (WCS), else the basic one (BCS, MCS).
+    0, or -1 without an edge.
+
+    Raises:
+        AlarmError: PC0001 for the systems of tool and holder (TCS, KCS).
+    """
+    lengths, matrix = args[:2]
+    system = str(args[2]).upper() if len(args) > 2 and args[2] is not None else "WCS"
+    if system not in (*_WORK, *_BASIC):
+        raise not_supported(f"LENTOAX {system}")
+    _field("LENTOAX", lengths, (3,))
+    _field("LENTOAX", matrix, (3, 3))
+    tools, plane = channel.memory.tools, channel.mode["plane"]
+    edge = tools.edge
+    if edge is None:
+        return NOTHING
+    turned = tools.carrier or IDENTITY
+    rules = tools.rules or rules_of(channel)
+    back = rules_of(channel).work.inverse() if system in _WORK else IDENTITY
+    axes = axes_of(edge, rules, plane)
+    columns = []
+    for axis in axes:
+        sign = -1.0 if rules.mirrors_lengths and rules.mirrored[axis] else 1.0
+        columns.append(back.direct(*turned.direct(*(sign if k == axis else 0.0 for k in range(3)))))
+    rows = [[column[axis] for column in columns] for axis in _ORDER[plane]]
+    matrix.items[:9] = [value for row in rows for value in row]
+    lengths.items[:3] = [_length_of(row) for row in rows]
+    return DONE
+
+
+def _length_of(row: list[float]) -> int:
+    """The number of the length that acts on an axis alone; 0 for none, 99 for several."""
+    parts = [i + 1 if value > 0.0 else -i - 1 for i, value in enumerate(row) if abs(value) > _NONE]
+    return parts[0] if len(parts) == 1 else 99 if parts else 0
+
+
+def _field(name: str, array: Any, dims: tuple[int, ...]) -> None:
+    """Alarm 12360 for a field of another size."""
+    if tuple(getattr(array, "dims", ())) != dims:
+        raise AlarmError("12360", text=name)
+
+
+def _count(channel: SinumerikChannel, _indices: Indices) -> int:
+    """`$P_TOOLENVN`: how many environments there are."""
+    return len(Environments.of(channel).named)
+
+
+ENVIRONMENT_VARIABLES: dict[str, Row] = {"$P_TOOLENVN": (Type.INT, _count, None)}
+FUNCTIONS: dict[str, Callable[[SinumerikChannel, Arguments], int]] = {
+    "TOOLENV": note,
+    "DELTOOLENV": forget,
+    "GETTENV": numbers_of,
+    "LENTOAX": assignment,
+}
