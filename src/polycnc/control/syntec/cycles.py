@@ -118,6 +118,7 @@ DRILLING = Drilling(
     shift=shift_off_wall,
     lead=lead_from_feed,
     dress=dressed,
+    taps_end_at_r=True,
 )
 
 
