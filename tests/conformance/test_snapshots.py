@@ -35,6 +35,7 @@ SOME = [(case, name, path) for case, name, path in CASES if not case.operate][::
 #: States by the names of their classes, each with a case that changes it, such that it is changed between two blocks.
 CHANGED_BY = {
     "ArcState": "syntec-move-full-circle",
+    "ArrivalState": "fanuc-0i-tf-s-makes-a-hole-wait",
     "AxisSettings": "sinumerik-scpara",
     "BalanceState": "fanuc-0i-tf-balance-with-m",
     "BeforeBlock": "sin-smooth-approach-without-contour",
@@ -46,6 +47,7 @@ CHANGED_BY = {
     "CodeState": "fanuc-0i-tf-point-in-m",
     "CommonVariables": "meldas-m-8-levels-of-subprograms",
     "Contour": "sin-cut2d-machine-plane",
+    "Containers": "sin-container-turns-by-a-slot",
     "ControlSwitches": "fanuc-0i-tf-3004-is-read-back",
     "CurveState": "meldas-m-nurbs-falling-knot",
     "Couplings": "sin-trail-chain",
@@ -59,6 +61,7 @@ CHANGED_BY = {
     "Frames": "sinumerik-value-proc-second-line",
     "FunctionState": "syntec-lang-stack-empty",
     "Gears": "sin-gear-cascade",
+    "InitialisedState": "sin-initial-ini-sets-standard-values",
     "GlobalState": "syntec-getarg-integer",
     "GrindingState": "fanuc-0i-tf-grind-axis-by-its-name",
     "HypotheticalState": "meldas-m-hypothetical-third-axis",
@@ -93,6 +96,7 @@ CHANGED_BY = {
     "Polar": "sin-polar-without-pole",
     "PolarCoordinateState": "meldas-m-polar-and-rotation",
     "PolarState": "syntec-polar-diameter",
+    "PolynomialGroups": "sin-ori-polynomials-of-axes-alone",
     "PostureState": "syntec-tip-frame",
     "ProgrammingFrames": "fanuc-m-mirrored-arc-turns-the-other-way",
     "Preparations": "sinumerik-execute-goes-on-from-before",

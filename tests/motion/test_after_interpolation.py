@@ -12,7 +12,7 @@ from tests.motion.paths import LATHE, Build
 from tests.motion.sampling.test_samples import SOFT, sampled
 
 
-def pecks(kind: int, last: int = STROKE) -> Build:
+def pecks(kind: float, last: float = STROKE) -> Build:
     """Over a hole, in by 6 mm, out by 1, in by 3, out."""
     rows = Build(("X", "Z")).set(overlap=kind)
     rows.rapid(10.0, 0.0).feed(10.0, -6.0, feed=20.0).rapid(10.0, -5.0).feed(10.0, -8.0, feed=20.0)
@@ -43,7 +43,7 @@ def test_overlapping_strokes_keep_the_limits_of_the_axes() -> None:
 
 
 def test_a_peck_that_overlaps_its_retract_falls_short_of_its_depth() -> None:
-    def first_peck(kind: int) -> float:
+    def first_peck(kind: float) -> float:
         z = motion(pecks(kind))[1].position[:, 1]
         return float(
             next(here for before, here, after in zip(z, z[1:], z[2:], strict=False) if before > here < after)
@@ -58,7 +58,7 @@ def test_a_stroke_waits_where_the_next_move_is_none_of_the_cycle() -> None:
 
 
 def test_a_dwell_between_two_strokes_keeps_them_apart() -> None:
-    def cut(kind: int) -> float:
+    def cut(kind: float) -> float:
         rows = Build(("X", "Z")).set(overlap=kind).feed(0.0, -6.0).dwell(1.0)
         return motion(rows.rapid(0.0, 0.0))[0]
 

@@ -76,7 +76,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         level: The running program level, `stack[-1]`.
         running: The run that was begun last; None before the first one.
         limits: Lowest and highest machine position of every axis; nothing where no axis has a limit.
-        start_position: Position at power-on, all axes.
+        stands_at: Machine position at the beginning of the run; of the running block, where somebody executes it.
         path: The stages that moves pass on their way to the toolpath.
         mark: Rows of the chunk when the running block began.
         control: The control. Handlers of a family know its class: `channel.family`.
@@ -98,6 +98,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         memory: The control's own state (variables, offsets, tools), set by `Control.start`.
         retained: What outlives the channel; a new one in memory where nobody gives another.
         states: The states that features own, one of each class; see `State.of`.
+        burst: Blocks that are interpreted between two looks at what is rare.
         passes: What ends a main program that would begin again for ever; None where somebody else ends it.
         standstill: What ends a loop that waits for ever; None where somebody else ends it.
         bulk: Whether and how plain blocks are scanned in bulk; None interprets every block.
@@ -109,6 +110,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
             "axis_data",
             "blocks",
             "bulk",
+            "burst",
             "control",
             "actual",
             "machine",
@@ -143,7 +145,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         self.axis_data: tuple[Axis, ...] = tuple(machine.axis[name] for name in definition.axes)
         start = [setup.start.get(name, 0.0) for name in self.axes]
         self.coordinates = Coordinates(self.axes, machine.geometry_indices(number), start)
-        self.start_position = tuple(start)
+        self.stands_at = self.coordinates.machine
         self.toolpath = Toolpath(self.axes) if toolpath is None else toolpath
         self.modes = ModeTable()
         self.mode: Mode = self.modes.mode({})
@@ -156,7 +158,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         self.alarms: list[Alarm] = []
         self._finished = self.attention = self.off_path = self.block_by_block = False
         self.mark = self.blocks = self.skip_levels = 0
-        self.block_limit = block_limit
+        self.block_limit, self.burst = block_limit, BURST
         #: Joined steps run no more of their blocks at once from here on, so that the block limit is exact.
         self.joined_below = block_limit - 2 * len(BURST)
         self._wait: Wait | None = None
@@ -259,10 +261,10 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         return ended
 
     def synchronise(self) -> None:
-        """A preprocessing stop: the running block, which has done nothing yet, waits for the main run.
+        """A preprocessing stop: the running block waits for the main run, and begins again without its rows.
 
         Raises:
-            PreprocessingStop: The main run is behind.
+            PreprocessingStop: The main run is behind. Where a stage holds moves, the block must have done nothing yet.
         """
         if self.main_run is not None and not self.main_run.has_caught_up:
             raise PreprocessingStop
@@ -326,6 +328,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
                 self.control.start(self)
             else:
                 self.control.begin(self)
+            self.stands_at = self.coordinates.machine
         except AlarmError as error:
             self.fail(error)
         except ArithmeticError as error:
@@ -350,6 +353,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
             take_back(self, found_ahead=bool(error.line))
             self.fail(error)
         except PreprocessingStop:
+            self._take_back_block()
             self._level.index = self._level.current
             wait, self._wait = self._wait or PREPROCESSING, None
             return wait
@@ -367,7 +371,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         This loop is the hottest of the interpreter: whatever is rare (a call, a return, a wait, a stage in the path,
         the end) sets `attention`, and only that is asked after every block.
         """
-        burst = self._burst(level)
+        burst, is_executed = self._burst(level), self.main_run is not None
         steps, kinds, step = level.steps, self.toolpath.chunk.kind, None
         self.attention = self.path.head is not None or self.single_block
         for _ in burst:
@@ -385,11 +389,19 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
             level.current = index
             level.index = index + 1
             self.mark = len(kinds)
+            if is_executed:
+                self.stands_at = self.coordinates.machine
             step(self)
             self.blocks += 1
             if self.attention:
                 break
         return step
+
+    def _take_back_block(self) -> None:
+        """The running block waits for the main run and begins again then: what it has written so far vanishes."""
+        if self.path.head is None and len(self.toolpath.chunk) > self.mark:
+            self.toolpath.truncate(self.mark)
+            self.coordinates.arrive_machine(self.stands_at)
 
     def _look_up(self, level: Level, step: Step | None) -> None:
         """What must be seen to between bursts: stages that count blocks, single block, the block limit."""
@@ -409,7 +421,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
 
     def _burst(self, level: Level) -> range:
         """Scan plain blocks; gives as many numbers as blocks are to be interpreted now."""
-        burst = BURST if level.scanner is None else level.scanner.lead(self)
+        burst = self.burst if level.scanner is None else level.scanner.lead(self)
         return burst[: self.block_limit - self.blocks]
 
     def once_more(self) -> None:

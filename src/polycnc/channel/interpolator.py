@@ -6,8 +6,10 @@ one object of each channel and knows nothing of their language.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING, Final, NamedTuple, Protocol
+
+from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -206,6 +208,9 @@ class Interpolator(Protocol):
 
     def shift_path(self, column: int, place: float) -> None:
         """The path has an axis elsewhere from now on; the axis stays, and nothing moves on the path."""
+
+    def stand_at(self, column: int, place: float) -> None:
+        """An axis, which stands, is called another position; nothing moves."""
 
     def position_beside(self, column: int, target: float, speed: float) -> None:
         """An axis goes to a target beside the path, which has it there from now on; nothing moves on the path."""

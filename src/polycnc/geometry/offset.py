@@ -9,11 +9,11 @@ one.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import Enum
 from math import atan2, cos, degrees, hypot, pi, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
+from polycnc.deferred.records import dataclass
 from polycnc.geometry import arcs
 from polycnc.geometry.tolerances import NO_WAY, ROUNDED_MM
 

@@ -134,6 +134,7 @@ def context_fields(
         settings.drive_reduction,
         context.rapid_speed,
         context.overlap,
+        context.rapid_overlap,
         context.lag_s,
         context.lag_from,
         context.pace.rapid if context.pace is not None else 1.0,

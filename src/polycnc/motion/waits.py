@@ -7,7 +7,6 @@ from math import pi
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.toolpath import Kind
-from polycnc.toolpath.context import NO_OVERLAP, OVERLAPS
 from polycnc.toolpath.events import (
     Auxiliary,
     BuilderCode,
@@ -237,11 +236,12 @@ class Waits:
                 self._settling = ("rapid_s" if rapid else "cutting_s", number, seconds)
 
     def _overlaps(self, kind: int, number: int) -> bool:
-        """Whether a row begins before the axes rest behind the last one: two strokes of a drilling cycle."""
+        """Whether a row begins before the axes rest behind the last one."""
         if self._settling is None or kind >= Kind.DWELL:
             return False
-        before = self.contexts[self._settling[1]]
-        return before.overlap == OVERLAPS and self.contexts[number].overlap != NO_OVERLAP
+        why, before, _ = self._settling
+        rapid = why == "rapid_s" and kind in (Kind.RAPID, Kind.REF)
+        return self.contexts[number].begins_early(self.contexts[before], rapid=rapid)
 
     def _exact(self, number: int) -> bool:
         return self.contexts[number].corner_mode is CornerMode.EXACT_STOP

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from math import inf
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, Frame
 from polycnc.toolpath.modes import AccelerationMode, CornerMode, FeedMode, StopWindow
 
@@ -14,10 +15,10 @@ if TYPE_CHECKING:
 
 #: Metres in a foot, in which surface speeds count where the program is in inches.
 FOOT_M = 0.3048
-#: How a stroke of a drilling cycle meets the next one: it is none, or waits for the axes to rest; it is one whose
-#: start may overlap; it is one whose end may too: the next stroke of the cycle begins while the axes come to rest.
-Overlap = int
-NO_OVERLAP, STROKE, OVERLAPS = 0, 1, 2
+#: How a stroke of a cycle meets the next one: none of its ends overlaps; only its start may; its end may too: the next
+#: stroke begins so many mm before its end, or as soon as the axes come to rest.
+Overlap = float
+NO_OVERLAP, STROKE, OVERLAPS = -1.0, 0.0, inf
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,6 +32,8 @@ class Pace:
         weights: Millimetres that a millimetre or degree of each column counts in the length that F is for (`FGROUP`,
             `FGREF`), 0 for a synchronous axis; empty for the control's own rule.
         top: Highest velocity in cuts, mm/s or degrees/s (`FL`); infinite for none. Empty for no such limits.
+        reach: Highest velocity in all moves, mm/s or degrees/s (MD32000 where it is named); infinite for that of the
+            machine. Empty for no such limits.
         velocity: Factors on the highest velocity (`VELOLIM`); `acceleration` (`ACC`) and `jerk` (`JERKLIM`) likewise.
             Empty for none.
     """
@@ -40,6 +43,7 @@ class Pace:
     edge: str = "never"
     weights: tuple[float, ...] = ()
     top: tuple[float, ...] = ()
+    reach: tuple[float, ...] = ()
     velocity: tuple[float, ...] = ()
     acceleration: tuple[float, ...] = ()
     jerk: tuple[float, ...] = ()
@@ -79,7 +83,8 @@ class Context:
             was entered.
         lag_s: Acceleration after interpolation of thread cycles: seconds by which the axes are behind at speed (FANUC
             1626), 0 for what the axes can do. `lag_from` is the speed, mm/s, from which on it acts (1627).
-        overlap: Whether strokes of a drilling cycle overlap (FANUC 1681): `Overlap`.
+        overlap: How strokes of a cycle overlap (FANUC 1681, SYNTEC Pr4008, G53 Q): `Overlap`.
+        rapid_overlap: How far before the end of a rapid the next one begins, mm (SYNTEC G00 Q); 0: when the axes rest.
         transformation: From the positions of the toolpath to those of the real axes, where they differ.
         machine_diameters: As `diameter_axes`, of the machine display where that differs: an axis of the plane of polar
             interpolation may be a radius. None where it does not.
@@ -128,7 +133,8 @@ class Context:
     stop_delay: bool = False
     lag_s: float = 0.0
     lag_from: float = 0.0
-    overlap: Overlap = 0
+    overlap: Overlap = NO_OVERLAP
+    rapid_overlap: float = 0.0
     transformation: Transformation | None = None
     machine_diameters: int | None = None
     unrolled: tuple[int, float] | None = None
@@ -144,6 +150,12 @@ class Context:
     def surface_m_min(self) -> float:
         """Programmed surface speed under constant surface speed, m/min."""
         return self.spindle_rpm * FOOT_M if self.inch else self.spindle_rpm
+
+    def begins_early(self, before: Context, *, rapid: bool) -> bool:
+        """Whether a move, `rapid` or not, begins before the axes rest behind one in the context `before`."""
+        if self.overlap == NO_OVERLAP:
+            return rapid and before.rapid_overlap > 0.0
+        return before.overlap > 0.0
 
     def rapid_top(self, limit: float) -> float:
         """Highest speed of an axis that runs a rapid alone; `limit` is what the machine allows."""

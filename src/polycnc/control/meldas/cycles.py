@@ -30,8 +30,10 @@ def relief(channel: Channel, code: str) -> float:
     return parameters.value(RELIEF[code]) if code in RELIEF else 0.0
 
 
-def shift_off_wall(_channel: Channel, data: CycleData, _plane: tuple[int, int]) -> tuple[float, float]:
-    """I and J (Hartford manual §3.3.3, G76 and G87)."""
+def shift_off_wall(channel: Channel, data: CycleData, _plane: tuple[int, int]) -> tuple[float, float]:
+    """I and J (Hartford manual §3.3.3, G76 and G87); the Q of FANUC is no shift, and none would scratch the bore."""
+    if "Q" in data and "I" not in data and "J" not in data:
+        raise channel.control.fail("cycle_word", address="Q", hint="hint.meldas.shift")
     return data.amount("I"), data.amount("J")
 
 

@@ -121,6 +121,7 @@ class SyntecMill(WordAddressControl):
         line_by_angle.RULE,
         tip_control.RULE,
         drilling_cycles.RULE,
+        cycles.OVERLAP_RULE,
         cycles.RULE,
         borrowing.RULE,
         moves.INVERSE_TIME_RULE,

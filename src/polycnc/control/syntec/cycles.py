@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import partial
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
@@ -23,8 +23,10 @@ from polycnc.control.word_address.tools import radius
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.cycles.drilling import holes, patterns
 from polycnc.cycles.drilling.holes import Action, Stroke
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.units import INCH_MM
 from polycnc.messages import AlarmError
+from polycnc.toolpath.context import STROKE
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -53,6 +55,8 @@ CYCLES = {
     "G88": DrillCycle(partial(holes.bore_and_halt, feeds_out=True), dwells=True, bottom_from_initial=True),
     "G89": DrillCycle(holes.bore, dwells=True, bottom_from_initial=True),
 }
+#: Words for the overlap of the positioning axis and of the drilling axis.
+OVERLAPS = {"G81": ("D", "Q"), "G74": ("I", "J"), "G84": ("I", "J")}
 #: Pr4020: direction off the wall after the oriented stop, as geometry axis and sense.
 SHIFT_DIRECTIONS = {0: (0, 1.0), 1: (0, -1.0), 2: (1, 1.0), 3: (1, -1.0), 4: (2, 1.0), 5: (2, -1.0)}
 MAX_HOLES = 9999
@@ -89,12 +93,40 @@ def dwell_seconds(value: float, form: str, rules: NumberRules) -> float:
     return value if form != "" or rules.calculator else value / 10.0**rules.decimals
 
 
-def dressed(channel: SyntecChannel, code: str, cycle: Cycle) -> Cycle:
-    """What the control makes of the strokes of a hole."""
-    return tapping.tap(channel, cycle) if code in tapping.CODES else out_at_feed(channel, code, cycle)
+def overlap(channel: SyntecChannel, code: str) -> float | None:
+    """How far before the hole the way to R begins, mm: D of G81, I of taps (2.48.2, 2.52.2).
+
+    Taps and holes without one do not overlap with each other as G00 blocks do by Pr3990; None where that is 0 too.
+    """
+    return _overlaps(channel, code)[0]
 
 
-def out_at_feed(channel: SyntecChannel, code: str, cycle: Cycle) -> Cycle:
+def _overlaps(channel: SyntecChannel, code: str) -> tuple[float | None, float | None]:
+    """Overlaps of the positioning and the drilling axis; above R only, so none with G99."""
+    parameters, data = channel.memory.parameters, CycleState.of(channel).active
+    over, out = (data.amount(word) for word in OVERLAPS.get(code, ("", "")))
+    acts = parameters.fast_drilling == 1 and channel.mode.codes.get("return") != "G99"
+    if acts and (over > 0.0 or out > 0.0):
+        return max(over, STROKE), max(out, STROKE)
+    return (STROKE, STROKE) if parameters.rapid_overlap else (None, None)
+
+
+def dress(channel: SyntecChannel, code: str, cycle: Cycle) -> Cycle:
+    """What the control makes of the strokes of a hole: of taps, of the way out of G81, and what overlaps."""
+    cycle = tapping.tap(channel, cycle) if code in tapping.CODES else _out_at_feed(channel, code, cycle)
+    out = _overlaps(channel, code)[1]
+    if out is None:
+        return cycle
+
+    def lapping(hole: Hole) -> Iterator[Stroke]:
+        for stroke, following in pairwise((*cycle(hole), None)):
+            if stroke is not None:
+                yield stroke._replace(overlaps=STROKE if following is not None else out)
+
+    return lapping
+
+
+def _out_at_feed(channel: SyntecChannel, code: str, cycle: Cycle) -> Cycle:
     """Fast drilling (Pr4008 = 1): the tool leaves a hole of G81 at the speed F2 (2.52)."""
     speed: float = RetractState.of(channel).feed
     if code != "G81" or not speed > 0.0 or not channel.feed > 0.0:
@@ -117,7 +149,8 @@ DRILLING = Drilling(
     relief=relief,
     shift=shift_off_wall,
     lead=lead_from_feed,
-    dress=dressed,
+    dress=dress,
+    overlaps=overlap,
     taps_end_at_r=True,
 )
 
@@ -240,3 +273,11 @@ def _drill(channel: SyntecChannel, points: Iterator[Point]) -> None:
 
 #: Words of drilling blocks that only these cycles have.
 RULE = Rule("words of drilling cycles", unless={"cycle": "G80"}, wrap=_with_cycle_words)
+
+
+def _drills_plainly(builder: Builder) -> bool:
+    return bool(builder.mode["cycle"] == "G81")
+
+
+#: In G81 D is the overlap of the positioning axis, and chooses no radius (2.52).
+OVERLAP_RULE = Rule("overlap of holes", where=_drills_plainly, addresses={"D": None})

@@ -93,6 +93,8 @@ class SyntecParameters(ControlParameters["SyntecAxisParameters"]):
     tolerance_control = Whole(3986, delivered=0)
     #: 3988: Tolerance of corners where G05.1 Q5 has no E, least units; 0 for 0.01 mm.
     corner_control = Whole(3988, delivered=0)
+    #: 3990: Way before the end of a G00 at which the next G00 begins, least units.
+    rapid_overlap = Whole(3990, delivered=0)
     #: 3991: Least angle of an outer corner that an intersection leads round, least units.
     least_intersection = Whole(3991, delivered=0)
     #: 3992: Largest angle of an outer corner that an arc leads round, least units; 0 for 180 degrees.

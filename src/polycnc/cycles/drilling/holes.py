@@ -14,10 +14,10 @@ control's (`control.word_address.drilling`); here is only what the tool does, th
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from enum import Enum
 from typing import NamedTuple
 
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.tolerances import NO_WAY
 
 
@@ -60,6 +60,7 @@ class Action(Enum):
     ORIENT = "stop the spindle at its angle"
     HALT = "wait for the operator"
     OUTPUT = "send this M code to the machine"
+    ARRIVAL = "wait for the spindle's speed, seconds"
     RETURN = "to a level at rapid, and back over the hole on the way"
 
 
@@ -70,13 +71,14 @@ class Stroke(NamedTuple):
         action: What it is.
         value: A level, seconds, or as the action states.
         factor: Multiplies the feed.
-        overlaps: The next stroke may begin before the axes rest at its end; None in a cycle without overlap.
+        overlaps: How far before its end the next stroke may begin, mm: 0 when the axes rest, infinite as soon as they
+            come to rest; None in a cycle without overlap.
     """
 
     action: Action
     value: float = 0.0
     factor: float = 1.0
-    overlaps: bool | None = None
+    overlaps: float | None = None
 
 
 Cycle = Callable[[Hole], Iterator[Stroke]]

@@ -1,9 +1,10 @@
-"""What lathes add to the drilling cycles: clamping of the spindle axis, faster taps, overlap of strokes."""
+"""What lathes add to the drilling cycles: clamping, faster taps, overlap of strokes, waits for the spindle."""
 
 from __future__ import annotations
 
 from enum import IntEnum
 from itertools import pairwise
+from math import inf
 from typing import TYPE_CHECKING
 
 from polycnc.cycles.drilling.holes import Action, Hole, Stroke, peck_by_peck
@@ -40,7 +41,8 @@ def overlapping(strokes: Iterator[Stroke], hole: Hole, apart: Container[Joint]) 
         joints = _joints(hole, stroke, level, deepest)
         bores = Joint.BOTTOM in joints and following is not None and following.action is Action.FEED
         goes_on = following is None or (following.action in _MOVES and not bores)
-        yield stroke._replace(overlaps=goes_on and not any(joint in apart for joint in joints))
+        stays_apart = not goes_on or any(joint in apart for joint in joints)
+        yield stroke._replace(overlaps=0.0 if stays_apart else inf)
         level = stroke.value
         if abs(level - hole.r) > abs(deepest - hole.r):
             deepest = level
@@ -57,6 +59,24 @@ def _joints(hole: Hole, stroke: Stroke, level: float, deepest: float) -> set[Joi
     ends = {Joint.HOLE} if drilled and stroke.value == hole.back else set[Joint]()
     at_r = stroke.value == hole.r and (stroke.action is Action.FEED or not ends)
     return ends | ({Joint.R_LEVEL} if at_r else set[Joint]())
+
+
+def leading_on(strokes: Iterator[Stroke], hole: Hole) -> Iterator[Stroke]:
+    """The way to the next hole may begin before the axes rest on the initial level (11507#7, II.4.3.6)."""
+    for stroke, following in pairwise((*strokes, None)):
+        if stroke is not None:
+            ends = following is None and stroke.action is Action.RAPID and stroke.value == hole.initial
+            yield stroke._replace(overlaps=inf) if ends else stroke
+
+
+def when_arrived(strokes: Iterator[Stroke], seconds: float) -> Iterator[Stroke]:
+    """The first stroke that works waits for the spindle's speed (3740, II.4.3.6)."""
+    waits = True
+    for stroke in strokes:
+        if waits and stroke.action in (Action.FEED, Action.TAP):
+            yield Stroke(Action.ARRIVAL, seconds)
+            waits = False
+        yield stroke
 
 
 def clamped(strokes: Iterator[Stroke], clamp: int, unclamp: int, dwell_s: float) -> Iterator[Stroke]:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import atan2, cos, hypot, sin
 from typing import TYPE_CHECKING
 
 from polycnc.cycles.milling.letters import HEIGHT, WIDTH, drawn
 from polycnc.cycles.milling.stroke import Place, cut, rapid
+from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

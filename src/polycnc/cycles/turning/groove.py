@@ -7,13 +7,13 @@ by itself, from its rim to the middle of the base, in points (u, t) whose `u` co
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 from math import cos, radians, tan
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.cycles.count import parts
 from polycnc.cycles.turning.contour import Piece, crossings, parallel, shifted, swapped
+from polycnc.deferred.records import dataclass
 from polycnc.geometry import offset
 from polycnc.geometry.tolerances import NO_WAY
 

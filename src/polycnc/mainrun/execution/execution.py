@@ -304,14 +304,14 @@ class Execution:
         filled = self.preprocessing.fill(one_block=self.single_block)
         if self.preprocessing.revised:
             self._look_ahead()
+        if self.rates.influence.holds_next and self._x2 == 0.0 and self.preprocessing.begins_anew:
+            self._until = self.clock.time + self.clock.cycle_s
+            return True
         if not self.preprocessing.items:
             return self._run_out(filled=filled)
         item = self.preprocessing.items[0]
         if isinstance(item, Move):
             return self._begin(item)
-        if self.rates.influence.holds_next and self._x2 == 0.0 and isinstance(item, Block):
-            self._until = self.clock.time + self.clock.cycle_s
-            return True
         held = self.context.feed_hold or (isinstance(item, Block) and self.preprocessing.queue.knows_hold)
         held = self.rates.gives_up or (self.rates.hold and held)
         if held and self._x2 == 0.0 and not isinstance(item, BlockEnd):

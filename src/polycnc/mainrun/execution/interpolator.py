@@ -345,6 +345,14 @@ class ChannelInterpolator:
         self._run.execution.lead_axis(column, place)
         axis.base = place
 
+    def stand_at(self, column: int, place: float) -> None:
+        """An axis, which stands, is called another position; nothing moves."""
+        axis = self._commanded.get(column)
+        if axis is not None:
+            axis.stand(place, place)
+        self._seen = (-1.0, [])
+        self._run.execution.lead_axis(column, place)
+
     def take_back(self, column: int) -> float:
         """The program has a commanded axis again, which stands: gives its machine position."""
         axis = self._commanded.get(column)
@@ -360,8 +368,9 @@ class ChannelInterpolator:
         """Shift an axis beside everything else, no faster than a speed; `name` says which of its shifts is meant."""
         found = self._overlays.get((name, column))
         if found is None:
-            found = self._overlays[name, column] = Overlay()
-            self._run.axes[column].add(found)
+            axis = self._run.axes[column]
+            found = self._overlays[name, column] = Overlay(axis.data.acceleration)
+            axis.add(found)
         found.go(value, speed, self._clock.time)
         self._narrow_travel()
 

@@ -121,8 +121,9 @@ class ContextRecord(Places):
     DRIVE_SPEED = place()
     DRIVE_REDUCTION = place()
     RAPID_SPEED = place()
-    #: How a stroke of a drilling cycle meets the next one (`toolpath.context`).
+    #: How a stroke of a cycle meets the next one, and a rapid the next rapid (`toolpath.context`).
     OVERLAP = place()
+    RAPID_OVERLAP = place()
     #: Acceleration after interpolation: seconds by which the axes are behind at speed, the speed from which it acts.
     LAG_S = place()
     LAG_FROM = place()
@@ -137,10 +138,6 @@ class ContextRecord(Places):
     #: Nine numbers by rows, then the shift.
     FRAME = place(12)
     OFFSETS = place(0)
-
-
-#: What OVERLAP says of a stroke that the next one may overlap.
-OVERLAPS = 2
 
 
 class PieceRecord(Places):
@@ -229,8 +226,9 @@ class RunState(Structure):
             threads too. `kernels/feeds.py` says what 1 and 2 mean, `kernels/alone.py` what MAIN_RUN does.
         straight_pieces: Of the straight run from rest that the row at hand goes on with.
         ease: Factor on the limits at the end of the row before; `corner_ease` for its corner.
-        overlap: OVERLAP of the row before.
+        overlap: OVERLAP of the row before; `rapid_overlap` likewise, 0 behind a cut.
         is_bent: The row before is bent already for the corner to the row at hand (1): the latter is laid out again.
+        unseen: Nobody asks where the axes are within a piece (1).
     """
 
     stop: float
@@ -256,7 +254,9 @@ class RunState(Structure):
     ease: float
     corner_ease: float
     overlap: float
+    rapid_overlap: float
     is_bent: float
+    unseen: float
 
 
 @record

@@ -16,7 +16,6 @@ from polycnc.motion.kernels.columns import (
     EVENT,
     FACING_PIECES,
     HELIX_CCW,
-    OVERLAPS,
     PLACES,
     SHARES,
     SKIP,
@@ -85,9 +84,9 @@ def lay(
         kind = rows.kind[row]
         if kind == EVENT:
             if rows.stops[rows.curve[row]] != 0:
-                state.run.stop, state.run.overlap = 1.0, 0.0
+                rest(state)
         elif kind == DWELL:
-            state.run.stop, state.run.overlap = 1.0, 0.0
+            rest(state)
         else:
             record = rows.context[row] * (ContextRecord.OFFSETS + n)
             if kind == THREAD and state.row.kind != THREAD:
@@ -102,6 +101,11 @@ def lay(
             state.run.ease = state.share_ease[max(state.row.shares - 1, 0)]
             state.run.corner_ease = state.share_ease[AT_END]
     return len(rows.kind)
+
+
+def rest(state: State) -> None:
+    """The axes stand before the next row, which overlaps with nothing."""
+    state.run.stop, state.run.overlap, state.run.rapid_overlap = 1.0, 0.0, 0.0
 
 
 def take_shares(rows: Rows, row: int, state: State) -> None:
@@ -165,7 +169,7 @@ def lay_move(
     if not done:
         return False
     if state.run.pieces > first:
-        overlap(contexts, record, pieces, first, n, state)
+        overlap(contexts, record, pieces, first, n, limits, state)
     if contexts[record + ContextRecord.RAMP_S] > 0.0:
         hold(pieces, first, n, state)
     else:
@@ -178,20 +182,41 @@ def lay_move(
     return True
 
 
-def overlap(contexts: Floats, record: int, pieces: Floats, first: int, n: int, state: State) -> None:
-    """A stroke of a drilling cycle may begin while the averages of the one before come to rest (FANUC 1681).
+def overlap(
+    contexts: Floats, record: int, pieces: Floats, first: int, n: int, limits: Limits, state: State
+) -> None:
+    """A stroke of a cycle, or a rapid, may begin while the averages of the one before come to rest (FANUC 1681).
 
     The axes' accelerations add up to no more than either stroke's: the sum is the average of what both ask for. The
     row's pieces begin at `first`.
     """
-    width = piece_width(n)
-    meets = state.run.overlap == OVERLAPS and contexts[record + ContextRecord.OVERLAP] != 0.0
-    if meets and first > 0 and contexts[record + ContextRecord.STATION] == state.run.station:
-        before = (first - 1) * width
-        pieces[first * width + PieceRecord.EARLY] = window_s(
-            pieces[before + PieceRecord.RAMP], pieces[before + PieceRecord.BLEND]
-        )
-    state.run.overlap = contexts[record + ContextRecord.OVERLAP]
+    width, kind, rapid = piece_width(n), contexts[record + ContextRecord.OVERLAP], is_rapid(state)
+    way = state.run.overlap
+    if kind < 0.0:
+        way = state.run.rapid_overlap if rapid else 0.0
+    if way > 0.0 and first > 0 and contexts[record + ContextRecord.STATION] == state.run.station:
+        pieces[first * width + PieceRecord.EARLY] = rest_of_way_s(way, pieces, (first - 1) * width, n, limits)
+    state.run.overlap = kind
+    state.run.rapid_overlap = contexts[record + ContextRecord.RAPID_OVERLAP] if rapid else 0.0
+
+
+def rest_of_way_s(way: float, pieces: Floats, at: int, n: int, limits: Limits) -> float:
+    """Seconds that a piece that ends in rest takes for the last bit of its way, while its averages come to rest.
+
+    The speed along the path falls with its jerk there, of a rapid of every axis by itself with the largest of its axes.
+    """
+    ramp: float = pieces[at + PieceRecord.RAMP]
+    window: float = window_s(ramp, pieces[at + PieceRecord.BLEND])
+    if way == inf or ramp <= 0.0:
+        return window
+    jerk: float = pieces[at + PieceRecord.PULL] / ramp
+    if pieces[at + PieceRecord.FORM] == Form.TIMED:
+        jerk, here = 0.0, at + PieceRecord.VECTORS + PLACES * n
+        for i in range(n):
+            if pieces[here + i] != pieces[here + n + i]:
+                jerk = max(jerk, limits.jerk[i])
+    last: float = (6.0 * way / jerk) ** (1.0 / 3.0)
+    return min(window, last)
 
 
 def lay_rapid_by_axis(

@@ -6,7 +6,7 @@ whatever the system: that of system A, and of B and C where A has none. So handl
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache
 from typing import TYPE_CHECKING
 
@@ -27,6 +27,7 @@ from polycnc.control.word_address.coordinates import systems as coordinates
 from polycnc.control.word_address.macro_b import macro_calls, parameter_input, subprograms
 from polycnc.control.word_address.motion import path, path_modes
 from polycnc.control.word_address.transformations import cylinder, normal_line, polar_interpolation
+from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -27,6 +27,7 @@ from polycnc.control.fanuc.lathe.cycles import (
     repetitive,
     shape,
     single,
+    speed_arrival,
     tapping,
 )
 from polycnc.control.fanuc.lathe.memory import TurningMemory
@@ -138,6 +139,7 @@ class FanucTurning(CustomMacroControl):
         whole_numbers.RULE,
         nose_radius.CORNER_RULE,
         tapping.WAITING_RULE,
+        speed_arrival.RULE,
         drilling.RULE,
         single.ROTATION_RULE,
         nose_radius.RULE,

@@ -157,6 +157,8 @@ class LatheParameters(FanucParameters["LatheAxisParameters"]):
     unsigned_corners = Bit(3458, 7, delivered=False)
     #: 3703#3: P beside S names the spindle.
     MPP = Bit(3703, 3, delivered=False)
+    #: 3740: Time from the start of a hole to the check of the spindle's speed [ms].
+    speed_arrival_wait = Number(3740, delivered=0.0)
     #: 5000#3: A block without travel within compensation.
     wall_without_travel = Bit(5000, 3, delivered=False)
     #: 5001#6: a changed offset acts at once.
@@ -363,6 +365,8 @@ class LatheParameters(FanucParameters["LatheAxisParameters"]):
     NO5 = Bit(11400, 1, delivered=False)
     #: 11403#2: offset files write axis names A and B for E and F.
     OFN = Bit(11403, 2, delivered=False)
+    #: 11507#7: Only the first hole of a drilling cycle waits for 3740; the way to the next hole overlaps (1).
+    SAC = Bit(11507, 7, delivered=False)
     #: 11600#5: axes that the block behind G68.1 does not name.
     AX1 = Bit(11600, 5, delivered=False)
     #: 11630#0: least increment of the angle of G68.1, 0.001 (0) or 0.00001 degrees (1).

@@ -1,19 +1,22 @@
 """Machine and setting data: what a program reads as `$MN_…`, `$MC_…`, `$MA_…`, `$SN_…` and so on.
 
 A datum has an identifier and a number; `machine_data.toml` lists those that polycnc acts on or that programs commonly
-read, with their delivered values. What the setup says overrides them, by number (`36110[X]`) or identifier
-(`$MA_POS_LIMIT_PLUS[X]`). Lengths are mm, angles degrees, as the control keeps them with a metric basic system.
+read, with their delivered values; some say what the machine is (`of_machine`). What the setup says overrides them, by
+number (`36110[X]`) or identifier (`$MA_POS_LIMIT_PLUS[X]`). Lengths are mm, angles degrees, as the control keeps them
+with a metric basic system.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, retained
 from polycnc.control.sinumerik import axis_names
+from polycnc.control.sinumerik.data import of_machine
 from polycnc.control.sinumerik.data.delivered import DATA
 from polycnc.control.sinumerik.errors import not_supported
+from polycnc.deferred.records import dataclass
 from polycnc.memory.retained import PARAMETERS
 from polycnc.messages import AlarmError
 
@@ -41,6 +44,7 @@ class MachineData(State, lifetime=Lifetime.POWER):
 
     Attributes:
         axes: The channel's name of an axis by every identifier: `X`, `X1` and `AX1` mean the same axis.
+        built: What the machine says.
         preset: What the setup says.
         values: What has a value of its own: what the setup says, and then what was changed.
         changed: What programs have given other values, retained; None for the delivered value.
@@ -50,6 +54,7 @@ class MachineData(State, lifetime=Lifetime.POWER):
     changed: dict[Key, object] = retained(PARAMETERS)
     changed_everywhere: dict[Key, object] = retained(PARAMETERS, of_control=True)
     axes: Mapping[str, str] = field(default_factory=dict)
+    built: Mapping[Key, object] = field(default_factory=dict)
     preset: dict[Key, object] = field(default_factory=dict)
     values: dict[Key, object] = field(default_factory=dict)
 
@@ -59,7 +64,9 @@ class MachineData(State, lifetime=Lifetime.POWER):
         columns = {**axis_names.machine_columns(channel), **axis_names.columns(channel)}
         names = {name: channel.axes[column] for name, column in columns.items()}
         tables = (channel.retained.table(PARAMETERS, number) for number in (channel.number, 0))
-        return cls.of_setup(channel.setup.parameters, names, *tables)
+        data = cls.of_setup(channel.setup.parameters, names, *tables)
+        data.built = of_machine.built(channel)
+        return data
 
     @classmethod
     def of_setup(
@@ -134,6 +141,9 @@ class MachineData(State, lifetime=Lifetime.POWER):
         for place in wanted:
             if (name, place) in self.values:
                 return self.values[name, place]
+        for place in wanted:
+            if (name, place) in self.built:
+                return self.built[name, place]
         if name in DELIVERED:
             return DELIVERED[name]
         raise not_supported(name)

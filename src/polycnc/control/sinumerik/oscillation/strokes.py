@@ -6,12 +6,13 @@ reversal point.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.actions.axes import ActionAxes
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.tolerances import NO_WAY
 
 if TYPE_CHECKING:

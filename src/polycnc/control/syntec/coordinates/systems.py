@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, lasting
@@ -17,6 +17,7 @@ from polycnc.control.word_address.coordinates.systems import ZeroState, go_to_re
 from polycnc.control.word_address.memory import EXTERNAL
 from polycnc.control.word_address.tools.data_input import TOOL_FIELDS
 from polycnc.control.word_address.tools.length import renew_length
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, about, scaling
 from polycnc.geometry.planes import PLANES
 from polycnc.language.syntec.values import to_long
@@ -153,8 +154,8 @@ def renew_preset_frame(memory: SyntecMemory) -> None:
     x, y, z = state.axis
     turns = state.angle != 0.0 and x * x + y * y + z * z != 0.0
     turn = turn_about((x, y, z), state.angle) if turns else IDENTITY
-    frame = turn @ state.table @ state.tilt
-    ZeroState.of(memory.channel).frame = IDENTITY if frame.is_identity else frame
+    zero = ZeroState.of(memory.channel)
+    zero.frame, zero.table, zero.plane = turn, state.table, state.tilt
 
 
 # ---- reference points, stroke limits ---------------------------------------------------------------------

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import partial
 from math import copysign, hypot, nan, sqrt
 from typing import TYPE_CHECKING
@@ -13,9 +13,11 @@ from polycnc.control.syntec.coordinates.systems import TurnState
 from polycnc.control.syntec.macros.calls import ModalMacroState
 from polycnc.control.syntec.motion import planes
 from polycnc.control.syntec.spindles import SpindleState
+from polycnc.control.syntec.units import least_unit
 from polycnc.control.word_address.auxiliary import functions
 from polycnc.control.word_address.block import repeated_codes
 from polycnc.control.word_address.block.rules import Rule
+from polycnc.control.word_address.cycles.drilling import CycleState
 from polycnc.control.word_address.motion import path, skip
 from polycnc.control.word_address.motion.arcs import emit_arc
 from polycnc.control.word_address.motion.path import CENTER_WORDS
@@ -23,12 +25,14 @@ from polycnc.control.word_address.motion.skip import LastSkip
 from polycnc.control.word_address.tools import radius
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.normal_stage import NormalStage
+from polycnc.deferred.records import dataclass
 from polycnc.geometry import arcs
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.units import INCH_MM
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
+from polycnc.toolpath.context import NO_OVERLAP, STROKE, Overlap
 from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
@@ -56,19 +60,33 @@ class FeedState(State, lifetime=Lifetime.RESET):
         by_mode: The last feed of each feed mode that was left.
         lead: F of G33, mm.
         rapid_speed: F1 of the running G00 P1, mm/s; 0 for none.
+        rapid_overlap: Q of the running G00, mm; None for Pr3990.
+        overlap: How the running G53 meets the next one.
     """
 
     mode: str = "G94"
     by_mode: dict[str, float] = field(default_factory=dict)
     lead: float = lasting(Lifetime.POWER, 0.0)
     rapid_speed: float = lasting(Lifetime.POWER, 0.0)
+    rapid_overlap: float | None = lasting(Lifetime.POWER, None)
+    overlap: Overlap = lasting(Lifetime.POWER, NO_OVERLAP)
 
 
 def recorded(channel: SyntecChannel, context: Context) -> Context:
-    """A context as rows record it: feeds of G93 per minute, the speed of G00 P1."""
+    """A context as rows record it: feeds of G93 per minute, the speed of G00 P1, how blocks overlap."""
     by_time = context.feed_mode is FeedMode.INVERSE_TIME
     mode = FeedMode.PER_MINUTE if by_time else context.feed_mode
-    return replace(context, feed_mode=mode, rapid_speed=FeedState.of(channel).rapid_speed)
+    state = FeedState.of(channel)
+    overlap = max(state.overlap, CycleState.of(channel).overlap)
+    rapid = state.rapid_overlap if overlap == NO_OVERLAP else 0.0
+    if rapid is None:
+        rapid = channel.memory.parameters.rapid_overlap * least_unit(channel.memory.parameters)
+    as_it_is = (context.feed_mode, context.rapid_speed, context.overlap, context.rapid_overlap)
+    if (mode, state.rapid_speed, overlap, rapid) == as_it_is:
+        return context
+    return replace(
+        context, feed_mode=mode, rapid_speed=state.rapid_speed, overlap=overlap, rapid_overlap=rapid
+    )
 
 
 @dataclass(slots=True)
@@ -101,7 +119,7 @@ class SkipState(State, lifetime=Lifetime.POWER):
 
     def end(self, channel: Channel, lifetime: Lifetime) -> None:
         """A reset forgets where a skip move was cut."""
-        super(SkipState, self).end(channel, lifetime)
+        super().end(channel, lifetime)
         if lifetime >= Lifetime.RESET:
             LastSkip.of(channel).position = None
 
@@ -118,33 +136,39 @@ class SkipGroup:
 
 
 def plan_rapid(builder: Builder, plan: Plan) -> Step | None:
-    """G00 [P1] [F1=] [Q=]: F1 is a speed per minute, effective with P1; Q overlaps blocks."""
+    """G00 [P1] [F1=] [Q=]: F1 is a speed per minute, effective with P1; Q the overlap with the next G00."""
     step = path.plan_rapid(builder, plan)
     if step is not None or not builder.m_codes:
         builder.take("P", "F1", "Q")  # beside an M code alone they are the M code's
-    speed, switch = builder.slot("F1"), builder.slot("P")
-    if step is None or speed is None or switch is None:
+    speed, switch, overlap = builder.slot("F1"), builder.slot("P"), builder.slot("Q")
+    if step is None or (overlap is None and (speed is None or switch is None)):
         return step
     unit = (INCH_MM if builder.inch else 1.0) / 60.0
     polar = builder.mode.codes.get("polar") == "G16"
+    to_mm = (builder.length("Q") if overlap is not None else None) or float
 
     def move(channel: SyntecChannel, values: list[float]) -> None:
-        if values[switch] != 1:
-            step(channel, values)
+        way = None if overlap is None else to_mm(values[overlap])
+        if speed is None or switch is None or values[switch] != 1:
+            with _rapid_as(channel, nan, way):
+                step(channel, values)
             return
         c = channel.coordinates
         if polar:
             programmed = channel.control.polar_target(channel, plan, values)
         else:
             programmed = path.reach(channel, plan.axis_words, values)
-        with _rapid_at(channel, values[speed] * unit) as feed:
+        with _rapid_as(channel, values[speed] * unit, way) as feed:
             channel.straight(Kind.RAPID, c.to_position(programmed), feed, programmed)
 
     return move
 
 
 def move_in_machine_system(channel: SyntecChannel, words: Words) -> None:
-    """G53 [P1] X Y Z [F1=] [Q=]: rapid to machine coordinates, under G91 by machine increments."""
+    """G53 [P1] X Y Z [F1=] [Q=]: rapid to machine coordinates, under G91 by machine increments.
+
+    Q is the overlap with the next G53 (2.37.3, notes 12 and 13).
+    """
     c = channel.coordinates
     machine = c.machine
     for axis, value, _ in words.axes():
@@ -154,20 +178,26 @@ def move_in_machine_system(channel: SyntecChannel, words: Words) -> None:
         speed = nan
     unit = (INCH_MM if words.plan.inch else 1.0) / 60.0
     axes = [axis for axis, _, _ in words.axes()]
-    with radius.suspended(channel, axes), _rapid_at(channel, speed * unit) as feed:
+    with (
+        radius.suspended(channel, axes),
+        _rapid_as(channel, speed * unit, None, max(words.length("Q") or 0.0, STROKE)) as feed,
+    ):
         channel.straight(Kind.RAPID, c.from_machine(machine), feed)
 
 
 @contextmanager
-def _rapid_at(channel: SyntecChannel, speed: float) -> Iterator[float]:
-    """A rapid with a speed of its own, mm/s; NaN for rapid traverse."""
+def _rapid_as(
+    channel: SyntecChannel, speed: float, rapid_overlap: float | None, overlap: Overlap = NO_OVERLAP
+) -> Iterator[float]:
+    """A rapid with a speed (mm/s; NaN for rapid traverse) and an overlap of its own."""
     state = FeedState.of(channel)
     state.rapid_speed = max(0.0, speed)
+    state.rapid_overlap, state.overlap = rapid_overlap, overlap
     channel.context_changed()
     try:
         yield speed
     finally:
-        state.rapid_speed = 0.0
+        state.rapid_speed, state.rapid_overlap, state.overlap = 0.0, None, NO_OVERLAP
         channel.context_changed()
 
 

@@ -6,7 +6,6 @@ toolpath does not show them; on the path the axis stands at its R point, and beh
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import partial
 from math import nan
 from typing import TYPE_CHECKING
@@ -17,6 +16,7 @@ from polycnc.control.syntec.units import least_unit
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion.oscillation import Fixed, Oscillator, Read, Strokes
 from polycnc.control.word_address.transformations.normal_stage import NormalStage
+from polycnc.deferred.records import dataclass
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:

@@ -16,8 +16,10 @@ when its plan is made:
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING
+
+from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -58,7 +60,8 @@ class Rule:
         check: Raises the alarm for what the block must not hold.
         replace: The step that stands in place of the whole block.
         before: A step in front.
-        addresses: Words of the block that mean something else than usual, each with what plans it.
+        addresses: Words of the block that mean something else than usual, each with what plans it; None where the step
+            of the axis words takes it.
         axis_words: Axis words beside those whose addresses name axes.
         takes_back: What the block takes back of a manual intervention.
         motion: The step of the axis words; it may refuse them, or take other words, and leave them to the next rule.
@@ -81,7 +84,7 @@ class Rule:
     check: Callable[[Builder], None] | None = None
     replace: Callable[[Builder, Plan], Step | None] | None = None
     before: Callable[[Builder, Plan], Step | None] | None = None
-    addresses: Mapping[str, Planner] = field(default_factory=dict)
+    addresses: Mapping[str, Planner | None] = field(default_factory=dict)
     axis_words: Callable[[Builder], Collection[AxisWord]] | None = None
     takes_back: Callable[[Builder, Plan], TakesBack | None] | None = None
     motion: Callable[[Builder, Plan], Step | None] | None = None
@@ -100,16 +103,21 @@ class Rule:
         return self.where is not None and self.where(builder)
 
     def _concerns_mode(self, builder: Builder) -> bool:
-        for codes in {id(mode): mode.codes for mode in (builder.before, builder.mode)}.values():
-            if any(codes.get(group) in chosen for group, chosen in self.modes.items()):
-                return True
-            if any(codes.get(group, rests) != rests for group, rests in self.unless.items()):
-                return True
+        if not self.modes and not self.unless:
+            return False
+        before, after = builder.before.codes, builder.mode.codes
+        for codes in (before,) if after is before else (before, after):
+            for group, chosen in self.modes.items():
+                if codes.get(group) in chosen:
+                    return True
+            for group, rests in self.unless.items():
+                if codes.get(group, rests) != rests:
+                    return True
         return False
 
     def _concerns_words(self, builder: Builder) -> bool:
-        return (
-            (self.m_codes and bool(builder.m_codes))
-            or any(row.code in self.codes or row.group in self.groups for row in builder.codes)
-            or any(address in builder.slots for address in self.words)
-        )
+        if self.codes or self.groups:
+            for row in builder.codes:
+                if row.code in self.codes or row.group in self.groups:
+                    return True
+        return (self.m_codes and bool(builder.m_codes)) or not builder.slots.keys().isdisjoint(self.words)

@@ -8,7 +8,7 @@ from the block that enters the mode until the mode ends.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from enum import Enum
 from math import nan
 from typing import TYPE_CHECKING
@@ -25,11 +25,12 @@ from polycnc.control.word_address.motion.path import FEED_MODES, reach
 from polycnc.control.word_address.tools.radius import suspended
 from polycnc.cycles.drilling import lathe
 from polycnc.cycles.drilling.holes import Action, Cycle, Hole, Stroke, tap
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.planes import PLANES
 from polycnc.language.word_address.functions import round_half_away
 from polycnc.toolpath import Kind
-from polycnc.toolpath.context import NO_OVERLAP, OVERLAPS, STROKE, Overlap
-from polycnc.toolpath.events import Auxiliary
+from polycnc.toolpath.context import NO_OVERLAP, Overlap
+from polycnc.toolpath.events import Auxiliary, SpindleWait
 from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
@@ -47,6 +48,8 @@ BOTTOM = "bottom"
 #: Strokes of taps: overrides do not act in them.
 TAPS = frozenset({tap, lathe.tap, lathe.tap_clearing_chips})
 _M_OF_DIRECTION = {1: 3, -1: 4, 0: 5}
+#: The spindle that drilling cycles turn.
+_SPINDLE = 1
 
 
 @dataclass(frozen=True, slots=True)
@@ -201,8 +204,8 @@ class Drilling:
         dress: What the machine makes of the strokes of a hole (clamping an axis), by cycle code.
         halts: Where single block halts in a hole, by cycle code.
         taps_end_at_r: A feed hold within a tap stops it at R; else where the cycle ends.
-        overlaps: Whether the first stroke of a hole begins before the axes rest over it, by cycle code; None where no
-            strokes overlap.
+        overlaps: How far before the place of a hole its first stroke begins, mm, as in `Stroke`, by cycle code; None
+            where no strokes overlap.
     """
 
     cycles: Mapping[str, DrillCycle]
@@ -228,7 +231,7 @@ class Drilling:
     dress: Callable[[Channel, str, Cycle], Cycle] = as_it_is
     halts: Callable[[Channel, str], Halts] = halts_nowhere
     taps_end_at_r: bool = False
-    overlaps: Callable[[Channel, str], bool | None] = no_overlap
+    overlaps: Callable[[Channel, str], float | None] = no_overlap
 
     @property
     def words(self) -> tuple[str, ...]:
@@ -501,9 +504,9 @@ def _perform(channel: WordAddressChannel, code: str, data: CycleData, halts: Hal
         _meet(channel, None)
 
 
-def _meet(channel: WordAddressChannel, overlaps: bool | None) -> None:
-    """Say how the next stroke ends: whether the one behind it may begin before the axes rest."""
-    kind = NO_OVERLAP if overlaps is None else OVERLAPS if overlaps else STROKE
+def _meet(channel: WordAddressChannel, overlaps: float | None) -> None:
+    """Say how the next stroke ends: how far before that the one behind it may begin."""
+    kind = NO_OVERLAP if overlaps is None else overlaps
     state = CycleState.of(channel)
     if state.overlap != kind:
         state.overlap = kind
@@ -528,6 +531,8 @@ def _work(channel: WordAddressChannel, strokes: Iterator[Stroke], data: CycleDat
             orient_spindle(channel)
         elif stroke.action is Action.OUTPUT:
             channel.event(Auxiliary(int(stroke.value)))
+        elif stroke.action is Action.ARRIVAL:
+            channel.event(SpindleWait(_SPINDLE, stroke.value))
         elif stroke.action is Action.HALT:
             channel.stop("M00")
         else:

@@ -8,12 +8,13 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.states.snapshot import unchanging
 from polycnc.channel.states.state import Lifetime, State, retained
 from polycnc.control.word_address.memory import Memory
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.word_address.functions import round_half_away
 from polycnc.memory.retained import VARIABLE_NAMES, VARIABLES
@@ -170,6 +171,11 @@ class MacroMemory(Memory):
     def joined_conditions(self) -> bool:
         """AND, OR and XOR may join conditions."""
         return self.parameters.MLG
+
+    @property
+    def joining_hint(self) -> str:
+        """What to do where conditions are joined that may not be."""
+        return str(self.channel.control.JOINING_HINT)
 
     def fail(self, mistake: str, hint: str = "") -> AlarmError:
         """The control's alarm for a mistake in an expression."""

@@ -6,12 +6,13 @@ spindle's speed; laws of `transformation/couplings` add what other axes make of 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from math import copysign
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.channel.waits import PreprocessingStop
+from polycnc.deferred.records import dataclass
 from polycnc.toolpath.events import Deed
 
 if TYPE_CHECKING:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache, partial
 from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.lathe.coordinates.systems import without_rotation
-from polycnc.control.fanuc.lathe.cycles import tapping
+from polycnc.control.fanuc.lathe.cycles import speed_arrival, tapping
 from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.word_address.auxiliary.overrides import OverrideState
 from polycnc.control.word_address.block.codes import MCode
@@ -15,7 +15,9 @@ from polycnc.control.word_address.cycles import drilling as base
 from polycnc.control.word_address.cycles.drilling import CycleState, DrillCycle, Drilling, Halts
 from polycnc.cycles.drilling import holes, lathe
 from polycnc.cycles.drilling.lathe import Joint
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.planes import PLANES
+from polycnc.toolpath.context import OVERLAPS, STROKE
 from polycnc.toolpath.events import Auxiliary
 
 if TYPE_CHECKING:
@@ -110,6 +112,7 @@ def _rules(choice: _Choice) -> Drilling:
         axis=_axis,
         relief=_relief,
         largest_override=tapping.largest_override,
+        check=tapping.ask_for_gear,
         turn=_turn,
         dress=_dress,
         halts=_halts,
@@ -260,11 +263,13 @@ def _dress(channel: LatheChannel, code: str, cycle: Cycle) -> Cycle:
         tapping.check(channel, CycleState.of(channel).active)
 
     def dressed(hole: Hole) -> Iterator[Stroke]:
-        strokes = cycle(hole)
+        strokes = speed_arrival.waiting(channel, code, cycle(hole))
         if taps:
             strokes = lathe.with_extraction(strokes, hole, tapping.extraction(channel))
         else:
             strokes = lathe.overlapping(strokes, hole, _apart(channel))
+        if channel.memory.parameters.SAC:
+            strokes = lathe.leading_on(strokes, hole)
         clamp = tapping.ClampState.of(channel).code
         if clamp:
             seconds = channel.memory.parameters.unclamp_dwell / 1000.0
@@ -280,9 +285,11 @@ def _apart(channel: LatheChannel) -> frozenset[Joint]:
     return frozenset(joint for joint, bit in _APART.items() if parameters.value(bit))
 
 
-def _overlaps_hole(channel: LatheChannel, code: str) -> bool | None:
-    """Whether the way over a hole and the one to R overlap; taps know no overlap."""
-    return None if code in tapping.TAPS else Joint.HOLE not in _apart(channel)
+def _overlaps_hole(channel: LatheChannel, code: str) -> float | None:
+    """How the way over a hole and the one to R overlap; to a hole that is tapped only SAC lets the way begin early."""
+    if code in tapping.TAPS:
+        return STROKE if channel.memory.parameters.SAC else None
+    return STROKE if Joint.HOLE in _apart(channel) else OVERLAPS
 
 
 def _halts(channel: LatheChannel, code: str) -> Halts:

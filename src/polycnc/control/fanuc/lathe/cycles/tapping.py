@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
@@ -10,6 +9,7 @@ from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.cycles.drilling import CycleState
 from polycnc.control.word_address.motion.path import FEED_MODES
+from polycnc.deferred.records import dataclass
 from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
@@ -111,9 +111,18 @@ def check(channel: LatheChannel, data: CycleData) -> None:
 
 def gear_limit(channel: LatheChannel) -> float:
     """Highest speed of the spindle in the gear that the machine reports (GR1, GR2), rev/min; 0 for none."""
+    parameters = channel.memory.parameters
+    if not any(parameters.value(limit) for limit in _GEAR_LIMITS):
+        return 0.0  # no need to stop preparation for the signals
     signals = channel.memory.signals
     gear = int(bool(signals.get("GR1"))) + 2 * int(bool(signals.get("GR2")))
-    return channel.memory.parameters.value(_GEAR_LIMITS[gear])
+    return parameters.value(_GEAR_LIMITS[gear])
+
+
+def ask_for_gear(channel: LatheChannel, code: str) -> None:
+    """A block that taps waits here for the signals of the gear, before it has done anything."""
+    if code in TAPS:
+        gear_limit(channel)
 
 
 def largest_override(channel: LatheChannel) -> float:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import nan, pi, radians, sin
 from typing import TYPE_CHECKING
 
@@ -10,6 +9,7 @@ from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion.oscillation import Fixed, Oscillator, Strokes
 from polycnc.control.word_address.motion.spindle_led import Lead, SpindleLed
+from polycnc.deferred.records import dataclass
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 from polycnc.transformation.couplings.laws import Ratio
