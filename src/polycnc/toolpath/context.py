@@ -97,6 +97,7 @@ class Context:
             empty where the channel's names hold, an empty one for a column that it uses up.
         knot: Rows end at a knot within a motion, which the next row goes on with: displays show the motion as one.
         share: Part of its motion that a row of inverse time makes: displays show the feed of the whole.
+        finishes: The move belongs to strokes that a hold and a reset let come to their end (SYNTEC taps).
         dwell_signal: A signal that ends the dwell of a row (SYNTEC G04 Q); empty for none.
     """
 
@@ -142,6 +143,7 @@ class Context:
     names: tuple[str, ...] = ()
     knot: bool = False
     share: float = 1.0
+    finishes: bool = False
     dwell_signal: str = ""
 
     @property

@@ -146,8 +146,9 @@ def test_a_surface_beside_the_way_ends_nothing() -> None:
 def test_a_signal_by_the_clock_comes_at_the_same_place_with_and_without_a_clock(
     control: str, seconds: float
 ) -> None:
-    text = TILTED if control == "fanuc-m" else "G54 G90 G31 X60. Y30. F3000\nM30\n"
-    names = ("#100", "#101") if control == "fanuc-m" else ("#1361", "#1362")
+    syntec = "G54 G90 G31 X60. Y30. F3000\n@1 := #1361;\n@2 := #1362;\nM30\n"
+    text = TILTED if control == "fanuc-m" else syntec
+    names = ("#100", "#101") if control == "fanuc-m" else ("@1", "@2")
     setup = {"switches": {"skip_signal_after": seconds}}
     result = open_session(text, control=control, setup=setup).run()
     virtual = power_on(text, control, setup=setup)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.channel.stack import LevelKind
 from polycnc.compensation.policy import Policy
-from polycnc.control.syntec import cycles
+from polycnc.control.syntec import cycles, tapping
 from polycnc.control.syntec.alarm_codes import ALARMS, FOREIGN_CODES
 from polycnc.control.syntec.axis_groups import borrowing, groups, names
 from polycnc.control.syntec.builder import SyntecBuilder
@@ -83,6 +83,7 @@ class SyntecMill(WordAddressControl):
         moves.recorded,
         dwell.ended_by_signal,
         smoothing.smoothed,
+        tapping.finished,
     )
     addresses: ClassVar[Mapping[str, Planner]] = ADDRESSES
     power_on: ClassVar[Mapping[str, str]] = POWER_ON

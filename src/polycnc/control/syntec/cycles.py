@@ -151,6 +151,7 @@ DRILLING = Drilling(
     lead=lead_from_feed,
     dress=dress,
     overlaps=overlap,
+    taps_end_at_r=True,
 )
 
 

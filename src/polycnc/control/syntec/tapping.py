@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, retained
+from polycnc.control.word_address.auxiliary.overrides import OverrideState
 from polycnc.control.word_address.cycles.drilling import CycleState, lead_from_feed, turn_by_m_code
 from polycnc.cycles.drilling.holes import Action, Stroke
 from polycnc.deferred.records import dataclass
@@ -20,6 +22,7 @@ if TYPE_CHECKING:
     from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.words import Words
     from polycnc.cycles.drilling.holes import Cycle, Hole
+    from polycnc.toolpath import Context
 
 CODES = ("G74", "G84")
 RETRACT = "G84.48"
@@ -48,6 +51,11 @@ def tap(channel: SyntecChannel, cycle: Cycle) -> Cycle:
         yield from others
 
     return strokes
+
+
+def finished(channel: SyntecChannel, context: Context) -> Context:
+    """A context of a tap between R and R: a hold and a reset wait for its end (2.48.3, 2.55.2)."""
+    return replace(context, finishes=True) if OverrideState.of(channel).in_tap else context
 
 
 def _note(channel: SyntecChannel, hole: Hole) -> None:

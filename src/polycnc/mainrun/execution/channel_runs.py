@@ -144,8 +144,9 @@ class ChannelRuns:
 
     @property
     def move(self) -> bool:
-        """Whether axes move because of a program."""
-        return any(run.execution.moving for run in self._runs.values())
+        """Whether axes move because of a program, or strokes are under way that it will finish."""
+        executions = [run.execution for run in self._runs.values()]
+        return any(each.moving or (each.running and each.rates.finishing) for each in executions)
 
     @property
     def move_by_hand(self) -> bool:

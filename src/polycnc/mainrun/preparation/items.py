@@ -242,19 +242,26 @@ class ChannelRates:
     def __init__(self, operator: Rates) -> None:
         self.operator = operator
         self._kept: Rates | None = None
+        self._is_inside = False
         self.influence = UNINFLUENCED
         self.stops = False
 
     @property
     def hold(self) -> bool:
         """Feed hold."""
-        return self.operator.hold
+        return self.operator.hold and not self.finishing
+
+    @property
+    def finishing(self) -> bool:
+        """Whether strokes are under way that a hold and a reset let come to their end; without power nothing does."""
+        return self._is_inside and not self.operator.drives_off
 
     def enter(self, context: Context) -> bool:
         """Execution comes under a context; true where a section of delayed stops ends with that.
 
         Such a section keeps the overrides that hold where it begins.
         """
+        self._is_inside = context.finishes and (self._is_inside or not self.operator.gives_up)
         if context.stop_delay:
             self._kept = self._kept or replace(self.operator)
             return False
@@ -263,6 +270,8 @@ class ChannelRates:
 
     def _of(self, move: Row) -> Rates:
         """What the operator has set, as far as it concerns a move."""
+        if self.finishing and move.context.finishes and self.operator.gives_up:
+            return replace(self.operator, gives_up=False)
         kept = self._kept
         return self.operator if kept is None or not move.context.stop_delay or self.gives_up else kept
 
@@ -284,7 +293,7 @@ class ChannelRates:
     @property
     def gives_up(self) -> bool:
         """Reset or emergency stop."""
-        return self.operator.gives_up
+        return self.operator.gives_up and not self.finishing
 
     def cap2(self, move: Row, cap2: float, asked: float) -> float:
         """Largest squared speed on a piece of a move, where the axes allow `cap2` and the program asks for `asked`."""

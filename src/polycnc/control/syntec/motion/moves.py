@@ -14,6 +14,7 @@ from polycnc.control.syntec.macros.calls import ModalMacroState
 from polycnc.control.syntec.motion import planes
 from polycnc.control.syntec.spindles import SpindleState
 from polycnc.control.syntec.units import least_unit
+from polycnc.control.word_address.auxiliary import functions
 from polycnc.control.word_address.block import repeated_codes
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.cycles.drilling import CycleState
@@ -204,7 +205,9 @@ def _rapid_as(
 
 
 def plan_lead(builder: Builder) -> Step:
-    """F under G33: the lead."""
+    """F under G33: the lead; in a block that leaves it the feed."""
+    if builder.mode["motion"] != "G33":
+        return functions.plan_feed(builder)
     slot, form = builder.slots["F"]
     factor = builder.control.feed_factor(builder, form, FeedMode.PER_REVOLUTION) * (
         INCH_MM if builder.inch else 1.0

@@ -32,10 +32,12 @@ class OverrideState(State, lifetime=Lifetime.RESET):
     Attributes:
         cancelled: Overrides that the program has switched off.
         tapping: A tapping cycle works.
+        in_tap: It cuts, or comes back from that: a feed hold waits for its end.
     """
 
     cancelled: frozenset[str] = frozenset()
     tapping: bool = False
+    in_tap: bool = False
 
 
 def cancel_feed_override(channel: WordAddressChannel, _words: Words) -> None:
@@ -86,6 +88,6 @@ def overridden(channel: MacroChannel, context: Context) -> Context:
         feed_override=not (tapping or state.tapping or FEED in state.cancelled)
         and not switches & NO_FEED_OVERRIDE,
         spindle_override=not (state.tapping or SPINDLE in state.cancelled),
-        feed_hold=not tapping and not switches & NO_HOLD,
+        feed_hold=not (tapping or state.in_tap) and not switches & NO_HOLD,
         corner_mode=CornerMode.CONTINUOUS if switches & NO_EXACT_STOP else context.corner_mode,
     )

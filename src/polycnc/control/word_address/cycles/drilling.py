@@ -203,6 +203,7 @@ class Drilling:
         choices: Words that choose by a plain number, in taps.
         dress: What the machine makes of the strokes of a hole (clamping an axis), by cycle code.
         halts: Where single block halts in a hole, by cycle code.
+        taps_end_at_r: A feed hold within a tap stops it at R; else where the cycle ends.
         overlaps: How far before the place of a hole its first stroke begins, mm, as in `Stroke`, by cycle code; None
             where no strokes overlap.
     """
@@ -229,6 +230,7 @@ class Drilling:
     choices: Sequence[str] = ()
     dress: Callable[[Channel, str, Cycle], Cycle] = as_it_is
     halts: Callable[[Channel, str], Halts] = halts_nowhere
+    taps_end_at_r: bool = False
     overlaps: Callable[[Channel, str], float | None] = no_overlap
 
     @property
@@ -468,6 +470,18 @@ def _with_halts(channel: WordAddressChannel, strokes: Iterator[Stroke], halts: H
         yield stroke
 
 
+def _with_holds(channel: WordAddressChannel, strokes: Iterator[Stroke]) -> Iterator[Stroke]:
+    """Note where a feed hold waits: from the first cut of a tap on, until it is out of the hole."""
+    state = OverrideState.of(channel)
+    ends_at_r = channel.control.drilling_rules(channel).taps_end_at_r
+    for stroke in strokes:
+        waits = stroke.action is not Action.RAPID or (state.in_tap and not ends_at_r)
+        if state.in_tap is not waits:
+            state.in_tap = waits
+            channel.context_changed()
+        yield stroke
+
+
 def _perform(channel: WordAddressChannel, code: str, data: CycleData, halts: Halts) -> None:
     """Let the tool make the strokes of the next hole."""
     rules: Drilling = channel.control.drilling_rules(channel)
@@ -476,14 +490,16 @@ def _perform(channel: WordAddressChannel, code: str, data: CycleData, halts: Hal
     rests = CycleState.of(channel).overlap == NO_OVERLAP
     if dressed is cycle and rests and plunges(channel, data.axis, cycle, hole):
         return
+    strokes, state = dressed(hole), OverrideState.of(channel)
     if cycle in TAPS:
-        OverrideState.of(channel).tapping = True
+        state.tapping = True
         channel.context_changed()
+        strokes = _with_holds(channel, strokes)
     try:
-        _work(channel, _with_halts(channel, dressed(hole), halts), data)
+        _work(channel, _with_halts(channel, strokes, halts), data)
     finally:
-        if OverrideState.of(channel).tapping:
-            OverrideState.of(channel).tapping = False
+        if state.tapping:
+            state.tapping = state.in_tap = False
             channel.context_changed()
         _meet(channel, None)
 
