@@ -17,7 +17,7 @@ from polycnc.messages.catalogue import LANGUAGES
 from polycnc.panel.web.desk import Desk
 from polycnc.panel.web.markup import of_view
 from tests.panel.web.browser import CHROMIUM, PATIENCE_S, browser
-from tests.panel.web.test_server import free_port, status
+from tests.panel.web.test_server import environment, free_port, status
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -47,7 +47,7 @@ def server() -> Iterator[str]:
     port = free_port()
     words = [word for control in ids() for word in ("--control", control)]
     command = [sys.executable, "-m", "polycnc", "panel", "--no-open", "--port", str(port), *words]
-    process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, env=environment())
     address, until = f"127.0.0.1:{port}", monotonic() + PATIENCE_S
     while monotonic() < until and status(address) == 0:
         sleep(0.2)

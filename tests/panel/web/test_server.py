@@ -33,6 +33,11 @@ def free_port() -> int:
         return port
 
 
+def environment() -> dict[str, str]:
+    """What a server is started with: NiceGUI behaves otherwise where it believes that it is tested."""
+    return {name: value for name, value in os.environ.items() if not name.startswith("PYTEST")}
+
+
 @pytest.fixture
 def address(tmp_path: Path) -> Iterator[str]:
     """A server of a FANUC control with a program and a memory; ended by Ctrl-C."""
@@ -40,12 +45,10 @@ def address(tmp_path: Path) -> Iterator[str]:
     port = free_port()
     words = ["panel", "a.nc", "--control", "fanuc-m", "--memory", "shop.db", "--no-open", "--port", str(port)]
     command = [sys.executable, "-m", "polycnc", *words, "--speed", "100"]
-    # NiceGUI behaves otherwise where it believes that it is tested.
-    environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST")}
     # Where tests run in the background of a shell, Ctrl-C is ignored, and children would inherit that.
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     process = subprocess.Popen(
-        command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment
+        command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment()
     )
     signal.signal(signal.SIGINT, before)
     address = f"127.0.0.1:{port}"
