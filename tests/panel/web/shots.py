@@ -54,6 +54,8 @@ async def shoot(control: str, example: str, folder: Path) -> None:
                     for key in keys.split(" > "):
                         await asyncio.sleep(1.0)
                         await page.press(key)
+                    if name == "picture":
+                        await page.until("Number(document.querySelector('.picture').dataset.points) > 50")
                     await asyncio.sleep(3.0)
                     await page.screenshot(folder / f"{control}-{name}-{_LANGUAGES[lang]}.png")
     finally:
