@@ -51,6 +51,7 @@ async def shoot(control: str, example: str, folder: Path) -> None:
                     if name == "alarms":
                         await page.evaluate(_FAULT % control)
                     await page.press(lang)
+                    await page.until(f"document.documentElement.lang === '{_LANGUAGES[lang]}'")
                     for key in keys.split(" > "):
                         await asyncio.sleep(1.0)
                         await page.press(key)
