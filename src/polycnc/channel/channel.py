@@ -106,7 +106,8 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
 
     #: A snapshot of the channel does not go on to these: they are none of its state.
     UNFOLLOWED: ClassVar = frozenset({
-        "actual", "axis_data", "blocks", "bulk", "burst", "control", "machine", "main_run", "mark", "setup", "share_after",
+        "actual", "axis_data", "blocks", "bulk", "burst", "control", "machine", "main_run", "mark", "setup",
+        "share_after",
     })  # fmt: skip
 
     def __init__(
