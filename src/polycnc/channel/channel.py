@@ -105,21 +105,10 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
     """
 
     #: A snapshot of the channel does not go on to these: they are none of its state.
-    UNFOLLOWED: ClassVar = frozenset(
-        {
-            "axis_data",
-            "blocks",
-            "bulk",
-            "burst",
-            "control",
-            "actual",
-            "machine",
-            "main_run",
-            "mark",
-            "setup",
-            "share_after",
-        }
-    )
+    UNFOLLOWED: ClassVar = frozenset({
+        "actual", "axis_data", "blocks", "bulk", "burst", "control", "machine", "main_run", "mark", "setup",
+        "share_after",
+    })  # fmt: skip
 
     def __init__(
         self,

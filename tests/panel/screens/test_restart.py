@@ -111,6 +111,18 @@ def test_after_a_reset_the_search_finds_the_point_of_interruption(control: str, 
     assert panel.control.restart["X"][0] == pytest.approx(10.0)
 
 
+def test_another_program_is_shown_from_its_top() -> None:
+    panel = bench_of("fanuc-0i-tf", "en")
+    panel.control.store_program("O0002", "O2\nG0 X5.\nM30\n")
+    panel.keys("PROG", "PAGE_DOWN")
+    panel.soft("(OPRT)", "(操作)")
+    panel.screen.type("O2")
+    panel.soft("O SRH", "O 檢索")
+    assert panel.message == ""
+    assert panel.screen.program_row is None
+    assert panel.window("program").rows[0][0].text == "O2"
+
+
 def test_a_text_that_is_not_there_is_refused_and_the_cursor_stays() -> None:
     panel = bench_of("fanuc-0i-tf", "en")
     panel.keys("PROG", "DOWN", "DOWN")

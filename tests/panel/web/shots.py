@@ -51,9 +51,12 @@ async def shoot(control: str, example: str, folder: Path) -> None:
                     if name == "alarms":
                         await page.evaluate(_FAULT % control)
                     await page.press(lang)
+                    await page.until(f"document.documentElement.lang === '{_LANGUAGES[lang]}'")
                     for key in keys.split(" > "):
                         await asyncio.sleep(1.0)
                         await page.press(key)
+                    if name == "picture":
+                        await page.until("Number(document.querySelector('.picture').dataset.points) > 50")
                     await asyncio.sleep(3.0)
                     await page.screenshot(folder / f"{control}-{name}-{_LANGUAGES[lang]}.png")
     finally:

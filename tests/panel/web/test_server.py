@@ -11,7 +11,8 @@ import subprocess
 import sys
 import urllib.error
 import urllib.request
-from contextlib import closing
+from contextlib import closing, contextmanager
+from pathlib import Path
 from time import monotonic, sleep
 from typing import TYPE_CHECKING
 
@@ -19,7 +20,6 @@ import pytest
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
-    from pathlib import Path
 
 pytest.importorskip("nicegui")
 #: A busy machine starts slowly.
@@ -33,19 +33,31 @@ def free_port() -> int:
         return port
 
 
-@pytest.fixture
-def address(tmp_path: Path) -> Iterator[str]:
-    """A server of a FANUC control with a program and a memory; ended by Ctrl-C."""
-    (tmp_path / "a.nc").write_text("O0007\n#500=4.\nG0 X5.\nM30\n", encoding="utf-8")
+def environment() -> dict[str, str]:
+    """What a server is started with: NiceGUI behaves otherwise where it believes that it is tested."""
+    return {name: value for name, value in os.environ.items() if not name.startswith("PYTEST")}
+
+
+@contextmanager
+def served(folder: Path, *words: str) -> Iterator[str]:
+    """The address of a server that is started in a folder, and ended by Ctrl-C."""
     port = free_port()
-    words = ["panel", "a.nc", "--control", "fanuc-m", "--memory", "shop.db", "--no-open", "--port", str(port)]
-    command = [sys.executable, "-m", "polycnc", *words, "--speed", "100"]
-    # NiceGUI behaves otherwise where it believes that it is tested.
-    environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST")}
+    command = [
+        sys.executable,
+        "-m",
+        "polycnc",
+        "panel",
+        *words,
+        "--no-open",
+        "--port",
+        str(port),
+        "--speed",
+        "100",
+    ]
     # Where tests run in the background of a shell, Ctrl-C is ignored, and children would inherit that.
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     process = subprocess.Popen(
-        command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment
+        command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment()
     )
     signal.signal(signal.SIGINT, before)
     address = f"127.0.0.1:{port}"
@@ -59,6 +71,14 @@ def address(tmp_path: Path) -> Iterator[str]:
     assert process.returncode == 130
     assert address in told
     assert "Traceback" not in errors
+
+
+@pytest.fixture
+def address(tmp_path: Path) -> Iterator[str]:
+    """A server of a FANUC control with a program and a memory."""
+    (tmp_path / "a.nc").write_text("O0007\n#500=4.\nG0 X5.\nM30\n", encoding="utf-8")
+    with served(tmp_path, "a.nc", "--control", "fanuc-m", "--memory", "shop.db") as found:
+        yield found
 
 
 def status(address: str, **headers: str) -> int:
@@ -99,3 +119,26 @@ def test_the_panel_is_served_and_answers(address: str, tmp_path: Path) -> None:
     assert asyncio.run(talk(address, {"do": "read_variable", "with": {"name": "#500"}})) == [{"ok": 4.0}]
     assert asyncio.run(talk(address, {"do": "nothing"}))[0] != {"ok": None}
     assert (tmp_path / "shop.db").exists()
+
+
+def test_an_exercise_is_served_and_its_sheet_and_record_are_written(tmp_path: Path) -> None:
+    exercises = Path(__file__).parents[3] / "examples" / "exercises.yaml"
+    words = ["--exercise", f"{exercises}#low-air", "--sheet", "sheet.md", "--record", "session.jsonl"]
+    with served(tmp_path, *words) as address:
+        assert asyncio.run(talk(address, {"do": "press", "with": {"keys": ["START"]}})) == [{"ok": None}]
+        until, sheet = monotonic() + PATIENCE_S, ""
+        while monotonic() < until and "1051" not in sheet:
+            (answer,) = asyncio.run(talk(address, {"do": "lesson"}))
+            assert isinstance(answer, dict)
+            sheet = answer["ok"]
+        assert "1051" in sheet
+    assert "2. [x]" in (tmp_path / "sheet.md").read_text(encoding="utf-8")
+    recorded = (tmp_path / "session.jsonl").read_text(encoding="utf-8").splitlines()
+    assert [json.loads(line).get("do") for line in recorded] == [None, "press"]
+    with served(tmp_path, "--exercise", f"{exercises}#low-air", "--replay", "session.jsonl") as address:
+        until, sheet = monotonic() + PATIENCE_S, ""
+        while monotonic() < until and "1051" not in sheet:
+            (answer,) = asyncio.run(talk(address, {"do": "lesson"}))
+            assert isinstance(answer, dict)
+            sheet = answer["ok"]
+        assert "1051" in sheet

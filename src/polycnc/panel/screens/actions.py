@@ -169,7 +169,7 @@ def search_program(screen: ScreenState) -> None:
     if not name and screen.shows("listing") and screen.control.programs:
         name = screen.control.programs[screen.cursor[0]].name
     screen.control.select_program(name)
-    screen.buffer = ""
+    screen.program_row, screen.buffer = None, ""
 
 
 def delete_program(screen: ScreenState) -> None:

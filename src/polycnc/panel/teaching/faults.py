@@ -36,8 +36,10 @@ class Fault:
 
     def alarms(self) -> tuple[PlcAlarm, ...]:
         """The rows of its alarm."""
-        told = [Text(each["en"], each["zh-TW"]) for each in (self.name, self.cause, self.remedy)]
-        return tuple(PlcAlarm(self.code, when, True, *told) for when in self.when)
+        name, cause, remedy = (
+            Text(each["en"], each["zh-TW"]) for each in (self.name, self.cause, self.remedy)
+        )
+        return tuple(PlcAlarm(self.code, when, text=name, cause=cause, remedy=remedy) for when in self.when)
 
     def is_in(self, control: VirtualControl) -> bool:
         """Whether a machine has it now."""

@@ -111,7 +111,6 @@ class Desk:
             self._pass(seconds)
         self.screen.follow()
         self.course.go_on()
-        self._follow()
 
     def _pass(self, seconds: float) -> None:
         """Let simulated time pass, with points on the trail of the picture."""
@@ -119,8 +118,10 @@ class Desk:
         for _ in range(parts):
             self.control.step(seconds / parts)
             self.course.note(self.control.snapshot)
+            self.follow()
 
-    def _follow(self) -> None:
+    def follow(self) -> None:
+        """The exercise looks at the control: behind everything that is done, and while time passes."""
         if self.lesson is not None:
             self.lesson.follow()
 
@@ -136,7 +137,7 @@ class Desk:
             self.screen.refusal = refusal
         if self.lesson is not None and self.screen.refusal is not None:
             self.lesson.refused += 1
-        self._follow()
+        self.follow()
 
     @property
     def actions(self) -> Mapping[str, Callable[..., object]]:

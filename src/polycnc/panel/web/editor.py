@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 PAUSE_S, SPELL_S, TURN_S = 0.4, 0.005, 0.03
 #: Programs up to this length are shown in colours and checked while they are typed, characters.
 LONGEST = 200_000
+#: Longer ones are not opened: a browser would not edit them fluently, and the way there holds the server.
+LONGEST_OPEN = 4_000_000
 
 
 class Editor:
@@ -47,6 +49,9 @@ class Editor:
             source = "\n".join(self._desk.control.program_lines(name)) + "\n" if name else ""
         except CommandRefused:
             source = ""
+        if len(source) > LONGEST_OPEN:
+            self._desk.screen.refusal = CommandRefused("editor.too-long", name=name, most=LONGEST_OPEN)
+            return
         self.is_open = True
         # No dialog of Quasar: it grows while it opens, and the editor would measure its lines in the midst of that.
         with ui.element("div").classes("editor").props('role="dialog" aria-modal="true"') as self._dialog:

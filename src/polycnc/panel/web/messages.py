@@ -59,8 +59,12 @@ def answer(desk: Desk, message: str) -> str:
         _check(given)
         if name not in READS:
             desk.recording.note(name, **given)
-        return json.dumps({"ok": perform(desk, name, given)}, allow_nan=False, default=str)
+        done = perform(desk, name, given)
+        desk.follow()
+        return json.dumps({"ok": done}, allow_nan=False, default=str)
     except UserError as refusal:
+        if desk.lesson is not None:
+            desk.lesson.refused += 1
         return _refused(refusal.text())
     except AlarmError as alarm:
         return _refused(

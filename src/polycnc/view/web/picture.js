@@ -213,7 +213,7 @@ export default {
     look(name) {
       const from = { space: [1, -1.6, 1.1], top: [0, 0, 1], front: [0, -1, 0], side: [1, 0, 0] }[name];
       // A lathe is looked at as its drawing lies: Z to the right, X up.
-      const lathe = { space: [0.5, -1.6, 0.8], top: [0, -1, 0], front: [0, -1, 0], side: [0, 0, 1] }[name];
+      const lathe = { space: [0.8, 1.6, 0.5], top: [0, 1, 0], front: [0, 1, 0], side: [0, 0, 1] }[name];
       const up = this.lathe ? [1, 0, 0] : name === "top" ? [0, 1, 0] : [0, 0, 1];
       this.camera.up.set(...up);
       this.controls.target.set(0, 0, 0);
