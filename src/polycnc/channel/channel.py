@@ -299,7 +299,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
 
         Where a stage has changed the path (compensation that is still on) the tool stands where that has led it.
         """
-        is_changed = not self.path.is_idle
+        is_changed = self.path.changes_ends
         self.flush()
         if is_changed:
             stand_at_last_row(self)

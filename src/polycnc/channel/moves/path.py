@@ -153,11 +153,13 @@ class Stage:
     Attributes:
         rank: Its place in the path.
         lasts: It stays in the path when a program is broken off by an alarm or a reset.
+        keeps_ends: Blocks end where the channel knows itself, whatever it does.
         after: The next stage; the path sets it.
     """
 
     rank: ClassVar[Rank]
     lasts: ClassVar[bool] = False
+    keeps_ends: ClassVar[bool] = False
     after: Stage
 
     @property
@@ -277,6 +279,11 @@ class Path:
     def is_idle(self) -> bool:
         """Whether no stage holds back or changes anything."""
         return not any(stage.active for stage in self._stages)
+
+    @property
+    def changes_ends(self) -> bool:
+        """Whether the axes may stand elsewhere than the channel knows itself."""
+        return any(stage.active and not stage.keeps_ends for stage in self._stages)
 
     @property
     def leads_axes(self) -> bool:
