@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 SOURCE = Path(polycnc.__file__).parent
 #: From the ground up: a folder (or module) imports only those that stand before it.
 LAYERS = (
+    "deferred",
     "kernels",
     "messages",
     "geometry",
@@ -34,6 +35,7 @@ LAYERS = (
     "control",
     "motion",
     "mainrun",
+    "view",
     "panel",
     "session",
     "interchange",

@@ -101,6 +101,14 @@ def test_a_missing_id_is_a_mistake_of_polycnc() -> None:
         catalogue.text("no such id")
 
 
+def test_a_text_is_that_of_its_table_in_the_file() -> None:
+    for file in SOURCE.rglob("*.toml"):
+        tables = tomllib.loads(file.read_text(encoding="utf-8"))
+        if all(isinstance(table, dict) and "en" in table for table in tables.values()):
+            catalogue = Catalogue(file)
+            assert {key: catalogue.entry(key) for key in catalogue} == tables
+
+
 def test_catalogues_over_the_same_file_read_it_once(tmp_path: Path) -> None:
     file = tmp_path / "texts.toml"
     file.write_text('[a]\nen = "one"\n', encoding="utf-8")

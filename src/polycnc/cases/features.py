@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 from functools import cache
-from importlib import resources
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from xml.etree import ElementTree
 
@@ -20,14 +20,13 @@ from polycnc.messages.files import reason_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
-    from pathlib import Path
 
     from polycnc.cases.runner import Outcome
 
 #: Control id to feature id to number of cases.
 Features = dict[str, dict[str, int]]
 
-
+_DATA = Path(__file__).parents[1] / "data"
 #: What a test says of itself in the report: its property of this name is `<control> <feature>`.
 PROPERTY = "feature"
 #: Elements of the report below a test that did not pass.
@@ -56,16 +55,14 @@ def shipped_of_tests() -> Features:
 
 
 def _list(name: str) -> Features:
-    source = resources.files("polycnc").joinpath("data", name)
-    features: Features = json.loads(source.read_text(encoding="utf-8"))
+    features: Features = json.loads((_DATA / name).read_text(encoding="utf-8"))
     return features
 
 
 @cache
 def functions() -> Catalogue:
     """Names of all features in both languages, in the order of the manuals, with the `codes` that meet them."""
-    folder = resources.files("polycnc").joinpath("data", "functions")
-    return Catalogue(*sorted(folder.iterdir(), key=lambda source: source.name))
+    return Catalogue(*sorted((_DATA / "functions").iterdir()))
 
 
 def in_manual_order(counts: Mapping[str, int]) -> list[str]:

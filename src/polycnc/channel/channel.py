@@ -98,6 +98,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         memory: The control's own state (variables, offsets, tools), set by `Control.start`.
         retained: What outlives the channel; a new one in memory where nobody gives another.
         states: The states that features own, one of each class; see `State.of`.
+        burst: Blocks that are interpreted between two looks at what is rare.
         passes: What ends a main program that would begin again for ever; None where somebody else ends it.
         standstill: What ends a loop that waits for ever; None where somebody else ends it.
         bulk: Whether and how plain blocks are scanned in bulk; None interprets every block.
@@ -109,6 +110,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
             "axis_data",
             "blocks",
             "bulk",
+            "burst",
             "control",
             "actual",
             "machine",
@@ -156,7 +158,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         self.alarms: list[Alarm] = []
         self._finished = self.attention = self.off_path = self.block_by_block = False
         self.mark = self.blocks = self.skip_levels = 0
-        self.block_limit = block_limit
+        self.block_limit, self.burst = block_limit, BURST
         #: Joined steps run no more of their blocks at once from here on, so that the block limit is exact.
         self.joined_below = block_limit - 2 * len(BURST)
         self._wait: Wait | None = None
@@ -259,12 +261,10 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         return ended
 
     def synchronise(self) -> None:
-        """A preprocessing stop: the running block waits for the main run, and begins again then.
-
-        Rows that it has written are taken back, unless a stage holds moves: there it must have done nothing yet.
+        """A preprocessing stop: the running block waits for the main run, and begins again without its rows.
 
         Raises:
-            PreprocessingStop: The main run is behind.
+            PreprocessingStop: The main run is behind. Where a stage holds moves, the block must have done nothing yet.
         """
         if self.main_run is not None and not self.main_run.has_caught_up:
             raise PreprocessingStop
@@ -414,7 +414,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
 
     def _burst(self, level: Level) -> range:
         """Scan plain blocks; gives as many numbers as blocks are to be interpreted now."""
-        burst = BURST if level.scanner is None else level.scanner.lead(self)
+        burst = self.burst if level.scanner is None else level.scanner.lead(self)
         return burst[: self.block_limit - self.blocks]
 
     def once_more(self) -> None:

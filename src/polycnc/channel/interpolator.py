@@ -6,8 +6,10 @@ one object of each channel and knows nothing of their language.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING, Final, NamedTuple, Protocol
+
+from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -73,6 +75,10 @@ class Watcher(Protocol):
     @property
     def lingers(self) -> bool:
         """Whether the end of the program has to wait."""
+
+    @property
+    def goes_home(self) -> bool:
+        """Whether a reset has to wait for an axis that it leads to its place of rest."""
 
     @property
     def is_quiet(self) -> bool:
@@ -157,6 +163,18 @@ class Interpolator(Protocol):
     def is_still(self) -> bool:
         """Whether no axis of the channel moves."""
 
+    @property
+    def spindle_rpm(self) -> float:
+        """Speed of the spindle in the block in execution, signed."""
+
+    @property
+    def is_held(self) -> bool:
+        """Whether the program is held, is being given up, or has ended in an alarm."""
+
+    @property
+    def has_power(self) -> bool:
+        """Whether the drives have power: no emergency stop is pressed."""
+
     def influence(self, influence: Influence) -> None:
         """Let these speeds hold until the next look."""
 
@@ -190,6 +208,9 @@ class Interpolator(Protocol):
 
     def shift_path(self, column: int, place: float) -> None:
         """The path has an axis elsewhere from now on; the axis stays, and nothing moves on the path."""
+
+    def stand_at(self, column: int, place: float) -> None:
+        """An axis, which stands, is called another position; nothing moves."""
 
     def position_beside(self, column: int, target: float, speed: float) -> None:
         """An axis goes to a target beside the path, which has it there from now on; nothing moves on the path."""

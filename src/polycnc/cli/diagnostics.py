@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
+from polycnc.deferred.records import dataclass
 from polycnc.messages import Alarm, text
 from polycnc.messages.errors import place_of_failure
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING
 
-from polycnc.cases.junit import Entry, as_xml
 from polycnc.messages import text
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from polycnc.cases.junit import Entry
     from polycnc.cli.diagnostics import Diagnostic
 
 
@@ -66,10 +66,14 @@ def _github_escaped(value: str, more: str = "") -> str:
 
 def as_junit(found: Sequence[Diagnostic], files: Sequence[str]) -> str:
     """JUnit XML: one test case a file, failed where something was found in it or in what it calls."""
+    from polycnc.cases.junit import as_xml
+
     return as_xml("polycnc check", [_entry(file, found) for file in files])
 
 
 def _entry(file: str, found: Sequence[Diagnostic]) -> Entry:
+    from polycnc.cases.junit import Entry
+
     own = [d for d in found if file in (d.place.file, _main_file(d))]
     failures = tuple(" ".join(line.strip() for line in lines_of(d)) for d in own if not d.unreadable)
     errors = tuple(d.message for d in own if d.unreadable)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import inspect
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from enum import StrEnum
 from functools import wraps
 from glob import glob, has_magic
@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
 import typer
 
 from polycnc.channel.channel import DEFAULT_BLOCK_LIMIT
+from polycnc.deferred.records import dataclass
 from polycnc.messages import text
 
 if TYPE_CHECKING:

@@ -6,8 +6,8 @@ import re
 import tomllib
 from contextlib import contextmanager, redirect_stdout
 from functools import cache
-from importlib import resources
 from io import StringIO
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from polycnc.cli.console import show
@@ -55,6 +55,6 @@ def help_in_language(words: Sequence[str]) -> Iterator[None]:
 
 @cache
 def _phrases(lang: str) -> tuple[tuple[re.Pattern[str], str], ...]:
-    source = resources.files("polycnc.cli").joinpath("usage.toml").read_text(encoding="utf-8")
+    source = Path(__file__).with_name("usage.toml").read_text(encoding="utf-8")
     table: dict[str, list[dict[str, str]]] = tomllib.loads(source)
     return tuple((re.compile(row["pattern"], re.MULTILINE), row[lang]) for row in table["phrase"])

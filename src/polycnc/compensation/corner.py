@@ -8,14 +8,15 @@ own.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from enum import Enum
-from math import cos, degrees, hypot, isnan, nan, pi, radians
+from math import degrees, isnan, nan, radians
 from typing import TYPE_CHECKING
 
+from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import END_OF_BLOCK, EndOfBlock, Item, Move, PlacedEvent, Rank, Stage
-from polycnc.geometry import arcs, offset
-from polycnc.geometry.tolerances import NO_WAY
+from polycnc.deferred.records import dataclass
+from polycnc.geometry import offset
 from polycnc.messages import AlarmError
 from polycnc.toolpath.kinds import Kind
 
@@ -280,63 +281,36 @@ class CornerStage(Stage):
         self._let_go(held)
         return move
 
-    def _cut(self, held: _Held, move: Move, cuts: _Cuts, ccw: bool) -> Move:
+    def _cut(self, held: _Held, move: Move, cuts: offset.Cuts, ccw: bool) -> Move:
         plane, first = self.plane, held.move
-        own_end = plane.at(_between(first, cuts.part_a), cuts.leaving)
-        leaving, entering = own_end, plane.at(_between(move, cuts.part_b), cuts.entering)
+        ways = MovePath(first, plane.columns), MovePath(move, plane.columns)
+        own_end = plane.at(_between(ways[0], cuts.part_a), cuts.leaving)
+        leaving, entering = own_end, plane.at(_between(ways[1], cuts.part_b), cuts.entering)
+        turned = ways[0].turned(0.0, cuts.part_a), ways[1].turned(cuts.part_b, 1.0)
         moved = any(isinstance(item, Move) and item.start != item.end for item in held.after)
         if moved:  # other axes have gone their own way between: the shape lies in the plane
             own_end = plane.at(first.end, cuts.leaving)
             level = move.start if self.policy.waits_at_shape else first.end
             leaving, entering = plane.at(level, cuts.leaving), plane.at(level, cuts.entering)
+            turned = first.turning, move.turning
         inserted = replace(
-            first, kind=Kind.FEED, start=leaving, end=entering, center=None, turns=0.0, parameters=(),
+            first, kind=Kind.FEED, start=leaving, end=entering, center=None, turns=0.0, parameters=(), turning=None,
             feed=first.feed if isnan(held.request.feed) else held.request.feed,
         )  # fmt: skip
         if cuts.center is not None:
             inserted.kind = plane.arc_kind(ccw, leaving, entering)
             inserted.center, inserted.normal = plane.lift(cuts.center, leaving), plane.normal
-        held.move = _rest(replace(first, end=own_end), cuts.part_a > 0.0)
+        held.move = _rest(replace(first, end=own_end, turning=turned[0]), cuts.part_a > 0.0)
         self._let_go(held, inserted)
         start = plane.at(move.start, cuts.entering) if moved else entering
-        return _rest(replace(move, start=start), cuts.part_b < 1.0)
+        return _rest(replace(move, start=start, turning=turned[1]), cuts.part_b < 1.0)
 
 
-@dataclass(frozen=True, slots=True)
-class _Cuts:
-    """Where a corner is cut off: points, the part of each move before them (0 to 1), a rounding's centre."""
-
-    leaving: Point
-    part_a: float
-    entering: Point
-    part_b: float
-    center: Point | None = None
-
-
-def _cuts(shape: Shape, a: offset.Edge, b: offset.Edge, size: float) -> _Cuts | None:
+def _cuts(shape: Shape, a: offset.Edge, b: offset.Edge, size: float) -> offset.Cuts | None:
     """The cuts for a shape between two edges; None where it does not fit."""
-    turn = offset.turn(a, b)
-    if abs(turn) > pi - _STRAIGHT_ON:
-        return None
     if shape is Shape.ROUNDING:
-        distance = size if turn > 0.0 else -size
-        center = offset.meet(a, b, distance, distance)
-        if center is None:
-            return None
-        leaving, entering = _nearest(a, center), _nearest(b, center)
-        part_a, part_b = _part(a, leaving), _part(b, entering)
-        if abs(arcs.radius_of(center, leaving) - size) + abs(arcs.radius_of(center, entering) - size) > 1e-6:
-            # A rounding larger than an arc does not fit inside it.
-            return None
-    else:
-        leg = size if shape is Shape.CHAMFER else 0.5 * size / cos(0.5 * turn)
-        center = None
-        part_a, part_b = 1.0 - leg / a.length, leg / b.length
-        leaving, entering = _at(a, part_a), _at(b, part_b)
-    slack = 1e-9
-    if not (-slack <= part_a < 1.0 and 0.0 < part_b <= 1.0 + slack):
-        return None
-    return _Cuts(leaving, max(part_a, 0.0), entering, min(part_b, 1.0), center)
+        return offset.rounded(a, b, size)
+    return offset.chamfered(a, b, size if shape is Shape.CHAMFER else offset.leg_of_chamfer(a, b, size))
 
 
 def _largest(shape: Shape, a: offset.Edge, b: offset.Edge, size: float) -> float:
@@ -351,37 +325,14 @@ def _largest(shape: Shape, a: offset.Edge, b: offset.Edge, size: float) -> float
     return low
 
 
-def _nearest(edge: offset.Edge, center: Point) -> Point:
-    """Where a circle about `center` touches the line or circle of an edge."""
-    if edge.center is None:
-        du, dv = edge.departing
-        along = (center[0] - edge.start[0]) * du + (center[1] - edge.start[1]) * dv
-        return (edge.start[0] + along * du, edge.start[1] + along * dv)
-    radius = arcs.radius_of(edge.center, edge.end)
-    return arcs.point_at(edge.center, radius, arcs.angle_at(edge.center, center))
-
-
-def _part(edge: offset.Edge, point: Point) -> float:
-    """How much of an edge lies before a point on it; below 0 before its start, above 1 behind its end."""
-    if edge.center is None:
-        du, dv = edge.departing
-        return ((point[0] - edge.start[0]) * du + (point[1] - edge.start[1]) * dv) / edge.length
-    if hypot(point[0] - edge.start[0], point[1] - edge.start[1]) <= NO_WAY:
-        return 0.0
-    return abs(arcs.sweep_angle(edge.start, point, edge.center, edge.ccw)) / edge.sweep
-
-
-def _at(edge: offset.Edge, part: float) -> Point:
-    if edge.center is None:
-        (u0, v0), (u1, v1) = edge.start, edge.end
-        return (u0 + part * (u1 - u0), v0 + part * (v1 - v0))
-    return arcs.point_on_arc(edge.start, edge.end, edge.center, edge.ccw, part)
-
-
 def _rest(move: Move, is_left: bool) -> Move:
     """What a cut leaves of a move; of an arc that is used up not a full circle, but nothing."""
     return move if is_left else replace(move, center=None)
 
 
-def _between(move: Move, part: float) -> list[float]:
+def _between(way: MovePath, part: float) -> list[float]:
+    """Positions of the axes after a part of a move, the point of the plane apart."""
+    move = way.move
+    if move.turning is not None:
+        return way.at(part)
     return [s + part * (e - s) for s, e in zip(move.start, move.end, strict=True)]

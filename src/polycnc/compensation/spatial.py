@@ -1,24 +1,30 @@
 """The stage of radius compensation in space: the tip moves by the radius across path and tool.
 
 With the tool along v and the path along t the tool stands to the left by v × t. At a corner both blocks see the
-same tool v, so their offset lines, looked at along v, meet at `r (n1 + n2) / (1 + n1 · n2)` from the corner. Where the
-control turns the tool at a corner (`Rules.turns`), it does that before the arc about it or along with it.
+same tool v, so their offset lines, looked at along v, meet at `r (n1 + n2) / (1 + n1 · n2)` from the corner. An arc
+whose plane is square on the tool has a parallel arc (`spatial_arcs`), any other one becomes chords. Where the control
+turns the tool at a corner (`Rules.turns`), it does that before the arc about it or along with it.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from functools import partial
+from itertools import pairwise
 from math import acos, degrees, sin, sqrt
 from typing import TYPE_CHECKING, Protocol
 
+from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move, PlacedEvent, Rank, Stage
+from polycnc.compensation.spatial_arcs import is_across, meeting, turns_left
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.arcs import parts_for_chord_error
-from polycnc.geometry.vectors import cross, dot, times
+from polycnc.geometry.vectors import cross, dot, minus, times
 from polycnc.messages import AlarmError
 from polycnc.toolpath.kinds import Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from polycnc.geometry.frames import Vector
 
@@ -63,6 +69,7 @@ class Rules:
         most_idle: That number.
         square_start: The first block leads square onto the second one.
         turns: When the tool turns at an outer corner.
+        no_room: Alarm for an inner arc that is smaller than the tool; empty where none may come.
     """
 
     no_corner: str
@@ -71,13 +78,14 @@ class Rules:
     most_idle: int = 0
     square_start: bool = False
     turns: int = TURNS_NOT
+    no_room: str = ""
 
 
 @dataclass(slots=True)
 class _Held:
     """A block whose end waits for the next one: its move, the normal at its end, the tool there, its direction.
 
-    What it has of the stage holds for the corner at its end: how corners are passed, and the depth.
+    What it has of the stage holds for the corner at its end: how corners are passed, the depth, and what a floor adds.
     """
 
     move: Move
@@ -88,6 +96,7 @@ class _Held:
     corners: Corners
     rules: Rules
     depth: float
+    deeper: float
 
 
 class SpatialStage(Stage):
@@ -100,6 +109,8 @@ class SpatialStage(Stage):
         side: 1 left, -1 right.
         corners: What happens at outer corners.
         rules: How the control does it.
+
+        within: Gives the context of a chord that another one of the same motion follows, for that of the motion.
 
     Attributes:
         depth: How far down the tool its tip lies from the programmed point, from the next block on, mm.
@@ -115,8 +126,10 @@ class SpatialStage(Stage):
         side: int,
         corners: Corners,
         rules: Rules,
+        within: Callable[[int], int] = int,
     ) -> None:
         self.side = side
+        self._within = within
         self.corners = corners
         self.rules = rules
         self.depth = 0.0
@@ -133,18 +146,51 @@ class SpatialStage(Stage):
 
     def move(self, move: Move) -> None:
         """Take the next move."""
-        start, end = self._point(move.start), self._point(move.end)
-        way = (end[0] - start[0], end[1] - start[1], end[2] - start[2])
         tool = self._posture.tool_at(move.end)
-        tangent = _unit(way)
-        normal = None if tangent is None else self._normal(tool, tangent)
-        if tangent is None or normal is None:
+        if not move.is_arc:
+            start, end = self._point(move.start), self._point(move.end)
+            way = _unit((end[0] - start[0], end[1] - start[1], end[2] - start[2]))
+            self._take(move, tool, way, way, self.corners)
+        elif is_across(move, tool) and _near(tool, self._posture.tool_at(move.start)):
+            path = MovePath(move, self._geometry)
+            self._take(move, tool, path.direction(0.0), path.direction(1.0), self.corners)
+        else:
+            self._in_chords(move)
+
+    def _in_chords(self, move: Move) -> None:
+        """An arc that has no parallel arc, in chords; between them the parallels meet."""
+        path = MovePath(move, self._geometry)
+        error = CHORD_ERROR_MM * path.radius / (path.radius + abs(self.radius))
+        points, before = list(path.chords(error)), move.start
+        for k, point in enumerate(points, 1):
+            chord = replace(
+                move, kind=Kind.SPLINE, start=before, end=point, center=None, turns=0.0, turning=None
+            )
+            if k < len(points):
+                chord.context = self._within(move.context)
+            departing, arriving = (path.direction(part / len(points)) for part in (k - 1, k))
+            self._take(chord, self._posture.tool_at(point), departing, arriving, self.corners)
+            before = point
+
+    def _take(
+        self, move: Move, tool: Vector, departing: Vector | None, arriving: Vector | None, corners: Corners
+    ) -> None:
+        """End the block in front at its corner with this one, which waits for its own."""
+        normal = None if arriving is None else self._normal(tool, arriving)
+        if departing is None or arriving is None or normal is None:
             self._later(move)
             return
         self._idle = 0
-        self._join(tangent)
-        self._held = _Held(move, normal, tool, tangent, self._starts, self.corners, self.rules, self.depth)
+        deeper = self._deeper(normal, tool, arriving)
+        self._join(departing, move, deeper)
+        self._held = _Held(
+            move, normal, tool, arriving, self._starts, corners, self.rules, self.depth, deeper
+        )
         self._starts = False
+
+    def _deeper(self, normal: Vector, tool: Vector, tangent: Vector) -> float:  # noqa: ARG002 - for floors
+        """How far down the tool a floor beside the wall calls for at the end of the move that comes, mm."""
+        return 0.0
 
     def _later(self, item: Move | PlacedEvent) -> None:
         """Pass something on behind the block that waits, or at once where none does."""
@@ -160,12 +206,12 @@ class SpatialStage(Stage):
             else:
                 self.after.event(item)
 
-    def _join(self, tangent: Vector) -> None:
-        """End the block that waits at its corner with one of this direction."""
+    def _join(self, tangent: Vector, following: Move, deeper: float) -> None:
+        """End the block that waits at its corner with the following one, which has this direction."""
         held, self._held = self._held, None
         if held is None:
             return
-        self._depth = held.depth
+        self._depth = held.depth + (deeper if held.starts else held.deeper)
         turned = self._tool_behind(held)
         first, second = held.normal, self._normal(turned, tangent)
         if second is None or (dot(first, second) < -1.0 + PARALLEL and not held.starts):
@@ -177,13 +223,24 @@ class SpatialStage(Stage):
         outer = self._is_outer(held, second, turned, tangent)
         cosine = min(1.0, dot(first, second))
         if outer and held.corners.is_arc(180.0 - degrees(acos(max(-1.0, cosine)))):
-            self._emit(held.move, self._beside(first, held.tool))
+            self._emit_turning(held.move, held.tangent, self._beside(first, held.tool))
             self._round(held, second, turned)
             return
         factor = 1.0 / (1.0 + cosine)
         x, y, z = (factor * (a + b) for a, b in zip(first, second, strict=True))
-        self._emit(held.move, self._beside((x, y, z), held.tool))
+        shift = self._beside((x, y, z), held.tool)
+        if (held.move.is_arc or following.is_arc) and cosine < 1.0 - PARALLEL * PARALLEL:
+            shift = self._meeting(held, following)
+        self._emit_turning(held.move, held.tangent, shift)
         self._run_queue()
+
+    def _meeting(self, held: _Held, following: Move) -> Vector:
+        """The vector from a corner to where the parallels meet of which one at least is an arc."""
+        found = meeting(held.move, following, held.tool, self.side * self.radius, self._geometry)
+        if found is None:
+            raise AlarmError(held.rules.no_corner, line=held.move.line)
+        x, y, z = (a - self._depth * b for a, b in zip(found, held.tool, strict=True))
+        return (x, y, z)
 
     def _tool_behind(self, held: _Held) -> Vector:
         """The tool as the moves that wait behind a block leave it."""
@@ -217,7 +274,8 @@ class SpatialStage(Stage):
                 continue
             tool = self._posture.tool_at(item.end)
             normal = self._normal(tool, held.tangent)
-            self._emit(item, self._shift if normal is None else self._beside(normal, tool))
+            shift = self._shift if normal is None else self._beside(normal, tool)
+            self._emit_turning(item, held.tangent, shift)
             held.move = item
         self._around(held.move, second, turned)
 
@@ -252,6 +310,8 @@ class SpatialStage(Stage):
                 place = [a + part * (b - a) for a, b in zip(item.start, item.end, strict=True)]
                 normal = _between(held.normal, second, sweep, done + share * part)
                 chord = replace(item, kind=Kind.SPLINE, end=place)
+                if k < count:
+                    chord.context = self._within(item.context)
                 self._emit(chord, self._beside(normal, self._posture.tool_at(place)))
             done += share
 
@@ -269,8 +329,60 @@ class SpatialStage(Stage):
         end = self._shifted(move.end, shift)
         self._shift = shift
         moved = replace(move, start=self._at or move.start, end=end)
+        if move.center is not None:
+            moved.center = self._centre(move, move.center)
         self._at = end
         self.after.move(moved)
+
+    def _emit_turning(self, move: Move, tangent: Vector, shift: Vector) -> None:
+        """Pass a block on; where the tool turns along a straight one, in chords that keep as far beside it.
+
+        `tangent` is the direction of the path, of a block that only turns the tool that of the one before.
+        """
+        before, path = self._shift, MovePath(move, self._geometry)
+        tools = self._posture.tool_at(move.start), self._posture.tool_at(move.end)
+        first, last = (self._normal(tool, tangent) for tool in tools)
+        count = 1 if self._at is None or move.is_arc else self._chords(path, tangent)
+        if first is None or last is None or count == 1:
+            self._emit(move, shift)
+            return
+        start, end = self._beside(first, tools[0]), self._beside(last, tools[1])
+        for k in range(1, count + 1):
+            part, place = k / count, path.at(k / count)
+            tool = self._posture.tool_at(place)
+            normal = self._normal(tool, tangent) or last
+            # What corners ask for at both ends fades along the block.
+            rests = (
+                (1.0 - part) * (a - b) + part * (c - d)
+                for a, b, c, d in zip(before, start, shift, end, strict=True)
+            )
+            x, y, z = (a + b for a, b in zip(self._beside(normal, tool), rests, strict=True))
+            piece = path.between((k - 1) / count, part)
+            if k < count:
+                piece.kind, piece.context = Kind.SPLINE, self._within(move.context)
+            self._emit(piece, (x, y, z))
+
+    def _chords(self, path: MovePath, tangent: Vector) -> int:
+        """In how many chords the tip goes round where the tool, and what is square on it, turn along a move."""
+        turning = path.move.turning
+        parts = (0.0, 1.0) if turning is None else (0.0, *turning.shares)
+        tools = [self._posture.tool_at(path.at(part)) for part in parts]
+        normals = [self._normal(tool, tangent) or tool for tool in tools]
+        counts = (
+            parts_for_chord_error(max(abs(reach), PARALLEL), _turned(directions), CHORD_ERROR_MM)
+            for reach, directions in ((self.radius, normals), (self._depth, tools))
+        )
+        return max(counts)
+
+    def _centre(self, move: Move, center: Vector) -> Vector:
+        """The centre of the parallel arc, as far down the tool as its ends."""
+        tool = self._posture.tool_at(move.end)
+        away = minus(self._point(move.start), center)
+        left = self.side * self.radius * (1.0 if turns_left(move, tool) else -1.0)
+        flat = minus(away, times(tool, dot(away, tool)))
+        if self.rules.no_room and sqrt(dot(flat, flat)) - left < PARALLEL:
+            raise AlarmError(self.rules.no_room, line=move.line)
+        return minus(center, times(tool, self._depth))
 
     def _normal(self, tool: Vector, tangent: Vector) -> Vector | None:
         left = _unit(cross(tool, tangent))
@@ -290,8 +402,9 @@ class SpatialStage(Stage):
         """End the block that waits square on itself."""
         held, self._held = self._held, None
         if held is not None:
-            self._depth = held.depth
-            self._emit(held.move, self._beside(held.normal, held.tool))
+            self._depth = held.depth + held.deeper
+            emit = self._emit if held.starts else partial(self._emit_turning, tangent=held.tangent)
+            emit(held.move, shift=self._beside(held.normal, held.tool))
         self._run_queue()
 
     def change(self, side: int, radius: float) -> None:
@@ -319,6 +432,11 @@ class SpatialStage(Stage):
 def _unit(v: Vector) -> Vector | None:
     size = sqrt(dot(v, v))
     return None if size < PARALLEL else (v[0] / size, v[1] / size, v[2] / size)
+
+
+def _turned(directions: Sequence[Vector]) -> float:
+    """How far a direction turns, radians."""
+    return sum(acos(max(-1.0, min(1.0, dot(a, b)))) for a, b in pairwise(directions))
 
 
 def _near(a: Vector, b: Vector) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from importlib import resources
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from polycnc.messages import Catalogue
@@ -15,8 +15,7 @@ if TYPE_CHECKING:
 
 def alarm_catalogue(*files: str) -> Catalogue:
     """The alarms of a control, as `folder/file`, and those of polycnc itself; of two texts the later one counts."""
-    folder = resources.files("polycnc.control")
-    return Catalogue(*map(folder.joinpath, ("alarms.toml", *files)))
+    return Catalogue(*map(Path(__file__).parent.joinpath, ("alarms.toml", *files)))
 
 
 def catalogue_of(control: Control, machine: Machine) -> Catalogue:

@@ -7,11 +7,11 @@ rows are asked with the live signals, and this module stands aside.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.tool_change import stands_at_reference, z_stands_at_change_point
+from polycnc.deferred.records import dataclass
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import InterlockQuery
 

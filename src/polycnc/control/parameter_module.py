@@ -14,7 +14,6 @@ from __future__ import annotations
 
 import json
 import sys
-from importlib import resources
 from pathlib import Path
 from textwrap import wrap
 from typing import TYPE_CHECKING
@@ -136,7 +135,7 @@ def _delivered(parameter: KnownParameter, kind: str) -> str:
 if __name__ == "__main__":
     is_shared = sys.argv[-1] == "--shared"
     list_file, *names = sys.argv[1 : -1 if is_shared else None]
-    module = Path(str(resources.files("polycnc.control"))) / list_file
+    module = Path(__file__).parent / list_file
     if names:
         module.with_suffix(".py").write_text(
             module_text(list_file, *names, shared=is_shared), encoding="utf-8"

@@ -11,11 +11,11 @@ from __future__ import annotations
 
 import inspect
 import tomllib
-from dataclasses import dataclass
 from functools import cache, cached_property
-from importlib.resources import files
+from pathlib import Path
 from typing import TYPE_CHECKING, Generic, Literal, TypeAlias, TypeVar, overload
 
+from polycnc.deferred.records import dataclass
 from polycnc.machine.setup.values import ParameterKey, Parameters, parameter_key
 
 if TYPE_CHECKING:
@@ -106,7 +106,7 @@ def load_parameters(*names: str) -> tuple[KnownParameter, ...]:
     """The list in files of the package `control`, in the order of the numbers; of two entries the later counts."""
     found = {}
     for name in names:
-        content = files("polycnc.control").joinpath(name).read_text(encoding="utf-8")
+        content = (Path(__file__).parent / name).read_text(encoding="utf-8")
         for number, entry in tomllib.loads(content).items():
             delivered, unit = entry.get("delivered", 0), entry.get("unit", "")
             found[number] = KnownParameter(

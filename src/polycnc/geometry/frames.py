@@ -6,8 +6,9 @@ which is how FANUC chains rotation and shift and how SINUMERIK's `:` operator ch
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import cos, radians, sin
+
+from polycnc.deferred.records import dataclass
 
 Vector = tuple[float, float, float]
 Matrix = tuple[Vector, Vector, Vector]

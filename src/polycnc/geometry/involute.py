@@ -7,10 +7,11 @@ and the length from the base circle is `r·p²/2`.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import atan, cos, hypot, sin, sqrt
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.records import dataclass
 from polycnc.geometry import arcs
 
 if TYPE_CHECKING:

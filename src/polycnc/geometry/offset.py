@@ -9,11 +9,11 @@ one.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import Enum
 from math import atan2, cos, degrees, hypot, pi, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
+from polycnc.deferred.records import dataclass
 from polycnc.geometry import arcs
 from polycnc.geometry.tolerances import NO_WAY, ROUNDED_MM
 
@@ -361,3 +361,88 @@ def _raised(first: Point, last: Point, angle: float, percent: float) -> list[Poi
         x, y, z = (1.0 - s) ** 2, 2.0 * s * (1.0 - s) * weight, s * s
         points.append(tuple((x * first[i] + y * tip[i] + z * last[i]) / (x + y + z) for i in (0, 1)))
     return [(p[0], p[1]) for p in points]
+
+
+# ---- corners that are cut off
+
+
+class Cuts(NamedTuple):
+    """Where a corner is cut off.
+
+    Attributes:
+        leaving: Last point of the edge in front; `part_a` of that edge lies before it, 0 to 1.
+        entering: First point of the next edge; `part_b` of that edge lies before it.
+        center: Of a rounding; None for a chamfer.
+    """
+
+    leaving: Point
+    part_a: float
+    entering: Point
+    part_b: float
+    center: Point | None = None
+
+
+#: Directions that differ by less (radians) have no corner between them.
+_STRAIGHT_ON = 1e-6
+_SLACK = 1e-9
+
+
+def rounded(a: Edge, b: Edge, radius: float) -> Cuts | None:
+    """The cuts for a tangent arc between two edges; None where it does not fit."""
+    way_round = turn(a, b)
+    if abs(way_round) > pi - _STRAIGHT_ON:
+        return None
+    distance = radius if way_round > 0.0 else -radius
+    center = meet(a, b, distance, distance)
+    if center is None:
+        return None
+    leaving, entering = _nearest(a, center), _nearest(b, center)
+    if abs(arcs.radius_of(center, leaving) - radius) + abs(arcs.radius_of(center, entering) - radius) > 1e-6:
+        return None  # a rounding larger than an arc does not fit inside it
+    return _fitting(Cuts(leaving, _part(a, leaving), entering, _part(b, entering), center))
+
+
+def chamfered(a: Edge, b: Edge, leg: float) -> Cuts | None:
+    """The cuts for a straight way that leaves out `leg` of both edges; None where it does not fit."""
+    if abs(turn(a, b)) > pi - _STRAIGHT_ON:
+        return None
+    part_a, part_b = 1.0 - leg / a.length, leg / b.length
+    return _fitting(Cuts(_at(a, part_a), part_a, _at(b, part_b), part_b))
+
+
+def leg_of_chamfer(a: Edge, b: Edge, length: float) -> float:
+    """What a chamfer of a length leaves out of both edges."""
+    return 0.5 * length / cos(0.5 * turn(a, b))
+
+
+def _fitting(cuts: Cuts) -> Cuts | None:
+    if not (-_SLACK <= cuts.part_a < 1.0 and 0.0 < cuts.part_b <= 1.0 + _SLACK):
+        return None
+    return cuts._replace(part_a=max(cuts.part_a, 0.0), part_b=min(cuts.part_b, 1.0))
+
+
+def _nearest(edge: Edge, center: Point) -> Point:
+    """Where a circle about `center` touches the line or circle of an edge."""
+    if edge.center is None:
+        du, dv = edge.departing
+        along = (center[0] - edge.start[0]) * du + (center[1] - edge.start[1]) * dv
+        return (edge.start[0] + along * du, edge.start[1] + along * dv)
+    radius = arcs.radius_of(edge.center, edge.end)
+    return arcs.point_at(edge.center, radius, arcs.angle_at(edge.center, center))
+
+
+def _part(edge: Edge, point: Point) -> float:
+    """How much of an edge lies before a point on it; below 0 before its start, above 1 behind its end."""
+    if edge.center is None:
+        du, dv = edge.departing
+        return ((point[0] - edge.start[0]) * du + (point[1] - edge.start[1]) * dv) / edge.length
+    if hypot(point[0] - edge.start[0], point[1] - edge.start[1]) <= NO_WAY:
+        return 0.0
+    return abs(arcs.sweep_angle(edge.start, point, edge.center, edge.ccw)) / edge.sweep
+
+
+def _at(edge: Edge, part: float) -> Point:
+    if edge.center is None:
+        (u0, v0), (u1, v1) = edge.start, edge.end
+        return (u0 + part * (u1 - u0), v0 + part * (v1 - v0))
+    return arcs.point_on_arc(edge.start, edge.end, edge.center, edge.ccw, part)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from decimal import Decimal
 from math import frexp, ldexp
+
+from polycnc.deferred.records import dataclass
 
 #: FANUC variables are written with so many digits; what needs more is written as an expression.
 DIGITS = 9

@@ -9,9 +9,10 @@ false as values; as keys they are words. Case files have their own `Dialect`, in
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from polycnc.deferred.records import dataclass
+from polycnc.deferred.regexes import regex
 from polycnc.machine.places import toml_error_place, yaml_loader
 
 if TYPE_CHECKING:
@@ -23,12 +24,12 @@ if TYPE_CHECKING:
 MOST_DEPTH, MOST_VALUES = 40, 1_000_000
 #: A number with more digits is none that any control has.
 MOST_DIGITS = 40
-_WHOLE = re.compile(r"[-+]?(?:0|[1-9]\d*)", re.ASCII)
-_HEXADECIMAL = re.compile(r"0x[0-9a-fA-F]+")
-_DECIMAL = re.compile(r"[-+]?(?:\.\d+|\d+\.\d*|\d+(?=[eE]))(?:[eE][-+]?\d+)?", re.ASCII)
-_NOT_FINITE = re.compile(r"[-+]?\.(?:inf|Inf|INF)|\.(?:nan|NaN|NAN)")
+_WHOLE = regex(r"[-+]?(?:0|[1-9]\d*)", re.ASCII)
+_HEXADECIMAL = regex(r"0x[0-9a-fA-F]+")
+_DECIMAL = regex(r"[-+]?(?:\.\d+|\d+\.\d*|\d+(?=[eE]))(?:[eE][-+]?\d+)?", re.ASCII)
+_NOT_FINITE = regex(r"[-+]?\.(?:inf|Inf|INF)|\.(?:nan|NaN|NAN)")
 #: Octal, sexagesimal, grouped and binary numbers of YAML 1.1 or 1.2.
-_DOUBTFUL = re.compile(
+_DOUBTFUL = regex(
     r"[-+]?(?:0[\d_]+|0o[0-7]+|0b[01_]+|\d[\d_]*_[\d_]*(?:\.[\d_]*)?|[1-9][\d_]*(?::[0-5]?\d)+(?:\.[\d_]*)?)",
     re.ASCII,
 )
@@ -102,6 +103,10 @@ def yaml_values(text: str, dialect: Dialect = SETUP) -> object:
         mark = getattr(error, "problem_mark", None)
         place = (mark.line + 1, mark.column + 1) if mark else (0, 0)
         detail = getattr(error, "problem", None) or " ".join(str(error).split())
+        if (
+            "maximum nesting depth" in detail
+        ):  # libyaml's own limit; its scanner may be far ahead of what is read
+            raise DocumentError(place[0], place[1], "too-deep") from None
         raise DocumentError(place[0], place[1], "not-yaml", detail=detail) from None
 
 

@@ -9,10 +9,10 @@ direction of the tool to positions of the axes.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from math import sqrt
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, Frame, cos_sin_deg, rotation, translation
 from polycnc.geometry.vectors import dot
 

@@ -7,11 +7,12 @@ coordinates.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cached_property
 from math import inf
 from typing import TYPE_CHECKING, Literal
 
+from polycnc.deferred.records import dataclass
 from polycnc.machine.builder import NO_BUILDER
 from polycnc.machine.plc import Plc
 

@@ -5,15 +5,17 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any
 
+from polycnc.deferred.regexes import regex
+
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
 Place = tuple[int, int]
 Found = tuple[tuple[str, ...], Place]
 Key = str | int
-_HEADER = re.compile(r"\s*(\[\[?)([^\]]+)\]\]?")
-_PART = re.compile(r"""\s*(?:"((?:[^"\\]|\\.)*)"|'([^']*)'|([A-Za-z0-9_-]+))\s*(\.?)""")
-_TOML_ERROR = re.compile(r"(.*?) \((?:at line (\d+), column (\d+)|at end of document)\)$")
+_HEADER = regex(r"\s*(\[\[?)([^\]]+)\]\]?")
+_PART = regex(r"""\s*(?:"((?:[^"\\]|\\.)*)"|'([^']*)'|([A-Za-z0-9_-]+))\s*(\.?)""")
+_TOML_ERROR = regex(r"(.*?) \((?:at line (\d+), column (\d+)|at end of document)\)$")
 
 
 def toml_place(text: str, path: Sequence[Key]) -> Place:

@@ -9,12 +9,12 @@ condition holds.
 
 from __future__ import annotations
 
-import re
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.records import dataclass
+from polycnc.deferred.regexes import regex
 from polycnc.machine.rules import condition_of, signals_in
 from polycnc.machine.text import NO_TEXT
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from polycnc.machine.rules import Condition, Rule, Values
     from polycnc.machine.text import Text
 
-_WORD = re.compile(r"M\d+|G\d+(?:\.\d+)?|[STB]_CODE|UNKNOWN_M|KEY_\w+|CYCLE_START|MODE_\w+|MOVE_\w+|HOME_\w+")
+_WORD = regex(r"M\d+|G\d+(?:\.\d+)?|[STB]_CODE|UNKNOWN_M|KEY_\w+|CYCLE_START|MODE_\w+|MOVE_\w+|HOME_\w+")
 
 
 def is_word(signal: str) -> bool:

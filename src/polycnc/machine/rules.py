@@ -6,9 +6,11 @@ A condition joins signals with `&`, `|` and `!`, in brackets where needed; a sig
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal
+
+from polycnc.deferred.records import dataclass
+from polycnc.deferred.regexes import regex
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -17,13 +19,13 @@ if TYPE_CHECKING:
     Condition = Callable[[Values], bool]
 
 Latch = Literal["", "on", "off", "toggle"]
-_TOKEN = re.compile(r"\s*(?:(?P<name>[A-Za-z_$][\w$.\[\]]*)|(?P<sign>[&|!()]))")
+_TOKEN = regex(r"\s*(?:(?P<name>[A-Za-z_$][\w$.\[\]]*)|(?P<sign>[&|!()]))")
 #: How deeply brackets and `!` may be nested.
 _DEEPEST = 50
 
 
 #: An M or G code, or what says that it is done, with zeros in front.
-_ZEROS = re.compile(r"((?:FIN_)?[MG])0+(?=\d+(?:\.\d+)?$)")
+_ZEROS = regex(r"((?:FIN_)?[MG])0+(?=\d+(?:\.\d+)?$)")
 
 
 def signal_name(written: str) -> str:

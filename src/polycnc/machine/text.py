@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from polycnc.deferred.records import dataclass
 from polycnc.messages.catalogue import language
 
 

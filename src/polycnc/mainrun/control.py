@@ -18,6 +18,7 @@ from __future__ import annotations
 from enum import StrEnum
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from polycnc.channel.channel import DEFAULT_BLOCK_LIMIT
 from polycnc.channel.states.snapshot import Snapshot as Checkpoint
 from polycnc.control.alarm_text import catalogue_of
 from polycnc.mainrun.commands.data import DataCommands
@@ -33,6 +34,7 @@ from polycnc.mainrun.errors import CommandRefused
 from polycnc.mainrun.execution.clock import Clock
 from polycnc.mainrun.execution.main_loop import LONGEST_RUN_S, MainLoop
 from polycnc.mainrun.execution.operation import MANUAL_ABSOLUTE, Operation
+from polycnc.mainrun.reading.forecast import forecast_of
 from polycnc.mainrun.reading.readings import Readings
 from polycnc.mainrun.signals.image import SignalImage
 from polycnc.mainrun.signals.interlocks import Interlocks
@@ -50,6 +52,7 @@ if TYPE_CHECKING:
     from polycnc.machine.model import Machine
     from polycnc.machine.setup.values import Setup
     from polycnc.mainrun.commands.data import ProgramEntry
+    from polycnc.mainrun.reading.forecast import Forecast
     from polycnc.mainrun.reading.snapshot import (
         ActiveBlock,
         ChannelSnapshot,
@@ -267,6 +270,33 @@ class VirtualControl:
         """
         self._data.select(name, channel)
 
+    def forecast(
+        self,
+        name: str = "",
+        *,
+        text: str | None = None,
+        channel: int = 1,
+        block_limit: int = DEFAULT_BLOCK_LIMIT,
+    ) -> Forecast:
+        """Calculate what a program will do, beside the control and in pieces: nothing of the control changes.
+
+        Args:
+            name: A program of the memory; empty for the main program of the channel.
+            text: Another text of it, as an editor has it.
+            channel: The channel.
+            block_limit: The calculation ends after so many blocks.
+
+        Raises:
+            CommandRefused: There is no such program.
+        """
+        main = None
+        if text is None:
+            main = self._data.named(name) if name else self._programs.main(channel)
+        return forecast_of(
+            self._operation.runs.named(channel), self._programs, self._retained, main, text=text, name=name,
+            block_limit=block_limit,
+        )  # fmt: skip
+
     # ---- running -------------------------------------------------------------------------------------------
 
     def cycle_start(self) -> None:
@@ -472,6 +502,11 @@ class VirtualControl:
         Empty where no program waits for axes that were moved by hand, or that a block search has left behind.
         """
         return self._readings.restart
+
+    @property
+    def collected(self) -> tuple[str, ...]:
+        """What a block search has collected for cycle start to put out: `M3`, `S1000`, `T2`."""
+        return self._readings.collected
 
     @property
     def feed(self) -> float:

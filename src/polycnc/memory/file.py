@@ -17,6 +17,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
+from polycnc.deferred.records import is_frozen
 from polycnc.memory.encoding import decode, encode
 from polycnc.messages import UserError
 from polycnc.messages.files import reason_of
@@ -195,7 +196,7 @@ class FileStore:
             name = encode(key)
             gone.discard(name)
             before = written.get(name)
-            if before is not None and before.value is value and _is_frozen(value):
+            if before is not None and before.value is value and is_frozen(type(value)):
                 continue  # a program of 100,000 lines is not encoded again
             line = encode(value)
             if before is None or line != before.line:
@@ -287,8 +288,3 @@ class FileStore:
         ):
             number = errno.EACCES
         return reason_of(OSError(number, os.strerror(number))) if number else str(error)
-
-
-def _is_frozen(value: object) -> bool:
-    parameters = getattr(type(value), "__dataclass_params__", None)
-    return parameters is not None and bool(parameters.frozen)

@@ -7,6 +7,7 @@ empty when it first asks for it, from its setup.
 
 from __future__ import annotations
 
+from copy import deepcopy
 from pathlib import Path
 from typing import Any, Protocol, TypeVar
 
@@ -27,6 +28,11 @@ PROGRAMS = "programs"
 COUNTERS = "counters"
 MESSAGES = "messages"
 PANEL = "panel"
+#: The tables that programs read and write.
+DATA = (
+    WORK_OFFSETS, TOOL_OFFSETS, VARIABLES, VARIABLE_NAMES, WORK_SHIFT, REGISTERS, PARAMETERS, TOOLS, TOOL_CARRIERS,
+    USER_VARIABLES,
+)  # fmt: skip
 
 
 class RetainedStore(Protocol):
@@ -65,6 +71,15 @@ class InMemoryStore:
 
     def close(self) -> None:
         """Nothing is to be let go."""
+
+
+def copied(store: RetainedStore, channel: int) -> InMemoryStore:
+    """A copy of what programs of a channel read and write: whoever works with it leaves the store alone."""
+    made = InMemoryStore()
+    for name in DATA:
+        for number in (0, channel):
+            made.table(name, number).update(deepcopy(store.table(name, number)))
+    return made
 
 
 def opened(memory: RetainedStore | str | Path | None, control: str, machine: str) -> RetainedStore:

@@ -1,22 +1,25 @@
-"""Text catalogues: TOML tables `[id]` with `en` and `zh-TW`, read when the first text is wanted."""
+"""Text catalogues: TOML tables `[id]` with `en` and `zh-TW`, each read when its text is wanted."""
 
 from __future__ import annotations
 
 import os
 import re
 import tomllib
-from functools import cache
-from importlib import resources
+from collections import ChainMap
+from collections.abc import Mapping
+from functools import cache, cached_property
+from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
+from polycnc.deferred.regexes import regex
+
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
-    from importlib.resources.abc import Traversable
+    from collections.abc import Iterable, Iterator
 
 LANGUAGES = ("en", "zh-TW")
 _active = "en"
-#: The texts of files that have been read, by their names.
-_READ: dict[str, Mapping[str, dict[str, str]]] = {}
+#: The heading of a table.
+_HEADING = regex(r'^\[(?:"([^"\n]+)"|([\w-]+))\][ \t]*$', re.MULTILINE)
 
 
 def language() -> str:
@@ -46,34 +49,27 @@ class Catalogue:
         entries: Texts that lie over those of the files.
     """
 
-    def __init__(self, *sources: Traversable, entries: Mapping[str, dict[str, str]] | None = None) -> None:
+    def __init__(self, *sources: Path, entries: Mapping[str, dict[str, str]] | None = None) -> None:
         self._sources = sources
-        self._over = entries or {}
-        self._entries: dict[str, dict[str, str]] | None = None
+        self._over = dict(entries or {})
 
-    def extended(
-        self, *sources: Traversable, entries: Mapping[str, dict[str, str]] | None = None
-    ) -> Catalogue:
+    def extended(self, *sources: Path, entries: Mapping[str, dict[str, str]] | None = None) -> Catalogue:
         """This catalogue with further texts laid over it."""
         return Catalogue(*self._sources, *sources, entries={**self._over, **(entries or {})})
 
-    def _load(self) -> dict[str, dict[str, str]]:
-        if self._entries is None:
-            self._entries = {}
-            for source in self._sources:
-                self._entries |= _texts(source)
-            self._entries |= self._over
-        return self._entries
+    @cached_property
+    def _entries(self) -> Mapping[str, dict[str, str]]:
+        return ChainMap(self._over, *map(_file, reversed(self._sources)))  # type: ignore[arg-type]  # none is changed
 
     def __contains__(self, key: str) -> bool:
-        return key in self._load()
+        return key in self._entries
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._load())
+        return iter(self._entries)
 
     def entry(self, key: str) -> dict[str, str]:
         """All fields of one text: `en`, `zh-TW` and, for alarms, `cause`/`remedy` in both languages."""
-        return self._load()[key]
+        return self._entries[key]
 
     def note(
         self,
@@ -84,19 +80,45 @@ class Catalogue:
     ) -> str:
         """Why an alarm comes, or what to do about it; empty where the catalogue does not tell."""
         lang = lang or _active
-        return fill(self._load()[key].get(kind if lang == "en" else f"{kind}-{lang}", ""), args or {})
+        return fill(self._entries[key].get(kind if lang == "en" else f"{kind}-{lang}", ""), args or {})
 
     def text(self, key: str, lang: str | None = None, **args: object) -> str:
         """The text of `key` with its placeholders filled; `…` stands for a value that is not given."""
-        return fill(self._load()[key][lang or _active], args)
+        return fill(self._entries[key][lang or _active], args)
 
 
-def _texts(source: Traversable) -> Mapping[str, dict[str, str]]:
-    """The texts of a file of polycnc, read once."""
-    name = str(source)
-    if name not in _READ:
-        _READ[name] = tomllib.loads(source.read_text(encoding="utf-8"))
-    return _READ[name]
+class _File(Mapping[str, dict[str, str]]):
+    """The texts of a file by their ids. Of some hundred tables a run wants few, so each is read for itself.
+
+    Args:
+        content: The file. Tables have their headings on lines of their own; what stands above the first heading
+            is read at once.
+    """
+
+    def __init__(self, content: str) -> None:
+        headings = list(_HEADING.finditer(content))
+        ends = [*(heading.start() for heading in headings), len(content)]
+        self._read: dict[str, dict[str, str]] = tomllib.loads(content[: ends[0]])
+        self._tables = dict.fromkeys(self._read, "") | {
+            heading[1] or heading[2]: content[heading.start() : end]
+            for heading, end in zip(headings, ends[1:], strict=True)
+        }
+
+    def __getitem__(self, key: str) -> dict[str, str]:
+        if key not in self._read:
+            self._read |= tomllib.loads(self._tables[key])
+        return self._read[key]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._tables)
+
+    def __len__(self) -> int:
+        return len(self._tables)
+
+
+@cache
+def _file(path: Path) -> _File:
+    return _File(path.read_text(encoding="utf-8"))
 
 
 def listed(words: Iterable[str]) -> str:
@@ -105,8 +127,8 @@ def listed(words: Iterable[str]) -> str:
 
 
 #: `<at {text}|here>`: the first form where its values are given, the second where one is missing or empty.
-_CHOICE = re.compile(r"<([^<>|]*\{[^<>|]*)\|([^<>|]*)>")
-_PLACEHOLDER = re.compile(r"\{(\w+)")
+_CHOICE = regex(r"<([^<>|]*\{[^<>|]*)\|([^<>|]*)>")
+_PLACEHOLDER = regex(r"\{(\w+)")
 
 
 class _Missing(dict[str, object]):
@@ -133,7 +155,7 @@ def placeholders(template: str, *, needed: bool = False) -> set[str]:
 @cache
 def messages() -> Catalogue:
     """The texts of polycnc itself."""
-    return Catalogue(resources.files("polycnc.messages").joinpath("messages.toml"))
+    return Catalogue(Path(__file__).with_name("messages.toml"))
 
 
 def text(key: str, lang: str | None = None, **args: object) -> str:

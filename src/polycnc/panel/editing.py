@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from polycnc.channel.channel import Channel
-from polycnc.program import Form, ProgramStore
+from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -48,8 +46,8 @@ class Part:
     kind: str
 
 
-def findings(control: VirtualControl, name: str, source: str, lang: str | None = None) -> tuple[Finding, ...]:
-    """What alarms when the text runs, as `polycnc check` finds it: without motion, other programs being as they are.
+class Check:
+    """Looks for what alarms when a text runs, as `polycnc check` does: without motion; other programs are as they are.
 
     Args:
         control: The control; nothing of it changes.
@@ -57,35 +55,39 @@ def findings(control: VirtualControl, name: str, source: str, lang: str | None =
         source: The text.
         lang: Language of the findings; the active one where none is named.
     """
+
+    def __init__(self, control: VirtualControl, name: str, source: str, lang: str | None = None) -> None:
+        self._control, self._lang = control, lang
+        ended = source if source.endswith("\n") else source + "\n"
+        self._forecast = control.forecast(name, text=ended, block_limit=LONGEST_LOOK)
+
+    def go_on(self) -> bool:
+        """Look at some further blocks; gives whether there are more."""
+        return self._forecast.go_on()
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """What has been found so far."""
+        main, control = self._forecast.main.name, self._control
+        end_of_look = control.control.block_limit().code
+        return tuple(
+            Finding(
+                alarm.line if alarm.program == main else 0, alarm.column if alarm.program == main else 0,
+                alarm.code, control.alarm_text(alarm, self._lang),
+            )
+            for alarm in self._forecast.alarms
+            if alarm.code != end_of_look
+        )  # fmt: skip
+
+
+def findings(control: VirtualControl, name: str, source: str, lang: str | None = None) -> tuple[Finding, ...]:
+    """What alarms when a text runs: a whole `Check` at once."""
     if not source.strip():
         return ()
-    store = ProgramStore(form=control.control.form)
-    main = store.add_text(_key(control, name), source if source.endswith("\n") else source + "\n")
-    for entry in control.programs:
-        if entry.name.casefold() != main.name.casefold():
-            text = "\n".join(control.program_lines(entry.name)) + "\n"
-            store.add_text(f"{entry.directory}/{entry.name}" if entry.directory else entry.name, text)
-    setup = control.channel.setup
-    channel = Channel(control.control, control.machine, setup, store, block_limit=LONGEST_LOOK)
-    for _ in channel.run(main):
+    check = Check(control, name, source, lang)
+    while check.go_on():
         pass
-    end_of_look = control.control.block_limit().code
-    return tuple(
-        Finding(
-            alarm.line if alarm.program == main.name else 0, alarm.column if alarm.program == main.name else 0,
-            alarm.code, control.alarm_text(alarm, lang),
-        )
-        for alarm in channel.alarms
-        if alarm.code != end_of_look
-    )  # fmt: skip
-
-
-def _key(control: VirtualControl, name: str) -> str:
-    """The name under which a store takes a text: with its directory where the control has it."""
-    known = next((each for each in control.programs if each.name.casefold() == name.casefold()), None)
-    if known is not None and known.directory:
-        return f"{known.directory}/{known.name}"
-    return name if known is not None or control.control.form is not Form.SINUMERIK else f"{name}.MPF"
+    return check.findings
 
 
 def parts(control_id: str, source: str) -> Iterator[Part]:

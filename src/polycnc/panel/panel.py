@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 
 SAFETY_KEY = "C8"
 POWER_ON = "POWER_ON"
+#: The signal of the key for program restart.
+RESTART = "PROGRAM_RESTART"
 #: A setting of the control: after a block search the first start leads the axes back by itself.
 AUTOMATIC_RESTART = "RESTART_AUTOMATIC"
 
@@ -174,19 +176,27 @@ class Panel:
             self._give_rights()
 
     def _cycle_start(self) -> None:
-        """Cycle start; while program restart is on, and until the axes are back, only the automatic way leads back."""
+        """Cycle start.
+
+        On a panel with a key for program restart only the automatic way leads back while that is on, and until the axes
+        are back (Hartford 5.2.4.8); elsewhere the control leads them back.
+        """
         control = self.control
         automatic = bool(control.signals[AUTOMATIC_RESTART])
         away = any(not is_returned(left) for _, left in control.restart.values())
         if self._restarts and not automatic:
             raise CommandRefused("panel.restart-on")
-        if self._searched and away and not automatic:
+        if self._has_restart_key and self._searched and away and not automatic:
             raise CommandRefused("panel.restart-away")
         control.cycle_start()
 
     @property
     def _restarts(self) -> bool:
-        return bool(self.control.signals["PROGRAM_RESTART"])
+        return bool(self.control.signals[RESTART])
+
+    @property
+    def _has_restart_key(self) -> bool:
+        return any(key.signal == RESTART for key in self.description.keys.values())
 
     @property
     def _searched(self) -> bool:

@@ -8,9 +8,10 @@ their programs usually stay unnamed and the user is asked.
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.records import dataclass
+from polycnc.deferred.regexes import regex
 from polycnc.program.errors import texts
 from polycnc.program.program import Form, Program
 
@@ -21,10 +22,10 @@ READ_LINES = 20_000
 """So many lines are looked at; posts put what tells the control at the beginning."""
 
 #: What is a comment, a text or an argument list in some family. Posts write tool lists in the words of other controls.
-_NO_CODE = re.compile(r'"[^"\n]*"|;[^\n]*|//[^\n]*|\(\*.*?\*\)', re.DOTALL)
-_INNER_BRACKETS = re.compile(r"\(([^()\n]*)(?:\)|$)", re.MULTILINE)
+_NO_CODE = regex(r'"[^"\n]*"|;[^\n]*|//[^\n]*|\(\*.*?\*\)', re.DOTALL)
+_INNER_BRACKETS = regex(r"\(([^()\n]*)(?:\)|$)", re.MULTILINE)
 #: Flow control of another interpreter: `o100 while`, `o<name> endif`.
-_O_WORD = re.compile(
+_O_WORD = regex(
     r"^\s*(?:N\d+\s*)?O(?:\d+|<\w+>|#\d+)\s*(?:sub|endsub|call|if|elseif|else|endif|while|endwhile|do|repeat|endrepeat"
     r"|return|break|continue)\b[^\n]*",
     re.IGNORECASE | re.MULTILINE,
@@ -63,7 +64,7 @@ class _Evidence:
 
 
 def _words(pattern: str) -> re.Pattern[str]:
-    return re.compile(pattern, re.IGNORECASE | re.MULTILINE)
+    return regex(pattern, re.IGNORECASE | re.MULTILINE)
 
 
 _AT_BLOCK_START = r"^\s*(?:N\d+\s*)?"

@@ -17,9 +17,10 @@ from __future__ import annotations
 
 import codecs
 import re
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.records import dataclass
+from polycnc.deferred.regexes import regex
 from polycnc.program.errors import ProgramFileError
 from polycnc.program.text import TAPE_CONTROLS
 
@@ -34,7 +35,7 @@ _BOMS = (
     (codecs.BOM_UTF16_LE, "utf-16"),
     (codecs.BOM_UTF16_BE, "utf-16"),
 )
-_RUN = re.compile(rb"[\x80-\xff][\x30-\xff]*")
+_RUN = regex(rb"[\x80-\xff][\x30-\xff]*")
 _CONTROLS = TAPE_CONTROLS.encode("ascii")
 _DROP_CONTROLS = dict.fromkeys(map(ord, TAPE_CONTROLS))
 
@@ -92,8 +93,8 @@ _SHIFT_JIS = _DoubleByte(
     ),
 )
 
-_NARROW_KANA = re.compile("[\uff61-\uff9f]+")
-_NARROW_WORDS = re.compile("ﾄﾞﾘﾙ|ﾀｯﾌﾟ|ﾐﾙ|ｾﾝﾀ|ﾒﾝ|ｼｱｹ|ｱﾗ|ﾈｼﾞ|ﾎﾞｰ|ｶｯﾀ|ﾘｰﾏ|ﾐｿﾞ|ﾅｲｹｲ|ｶﾞｲｹｲ|ﾊﾞｲﾄ|ｺｳｸﾞ|ﾜｰｸ|ｱﾅ")
+_NARROW_KANA = regex("[\uff61-\uff9f]+")
+_NARROW_WORDS = regex("ﾄﾞﾘﾙ|ﾀｯﾌﾟ|ﾐﾙ|ｾﾝﾀ|ﾒﾝ|ｼｱｹ|ｱﾗ|ﾈｼﾞ|ﾎﾞｰ|ｶｯﾀ|ﾘｰﾏ|ﾐｿﾞ|ﾅｲｹｲ|ｶﾞｲｹｲ|ﾊﾞｲﾄ|ｺｳｸﾞ|ﾜｰｸ|ｱﾅ")
 
 _LATIN = frozenset("ÀÁÂÄÅÆÇÈÉÊËÍÎÏÑÓÔÖØÙÚÛÜßàáâäåæçèéêëíîïñóôöøùúûü°±²³µ×")
 _LATIN_SIGNS = frozenset("¡£§©«®´·»¼½¾¿ÃÌÒÕÝãìòõýÿ")

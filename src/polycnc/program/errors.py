@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
-from importlib import resources
+from pathlib import Path
 
 from polycnc.messages import Catalogue, UserError
 
@@ -11,7 +11,7 @@ from polycnc.messages import Catalogue, UserError
 @cache
 def texts() -> Catalogue:
     """The texts of this folder: file errors and the reasons of `detect`."""
-    return Catalogue(resources.files("polycnc.program").joinpath("messages.toml"))
+    return Catalogue(Path(__file__).with_name("messages.toml"))
 
 
 class ProgramFileError(UserError):

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import errno
 import os
-import re
 import stat
 from functools import cached_property
 from pathlib import Path
 
+from polycnc.deferred.regexes import regex
 from polycnc.messages.files import read_regular, reason_of
 from polycnc.program.errors import ProgramFileError
 from polycnc.program.names import stored_name
@@ -22,8 +22,8 @@ SUFFIXES = (
 )  # fmt: skip
 """Suffixes of part programs on a PC, in the order in which they are preferred."""
 
-_NUMBERED = re.compile(r"([oO]?)(\d{1,9})")
-_HEADING = re.compile(rb"(?:^|[\r\n])[ \t]*%?[ \t]*(?:[oO]|:)[ \t]*(\d{1,9})(?![\d.])")
+_NUMBERED = regex(r"([oO]?)(\d{1,9})")
+_HEADING = regex(rb"(?:^|[\r\n])[ \t]*%?[ \t]*(?:[oO]|:)[ \t]*(\d{1,9})(?![\d.])")
 _HEADING_BYTES = 65_536
 #: What a name may lead to in place of a file.
 _KINDS = {errno.EISDIR: "program.directory", errno.ENODEV: "program.not-a-file"}

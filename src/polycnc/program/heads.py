@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import re
 
-_HEAD = re.compile(r"\s*(?:/\d*\s*)?(?P<number>[N:]\d+)?\s*", re.IGNORECASE)
+from polycnc.deferred.regexes import regex
+
+_HEAD = regex(r"\s*(?:/\d*\s*)?(?P<number>[N:]\d+)?\s*", re.IGNORECASE)
 
 
 def sequence_number(line: str) -> str:

@@ -7,8 +7,9 @@ and 2.1).
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING
+
+from polycnc.deferred.regexes import regex
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -28,7 +29,7 @@ WORKPIECE = "_WPD"
 #: Characters of a name of a program or file (job planning, glossary), and of its type: `_SPF`.
 LONGEST_NAME, TYPE_LENGTH = 24, 4
 #: Stored names that only definition files have: macros, user data and rights of Siemens, builder and user.
-_DEFINITION_FILE = re.compile(r"_N_(?:[A-Z](?:MAC|GUD|ACCESS)|GUD[4-9])_DEF")
+_DEFINITION_FILE = regex(r"_N_(?:[A-Z](?:MAC|GUD|ACCESS)|GUD[4-9])_DEF")
 
 STANDARD_DIRS = (MPF_DIR, SPF_DIR, DEF_DIR, *CYCLE_DIRS, "/_N_WKS_DIR", "/_N_COM_DIR")
 

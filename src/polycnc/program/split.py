@@ -8,10 +8,12 @@ blocks costs little more than its list of lines.
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.records import dataclass
+from polycnc.deferred.regexes import regex
 from polycnc.program.long_text import HEADING_STARTS, LongText
 from polycnc.program.names import default_directory, program_name, stored_directory, stored_name
 from polycnc.program.program import Form, Program
@@ -19,16 +21,16 @@ from polycnc.program.program import Form, Program
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
-_TAPE_MARK = re.compile(r"\s*%")
-_NUMBER = re.compile(r"\s*(?:%\s*)?(?:[oO]|:)[ \t]*(\d{1,9})(?![\d.])")
-_NAME = re.compile(r"\s*(?:%\s*)?<([A-Za-z0-9+\-_.]{1,32})>")
-_BLOCK = re.compile(r"\s*(?:/\d?\s*)?(?:[A-Za-z]\s*[-+.\d#\[]|[#@]|[A-Za-z]+\s*[\[=])")
+_TAPE_MARK = regex(r"\s*%")
+_NUMBER = regex(r"\s*(?:%\s*)?(?:[oO]|:)[ \t]*(\d{1,9})(?![\d.])")
+_NAME = regex(r"\s*(?:%\s*)?<([A-Za-z0-9+\-_.]{1,32})>")
+_BLOCK = regex(r"\s*(?:/\d?\s*)?(?:[A-Za-z]\s*[-+.\d#\[]|[#@]|[A-Za-z]+\s*[\[=])")
 """A line with a word, an assignment or a macro statement; the label in front of a tape has none."""
 
-_ARCHIVE_HEADER = re.compile(r"\s*%\s*(_N_\w+)\s*$", re.IGNORECASE)
-_COMMENT_HEADER = re.compile(r"\s*;\s*%\s*(_N_\w+)\s*$", re.IGNORECASE)
-_PATH_HEADER = re.compile(r"\s*;\s*\$PATH\s*=\s*(/[\w./]+)", re.IGNORECASE)
-_CHANNEL = re.compile(r"\s*\$([1-9])\s*(?:;.*|//.*|\(.*)?$")
+_ARCHIVE_HEADER = regex(r"\s*%\s*(_N_\w+)\s*$", re.IGNORECASE)
+_COMMENT_HEADER = regex(r"\s*;\s*%\s*(_N_\w+)\s*$", re.IGNORECASE)
+_PATH_HEADER = regex(r"\s*;\s*\$PATH\s*=\s*(/[\w./]+)", re.IGNORECASE)
+_CHANNEL = regex(r"\s*\$([1-9])\s*(?:;.*|//.*|\(.*)?$")
 
 _HEADER_LINES = 10
 """A comment header stands among the first lines of its file."""
@@ -89,18 +91,20 @@ def split_channels(program: Program) -> dict[int, Program]:
     Every channel keeps all line numbers: the lines of the others are blank in it. What stands before the
     first section belongs to channel 1.
     """
+    lines = program.lines
+    possible = lines.holding("$") if isinstance(lines, LongText) else range(len(lines))
     sections = [
         (index, int(m[1]))
-        for index, line in enumerate(program.lines)
-        if "$" in line and (m := _CHANNEL.match(line))
+        for index in possible
+        if "$" in lines[index] and (m := _CHANNEL.match(lines[index]))
     ]
     if not sections:
         return {}
-    bounds = [(-1, 1), *sections, (len(program.lines), 0)]
+    bounds = [(-1, 1), *sections, (len(lines), 0)]
     lines_of: dict[int, list[str]] = {}
     for (start, channel), (end, _) in pairwise(bounds):
-        lines = lines_of.setdefault(channel, [""] * len(program.lines))
-        lines[start + 1 : end] = program.lines[start + 1 : end]
+        own = lines_of.setdefault(channel, [""] * len(lines))
+        own[start + 1 : end] = lines[start + 1 : end]
     named = sorted({channel for _, channel in sections})
     return {channel: replace(program, lines=lines_of[channel]) for channel in named}
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import re
 from typing import NoReturn
 
+from polycnc.deferred.regexes import regex
 from polycnc.program.errors import ProgramFileError
 
 MAX_LINE = 65_536
@@ -13,7 +13,7 @@ MAX_LINE = 65_536
 TAPE_CONTROLS = "\0\x11\x12\x13\x14\x1a\x7f"
 """Blank tape, start and stop codes of readers and punches, the DOS end of file, rubout: none is text."""
 
-_TAPE_LINE_END = re.compile("\r\n|\n\r\r|\n|\r")
+_TAPE_LINE_END = regex("\r\n|\n\r\r|\n|\r")
 
 
 def split_lines(text: str, path: str = "") -> list[str]:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import inf
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, Frame
 from polycnc.toolpath.modes import AccelerationMode, CornerMode, FeedMode, StopWindow
 
@@ -32,6 +32,8 @@ class Pace:
         weights: Millimetres that a millimetre or degree of each column counts in the length that F is for (`FGROUP`,
             `FGREF`), 0 for a synchronous axis; empty for the control's own rule.
         top: Highest velocity in cuts, mm/s or degrees/s (`FL`); infinite for none. Empty for no such limits.
+        reach: Highest velocity in all moves, mm/s or degrees/s (MD32000 where it is named); infinite for that of the
+            machine. Empty for no such limits.
         velocity: Factors on the highest velocity (`VELOLIM`); `acceleration` (`ACC`) and `jerk` (`JERKLIM`) likewise.
             Empty for none.
     """
@@ -41,6 +43,7 @@ class Pace:
     edge: str = "never"
     weights: tuple[float, ...] = ()
     top: tuple[float, ...] = ()
+    reach: tuple[float, ...] = ()
     velocity: tuple[float, ...] = ()
     acceleration: tuple[float, ...] = ()
     jerk: tuple[float, ...] = ()
@@ -94,6 +97,7 @@ class Context:
             empty where the channel's names hold, an empty one for a column that it uses up.
         knot: Rows end at a knot within a motion, which the next row goes on with: displays show the motion as one.
         share: Part of its motion that a row of inverse time makes: displays show the feed of the whole.
+        dwell_signal: A signal that ends the dwell of a row (SYNTEC G04 Q); empty for none.
     """
 
     plane: str = "G17"
@@ -138,6 +142,7 @@ class Context:
     names: tuple[str, ...] = ()
     knot: bool = False
     share: float = 1.0
+    dwell_signal: str = ""
 
     @property
     def surface_m_min(self) -> float:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from typing import TYPE_CHECKING, Any, ClassVar
+
+from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -109,6 +111,23 @@ class Message(Event):
 
     type: ClassVar[str] = "message"
     text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Pen(Event):
+    """The colour of the path in pictures from here on, `#rrggbb` (SYNTEC SETDRAW)."""
+
+    type: ClassVar[str] = "pen"
+    colour: str
+
+
+@dataclass(frozen=True, slots=True)
+class Circle(Event):
+    """A circle in pictures about the present point, in the working plane, mm (SYNTEC DRAWHOLE)."""
+
+    type: ClassVar[str] = "circle"
+    radius: float
+    filled: bool
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,6 +12,7 @@ from io import StringIO
 from typing import IO, TYPE_CHECKING, Any, Literal, Protocol, TypeAlias
 
 from polycnc.toolpath.kinds import ARC_KINDS, TYPE_NAMES, Kind
+from polycnc.toolpath.lines import MARKED_TEXT, Lines
 
 if TYPE_CHECKING:
     from array import array
@@ -41,8 +42,6 @@ _POSITIONS: tuple[tuple[Literal["to", "machine", "center"], str], ...] = (
 )
 #: Columns that a plan adds.
 TIMES = ("wait", "start", "duration", "length", "feed_executed")
-#: Stands for a number in the form of a line: no name of a program or an axis holds it.
-_MARK = "\ue000"
 _NOWHERE: dict[str, float] = {}
 #: What the schema of a table says of the whole run: control, machine.
 Metadata: TypeAlias = "Mapping[str, str]"
@@ -77,30 +76,26 @@ class TraceWriter(Protocol):
 class JsonLines:
     """One JSON object a line."""
 
-    def __init__(self, stream: IO[str], display: Display, _metadata: Metadata) -> None:
+    def __init__(self, stream: IO[bytes], display: Display, _metadata: Metadata) -> None:
         self._stream = stream
-        self._display = display
         self._encode = json.JSONEncoder(ensure_ascii=False, default=str).encode
+        self._lines = Lines(display, self)
 
     def take(self, chunk: Chunk) -> None:
         """Write the rows of a chunk."""
-        self._stream.writelines(self._display.lines_of(chunk, self._line, self._form))
+        self._stream.writelines(self._lines.of(chunk))
 
     def add(self, records: Iterable[Record]) -> None:
         """Write records that come from elsewhere (further channels)."""
-        self._stream.writelines(map(self._line, records))
+        self._stream.writelines(self.line(record).encode() for record in records)
 
-    def _line(self, record: Record) -> str:
+    def line(self, record: Record) -> str:
+        """The line of a record."""
         return self._encode(record) + "\n"
 
-    def _form(self, record: Record) -> str:
-        marked: dict[str, object] = {}
-        for key, value in record.items():
-            is_number = isinstance(value, (int, float))
-            marked[key] = _MARK if is_number else value
-            if isinstance(value, dict):
-                marked[key] = dict.fromkeys(value, _MARK)
-        return self._encode(marked).replace("%", "%%").replace(f'"{_MARK}"', "%r") + "\n"
+    def form(self, record: Record) -> str:
+        """The line of a record whose numbers are marks."""
+        return MARKED_TEXT.sub(r"\1", self.line(record))
 
     def close(self) -> None:
         """Nothing stands behind the last line."""
@@ -109,23 +104,22 @@ class JsonLines:
 class Csv:
     """A header line and one line a row, in the columns of `table_columns`."""
 
-    def __init__(self, stream: IO[str], display: Display, _metadata: Metadata) -> None:
-        self._display, self._stream, self._row = display, stream, StringIO()
+    def __init__(self, stream: IO[bytes], display: Display, _metadata: Metadata) -> None:
+        self._stream, self._row = stream, StringIO()
         self._writer = csv.writer(self._row, lineterminator="\n")
         self._columns = table_columns(display)
-        stream.write(self._text(dict(zip(self._columns, self._columns, strict=True))))
+        self._lines = Lines(display, self)
+        stream.write(self._text(dict(zip(self._columns, self._columns, strict=True))).encode())
 
     def take(self, chunk: Chunk) -> None:
         """Write the rows of a chunk."""
-        self._stream.writelines(self._display.lines_of(chunk, self._line, self._form))
+        self._stream.writelines(self._lines.of(chunk))
 
-    def _line(self, record: Record) -> str:
+    def line(self, record: Record) -> str:
+        """The line of a record."""
         return self._text(flattened(record))
 
-    def _form(self, record: Record) -> str:
-        flat = flattened(record)
-        marked = {key: _MARK if isinstance(value, (int, float)) else value for key, value in flat.items()}
-        return self._text(marked).replace("%", "%%").replace(_MARK, "%r")
+    form = line
 
     def _text(self, flat: dict[str, object]) -> str:
         self._row.seek(0)
@@ -160,8 +154,8 @@ class Parquet:
 
 #: Writers by the suffix of the file, with the mode in which it is opened.
 WRITERS: dict[str, tuple[str, Callable[[IO[Any], Display, Metadata], TraceWriter]]] = {
-    ".jsonl": ("w", JsonLines),
-    ".csv": ("w", Csv),
+    ".jsonl": ("wb", JsonLines),
+    ".csv": ("wb", Csv),
     ".parquet": ("wb", Parquet),
 }
 
@@ -241,9 +235,7 @@ def _batch(display: Display, chunk: Chunk, schema: pa.Schema) -> pa.RecordBatch:
     names = {
         "type": _named(kinds, types),
         "program": _named(shown.columns.program.astype(np.int32), display.toolpath.programs),
-        "unit": _named(
-            (shown.unit == "inch").astype(np.int32), ("mm", "inch"), shown.columns.kind == Kind.EVENT
-        ),
+        "unit": _named(shown.inch.astype(np.int32), ("mm", "inch"), shown.columns.kind == Kind.EVENT),
     }
 
     def column(field: pa.Field) -> pa.Array:

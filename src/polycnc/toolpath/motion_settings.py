@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from enum import StrEnum
 from math import inf
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.records import dataclass
 from polycnc.toolpath.modes import AccelerationMode
 
 if TYPE_CHECKING:

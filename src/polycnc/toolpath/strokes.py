@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from math import atan2, cos, dist, sin, sqrt, tau
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.arcs import parts_for_chord_error
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.geometry.vectors import cross, dot, minus
@@ -45,9 +46,9 @@ def strokes(
     before: Row | None = None
     for row in toolpath.rows():
         if row.kind not in _STANDING:
-            start = _start(toolpath, before, row, geometry)
+            start = start_of(toolpath, before, row, geometry)
             tool, rapid = tool_label(row.context), row.kind in _RAPID
-            points = [start, *_points(row, start, _point(row.end, geometry), chord_error)]
+            points = [start, *points_behind(row, start, point_of(row.end, geometry), chord_error)]
             part = row.context.part
             if not part.is_identity:
                 points = [part.apply(*point) for point in points]
@@ -71,27 +72,28 @@ def tool_label(context: Context) -> str:
     return context.tool_name or f"T{context.tool}"
 
 
-def _point(end: tuple[float, ...] | list[float], geometry: tuple[int, int, int]) -> Vector:
+def point_of(end: tuple[float, ...] | list[float], geometry: tuple[int, int, int]) -> Vector:
+    """X, Y and Z of the end of a row; 0 for an axis that does not exist."""
     x, y, z = (end[i] if i >= 0 else 0.0 for i in geometry)
     return (x, y, z)
 
 
-def _start(toolpath: Toolpath, before: Row | None, row: Row, geometry: tuple[int, int, int]) -> Vector:
+def start_of(toolpath: Toolpath, before: Row | None, row: Row, geometry: tuple[int, int, int]) -> Vector:
     """Where a row begins, in its own coordinates: new offsets move the display, not the machine."""
     if before is None:
-        return _point(row.end, geometry)
+        return point_of(row.end, geometry)
     if before.context is row.context:
-        return _point(before.end, geometry)
+        return point_of(before.end, geometry)
     if before.context.transformation is not row.context.transformation:
-        return _point(row.end, geometry)  # other axes: where the row begins in its own is not known
+        return point_of(row.end, geometry)  # other axes: where the row begins in its own is not known
     machine = toolpath.to_machine(before.end, before.context, geometry)
     offsets = row.context.offsets or (0.0,) * len(machine)
-    inner = _point([value - offset for value, offset in zip(machine, offsets, strict=True)], geometry)
+    inner = point_of([value - offset for value, offset in zip(machine, offsets, strict=True)], geometry)
     return inner if row.context.frame.is_identity else row.context.frame.inverse().apply(*inner)
 
 
-def _points(row: Row, start: Vector, end: Vector, chord_error: float) -> list[Vector]:
-    """The points of a row behind its start."""
+def points_behind(row: Row, start: Vector, end: Vector, chord_error: float) -> list[Vector]:
+    """The points of a row behind its start, in the coordinates of both."""
     if row.kind == Kind.THREAD and any(row.curve[5:8]):
         return arc_points(start, end, row.curve[2:5], row.curve[5:8], 0.0, chord_error)
     if row.kind not in ARC_KINDS or not row.curve:

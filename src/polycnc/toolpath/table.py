@@ -407,7 +407,8 @@ class Toolpath:
 
 def _ways(chunk: Chunk) -> int:
     """How many rows of a chunk move an axis."""
-    return len(chunk.kind) - chunk.kind.count(Kind.EVENT) - chunk.kind.count(Kind.DWELL)
+    kinds = chunk.kind.tobytes()  # `array.count` compares object by object
+    return len(kinds) - kinds.count(Kind.EVENT) - kinds.count(Kind.DWELL)
 
 
 def is_way(start: list[float], end: list[float]) -> bool:

@@ -7,11 +7,12 @@ within one turn.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, NamedTuple, NotRequired, TypedDict, cast
 
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.units import INCH_MM
+from polycnc.toolpath.digits import STEPS
 from polycnc.toolpath.events import Raised
 from polycnc.toolpath.kinds import ARC_KINDS, TYPE_NAMES, Kind
 from polycnc.toolpath.modes import FeedMode
@@ -28,14 +29,12 @@ if TYPE_CHECKING:
     from polycnc.toolpath.events import Event
     from polycnc.toolpath.table import Chunk, Columns, Row, Toolpath
 
-    #: Kind, program, line, unit, work, machine, feed and number of the curve parameters of a row.
-    _ShownRow = tuple[int, int, int, str, list[float], list[float], float, int]
 
-#: Steps of a unit that the displays resolve: finer than any control, far above rounding noise.
-_STEPS = 1e7
 #: From so many rows on, whole columns (and the start of NumPy) are faster than row by row.
 COLUMN_ROWS = 10_000
 _FULL_TURN = 360.0
+#: Unit of lengths, metric or in inches.
+_UNITS = ("mm", "inch")
 #: Seconds in the time unit of each feed mode: per minute, per revolution (no time in it), inverse minutes.
 _TIME_FACTOR = {FeedMode.INVERSE_TIME: 60.0, FeedMode.PER_MINUTE: 60.0, FeedMode.PER_REVOLUTION: 1.0}
 
@@ -109,14 +108,14 @@ class Shown(NamedTuple):
         work: Work display (n, axes); NaN where a row is an event.
         machine: Machine display (n, axes); NaN where a row is an event.
         feed: As shown (n,); NaN where a row names none.
-        unit: Unit of lengths as text (n,); None where a row is an event.
+        inch: Whether lengths are inches (n,).
     """
 
     columns: Columns
     work: NDArray[np.float64]
     machine: NDArray[np.float64]
     feed: NDArray[np.float64]
-    unit: NDArray[np.object_]
+    inch: NDArray[np.bool_]
 
 
 class Display:
@@ -146,10 +145,18 @@ class Display:
         yield from self._motions(self.toolpath.rows())
 
     def _motions(self, rows: Iterable[Row]) -> Iterator[Record]:
-        """A motion of several rows is shown by its last one."""
+        """A motion of several rows is shown by its last one, where something has broken it off too."""
+        held: Row | None = None
         for row in rows:
-            if not row.context.knot or row.event is not None:
+            if held is not None and (
+                row.event is not None or (row.program, row.line) != (held.program, held.line)
+            ):
+                yield self.record(held)
+            held = row if row.context.knot and row.event is None else None
+            if held is None:
                 yield self.record(row)
+        if held is not None:
+            yield self.record(held)
 
     def records_of(self, chunk: Chunk) -> Iterator[Record]:
         """The records of one chunk. Long chunks go by whole columns, which gives the same values."""
@@ -160,49 +167,20 @@ class Display:
         else:
             yield from self._motions(self.toolpath.rows_of(chunk))
 
-    def lines_of(
-        self, chunk: Chunk, write: Callable[[Record], str], form: Callable[[Record], str]
-    ) -> Iterator[str]:
-        """The records of one chunk as text.
-
-        Args:
-            chunk: The chunk.
-            write: Gives the text of any record.
-            form: Gives the form of the text of moves without curves that differ in their numbers only, for `%` with
-                line, work display, machine display and feed; the numbers of the record that it gets mean nothing.
-        """
-        knots = any(context.knot for context in self.toolpath.contexts)
-        if len(chunk) < COLUMN_ROWS or knots or find_spec("numpy") is None:
-            yield from map(write, self.records_of(chunk))
-            return
-        forms: dict[tuple[object, ...], str] = {}
-        for i, (kind, program, line, unit, work, machine, feed, curve) in self._shown_rows(chunk):
-            if curve >= 0:
-                yield write(self.record(self.toolpath.row_of(chunk, i)))
-                continue
-            has_feed = feed == feed
-            key = kind, program, unit, has_feed
-            text = forms.get(key)
-            if text is None:
-                text = forms[key] = form(self._move(kind, program, line, unit, work, machine, feed))
-            yield text % ((line, *work, *machine, feed) if has_feed else (line, *work, *machine))
-
     def _records_by_column(self, chunk: Chunk) -> Iterator[Record]:
-        for i, row in self._shown_rows(chunk):
-            yield self._move(*row[:-1]) if row[-1] < 0 else self.record(self.toolpath.row_of(chunk, i))
-
-    def _shown_rows(self, chunk: Chunk) -> Iterator[tuple[int, _ShownRow]]:
         shown = self.columns(chunk)
         kinds, numbers, lines, _context, _feed, _end, curves, _curves = shown.columns
-        columns = (kinds, numbers, lines, shown.unit, shown.work, shown.machine, shown.feed, curves)
-        return enumerate(zip(*(column.tolist() for column in columns), strict=True))
+        columns = (kinds, numbers, lines, shown.inch, shown.work, shown.machine, shown.feed, curves)
+        rows = zip(*(column.tolist() for column in columns), strict=True)
+        for i, (*move, curve) in enumerate(rows):
+            yield self._move(*move) if curve < 0 else self.record(self.toolpath.row_of(chunk, i))
 
     def _move(
         self,
         kind: int,
         program: int,
         line: int,
-        unit: str,
+        inch: bool,
         work: Sequence[float],
         machine: Sequence[float],
         feed: float,
@@ -212,7 +190,7 @@ class Display:
             "type": TYPE_NAMES[kind],
             "program": self.toolpath.programs[program],
             "line": line,
-            "unit": unit,
+            "unit": _UNITS[inch],
             "to": dict(zip(self.axes, work, strict=True)),
             "machine": dict(zip(self.axes, machine, strict=True)),
         }
@@ -227,11 +205,11 @@ class Display:
         columns = chunk.numpy()
         kind, end, feed = columns.kind, columns.end, columns.feed.copy()
         work, machine = np.empty_like(end), np.empty_like(end)
-        unit = np.full(len(chunk), None, object)
-        turning: list[tuple[NDArray[np.bool_], int]] = []
+        inch = np.zeros(len(chunk), bool)
+        turning: list[tuple[NDArray[np.bool_] | slice, int]] = []
         numbers: list[int] = np.unique(columns.context).tolist()
         for number in numbers:
-            rows: NDArray[np.bool_] = columns.context == number
+            rows: NDArray[np.bool_] | slice = columns.context == number if len(numbers) > 1 else slice(None)
             context = self.toolpath.contexts[number]
             scale = self.scale(context)
             seen = end[rows] if context.shown_by is None else work_rows(context.shown_by, end[rows])
@@ -239,14 +217,13 @@ class Display:
             turning.extend((rows, i) for i in self._modulo(context))
             machine[rows] = _machine_columns(end[rows], context, self.layout.geometry) * scale.machine
             feed[rows] *= np.where(kind[rows] == Kind.THREAD, scale.length, scale.feed)
-            unit[rows] = scale.unit
-        work, machine, feed = (np.rint(values * _STEPS) / _STEPS + 0.0 for values in (work, machine, feed))
+            inch[rows] = context.inch
+        work, machine, feed = (np.rint(values * STEPS) / STEPS + 0.0 for values in (work, machine, feed))
         for rows, i in turning:
-            work[rows, i] %= _FULL_TURN
+            work[rows, i] = np.rint(work[rows, i] % _FULL_TURN * STEPS) / STEPS
         is_event: NDArray[np.bool_] = kind == Kind.EVENT
         work[is_event] = machine[is_event] = np.nan
-        unit[is_event] = None
-        return Shown(columns, work, machine, feed, unit)
+        return Shown(columns, work, machine, feed, inch)
 
     def record(self, row: Row) -> Record:
         """One row as a record of the trace."""
@@ -283,7 +260,7 @@ class Display:
         shown = {axis: _shown(v * f) for axis, v, f in zip(names, end, factors, strict=True)}
         for i in self._modulo(context):
             if names[i]:
-                shown[names[i]] %= _FULL_TURN
+                shown[names[i]] = _shown(shown[names[i]] % _FULL_TURN)
         shown.pop("", None)
         return shown
 
@@ -308,7 +285,7 @@ class Display:
             feed = _TIME_FACTOR[context.feed_mode] * (
                 context.share if context.feed_mode is FeedMode.INVERSE_TIME else length
             )
-            unit = "inch" if context.inch else "mm"
+            unit = _UNITS[context.inch]
             scale = self._scales[id(context)] = Scale(tuple(work), tuple(diameter), length, feed, unit)
         return scale
 
@@ -369,9 +346,9 @@ class Display:
             for k, i in enumerate(self._geometry(context)):
                 if i >= 0:
                     column = found.setdefault(f"center_{self.axes[i]}", np.full(len(is_arc), np.nan))
-                    values = np.rint(curves[:, k] * scale.work[i] * _STEPS) / _STEPS + 0.0
+                    values = np.rint(curves[:, k] * scale.work[i] * STEPS) / STEPS + 0.0
                     column[rows] = np.where(tilted | ~along[:, k], values, np.nan)
-            turns = np.rint((curves[:, 6] + 1.0) * _STEPS) / _STEPS
+            turns = np.rint((curves[:, 6] + 1.0) * STEPS) / STEPS
             found.setdefault("turns", np.full(len(is_arc), np.nan))[rows] = np.where(
                 curves[:, 6], turns, np.nan
             )
@@ -385,7 +362,7 @@ def _diameters(axes: int, count: int) -> list[float]:
 
 def _shown(value: float) -> float:
     """A value without rounding noise and without -0.0, to the same bits as `Display.columns`."""
-    return round(value * _STEPS) / _STEPS
+    return round(value * STEPS) / STEPS
 
 
 def _machine_columns(

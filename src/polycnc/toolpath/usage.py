@@ -6,11 +6,12 @@ Extents are those of the controlled point, arcs included; the tool's radius is n
 from __future__ import annotations
 
 from array import array
-from dataclasses import dataclass, field
+from dataclasses import field
 from itertools import product
 from math import inf
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.records import dataclass
 from polycnc.toolpath.compiled import survey
 from polycnc.toolpath.kinds import RAPID_KINDS, Kind
 from polycnc.toolpath.modes import FeedMode

@@ -6,9 +6,10 @@ while the axis turns: it ends and begins on a small ring round the pole, on whic
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import cos, hypot, sin
 from typing import TYPE_CHECKING
+
+from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

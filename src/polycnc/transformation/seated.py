@@ -6,9 +6,10 @@ There programmed frames belong to the work, in front of the transformation: `wor
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, Frame
 
 if TYPE_CHECKING:

@@ -5,7 +5,8 @@ from itertools import pairwise
 from hypothesis import given
 from hypothesis import strategies as st
 
-from polycnc.cycles.turning.groove import Groove, strokes
+from polycnc.cycles.turning.groove import Corner, Groove, Side, strokes
+from polycnc.geometry import arcs
 
 SIZES = st.floats(0.1, 20.0)
 
@@ -42,3 +43,27 @@ def test_plunges_lie_at_most_a_tool_apart(tool: float, more: float) -> None:
         }
     )
     assert all(b - a <= tool + 1e-6 for a, b in pairwise(columns))
+
+
+ANGLES, CORNERS = st.floats(0.0, 50.0), st.floats(0.0, 0.4)
+BROKEN = st.builds(lambda size, kind: Corner(**{kind: size}), CORNERS, st.sampled_from(Corner._fields))
+SIDES = st.builds(Side, ANGLES, BROKEN, BROKEN)
+
+
+@given(SIDES, SIDES, st.floats(1.0, 3.0), st.floats(1.5, 6.0), st.floats(1.0, 8.0), st.floats(0.0, 2.0))
+def test_the_tool_stays_within_a_groove_of_any_shape(
+    first: Side, second: Side, tool: float, more: float, depth: float, infeed: float
+) -> None:
+    groove = Groove(tool + more, depth, tool, infeed=infeed and max(infeed, 0.2), sides=(first, second))
+    at = (0.0, -1.0)
+    for stroke in strokes(groove):
+        if stroke.end is None:
+            continue
+        for part in (0.25, 0.5, 0.75, 1.0):
+            if stroke.center is not None:
+                w, t = arcs.point_on_arc(at, stroke.end, stroke.center, stroke.ccw, part)
+            else:
+                w, t = (a + part * (b - a) for a, b in zip(at, stroke.end, strict=True))
+            assert t <= groove.room(0, w) + 1e-6 or t <= 0.0
+            assert t <= groove.room(1, groove.top - w - tool) + 1e-6 or t <= 0.0
+        at = stroke.end

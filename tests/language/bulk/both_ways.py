@@ -10,15 +10,16 @@ from typing import Any
 
 from polycnc.channel.channel import Channel
 from polycnc.control.registry import control
-from polycnc.language.bulk.kernels import Tables
-from polycnc.language.bulk.kernels import scan as plain_scan
+from polycnc.language.bulk.kernels import Tables, scan
 from polycnc.language.bulk.layout import State
 from polycnc.language.bulk.moves import Columns
 from polycnc.language.bulk.scanner import Bulk
 from polycnc.machine import load_machine
 from polycnc.machine.setup.file import parse_setup
 from polycnc.program import Form, ProgramStore
+from tests.kernels.strict import strict
 
+plain_scan = strict(scan)
 #: The kernel as it is written, from the first line on.
 PLAIN = Bulk(fewest_lines=0, scan=plain_scan, rooms=200, most_patience=1)
 machine = cache(load_machine)

@@ -12,13 +12,12 @@ from hypothesis import strategies as st
 
 from polycnc.language.bulk.compiled import LIBRARY
 from polycnc.language.bulk.kernels import Tables
-from polycnc.language.bulk.kernels import scan as plain_scan
 from polycnc.language.bulk.layout import State
 from polycnc.language.bulk.moves import Columns
 from polycnc.language.bulk.scanner import Bulk
 from polycnc.program import long_text
 from polycnc.session import open_session
-from tests.language.bulk.both_ways import PLAIN, differences, outcome, run
+from tests.language.bulk.both_ways import PLAIN, differences, outcome, plain_scan, run
 from tests.language.bulk.programs import plain, program
 from tests.language.bulk.test_sinumerik import COMMENTS as SINUMERIK_COMMENTS
 from tests.language.bulk.test_sinumerik import SETUP as SINUMERIK_SETUP

@@ -7,9 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from polycnc.language.bulk.kernels import scan as plain_scan
 from polycnc.language.bulk.scanner import Bulk
-from tests.language.bulk.both_ways import PLAIN, differences, run
+from tests.language.bulk.both_ways import PLAIN, differences, plain_scan, run
 from tests.language.bulk.programs import CODES, REPEATED_SINUMERIK, number, plain, program, words
 
 CONTROL = "sinumerik-840d"

@@ -7,9 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from polycnc.language.bulk.kernels import scan as plain_scan
 from polycnc.language.bulk.scanner import Bulk
-from tests.language.bulk.both_ways import differences
+from tests.language.bulk.both_ways import differences, plain_scan
 from tests.language.bulk.programs import CODES, REPEATED, REPEATED_LATHE, any_arc, arc, number, plain, program
 
 FANUC_COMMENTS = (" (PASS 2)", "(a;b", ";", " ; (X)", ";  ", "(1)(2)")

@@ -1,102 +1,105 @@
-"""A journey through the page in headless Chromium; skipped where none is installed."""
+"""Journeys through the page in headless Chromium; skipped where none is installed."""
 
 from __future__ import annotations
 
 import asyncio
-import json
-import shutil
-import subprocess
-import urllib.request
-from time import monotonic
-from typing import TYPE_CHECKING, Any
+import os
+from pathlib import Path
 
 import pytest
 
-from tests.panel.web.test_server import PATIENCE_S, address, free_port
-
-if TYPE_CHECKING:
-    from collections.abc import Awaitable, Callable
-    from pathlib import Path
+from tests.panel.web.browser import CHROMIUM, browser
+from tests.panel.web.test_server import address, free_port
 
 pytest.importorskip("nicegui")
-BROWSER = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
-pytestmark = pytest.mark.skipif(BROWSER is None, reason="no Chromium is installed")
+pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="no Chromium is installed")
 __all__ = ["address"]
-#: A key of the page by what stands on it.
-_KEY = "[...document.querySelectorAll('button.k')].find(key => key.innerText.trim() === {label})"
+#: The npm package axe-core, in the folder that AXE names or in that of the project; None where it is in neither.
+_PLACES = (Path(os.environ.get("AXE", ".")), Path(__file__).parents[3])
+AXE = next(
+    (file for place in _PLACES if (file := place / "node_modules" / "axe-core" / "axe.min.js").is_file()),
+    None,
+)
 #: Texts of keys that do not fit into them.
 _CUT = """[...document.querySelectorAll('button.k')]
   .filter(key => key.scrollWidth > key.clientWidth + 1 || key.scrollHeight > key.clientHeight + 1)
   .map(key => key.innerText)"""
-
-
-async def browse(port: int, journey: Callable[[Callable[[str], Awaitable[Any]]], Awaitable[None]]) -> None:
-    """Talk to the page of a browser; the journey gets a function that evaluates JavaScript."""
-    from websockets.asyncio.client import connect
-
-    until = monotonic() + PATIENCE_S
-    pages: list[Any] = []
-    while not pages and monotonic() < until:
-        try:
-            with urllib.request.urlopen(f"http://127.0.0.1:{port}/json", timeout=5) as listed:
-                pages = [each for each in json.load(listed) if each["type"] == "page"]
-        except OSError:
-            await asyncio.sleep(0.2)
-    async with connect(pages[0]["webSocketDebuggerUrl"], max_size=None) as wire:
-        number = 0
-
-        async def evaluate(expression: str) -> Any:
-            nonlocal number
-            number += 1
-            given = {"expression": expression, "returnByValue": True}
-            await wire.send(json.dumps({"id": number, "method": "Runtime.evaluate", "params": given}))
-            while (answer := json.loads(await wire.recv())).get("id") != number:
-                pass
-            return answer["result"]["result"].get("value")
-
-        await journey(evaluate)
-
-
-async def until_true(evaluate: Callable[[str], Awaitable[Any]], condition: str) -> None:
-    end = monotonic() + PATIENCE_S
-    while not await evaluate(condition):
-        assert monotonic() < end, condition
-        await asyncio.sleep(0.1)
+#: Nothing of the page lies outside of the window.
+_FITS = "document.documentElement.scrollHeight <= innerHeight && document.documentElement.scrollWidth <= innerWidth"
+_SCREEN = "document.querySelector('.crt-body').innerText"
 
 
 def test_a_program_is_run_edited_and_shown_in_both_languages(address: str, tmp_path: Path) -> None:
-    port = free_port()
-    assert BROWSER is not None
-    browser = subprocess.Popen(
-        [BROWSER, "--headless=new", "--no-sandbox", "--disable-gpu", "--window-size=1280,900",
-         f"--remote-debugging-port={port}", f"--user-data-dir={tmp_path / 'profile'}", f"http://{address}/"],
-        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-    )  # fmt: skip
+    async def journey() -> None:
+        async with browser(f"http://{address}/", tmp_path / "profile", free_port()) as page:
+            await page.press("Cycle start (SW4)")
+            await page.until(f"{_SCREEN}.includes('5.000')")
+            assert await page.evaluate(_FITS)
+            assert await page.evaluate(_CUT) == []
+            await page.press("PROG")
+            await page.press("✎")
+            await page.until("!!document.querySelector('.editor .cm-content .nc-code')")
+            await page.press("Save")
+            await page.until("document.querySelector('.editor-said').innerText.includes('O0007')")
+            await page.press("Close")
+            await page.until("!document.querySelector('.editor')")
+            await page.press("中")
+            await page.until(f"{_SCREEN}.includes('程式')")
+            assert await page.evaluate(_FITS)
 
-    async def journey(evaluate: Callable[[str], Awaitable[Any]]) -> None:
-        async def press(label: str) -> None:
-            key = _KEY.format(label=json.dumps(label))
-            await until_true(evaluate, f"!!{key}")
-            await evaluate(f"{key}.click()")
+    asyncio.run(journey())
 
-        screen = "document.querySelector('.crt-body').innerText"
-        await press("Cycle start (SW4)")
-        await until_true(evaluate, f"{screen}.includes('5.000')")
-        assert await evaluate("document.documentElement.scrollHeight <= innerHeight")
-        assert await evaluate(_CUT) == []
-        await press("PROG")
-        await press("✎")
-        await until_true(evaluate, "!!document.querySelector('.editor .cm-content .nc-code')")
-        await press("Save")
-        await until_true(evaluate, "document.querySelector('.editor-said').innerText.includes('O0007')")
-        await press("Close")
-        await until_true(evaluate, "!document.querySelector('.editor')")
-        await press("中")
-        await until_true(evaluate, f"{screen}.includes('程式')")
-        assert await evaluate("document.documentElement.scrollHeight <= innerHeight")
 
-    try:
-        asyncio.run(browse(port, journey))
-    finally:
-        browser.terminate()
-        browser.wait(timeout=PATIENCE_S)
+def test_the_picture_has_the_path_and_the_trail(address: str, tmp_path: Path) -> None:
+    async def journey() -> None:
+        async with browser(f"http://{address}/", tmp_path / "profile", free_port()) as page:
+            await page.press("CSTM/GR")
+            await page.until("Number(document.querySelector('.picture')?.dataset.points) > 1")
+            await page.press("Top")
+            await page.press("Feed")
+            await page.until("document.querySelector('.picture button.chosen').innerText === 'Feed'")
+            if await page.evaluate("!document.querySelector('.picture p')"):  # the browser has WebGL
+                shown = "document.querySelector('.picture canvas')"
+                assert await page.evaluate(f"{shown}.clientWidth > 300 && {shown}.clientHeight > 150")
+            await page.press("POS")
+            await page.until("getComputedStyle(document.querySelector('.picture')).display === 'none'")
+
+    asyncio.run(journey())
+
+
+@pytest.mark.parametrize(("width", "height"), [(1280, 800), (1920, 1080), (1024, 768), (768, 1024)])
+def test_the_page_fits_into_screens_and_tablets(
+    address: str, tmp_path: Path, width: int, height: int
+) -> None:
+    async def journey() -> None:
+        async with browser(f"http://{address}/", tmp_path / "profile", free_port()) as page:
+            await page.sized(width, height)
+            await page.until("!!document.querySelector('.crt-body td')")
+            wide = "document.documentElement.scrollWidth <= innerWidth"
+            assert await page.evaluate(_FITS if width >= 1280 else wide)
+            assert await page.evaluate("document.querySelector('.crt').getBoundingClientRect().height >= 400")
+            heights = "[...document.querySelectorAll('button.k')].map(key => key.offsetHeight)"
+            assert min(filter(None, await page.evaluate(heights))) >= 36
+
+    asyncio.run(journey())
+
+
+@pytest.mark.skipif(AXE is None, reason="axe-core is not installed")
+def test_axe_finds_nothing_serious(address: str, tmp_path: Path) -> None:
+    assert AXE is not None
+    rules = "{runOnly: ['wcag2a', 'wcag2aa', 'best-practice']}"
+    found = f"""axe.run(document, {rules}).then(result => result.violations
+      .filter(each => ['serious', 'critical'].includes(each.impact)).map(each => each.id + ' ' + each.nodes[0].html))"""
+
+    async def journey() -> None:
+        async with browser(f"http://{address}/", tmp_path / "profile", free_port()) as page:
+            await page.until("!!document.querySelector('.crt-body td')")
+            await page.evaluate(AXE.read_text(encoding="utf-8") + ";0")
+            assert await page.evaluate(found) == []
+            for key in ("☀", "CSTM/GR", "中", "☑"):
+                await page.press(key)
+                await asyncio.sleep(1.0)
+                wrong = await page.evaluate(found)
+                assert wrong == [], f"{key}: {wrong}"
+
+    asyncio.run(journey())

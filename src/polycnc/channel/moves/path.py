@@ -11,12 +11,12 @@ out; `Path.divert` lays the whole path aside while a control reads a contour wit
 from __future__ import annotations
 
 from contextlib import contextmanager
-from dataclasses import dataclass
 from enum import IntEnum, auto
 from itertools import pairwise
 from math import nan
 from typing import TYPE_CHECKING, ClassVar, TypeVar
 
+from polycnc.deferred.records import dataclass
 from polycnc.toolpath.kinds import Kind
 
 if TYPE_CHECKING:
@@ -65,6 +65,8 @@ class Rank(IntEnum):
     AXES = auto()
     #: Slave axes, which only their master moves.
     SLAVES = auto()
+    #: Following axes of a gantry, which no program moves.
+    GANTRY = auto()
     #: Axes that wait for their leading axes: they see where those are.
     COUPLINGS = auto()
     #: Protection zones: they see where the machine would go.
@@ -120,7 +122,7 @@ class Move:
         """The same move between two other positions."""
         return Move(
             self.kind, start, end, self.feed, self.program, self.line, self.context,
-            self.center, self.normal, self.turns, self.parameters,
+            self.center, self.normal, self.turns, self.parameters, self.turning,
         )  # fmt: skip
 
 
@@ -154,12 +156,14 @@ class Stage:
         rank: Its place in the path.
         lasts: It stays in the path when a program is broken off by an alarm or a reset.
         keeps_ends: Blocks end where the channel knows itself, whatever it does.
+        takes_runs: It looks at nothing but moves and ends of blocks, so runs of plain blocks may be scanned for it.
         after: The next stage; the path sets it.
     """
 
     rank: ClassVar[Rank]
     lasts: ClassVar[bool] = False
     keeps_ends: ClassVar[bool] = False
+    takes_runs: ClassVar[bool] = False
     after: Stage
 
     @property
@@ -284,6 +288,11 @@ class Path:
     def changes_ends(self) -> bool:
         """Whether the axes may stand elsewhere than the channel knows itself."""
         return any(stage.active and not stage.keeps_ends for stage in self._stages)
+
+    @property
+    def takes_runs(self) -> bool:
+        """Whether runs of plain blocks may be scanned: stages are idle, or take such runs."""
+        return all(stage.takes_runs or not stage.active for stage in self._stages)
 
     @property
     def leads_axes(self) -> bool:

@@ -1,6 +1,7 @@
 """The stage in which rotary axes turn along a move: it becomes as many as they need to go evenly in each.
 
-What lies between two of them is no corner of the program: the axes go through without an exact stop.
+What lies between two of them is no corner of the program: the axes go through without an exact stop, and displays show
+one motion.
 """
 
 from __future__ import annotations
@@ -63,7 +64,7 @@ class TurningStage(Stage):
             context = replace(context, corner_mode=CornerMode.ROUNDED, tolerance_mm=TOLERANCE_DEG)
         elif context.corner_mode is CornerMode.EXACT_STOP:
             context = replace(context, corner_mode=CornerMode.CONTINUOUS)
-        return toolpath.context_number(context)
+        return toolpath.context_number(replace(context, knot=True))
 
 
 def placed(position: list[float], turning: Turning, places: tuple[float, ...]) -> list[float]:

@@ -25,7 +25,6 @@ import weakref
 from array import array
 from collections import deque
 from collections.abc import Sized
-from dataclasses import is_dataclass
 from fractions import Fraction
 from functools import partial
 from pathlib import PurePath
@@ -34,6 +33,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 from polycnc.channel.mode import Mode
 from polycnc.channel.states.state import State, States
+from polycnc.deferred.records import is_frozen
+from polycnc.deferred.regexes import Regex
 from polycnc.geometry.frames import Frame
 from polycnc.machine.model import Machine
 from polycnc.machine.setup.values import Parameters, Setup
@@ -54,7 +55,7 @@ _MISSING = object()
 #: Classes of objects that never change, or are none of a snapshot's: they are not followed.
 _ATOMS: set[type] = {
     type(None), type(_MISSING), type(Ellipsis), bool, int, float, complex, str, bytes, range, slice, memoryview,
-    Fraction, re.Pattern, re.Match, property, classmethod, staticmethod, weakref.ReferenceType,
+    Fraction, re.Pattern, Regex, re.Match, property, classmethod, staticmethod, weakref.ReferenceType,
     types.ModuleType, types.CodeType, types.MappingProxyType, types.MemberDescriptorType,
     types.GetSetDescriptorType, types.WrapperDescriptorType, types.MethodDescriptorType,
 }  # fmt: skip
@@ -306,19 +307,19 @@ def _object_walker(cls: type) -> Walker:
     if not (slots or has_dict or inner or cls.__module__.startswith("polycnc.")):
         raise SnapshotError(f"what a {cls.__module__}.{cls.__qualname__} holds is not known")
     unfollowed: frozenset[str] = getattr(cls, "UNFOLLOWED", frozenset())
-    is_frozen = is_dataclass(cls) and cls.__dataclass_params__.frozen  # type: ignore[attr-defined]
+    unchanging = is_frozen(cls)
 
     def walk(thing: Any, undo: list[Undo]) -> Iterable[object]:
         found: list[object] = list(inner(thing, undo)) if inner is not None else []
         if slots:
             contents = _in_slots(thing, slots)
             found += _followed(zip(names, contents, strict=True), unfollowed) if unfollowed else contents
-            if not is_frozen:
+            if not unchanging:
                 undo.append(partial(_put_slots, thing, slots, contents))
         if has_dict:
             fields = thing.__dict__.copy()
             found += _followed(fields.items(), unfollowed) if unfollowed else fields.values()
-            if not is_frozen:
+            if not unchanging:
                 undo.append(partial(_put_fields, thing.__dict__, fields))
         return found
 

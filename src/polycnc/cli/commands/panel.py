@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from secrets import token_urlsafe
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -13,8 +14,19 @@ from polycnc.cli.console import fail, say
 from polycnc.messages import text
 from polycnc.messages.catalogue import language
 
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from polycnc.mainrun import VirtualControl
+    from polycnc.panel.teaching.exercise import Exercise
+    from polycnc.panel.web.desk import Desk
+
 app = typer.Typer(add_completion=False, rich_markup_mode=None)
 PORT = 8620
+_Exercise = Annotated[str, typer.Option("--exercise", metavar="FILE[#ID]", help=text("help.panel.exercise"))]
+_Sheet = Annotated[Path | None, typer.Option("--sheet", metavar="FILE", help=text("help.panel.sheet"))]
+_Record = Annotated[Path | None, typer.Option("--record", metavar="FILE", help=text("help.panel.record"))]
+_Replay = Annotated[Path | None, typer.Option("--replay", metavar="FILE", help=text("help.panel.replay"))]
 
 
 @app.command(help=text("help.panel"))
@@ -28,6 +40,10 @@ def panel(
     search: options.Search = None,
     memory: options.Memory = None,
     card: Annotated[Path | None, typer.Option("--card", metavar="DIR", help=text("help.panel.card"))] = None,
+    exercise: _Exercise = "",
+    sheet: _Sheet = None,
+    record: _Record = None,
+    replay: _Replay = None,
     host: Annotated[
         str, typer.Option("--host", metavar="ADDRESS", help=text("help.panel.host"))
     ] = "127.0.0.1",
@@ -40,32 +56,94 @@ def panel(
 ) -> int:
     """Serve one control, or several, each under its own address."""
     from polycnc.control.registry import ids
-    from polycnc.mainrun import VirtualControl
     from polycnc.messages.catalogue import listed
     from polycnc.panel.web.desk import Desk
     from polycnc.panel.web.server import build, needs_token, serve
     from polycnc.session import SessionError
 
-    chosen = control or []
+    task = _exercise(exercise) if exercise else None
+    chosen = control or ([task.control] if task is not None else [])
     if not chosen:
         raise SessionError("session.control-wanted", known=listed(ids()))
     if memory is not None and len(chosen) > 1:
         return fail(text("panel.one-memory"), 2)
+    if (task is not None and chosen != [task.control]) or ((replay or record) and len(chosen) > 1):
+        return fail(text("panel.one-control"), 2)
     if card is not None and not card.is_dir():
         return fail(text("file.unreadable", file=card, reason=text("file.no-folder")), 2)
     desks: dict[str, Desk] = {}
     for each in chosen:
-        made = VirtualControl(each, machine=machine, setup=setup, search=search or (), retained=memory)
+        made = _control(each, machine, setup, search or (), memory, task)
         if file is not None:
             made.load(file)
-        name = each if each not in desks else f"{each}-{len(desks) + 1}"
-        desks[name] = Desk(made, speed, card)
+        desks[each if each not in desks else f"{each}-{len(desks) + 1}"] = Desk(made, speed, card)
+    _teach(next(iter(desks.values())), task, replay)
     token = token_urlsafe(16) if needs_token(host) else ""
     build(desks, language(), token)
     say(f"http://{host}:{port}/" + (f"?token={token}" if token else ""))
     try:
         serve(host=host, port=port, opens=not no_open)
     finally:
-        for desk in desks.values():
-            desk.control.close()
+        _keep(desks.values(), sheet, record)
     return 0
+
+
+def _control(
+    control: str,
+    machine: str | None,
+    setup: Path | None,
+    search: Sequence[Path],
+    memory: Path | None,
+    task: Exercise | None,
+) -> VirtualControl:
+    """A control whose machine answers to every fault, with the setup and the program of an exercise."""
+    from polycnc.mainrun import VirtualControl
+    from polycnc.mainrun.equipment import equipment
+    from polycnc.panel.teaching.faults import with_faults
+
+    given = task.setup if task is not None and setup is None else setup
+    known, built, start = equipment(control, machine, given)
+    made = VirtualControl(
+        known, machine=with_faults(built, known.id), setup=start, search=search,
+        files=task.files if task is not None else {}, retained=memory,
+    )  # fmt: skip
+    if task is not None and task.program:
+        made.load(task.program.rstrip("\n") + "\n")
+    return made
+
+
+def _exercise(named: str) -> Exercise:
+    """The exercise that `FILE#ID` names; the first of the file without an id."""
+    from polycnc.messages.catalogue import listed
+    from polycnc.panel.teaching.exercise import ExerciseError, load_exercises
+
+    file, _, wanted = named.partition("#")
+    found = load_exercises(Path(file))
+    for each in found:
+        if wanted in ("", each.id):
+            return each
+    raise ExerciseError("exercise.unknown", name=wanted, known=listed(each.id for each in found))
+
+
+def _teach(desk: Desk, task: Exercise | None, replay: Path | None) -> None:
+    """Give a desk its exercise, and what it is to do again."""
+    from polycnc.panel.teaching.lesson import Lesson
+    from polycnc.panel.teaching.recording import Replay, load_acts
+    from polycnc.panel.web.messages import perform
+
+    if task is not None:
+        desk.lesson = Lesson(task, desk.control, desk.screen)
+    if replay is not None:
+        acts = load_acts(replay, desk.control.control.id)
+        desk.replay = Replay(desk.control, acts, partial(perform, desk))
+
+
+def _keep(desks: Iterable[Desk], sheet: Path | None, record: Path | None) -> None:
+    """Close the controls, and write what a teacher takes away from the first one."""
+    for each in desks:
+        each.control.close()
+    desk = next(iter(desks))
+    if sheet is not None and desk.lesson is not None:
+        sheet.write_text(desk.lesson.sheet(language()), encoding="utf-8")
+    if record is not None:
+        record.write_text(desk.recording.text(), encoding="utf-8")

@@ -14,6 +14,7 @@ import typer
 from polycnc.cli import options
 from polycnc.cli.console import fail, note, show
 from polycnc.cli.progress import WaitingForRun
+from polycnc.deferred.regexes import regex
 from polycnc.messages import text
 from polycnc.messages.catalogue import listed
 from polycnc.toolpath.events import Print
@@ -37,7 +38,7 @@ _UNITS = {"us": 1e-6, "ms": 1e-3, "s": 1.0, "": 1.0}
 _SHORTEST_S = 1e-6
 #: Below so many rows nobody waits, with compiled kernels or without.
 _FELT_ROWS = 20_000
-_PERIOD = re.compile(r"(\d+\.?\d*|\.\d+)(us|ms|s|)", re.ASCII)
+_PERIOD = regex(r"(\d+\.?\d*|\.\d+)(us|ms|s|)", re.ASCII)
 
 
 @app.command(help=text("help.run"))

@@ -10,7 +10,7 @@ follow them, under the group's name: `mode["path"]`.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from polycnc.deferred.records import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,13 +2,23 @@
 
 from __future__ import annotations
 
-from polycnc.control.syntec import cycles, spindles
+from polycnc.control.syntec import cycles, spindles, tapping
 from polycnc.control.syntec.axis_groups import borrowing, groups
 from polycnc.control.syntec.coordinates import systems as frames
 from polycnc.control.syntec.coordinates import tool_setting
 from polycnc.control.syntec.five_axes import alignment, normal_direction, spatial, tilted, tip_control
 from polycnc.control.syntec.macros import calls, interrupts
-from polycnc.control.syntec.motion import arcs, moves, operation, oscillation, planes, polar, skips, smoothing
+from polycnc.control.syntec.motion import (
+    arcs,
+    dwell,
+    moves,
+    operation,
+    oscillation,
+    planes,
+    polar,
+    skips,
+    smoothing,
+)
 from polycnc.control.word_address.auxiliary import functions
 from polycnc.control.word_address.block.codes import (
     MILLING_POWER_ON,
@@ -16,7 +26,6 @@ from polycnc.control.word_address.block.codes import (
     MCode,
     Order,
     m_table,
-    not_yet,
     table,
 )
 from polycnc.control.word_address.coordinates import frames as base_frames
@@ -37,7 +46,7 @@ G_CODES = table(
     GCode("G3.4", "motion", planner=arcs.plan_three_point_arc, ends="cycle"),
     GCode("G6.2", "motion", planner=nurbs.plan_nurbs, ends="cycle"),
     GCode("G33", "motion", planner=moves.plan_thread, ends="cycle"),
-    GCode("G4", handler=frames.dwell, takes="X P Q", axis_words=True, order=MOTION),
+    GCode("G4", handler=dwell.dwell, takes="X P Q", axis_words=True, order=MOTION),
     GCode("G4.1", handler=groups.meet, takes="P Q", axis_words=True, order=MOTION),
     GCode("G10.6", handler=operation.arm_retract, takes="R F", axis_words=True),
     GCode("G28.1", handler=skips.position_at_sensor, takes="Q R F1 F2", axis_words=True, order=MOTION),
@@ -64,8 +73,8 @@ G_CODES = table(
     GCode("G19", "plane", planes.select_plane),
     GCode("G22", "stroke", frames.stroke_limit_on, takes="I J K", axis_words=True, order=MOTION),
     GCode("G23", "stroke", stroke_check.stroke_check_off),
-    GCode("G28", handler=systems.return_to_reference, axis_words=True, order=MOTION),
-    GCode("G29", handler=systems.return_from_reference, axis_words=True, order=MOTION),
+    GCode("G28", handler=frames.return_to_reference, axis_words=True, order=MOTION),
+    GCode("G29", handler=frames.return_from_reference, axis_words=True, order=MOTION),
     GCode("G30", handler=frames.return_to_further_reference, takes="P", axis_words=True, order=MOTION),
     GCode("G31", handler=moves.skip_move, takes="P Q", axis_words=True, order=MOTION),
     GCode("G37", handler=tool_setting.measure_length, takes="R D F P", axis_words=True, order=MOTION),
@@ -121,6 +130,7 @@ G_CODES = table(
     GCode("G81.2", oscillation.OSCILLATION, oscillation.start_precise, takes="P Q R L", order=MOTION),
     GCode("G80.2", oscillation.OSCILLATION, oscillation.end_precise, takes="Q", order=MOTION),
     *(GCode(code, "cycle") for code in cycles.CYCLES),
+    GCode(tapping.RETRACT, handler=tapping.retract, takes="F S", order=MOTION),
     GCode("G134", handler=cycles.circle_of_holes, takes="I J K", axis_words=True, order=MOTION),
     GCode("G135", handler=cycles.line_of_holes, takes="I J K", axis_words=True, order=MOTION),
     GCode("G136", handler=cycles.arc_of_holes, takes="I J P K", axis_words=True, order=MOTION),
@@ -136,9 +146,6 @@ G_CODES = table(
     GCode("G97", "surface_speed", spindles.end_surface_speed, only_changes=True),
     GCode("G98", "return"),
     GCode("G99", "return"),
-    not_yet(
-        "G84.48",
-    ),
 )  # fmt: skip
 
 M_CODES = m_table(

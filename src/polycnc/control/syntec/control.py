@@ -20,7 +20,7 @@ from polycnc.control.syntec.five_axes import normal_direction, spatial, tilted, 
 from polycnc.control.syntec.macros import calls, interrupts, single_block
 from polycnc.control.syntec.macros.variables import SpaceState, locals_of
 from polycnc.control.syntec.memory import SyntecMemory
-from polycnc.control.syntec.motion import arcs, moves, oscillation, polar, quiet
+from polycnc.control.syntec.motion import arcs, dwell, moves, oscillation, polar, quiet, smoothing
 from polycnc.control.syntec.motion.moves import FeedState
 from polycnc.control.syntec.parameters import SyntecParameters
 from polycnc.control.syntec.plain import SyntecPlainBlocks
@@ -32,7 +32,7 @@ from polycnc.control.word_address.block.numbers import NumberRules
 from polycnc.control.word_address.control import WordAddressControl
 from polycnc.control.word_address.coordinates import frames
 from polycnc.control.word_address.cycles import drilling as drilling_cycles
-from polycnc.control.word_address.motion import nurbs
+from polycnc.control.word_address.motion import corners, line_by_angle, nurbs
 from polycnc.control.word_address.transformations import normal_line
 from polycnc.geometry.frames import IDENTITY
 from polycnc.language.syntec import executable, iso_grammar
@@ -78,7 +78,12 @@ class SyntecMill(WordAddressControl):
     alarm_files: ClassVar[tuple[str, ...]] = ("syntec/alarms.toml", "syntec/alarms_special.toml")
     g_codes: ClassVar[Mapping[str, GCode]] = G_CODES
     m_codes: ClassVar[Mapping[int, MCode]] = M_CODES
-    context_steps: ClassVar[tuple[ContextStep, ...]] = (in_tapping_mode, moves.recorded)
+    context_steps: ClassVar[tuple[ContextStep, ...]] = (
+        in_tapping_mode,
+        moves.recorded,
+        dwell.ended_by_signal,
+        smoothing.smoothed,
+    )
     addresses: ClassVar[Mapping[str, Planner]] = ADDRESSES
     power_on: ClassVar[Mapping[str, str]] = POWER_ON
     alarms: ClassVar[Mapping[str, str]] = ALARMS
@@ -111,6 +116,8 @@ class SyntecMill(WordAddressControl):
         names.RULE,
         moves.LEAD_RULE,
         whole_numbers.RULE,
+        corners.RULE,
+        line_by_angle.RULE,
         tip_control.RULE,
         drilling_cycles.RULE,
         cycles.OVERLAP_RULE,
@@ -280,8 +287,9 @@ class SyntecMill(WordAddressControl):
     def axis_of_address(
         self, channel: SyntecChannel, address: str, builder: Builder
     ) -> tuple[int, bool] | None:
-        """U, V, W are increments of X, Y, Z only with Pr3809 = 1."""
-        if address in self.INCREMENTAL_ADDRESSES and channel.memory.parameters.uvw_increments == 1:
+        """U, V, W are increments of X, Y, Z only with Pr3809 = 1, and not for G53 (2.37.3)."""
+        increments = channel.memory.parameters.uvw_increments == 1 and address in self.INCREMENTAL_ADDRESSES
+        if increments and not any(row.code == "G53" for row in builder.codes):
             index = channel.axis_index.get(self.INCREMENTAL_ADDRESSES[address])
             return None if index is None else (index, True)
         index = channel.axis_index.get(address)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
+from polycnc.control.syntec import tapping
 from polycnc.control.syntec.five_axes import spatial
 from polycnc.control.syntec.units import least_unit
 from polycnc.control.word_address.block.rules import Rule
@@ -23,6 +23,7 @@ from polycnc.control.word_address.tools import radius
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.cycles.drilling import holes, patterns
 from polycnc.cycles.drilling.holes import Action, Stroke
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.units import INCH_MM
 from polycnc.messages import AlarmError
 from polycnc.toolpath.context import STROKE
@@ -54,7 +55,6 @@ CYCLES = {
     "G88": DrillCycle(partial(holes.bore_and_halt, feeds_out=True), dwells=True, bottom_from_initial=True),
     "G89": DrillCycle(holes.bore, dwells=True, bottom_from_initial=True),
 }
-TAPPING = ("G74", "G84")
 #: Words for the overlap of the positioning axis and of the drilling axis.
 OVERLAPS = {"G81": ("D", "Q"), "G74": ("I", "J"), "G84": ("I", "J")}
 #: Pr4020: direction off the wall after the oriented stop, as geometry axis and sense.
@@ -72,7 +72,7 @@ class RetractState(State, lifetime=Lifetime.POWER):
 def relief(channel: SyntecChannel, code: str) -> float:
     """Pr4002 between drilling pecks; between tapping pecks Pr4004, or out to R where Pr4001 is 0."""
     parameters = channel.memory.parameters
-    if code not in TAPPING:
+    if code not in tapping.CODES:
         return parameters.peck_retract * least_unit(parameters)
     return parameters.tap_peck_retract * least_unit(parameters) if parameters.tap_fast_pecks == 1 else 0.0
 
@@ -112,8 +112,8 @@ def _overlaps(channel: SyntecChannel, code: str) -> tuple[float | None, float | 
 
 
 def dress(channel: SyntecChannel, code: str, cycle: Cycle) -> Cycle:
-    """The way out of G81 in fast drilling, and what overlaps."""
-    cycle = _out_at_feed(channel, code, cycle)
+    """What the control makes of the strokes of a hole: of taps, of the way out of G81, and what overlaps."""
+    cycle = tapping.tap(channel, cycle) if code in tapping.CODES else _out_at_feed(channel, code, cycle)
     out = _overlaps(channel, code)[1]
     if out is None:
         return cycle
@@ -164,7 +164,7 @@ def _with_cycle_words(builder: Builder, _plan: Plan, step: Step | None) -> Step 
     retract, threads = builder.slot("F2"), builder.slot("E")
     if code == "G81":
         builder.take("F2")
-    if code in TAPPING:
+    if code in tapping.CODES:
         builder.take("E")
     control = builder.control
 
@@ -177,7 +177,7 @@ def _with_cycle_words(builder: Builder, _plan: Plan, step: Step | None) -> Step 
                 raise control.fail("retract_feed", address="F2")
             fast = channel.memory.parameters.fast_drilling == 1
             state.feed = values[retract] * unit if fast else 0.0
-        if threads is not None and code in TAPPING and not builder.has("F"):
+        if threads is not None and code in tapping.CODES and not builder.has("F"):
             _feed_by_threads(channel, values[threads])
         step(channel, values)
 

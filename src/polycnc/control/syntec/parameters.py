@@ -26,6 +26,8 @@ class SyntecParameters(ControlParameters["SyntecAxisParameters"]):
     path_feed = Whole(405, delivered=0)
     #: 406: Reference feed of corners; 0 for what the axes can do [mm/min].
     corner_feed = Whole(406, delivered=0)
+    #: 407: Tolerance of curve fitting under G05, micrometres; 0 for 10.
+    fit_tolerance = Whole(407, delivered=0)
     #: 411: G00 runs on a line (0), or every axis by itself (1).
     rapids_by_axis = Whole(411, delivered=0)
     #: 413: A reset takes the turn of G92.1 back (0) or keeps it (1, 2).
@@ -87,6 +89,10 @@ class SyntecParameters(ControlParameters["SyntecAxisParameters"]):
     rotates_at_start = Whole(3839, delivered=0)
     #: 3957: Oscillation stops at R (0) or at once (1).
     oscillation_stop = Whole(3957, delivered=0)
+    #: 3986: Intelligent tolerance control (G05.1 Q5) at power-on: off (0) or on (1).
+    tolerance_control = Whole(3986, delivered=0)
+    #: 3988: Tolerance of corners where G05.1 Q5 has no E, least units; 0 for 0.01 mm.
+    corner_control = Whole(3988, delivered=0)
     #: 3990: Way before the end of a G00 at which the next G00 begins, least units.
     rapid_overlap = Whole(3990, delivered=0)
     #: 3991: Least angle of an outer corner that an intersection leads round, least units.
@@ -99,6 +105,8 @@ class SyntecParameters(ControlParameters["SyntecAxisParameters"]):
     peck_retract = Whole(4002, delivered=0)
     #: 4004: Retract of pecks in tapping cycles, least units.
     tap_peck_retract = Whole(4004, delivered=0)
+    #: 4007: Tapping begins at once (0), or with an orientation of the spindle.
+    tap_orients = Whole(4007, delivered=0)
     #: 4008: Normal (0) or fast (1) drilling.
     fast_drilling = Whole(4008, delivered=0)
     #: 4020: Direction off the wall after the oriented stop: 0 to 5 for +X, -X, +Y, -Y, +Z, -Z.

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.channel.states.state import Lifetime, State, retained
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, Frame
 from polycnc.memory.encoding import encoded
 from polycnc.memory.retained import PARAMETERS, TOOL_OFFSETS, WORK_OFFSETS
@@ -64,7 +65,7 @@ class ToolOffsets(State, lifetime=Lifetime.RETAINED):
     @classmethod
     def first(cls, channel: WordAddressChannel) -> Self:
         """What is retained, else what the setup says."""
-        offsets = super(ToolOffsets, cls).first(channel)
+        offsets = super().first(channel)
         if not offsets.numbers:
             tools = channel.setup.tools.items()
             offsets.numbers.update((int(number), ToolOffset.of(tool)) for number, tool in tools)

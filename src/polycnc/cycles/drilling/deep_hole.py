@@ -5,13 +5,15 @@ Source: SINUMERIK cycles, deep hole drilling (CYCLE83) and tapping in steps (CYC
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.cycles.count import checked
 from polycnc.cycles.drilling.holes import Action, Stroke
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
+
+    from polycnc.cycles.drilling.holes import Hole
 
 #: Depths closer than this are the same, mm.
 SAME_MM = 1e-6
@@ -72,6 +74,28 @@ def automatic_limit(depth: float) -> float:
     if depth <= SHALLOW_MM:
         return SHALLOW_LIMIT_MM
     return min(depth / DEEP_PART, LONGEST_LIMIT_MM)
+
+
+class Stage(NamedTuple):
+    """A part of a hole that is drilled at a feed of its own: its length, mm, and the factor on the feed."""
+
+    way: float
+    factor: float
+
+
+def drill_in_stages(
+    hole: Hole, reference: float, before: Stage | None, last: Stage | None
+) -> Iterator[Stroke]:
+    """Drilling with a first part (predrilling) or a last one (where the drill comes through) at another feed."""
+    up = 1.0 if hole.r > hole.bottom else -1.0
+    yield Stroke(Action.RAPID, hole.r)
+    if before is not None:
+        yield Stroke(Action.FEED, reference - up * before.way, before.factor)
+    if last is not None:
+        yield Stroke(Action.FEED, hole.bottom + up * last.way)
+    yield Stroke(Action.FEED, hole.bottom, 1.0 if last is None else last.factor)
+    yield Stroke(Action.DWELL, hole.dwell_s)
+    yield Stroke(Action.RAPID, hole.back)
 
 
 def peck(

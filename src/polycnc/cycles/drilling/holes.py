@@ -14,10 +14,10 @@ control's (`control.word_address.drilling`); here is only what the tool does, th
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from enum import Enum
 from typing import NamedTuple
 
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.tolerances import NO_WAY
 
 

@@ -1,1 +1,5 @@
-"""Milling cycles as strokes (`stroke`): `facing`, `contour` (along a path), `pockets`, `slots`, `spigots`, `thread`."""
+"""Milling cycles as strokes (`stroke`).
+
+`facing`, `contour` (along a path), `pockets`, `slots`, `open_slot`, `spigots`, `thread`, `engraving` and its
+`letters`.
+"""

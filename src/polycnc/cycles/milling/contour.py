@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import Enum
 from typing import TYPE_CHECKING
 
 from polycnc.cycles.milling.stroke import MillStroke, arc, cut, rapid
+from polycnc.deferred.records import dataclass
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from polycnc.cycles.count import parts
 from polycnc.cycles.milling.stroke import Place, cut, rapid
+from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -33,6 +33,7 @@ class Face:
             the strip that was cut the stock still stands.
         feed: Of the cuts.
         safe, retract: Level of the safety plane and of the end.
+        walls: Sides that the tool does not pass: lower and upper one of the length, then of the width.
     """
 
     place: Place
@@ -47,18 +48,37 @@ class Face:
     feed: float
     safe: float
     retract: float
+    walls: tuple[bool, bool, bool, bool] = (False, False, False, False)
+
+    @property
+    def fits(self) -> bool:
+        """Whether the tool has room between two walls."""
+        return all(
+            abs(way) >= 2.0 * self.radius - _WHOLE or not all(pair)
+            for way, pair in ((self.length, self.walls[:2]), (self.width, self.walls[2:]))
+        )
+
+    def _walled(self, *, length: bool) -> tuple[bool, bool]:
+        """Whether there is a wall where the length (or width) begins at the corner, and at its other end."""
+        near, far = self.walls[:2] if length else self.walls[2:]
+        return (near, far) if (self.length if length else self.width) > 0.0 else (far, near)
 
     def strips(self) -> list[tuple[Point, Point]]:
         """Ends of the strips, each in the direction of the first one."""
         along, over = (self.width, self.length) if self.across else (self.length, self.width)
         reach = self.radius + self.overrun
-        total = abs(over) + self.overrun_across
+        begins, ends = self._walled(length=not self.across)
+        near, far = self._walled(length=self.across)
+        low = self.radius if begins else -reach
+        high = abs(along) + (-self.radius if ends else reach)
+        total = abs(over) + (0.0 if far else self.overrun_across)
         count = max(1, parts(total, self.step, _WHOLE))
         found = []
         for k in range(1, count + 1):
             at = total * k / count - self.radius
-            first, last = (-reach, at), (abs(along) + reach, at)
-            found.append((self._point(*first), self._point(*last)))
+            if near:
+                at = max(at, self.radius)
+            found.append((self._point(low, at), self._point(high, at)))
         return found
 
     def _point(self, along: float, over: float) -> Point:

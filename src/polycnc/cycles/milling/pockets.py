@@ -6,13 +6,13 @@ straight sides.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import Enum
 from math import radians, tan
 from typing import TYPE_CHECKING
 
 from polycnc.cycles.count import parts
 from polycnc.cycles.milling.stroke import Cavity, Place, arc, cut, rapid, ring, steps
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.tolerances import NO_WAY
 
 if TYPE_CHECKING:

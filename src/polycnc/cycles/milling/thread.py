@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from polycnc.cycles.count import parts
 from polycnc.cycles.milling.stroke import Place, arc, rapid
+from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

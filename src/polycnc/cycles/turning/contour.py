@@ -6,13 +6,14 @@ Points are (a, b): `a` runs along the strokes, `b` is the direction of infeed. F
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 from itertools import pairwise
 from math import sqrt
 from typing import TYPE_CHECKING
 
 from polycnc.cycles.turning.stroke import PlaneStroke
+from polycnc.deferred.records import dataclass
 from polycnc.geometry import arcs, offset
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.toolpath import Kind

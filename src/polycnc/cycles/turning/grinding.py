@@ -5,8 +5,9 @@ Strokes are increments along two axes: `infeed` towards the work, `along` over i
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
+
+from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -1,45 +1,96 @@
-"""A rectangular groove on a lathe with a parting tool (SINUMERIK CYCLE93).
+"""A groove on a lathe with a parting tool (SINUMERIK CYCLE93): walls at any angle, corners broken or rounded.
 
 Points are (w, t): `w` runs from the edge at which the groove begins to the other one, `t` from the rim down to the
-base. They are those of the tool's edge that lies nearer to where the groove begins.
+base. They are those of the tool's edge that lies nearer to where the groove begins. Each side of the groove is drawn
+by itself, from its rim to the middle of the base, in points (u, t) whose `u` counts from its own edge.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from functools import cached_property
+from math import cos, radians, tan
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.cycles.count import parts
+from polycnc.cycles.turning.contour import Piece, crossings, parallel, shifted, swapped
+from polycnc.deferred.records import dataclass
+from polycnc.geometry import offset
+from polycnc.geometry.tolerances import NO_WAY
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from polycnc.cycles.turning.contour import Contour
+    from polycnc.geometry.arcs import Point
+
 #: The tool goes so far off the wall that it has cut before it leaves the groove, mm.
 OFF_WALL_MM = 1.0
 _WHOLE = 1e-9
+#: A corner that is broken by less is sharp.
+BROKEN_MM = 1e-6
 
 
 class GrooveStroke(NamedTuple):
-    """A stroke; a dwell at the base has no point."""
+    """A stroke; a dwell at the base has no point. An arc has a centre and turns as `ccw` says in (w, t)."""
 
-    end: tuple[float, float] | None
+    end: Point | None
     is_rapid: bool = False
+    center: Point | None = None
+    ccw: bool = False
 
 
 DWELL = GrooveStroke(None)
 
 
-@dataclass(frozen=True, slots=True)
+class Corner(NamedTuple):
+    """What becomes of a corner: an arc of a radius, a chamfer that leaves out `leg` of its edges, or of a length."""
+
+    radius: float = 0.0
+    leg: float = 0.0
+    length: float = 0.0
+
+    @property
+    def is_sharp(self) -> bool:
+        """Whether nothing becomes of it."""
+        return max(self) <= BROKEN_MM
+
+
+SHARP = Corner()
+
+
+class Side(NamedTuple):
+    """A side of a groove: how far its wall leans from upright, degrees, its corner at the rim and that at the base."""
+
+    angle_deg: float = 0.0
+    rim: Corner = SHARP
+    base: Corner = SHARP
+
+    @property
+    def is_plain(self) -> bool:
+        """Whether it is an upright wall between sharp corners."""
+        return not self.angle_deg and self.rim.is_sharp and self.base.is_sharp
+
+
+UPRIGHT = Side()
+
+
+class GrooveError(ValueError):
+    """The corners of a groove do not fit between its edges, or the tool does not between its walls."""
+
+
+@dataclass(frozen=True)
 class Groove:
     """A groove and how it is cut; mm.
 
     Attributes:
-        width: From edge to edge.
+        width: Of the base, from wall to wall.
         depth: From rim to base.
         tool_width: Of the tool, not above what the flank allowances leave.
         base_allowance, flank_allowance: Left by roughing for a finishing cut.
         infeed: Greatest depth of one infeed; 0 for all at once.
         lift: Height above the rim between cuts, and way back between infeeds.
+        sides: That at which the groove begins, and the other one.
+        nose_radius: Of both edges of the tool.
     """
 
     width: float
@@ -49,41 +100,180 @@ class Groove:
     flank_allowance: float = 0.0
     infeed: float = 0.0
     lift: float = 1.0
+    sides: tuple[Side, Side] = (UPRIGHT, UPRIGHT)
+    nose_radius: float = 0.0
+
+    @cached_property
+    def feet(self) -> tuple[float, float]:
+        """From the edge of each side to the foot of its wall."""
+        first, second = (self.depth * tan(radians(side.angle_deg)) for side in self.sides)
+        return first, second
+
+    @property
+    def top(self) -> float:
+        """Width at the rim."""
+        return sum(self.feet) + self.width
+
+    @property
+    def middle(self) -> float:
+        """Where the tool stands on the middle of the base, in w."""
+        return self.feet[0] + 0.5 * (self.width - self.tool_width)
+
+    @property
+    def is_plain(self) -> bool:
+        """Whether it is a rectangle."""
+        return all(side.is_plain for side in self.sides)
+
+    @cached_property
+    def contours(self) -> tuple[Contour, Contour]:
+        """Each side in its own (u, t), from its rim to where the tool stands on the middle of the base.
+
+        Raises:
+            GrooveError: The corners do not fit.
+        """
+        first, second = (self._contour(side, foot) for side, foot in zip(self.sides, self.feet, strict=True))
+        return first, second
+
+    def _contour(self, side: Side, foot: float) -> Contour:
+        reach = 0.5 * (self.width - self.tool_width) + self.nose_radius
+        if side.base.is_sharp:
+            reach = max(reach, NO_WAY * 10.0)
+        far = self.width + self.depth
+        rim = offset.line((-far, 0.0), (0.0, 0.0))
+        wall = offset.line((0.0, 0.0), (foot, self.depth))
+        base = offset.line((foot, self.depth), (foot + reach, self.depth))
+        pieces = _with_corner([Piece(rim)], Piece(wall), side.rim)
+        return _with_corner(pieces, Piece(base), side.base)[1:]
+
+    def room(self, number: int, u: float) -> float:
+        """How deep a side lets an edge of the tool go that stands at u."""
+        u -= self.flank_allowance / cos(radians(self.sides[number].angle_deg))
+        depth = 0.0
+        for piece in self.contours[number]:
+            edge = piece.edge
+            if edge.end[0] <= u + NO_WAY:
+                depth = edge.end[1]
+            elif edge.start[0] <= u:
+                # The edge is crossed where its u is this one.
+                return crossings(swapped([piece])[0].edge, u)[0][0]
+        return depth
+
+
+def _with_corner(before: list[Piece], piece: Piece, corner: Corner) -> list[Piece]:
+    """A contour that goes on with a piece, the corner between broken or rounded."""
+    if corner.is_sharp:
+        return [*before, piece]
+    a, b = before[-1].edge, piece.edge
+    if corner.radius:
+        cuts = offset.rounded(a, b, corner.radius)
+    else:
+        cuts = offset.chamfered(a, b, corner.leg or offset.leg_of_chamfer(a, b, corner.length))
+    if cuts is None:
+        raise GrooveError("corner")
+    if cuts.center is None:
+        broken = offset.line(cuts.leaving, cuts.entering)
+    else:
+        broken = offset.arc(cuts.leaving, cuts.entering, cuts.center, offset.turn(a, b) > 0.0)
+    pieces = [offset.line(a.start, cuts.leaving), broken, offset.line(cuts.entering, b.end)]
+    return [*before[:-1], *(Piece(edge) for edge in pieces if edge.length > NO_WAY)]
 
 
 def strokes(groove: Groove) -> Iterator[GrooveStroke]:
-    """Plunges side by side, each in equal infeeds, then both walls with half of the base each where stock is left."""
+    """Plunges side by side, each in equal infeeds, then both sides with half of the base each where stock is left.
+
+    Raises:
+        GrooveError: The corners do not fit, or the tool's nose does not into those of the base.
+    """
     yield from _rough(groove)
-    if groove.base_allowance > 0.0 or groove.flank_allowance > 0.0:
+    if not groove.is_plain or groove.base_allowance > 0.0 or groove.flank_allowance > 0.0:
         yield from _finish(groove)
 
 
 def _rough(groove: Groove) -> Iterator[GrooveStroke]:
-    first = groove.flank_allowance
-    way = groove.width - 2.0 * groove.flank_allowance - groove.tool_width
-    steps = parts(way, groove.tool_width, _WHOLE)
-    base = groove.depth - groove.base_allowance
-    infeeds = max(parts(base, groove.infeed, _WHOLE), 1) if groove.infeed > 0.0 else 1
-    for column in range(max(steps, 0) + 1):
+    """Plunges over the base from its first wall on, then down the walls where these lean by more than the tool."""
+    leans = [
+        groove.flank_allowance / cos(radians(side.angle_deg)) if side.angle_deg else groove.flank_allowance
+        for side in groove.sides
+    ]
+    first = groove.feet[0] + leans[0]
+    way = groove.width - sum(leans) - groove.tool_width
+    steps = max(parts(way, groove.tool_width, _WHOLE), 0)
+    for column in range(steps + 1):
         w = first + (way * column / steps if steps > 0 else 0.0)
-        yield GrooveStroke((w, -groove.lift), is_rapid=True)
-        for k in range(1, infeeds + 1):
-            t = base * k / infeeds
-            yield GrooveStroke((w, t))
-            if k < infeeds:
-                yield GrooveStroke((w, t - groove.lift), is_rapid=True)
+        yield from _plunge(groove, w, min(OFF_WALL_MM, way / steps) if column else 0.0)
+    for number, (foot, start, sense) in enumerate(
+        ((groove.feet[0], first, -1.0), (groove.feet[1], first + max(way, 0.0), 1.0))
+    ):
+        count = parts(foot, groove.tool_width, _WHOLE)
+        for k in range(1, count):
+            yield from _plunge(groove, start + sense * foot * k / count, 0.0, number)
+
+
+def _plunge(groove: Groove, w: float, off: float, number: int | None = None) -> Iterator[GrooveStroke]:
+    """In and out at a place; `off` the wall at the base before the way out, `number` of the side that bounds it."""
+    base = _base(groove, w)
+    if base <= NO_WAY:
+        return
+    off = off if _base(groove, w - off) >= base else 0.0
+    infeeds = max(parts(base, groove.infeed, _WHOLE), 1) if groove.infeed > 0.0 else 1
+    yield GrooveStroke((w, -groove.lift), is_rapid=True)
+    for k in range(1, infeeds + 1):
+        t = base * k / infeeds
+        yield GrooveStroke((w, t))
+        if k < infeeds:
+            yield GrooveStroke((w, t - groove.lift), is_rapid=True)
+    if number is None:
         yield DWELL
-        out = w
-        if column:
-            out = w - min(OFF_WALL_MM, way / steps)
-            yield GrooveStroke((out, base))
-        yield GrooveStroke((out, -groove.lift), is_rapid=True)
+    if off:
+        yield GrooveStroke((w - off, base))
+    yield GrooveStroke((w - off, -groove.lift), is_rapid=True)
+
+
+def _base(groove: Groove, w: float) -> float:
+    """How deep roughing goes at a place: to the base, or to where the walls let both edges of the tool."""
+    base = groove.depth - groove.base_allowance
+    if groove.is_plain:
+        return base
+    return min(base, groove.room(0, w), groove.room(1, groove.top - w - groove.tool_width))
 
 
 def _finish(groove: Groove) -> Iterator[GrooveStroke]:
+    """Each side from its rim to the middle of the base, by the edge of the tool that lies on its side."""
+    if groove.is_plain:
+        yield from _finish_plain(groove)
+        return
+    for number in (0, 1):
+        path = _edge_path(groove, number)
+        start, end = path[0].edge.start, path[-1].edge.end
+        yield GrooveStroke(_place(groove, number, (start[0], -groove.lift)), is_rapid=True)
+        yield GrooveStroke(_place(groove, number, start))
+        for piece in path:
+            edge = piece.edge
+            center = None if edge.center is None else _place(groove, number, edge.center)
+            yield GrooveStroke(_place(groove, number, edge.end), center=center, ccw=edge.ccw is (number == 0))
+        yield GrooveStroke(_place(groove, number, (end[0], -groove.lift)), is_rapid=True)
+
+
+def _finish_plain(groove: Groove) -> Iterator[GrooveStroke]:
     last = groove.width - groove.tool_width
     for wall in (0.0, last):
         yield GrooveStroke((wall, -groove.lift), is_rapid=True)
         yield GrooveStroke((wall, groove.depth))
         yield GrooveStroke((0.5 * last, groove.depth))
         yield GrooveStroke((0.5 * last, -groove.lift), is_rapid=True)
+
+
+def _edge_path(groove: Groove, number: int) -> Contour:
+    """Where the edge on a side goes along it: its nose lies on the contour."""
+    radius = groove.nose_radius
+    try:
+        path = parallel(groove.contours[number], -radius)
+    except ValueError:
+        raise GrooveError("nose") from None
+    return shifted(path, -radius, radius)
+
+
+def _place(groove: Groove, number: int, point: Point) -> Point:
+    """A point of the edge on a side, as one of the edge that lies nearer to where the groove begins."""
+    u, t = point
+    return (u, t) if number == 0 else (groove.top - u - groove.tool_width, t)

@@ -5,11 +5,11 @@ Coordinates: `a` is the direction of the pecks, `b` the direction in which colum
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import copysign
 from typing import TYPE_CHECKING
 
 from polycnc.cycles.turning.stroke import PlaneStroke, feed, rapid
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.tolerances import NO_WAY
 
 if TYPE_CHECKING:

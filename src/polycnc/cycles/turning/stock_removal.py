@@ -7,7 +7,6 @@ cut after what lies in front of it, from the level at which the summit closes it
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from itertools import pairwise
 from math import copysign
 from typing import TYPE_CHECKING
@@ -15,6 +14,7 @@ from typing import TYPE_CHECKING
 from polycnc.cycles.count import parts
 from polycnc.cycles.turning.contour import climb, gaps, points
 from polycnc.cycles.turning.stroke import PlaneStroke
+from polycnc.deferred.records import dataclass
 from polycnc.geometry import arcs
 from polycnc.toolpath import Kind
 

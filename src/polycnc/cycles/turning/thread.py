@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import copysign, radians, sqrt, tan
 from typing import TYPE_CHECKING
 
 from polycnc.cycles.turning.stroke import PlaneStroke, rapid
+from polycnc.deferred.records import dataclass
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:

@@ -5,9 +5,10 @@ Points are (a, b): `a` along the thread, `b` the radius.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import copysign, radians, sqrt, tan
 from typing import TYPE_CHECKING, NamedTuple
+
+from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

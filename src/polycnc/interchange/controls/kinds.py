@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, TypeAlias
+
+from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -14,6 +14,7 @@ from polycnc.control.data_files import DataFileError
 from polycnc.control.parameters import known_parameters
 from polycnc.control.word_address.macro_b.parameter_input import set_parameter
 from polycnc.control.word_address.memory import ParameterTable
+from polycnc.deferred.regexes import regex
 from polycnc.interchange import numbers
 from polycnc.machine.setup.values import ParameterKey
 from polycnc.messages import text
@@ -26,12 +27,12 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.family import MacroChannel
 
 _BITS = 8
-_BLOCK = re.compile(r"N\s*(\d+)\s*Q\s*1\s*((?:(?:[ALST]\s*\d+\s*)?P\s*[-+.\d]+\s*)+);?\s*", re.ASCII)
-_VALUE = re.compile(r"(?:([ALST])\s*(\d+)\s*)?P\s*([-+.\d]+)\s*", re.ASCII)
-_G10 = re.compile(r"G10\s*L5[02]\s*;?\s*", re.ASCII)
-_G10_BLOCK = re.compile(r"N\s*(\d+)\s*(?:P\s*(\d+)\s*)?(?:Q\s*([0-7])\s*)?R\s*([-+.\d]+)\s*;?\s*", re.ASCII)
-_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)", re.ASCII)
-_END = re.compile(r"(?:G11|M02|M30|%)\s*;?\s*", re.ASCII)
+_BLOCK = regex(r"N\s*(\d+)\s*Q\s*1\s*((?:(?:[ALST]\s*\d+\s*)?P\s*[-+.\d]+\s*)+);?\s*", re.ASCII)
+_VALUE = regex(r"(?:([ALST])\s*(\d+)\s*)?P\s*([-+.\d]+)\s*", re.ASCII)
+_G10 = regex(r"G10\s*L5[02]\s*;?\s*", re.ASCII)
+_G10_BLOCK = regex(r"N\s*(\d+)\s*(?:P\s*(\d+)\s*)?(?:Q\s*([0-7])\s*)?R\s*([-+.\d]+)\s*;?\s*", re.ASCII)
+_NUMBER = regex(r"[+-]?(?:\d+\.?\d*|\.\d+)", re.ASCII)
+_END = regex(r"(?:G11|M02|M30|%)\s*;?\s*", re.ASCII)
 
 
 # ---- writing ---------------------------------------------------------------------------------------------------

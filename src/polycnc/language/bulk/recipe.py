@@ -8,11 +8,11 @@ if every one of its steps carries one; the scanner then does the same without ca
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable
-from dataclasses import dataclass
 from enum import IntEnum
 from math import inf
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, TypeVar
 
+from polycnc.deferred.records import dataclass
 from polycnc.language.bulk import layout
 
 if TYPE_CHECKING:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.states.snapshot import unchanging
 from polycnc.channel.steps import forget_steps, kept_steps
+from polycnc.deferred.regexes import regex
 from polycnc.language.expressions.joined import led_by
 from polycnc.language.sinumerik.blocks import CompiledBlock, compile_block, compile_text, expanded
 from polycnc.language.sinumerik.emitter import Emitter
@@ -29,15 +30,18 @@ from polycnc.language.sinumerik.statements.definitions import NO_HEADER, Header,
 from polycnc.language.sinumerik.statements.labels import Labels
 from polycnc.language.sinumerik.statements.structures import Structure, structures_of
 from polycnc.messages import AlarmError
+from polycnc.program.long_text import LongText
 from polycnc.program.names import DEF_DIR
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from polycnc.channel.channel import Channel
     from polycnc.channel.steps import Step
     from polycnc.language.sinumerik.interface import LanguageControl, LanguageMemory, NcChannel
     from polycnc.program import Program
 
-_DEFINITION = re.compile(r"[ \t]*(?:DEF|REDEF|DEFINE|PROC|EXTERN)\b", re.IGNORECASE)
+_DEFINITION = regex(r"[ \t]*(?:DEF|REDEF|DEFINE|PROC|EXTERN)\b", re.IGNORECASE)
 #: Type of comments and of the screens of own cycles (cov.com, uc.com, 1.25.4): texts, not programs.
 _COMMENT_FILE = "_COM"
 #: Joined steps that a block may be part of: a program that is entered at many places is not joined from each anew.
@@ -46,7 +50,7 @@ MOST_JOINS = 8
 _MOST_TEXTS = 1024
 #: A line that begins with none of these is a block.
 _BLANK = " \t;%\r\x00"
-_EMPTY = re.compile(r"[ \t\r\x00]*(?:;|%|$)")
+_EMPTY = regex(r"[ \t\r\x00]*(?:;|%|$)")
 
 
 @unchanging
@@ -66,9 +70,8 @@ class SinumerikProgram:
         self.control = control
         self.is_definition_file = program.directory == DEF_DIR
         self.declared: dict[str, int] = {}
-        lines = enumerate(program.lines)
-        self._lines = array("I", (i for i, line in lines if line[:1] not in _BLANK or not _EMPTY.match(line)))
-        numbers = array("I", (program.first_line + i for i in self._lines))
+        self._lines = _blocks(program.lines)
+        numbers = array("I", map(program.first_line.__add__, self._lines))
         numbers.append(numbers[-1] if numbers else program.first_line)
         #: The line in the file of a step. Asked for every row, so it is the array's own method.
         self.line = numbers.__getitem__
@@ -350,6 +353,20 @@ class SinumerikProgram:
         if structure.error:
             raise NcSyntaxError(structure.error, token.column, token.text)
         return structure
+
+
+def _blocks(lines: Sequence[str]) -> array[int]:
+    """The lines that are blocks: neither empty nor a comment alone."""
+    if not isinstance(lines, LongText):
+        return array("I", (i for i, line in enumerate(lines) if line[:1] not in _BLANK or _is_block(line)))
+    found = array("I")
+    for blocks in lines.not_beginning(_BLANK, _is_block):
+        found.extend(blocks)
+    return found
+
+
+def _is_block(line: str) -> bool:
+    return _EMPTY.match(line) is None
 
 
 def _skipped(channel: Channel) -> None:

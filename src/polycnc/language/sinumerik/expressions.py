@@ -175,12 +175,12 @@ class ExpressionReader(Cursor[Token], OperatorReader[Token, Expr]):
 
     def _number(self, operator: Operator, mark: Token, left: Expr, right: Expr) -> Expr:
         """The value of an operator between two numbers."""
+        type_ = Type.REAL if Type.REAL in (left.type, right.type) else Type.INT
         if mark.text == "MOD":
-            (a, a2), (b, b2) = (self.emitter.twice(self.converted(x, Type.INT, mark)) for x in (left, right))
+            (a, a2), (b, b2) = (self.emitter.twice(self.converted(x, type_, mark)) for x in (left, right))
             # Python's % has the sign of the divisor: the same where neither is negative.
             code = quoted("{2} % {3} if ({0} >= 0) & ({1} > 0) else remainder({2}, {3})", a, b, a2, b2)
-            return Expr(code, Type.INT)
-        type_ = Type.REAL if Type.REAL in (left.type, right.type) else Type.INT
+            return Expr(code, type_)
         gives = operator.gives
         if mark.text == "DIV" and type_ is Type.INT:
             gives = "int_quotient"

@@ -9,15 +9,14 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.regexes import regex
 from polycnc.language.sinumerik.names.values import MAX_STRING, Axis, round_half_up
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-_MARK = re.compile(
-    r"%(?:(?P<percent>%)|(?P<zero>0?)(?P<width>\d*)(?:\.(?P<decimals>\d+))?(?P<kind>[A-Za-z]))"
-)
+_MARK = regex(r"%(?:(?P<percent>%)|(?P<zero>0?)(?P<width>\d*)(?:\.(?P<decimals>\d+))?(?P<kind>[A-Za-z]))")
 
 
 def _number(value: object) -> float:

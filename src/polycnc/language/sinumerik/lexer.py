@@ -11,6 +11,7 @@ import re
 from math import isinf
 from typing import NamedTuple
 
+from polycnc.deferred.regexes import regex
 from polycnc.language.sinumerik.errors import NcSyntaxError, syntax
 
 
@@ -43,20 +44,21 @@ class Token(NamedTuple):
 
 
 _NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:EX[+-]?\d+)?"
-_TOKEN = re.compile(
+_TOKEN = regex(
     rf"""[ \t]*(?:
       (?P<word>[A-Z](?:\d+(?:\.\d*)?(?:EX[+-]?\d+)?))
     | (?P<name>\$\$?[A-Z]\w*|[A-Z_]{{2}}\w*|[A-Z])
     | (?P<number>{_NUMBER})
     | "(?P<string>[^"]*)"
     | '(?P<literal>[HB][0-9A-F]+)'
+    | '(?P<char>[^'])'
     | (?P<op><<|==|<>|<=|>=|[-+*/=()\[\],:<>])
     )""",
     re.VERBOSE | re.IGNORECASE | re.ASCII,
 )
 _BLANK = " \t\r\n\x00"
-LABEL = re.compile(r"[ \t]*([A-Z_]{2}\w{0,30})[ \t]*:", re.IGNORECASE | re.ASCII)
-PREFIX = re.compile(
+LABEL = regex(r"[ \t]*([A-Z_]{2}\w{0,30})[ \t]*:", re.IGNORECASE | re.ASCII)
+PREFIX = regex(
     r"[ \t]*(?:/(?P<skip>\d?)[ \t]*)?(?:(?P<number>N[ \t]*\d+|:[ \t]*\d+)[ \t]*)?", re.IGNORECASE | re.ASCII
 )
 MAX_EXPONENT = 300
@@ -105,10 +107,10 @@ def tokenize(line: str, start: int = 0) -> list[Token]:
         begin, position = found.span(kind)
         text = found[kind]
         column = begin + 1
-        if kind == "string":
+        if kind in ("string", "char"):  # a character stands in quotes of either kind (10.5.2)
             position += 1
             begin -= 1
-            tokens.append(Token(kind, text, 0, begin, position))
+            tokens.append(Token("string", text, 0, begin, position))
         elif kind == "number":
             tokens.append(Token(kind, text.upper(), number_of(text, column), begin, position))
         elif kind == "word":

@@ -25,6 +25,7 @@ from math import (
 )
 from typing import TYPE_CHECKING, Any
 
+from polycnc.deferred.regexes import regex
 from polycnc.language.expressions.operators import overflow
 from polycnc.language.sinumerik.errors import arithmetic
 from polycnc.language.sinumerik.lexer import number_of
@@ -52,7 +53,7 @@ if TYPE_CHECKING:
 near = partial(isclose, rel_tol=1e-12)
 
 _EXACT_SINE = {0.0: 0.0, 90.0: 1.0, 180.0: 0.0, 270.0: -1.0}
-_NUMBER = re.compile(r"\s*[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:EX[+-]?\d{1,3})?\s*", re.IGNORECASE | re.ASCII)
+_NUMBER = regex(r"\s*[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:EX[+-]?\d{1,3})?\s*", re.IGNORECASE | re.ASCII)
 
 
 def sind(x: float) -> float:
@@ -146,11 +147,12 @@ def real_quotient(a: float, b: float) -> float:
     return float(trunc(a / b))
 
 
-def remainder(a: int, b: int) -> int:
-    """MOD: the remainder has the sign of the dividend."""
+def remainder(a: float, b: float) -> float:
+    """MOD: the remainder has the sign of the dividend; of two INT an INT, else a REAL (job planning 10.2)."""
     if b == 0:
         raise ZeroDivisionError
-    return int(fmod(a, b))
+    rest = fmod(a, b)
+    return int(rest) if isinstance(a, int) and isinstance(b, int) else rest
 
 
 def number_in(text: str) -> float:

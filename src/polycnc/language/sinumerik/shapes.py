@@ -10,17 +10,19 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, NamedTuple
 
+from polycnc.deferred.regexes import regex
+
 if TYPE_CHECKING:
     from polycnc.channel.steps import Step
     from polycnc.language.expressions.shapes import Template
     from polycnc.language.sinumerik.emitter import Emitter
 
 #: An axis or path address with its number, or a number by itself; never a part of a name, R, G, M or `X1=`.
-_NUMBER = re.compile(
+_NUMBER = regex(
     r"(?<![\w$.])(?:([A-CFI-KSU-Z])[ \t]*([+-]?(?:\d+\.?\d*|\.\d+))|(\d+\.?\d*|\.\d+))(?![\w.]|[ \t]*=[^=])",
     re.IGNORECASE | re.ASCII,
 )
-_PREFIX = re.compile(r"[ \t]*(?:N\d+[ \t]*)?", re.IGNORECASE)
+_PREFIX = regex(r"[ \t]*(?:N\d+[ \t]*)?", re.IGNORECASE)
 _KEEP = 4096
 
 

@@ -8,9 +8,9 @@ control works out once how such a block acts in some modal state and keeps that 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from weakref import WeakValueDictionary
 
+from polycnc.deferred.records import dataclass
 from polycnc.messages import AlarmError
 
 

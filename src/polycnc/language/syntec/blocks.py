@@ -7,10 +7,10 @@ decimal point, a Double as with one; a VACANT word counts as not written. See `l
 
 from __future__ import annotations
 
-import re
 from math import isfinite
 from typing import TYPE_CHECKING, Any
 
+from polycnc.deferred.regexes import regex
 from polycnc.language.expressions.code import sequence
 from polycnc.language.syntec.expressions import ABOVE_COMPARISONS, OPERATORS, Reader
 from polycnc.language.syntec.tokens import Token, fault
@@ -31,7 +31,7 @@ WRONG_SUFFIX = "COR-034"
 SUFFIXES = "CRA"
 NEVER_INDEXED = "GMNO"
 MAX_DIGITS = 18
-_WORD = re.compile(r"([A-Z])([-+]?)([\d.]+)")
+_WORD = regex(r"([A-Z])([-+]?)([\d.]+)")
 #: How a word counts as written when its value is of a type; see `language.word_address.words`.
 FORMS: dict[type, str] = {int: "", float: ".", Text: '"'}
 

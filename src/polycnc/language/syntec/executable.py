@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.states.snapshot import unchanging
 from polycnc.channel.steps import several
+from polycnc.deferred.regexes import regex
 from polycnc.language.syntec.blocks import TypedBlock
 from polycnc.language.syntec.expressions import syntec_shapes
 from polycnc.language.syntec.layout import NO_SEQUENCE
@@ -29,7 +30,7 @@ NO_LINE = "COR-018"
 _BLOCKS = (WordBlock, TypedBlock)
 _START = attrgetter("start")
 _BLANKS = str.maketrans("", "", " \t")
-_HEAD = re.compile(r"[ \t]*[O:][ \t]*\d+", re.IGNORECASE)
+_HEAD = regex(r"[ \t]*[O:][ \t]*\d+", re.IGNORECASE)
 
 
 @unchanging

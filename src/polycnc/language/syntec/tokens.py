@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, NamedTuple
 
+from polycnc.deferred.regexes import regex
 from polycnc.language.syntec.functions import FUNCTIONS
 from polycnc.messages import AlarmError
 
@@ -58,11 +59,11 @@ _PATTERN = r"""
   | (?P<wrong>.)
 """
 _names = "|".join(_NAMES)
-_MACRO = re.compile(
+_MACRO = regex(
     _PATTERN.format(comment=r"\(\*.*?\*\)", unclosed=r"\(\*", names=_names, plain=_PLAIN),
     re.VERBOSE | re.IGNORECASE | re.DOTALL,
 )
-_ISO = re.compile(
+_ISO = regex(
     _PATTERN.format(comment=r"\([^)\n]*\)", unclosed=r"\(", names=_names, plain="(?!)"),
     re.VERBOSE | re.IGNORECASE | re.DOTALL,
 )

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_right
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.snapshot import unchanging
 from polycnc.channel.steps import kept_steps, several
+from polycnc.deferred.records import dataclass
+from polycnc.deferred.regexes import regex
 from polycnc.language.expressions.code import listed
 from polycnc.language.expressions.joined import MAX_JOINED, led_by
 from polycnc.language.word_address.joining import JOINABLE, join, join_loop
 from polycnc.language.word_address.macro_b import Lifting, Reader, macro_shapes
-from polycnc.language.word_address.patterns import Patterns, Spot, negative
+from polycnc.language.word_address.patterns import MOST_LINES, Patterns, Spot, negative
 from polycnc.language.word_address.statements import KEYWORD, Assignment, LoopEnd, parse_statement
 from polycnc.language.word_address.words import ExpressionBlock, WordBlock, code_key, is_fixed_code, word_key
 from polycnc.messages import AlarmError
@@ -30,24 +32,24 @@ if TYPE_CHECKING:
 #: Longer blocks are refused: no control stores one, and a damaged file must not fill the memory.
 MAX_BLOCK_LENGTH = 4096
 #: A number can match in one way only, so a line that fails does so at once.
-_PLAIN = re.compile(r"(?:[A-Z][-+]?(?:\d+(?:\.\d*)?|\.\d+)[ \t]*)+;?")
-_WORD = re.compile(r"([A-Z])([-+]?)([\d.]+)")
-_BLANK = re.compile(r"[ \t]*%?[ \t]*")
-_COMMENT = re.compile(r"\([^)]*\)?")
-_SEQUENCE = re.compile(r"[ \t]*(?:/\d?[ \t]*)*N[ \t]*(\d+)", re.IGNORECASE)
-_STATEMENT = re.compile(rf"[ \t]*(?:/\d?[ \t]*)*(?:N[ \t]*\d+)?[ \t]*(?:/\d?[ \t]*)*(?:{KEYWORD.pattern})")
-_NUMBERS = re.compile(
+_PLAIN = regex(r"(?:[A-Z][-+]?(?:\d+(?:\.\d*)?|\.\d+)[ \t]*)+;?")
+_WORD = regex(r"([A-Z])([-+]?)([\d.]+)")
+_BLANK = regex(r"[ \t]*%?[ \t]*")
+_COMMENT = regex(r"\([^)]*\)?")
+_SEQUENCE = regex(r"[ \t]*(?:/\d?[ \t]*)*N[ \t]*(\d+)", re.IGNORECASE)
+_STATEMENT = regex(rf"[ \t]*(?:/\d?[ \t]*)*(?:N[ \t]*\d+)?[ \t]*(?:/\d?[ \t]*)*(?:{KEYWORD.pattern})")
+_NUMBERS = regex(
     r"^[ \t]*(?:[O:][ \t]*\d+|<[^>]*>)?[ \t]*(?:/\d?[ \t]*)*(?:N[ \t]*\d+)?[ \t]*(?:/\d?[ \t]*)*"
 )
 #: A block that begins with a word and its number is neither a statement nor nothing.
-_PLAIN_BEGIN = re.compile(r"(?:N\d+[ \t]*)?[A-MO-Z][-+\d.]")
-_SEQUENCE_WORD = re.compile(r"N[ \t]*\d+\.?\d*")
-_LOOP = re.compile(r"(?<![A-Z])(DO|END)[ \t]*(\d+)")
-_HEAD = re.compile(r"[ \t]*(?:[O:][ \t]*\d+|<[^>]*>)?")
-_SKIP = re.compile(r"[ \t]*/[ \t]*(\d?)")
-_NUMBER_TEXT = re.compile(r"[ \t]*([-+]?)[ \t]*(\d+\.?\d*|\.\d+)")
-_VALUE = re.compile(r"[ \t]*[-+]?[ \t]*[#\[]")
-_NAME = re.compile(r"[ \t]*P?[ \t]*(<[^<>]+>)")
+_PLAIN_BEGIN = regex(r"(?:N\d+[ \t]*)?[A-MO-Z][-+\d.]")
+_SEQUENCE_WORD = regex(r"N[ \t]*\d+\.?\d*")
+_LOOP = regex(r"(?<![A-Z])(DO|END)[ \t]*(\d+)")
+_HEAD = regex(r"[ \t]*(?:[O:][ \t]*\d+|<[^>]*>)?")
+_SKIP = regex(r"[ \t]*/[ \t]*(\d?)")
+_NUMBER_TEXT = regex(r"[ \t]*([-+]?)[ \t]*(\d+\.?\d*|\.\d+)")
+_VALUE = regex(r"[ \t]*[-+]?[ \t]*[#\[]")
+_NAME = regex(r"[ \t]*P?[ \t]*(<[^<>]+>)")
 
 #: Steps that lines of one pattern share.
 REPEATABLE = (WordBlock, ExpressionBlock, Assignment)
@@ -68,6 +70,8 @@ class Grammar:
         last_loop: The largest number of a loop (DO m); `deepest_loop` is how deep loops nest.
         shapes: The compiled code of the control's expressions.
         patterns: The lines that have been read.
+        plain: Blocks of the lines that have numbers only: a program calls, retracts and turns back in the same words
+            again and again.
     """
 
     alarms: Mapping[str, str]
@@ -79,6 +83,7 @@ class Grammar:
     deepest_loop: int = 3
     shapes: Shapes = field(default_factory=macro_shapes, compare=False, repr=False)
     patterns: Patterns = field(default_factory=Patterns, compare=False, repr=False)
+    plain: dict[str, WordBlock] = field(default_factory=dict, compare=False, repr=False)
 
 
 def empty_block(_channel: Channel) -> None:
@@ -251,16 +256,23 @@ class WordAddressProgram:
 
     def compile(self, line: str, index: int) -> Step:
         """The step of one line."""
+        plain = self.grammar.plain
+        known = plain.get(line)
+        if known is not None:
+            return known
         text = line.strip()
         if _PLAIN.fullmatch(text) and text[0] != "O":
-            return self._plain(text)
+            if len(plain) >= MOST_LINES:
+                plain.clear()
+            plain[line] = block = self._plain(text)
+            return block
         if not text or text == "%":
             return empty_block
         if len(text) > MAX_BLOCK_LENGTH:
             raise AlarmError(self.grammar.alarms["block_too_long"], column=MAX_BLOCK_LENGTH)
         return self._general(line, index)
 
-    def _plain(self, text: str) -> Step:
+    def _plain(self, text: str) -> WordBlock:
         """A block of words with numbers only."""
         signature: list[str] = []
         values: list[float] = []

@@ -13,6 +13,7 @@ import re
 from math import isinf
 from typing import TYPE_CHECKING, NamedTuple
 
+from polycnc.deferred.regexes import regex
 from polycnc.language.expressions.code import (
     Code,
     Lifted,
@@ -77,11 +78,11 @@ OPERATORS = {
 SIGNS = {"-": Operator(TIGHTEST, ast.USub), "+": Operator(TIGHTEST, ast.UAdd)}
 
 _BLANKS = (" ", "\t")
-_VARIABLE = re.compile(r"#[ \t]*(\d+)(?![\d.])")
-_FUNCTION = re.compile(r"([A-Z]+)[ \t]*(?=\[)")
-_OPERATOR = re.compile(rf"[ \t]*({'|'.join(map(re.escape, OPERATORS))})")
-_LOGIC = re.compile(r"AND|OR|XOR")
-_NAMED = re.compile(r"\[#(_?[A-Z][A-Z0-9_]*)")
+_VARIABLE = regex(r"#[ \t]*(\d+)(?![\d.])")
+_FUNCTION = regex(r"([A-Z]+)[ \t]*(?=\[)")
+_OPERATOR = regex(rf"[ \t]*({'|'.join(map(re.escape, OPERATORS))})")
+_LOGIC = regex(r"AND|OR|XOR")
+_NAMED = regex(r"\[#(_?[A-Z][A-Z0-9_]*)")
 
 MEMORY = name("m")
 _MEMORIES = {memory: attribute(MEMORY, memory) for memory in MEMORIES}

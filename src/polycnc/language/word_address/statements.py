@@ -7,9 +7,10 @@ steps in `channel.level.data`, so that a jump into a loop is found out at its EN
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
+from polycnc.deferred.records import dataclass
+from polycnc.deferred.regexes import regex
 from polycnc.language.expressions.code import assigned
 from polycnc.language.expressions.shapes import with_values
 from polycnc.language.word_address.functions import round_half_away
@@ -25,9 +26,9 @@ if TYPE_CHECKING:
     from polycnc.language.expressions.code import Code
     from polycnc.language.word_address.macro_b import Evaluate, Reader
 
-KEYWORD = re.compile(r"IF|WHILE|WH(?=\s*\[)|GOTO|GO(?=\s*[\d#\[])|DO|END|POPEN|PCLOS|DPRNT|BPRNT|SETVN|#")
-_INTEGER = re.compile(r"\d+")
-_PRINT_FORMAT = re.compile(r"#\s*(\[[^\]]*\]|\d+)\s*\[\s*(\d)\s*(\d)?\s*\]")
+KEYWORD = regex(r"IF|WHILE|WH(?=\s*\[)|GOTO|GO(?=\s*[\d#\[])|DO|END|POPEN|PCLOS|DPRNT|BPRNT|SETVN|#")
+_INTEGER = regex(r"\d+")
+_PRINT_FORMAT = regex(r"#\s*(\[[^\]]*\]|\d+)\s*\[\s*(\d)\s*(\d)?\s*\]")
 MAX_SEQUENCE_NUMBER = 99_999_999
 
 

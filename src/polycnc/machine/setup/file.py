@@ -9,6 +9,7 @@ from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
+from polycnc.deferred.regexes import regex
 from polycnc.geometry.surfaces import Surface
 from polycnc.machine.documents import DocumentError, toml_values, yaml_values
 from polycnc.machine.errors import SetupError, nearest
@@ -46,7 +47,7 @@ _LAST_TIP = 9
 #: Bits of the widest parameters there are.
 _LAST_BIT = 31
 #: Names of work offsets on all controls: G54 to G59, G59.1 …, G54.1 P1 (G54 P1), G500, G505 …, and the external one.
-_WORK_OFFSET = re.compile(r"EXT|G5[4-9](\.\d)?( ?P\d+)?|G5\d\d")
+_WORK_OFFSET = regex(r"EXT|G5[4-9](\.\d)?( ?P\d+)?|G5\d\d")
 #: Operating modes, as the controls name them.
 MODES = (
     "memory", "auto", "mdi", "mda", "tape", "dnc", "remote", "edit",

@@ -7,8 +7,11 @@ example): only the control knows what they mean.
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING, NamedTuple
+
+from polycnc.deferred.records import dataclass
+from polycnc.deferred.regexes import regex
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -17,7 +20,7 @@ if TYPE_CHECKING:
     from polycnc.geometry.surfaces import Surface
 
 Value = float | int | str | bool | None | tuple["Value", ...]
-_PARAMETER = re.compile(
+_PARAMETER = regex(
     r"""\s*(?:(?:PR|MD|SD|NO\.)?\s*(?P<number>\d+) | (?P<name>\$?[A-Z_][A-Z_0-9]*))
         \s*(?:\#\s*(?P<bit>\d+))?
         \s*(?:\[\s*(?P<inside>[^\]]*)\])?

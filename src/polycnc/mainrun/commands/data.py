@@ -5,11 +5,11 @@ What is confirmed lasts: each command ends with a `commit` of the retained memor
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from polycnc.control.parameters import known_parameters
 from polycnc.control.word_address.macro_b.parameter_input import set_parameter
+from polycnc.deferred.records import dataclass
 from polycnc.machine.setup.values import parameter_key
 from polycnc.mainrun.commands.states import Command
 from polycnc.mainrun.errors import CommandRefused
@@ -138,11 +138,11 @@ class DataCommands:
 
     def first_line(self, name: str) -> int:
         """The line of its file at which a program begins."""
-        return self._named(name).first_line
+        return self.named(name).first_line
 
     def lines(self, name: str) -> Sequence[str]:
         """The lines of a program."""
-        return self._named(name).lines
+        return self.named(name).lines
 
     def store(self, name: str, text: str) -> None:
         """Put a program, or what a text has, into the memory in the place of those with their names."""
@@ -155,15 +155,16 @@ class DataCommands:
         """Take a program out of the memory."""
         self._check_protection()
         self._check_free(name)
-        self._programs.forget(self._named(name))
+        self._programs.forget(self.named(name))
         self._retained.commit()
 
     def select(self, name: str, channel: int) -> None:
         """Load a program of the memory as the main program of a channel."""
         self._permission.ask(Command.LOAD)
-        self._commands.select(self._named(name), channel)
+        self._commands.select(self.named(name), channel)
 
-    def _named(self, name: str) -> Program:
+    def named(self, name: str) -> Program:
+        """A program by its name or number; refused where there is none."""
         found = self._programs.named(name)
         if found is None:
             raise CommandRefused("mainrun.no-such-program", name=name)

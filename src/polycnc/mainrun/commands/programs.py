@@ -178,6 +178,22 @@ class Programs:
         """What was typed in at MDI."""
         return self._new_store().add_text(self._key("MDI"), text)
 
+    def copy(self) -> ProgramStore:
+        """A store with all that is there: whoever works with it leaves this one alone."""
+        store = self._new_store()
+        for program in self.all:
+            store.put(program)
+        for name, text in self._files.items():
+            store.add_text(name, text)
+        return store
+
+    def key_of(self, name: str) -> str:
+        """The name under which a store takes a text: with its directory where the memory has the program."""
+        known = self.named(name)
+        if known is not None and known.directory:
+            return f"{known.directory}/{known.name}"
+        return self._key(name)
+
     def _key(self, name: str) -> str:
         """Where a text of a name lies; a SINUMERIK name may say its directory or its type itself."""
         if self._form is not Form.SINUMERIK or name.startswith("/"):

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.records import dataclass
 from polycnc.mainrun.preparation.items import Block, Happening, Move
 from polycnc.toolpath import Context
 from polycnc.toolpath.events import Auxiliary, Raised, SignalWrite, SpindleSpeed, ToolSelection

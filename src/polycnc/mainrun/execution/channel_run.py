@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from math import inf
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.motion.skip import LastSkip
+from polycnc.deferred.records import dataclass
 from polycnc.mainrun.commands.programs import text_of
 from polycnc.mainrun.execution.interpolator import ChannelInterpolator
 from polycnc.mainrun.reading.snapshot import ActiveBlock, ChannelSnapshot, Positions, SpindleState, ToolState
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from polycnc.channel.channel import Channel
+    from polycnc.geometry.frames import Vector
     from polycnc.mainrun.axes.channel_axes import ChannelAxes
     from polycnc.mainrun.axes.machine_axes import MachineAxes
     from polycnc.mainrun.execution.execution import Execution
@@ -114,6 +116,13 @@ class ChannelRun:
             return display.work_of(self._known(execution.machine, place), place)
         here = self._known(carried(execution.machine, place, context, display.geometry), context)
         return display.work_of(here, context)
+
+    @property
+    def point(self) -> Vector:
+        """Where the tool is: X, Y and Z in the system of the work offset, mm (radius); 0 for no axis."""
+        place, part = self.work_position, self.execution.context.part
+        x, y, z = (place[i] if i >= 0 else 0.0 for i in self.display.geometry)
+        return (x, y, z) if part.is_identity else part.apply(x, y, z)
 
     def positions(self, locked: Mapping[int, float] | None = None) -> Positions:
         """Positions as the displays show them; `locked` axes stand there, and the displays run on."""
@@ -241,6 +250,7 @@ class ChannelRun:
             messages=tuple(self.machinery.messages),
             program=program,
             parts=self.parts,
+            point=self.point,
         )
 
     def show_own_state(self) -> None:

@@ -86,10 +86,8 @@ class Execution:
         self._gated = False
         self._awaits: Callable[[], bool] | None = None
         self.clock = clock
-        self.running = False
-        self.halt = ""
-        self.attention = False
-        self.single_block = False
+        self.running, self.halt = False, ""
+        self.attention = self.single_block = False
         self.block: Block | None = None
         self.context = Context()
         self.modal: Mapping[str, str] = {}
@@ -98,19 +96,15 @@ class Execution:
         self.place = Context()
         self.axes = axes
         self._machinery = machinery
-        self._x2 = 0.0
-        self._cap2 = inf
-        self._until = 0.0
-        self._waiting = False
-        self._blocked = False
-        self._moved_on = False
+        self._x2, self._cap2 = 0.0, inf
+        self._until, self._dwell_signal = 0.0, ""
+        self._waiting = self._blocked = self._moved_on = False
         self._by_hand: tuple[float, ...] = ()
         self._skip_after_s = skip_after_s
         self._skips_at = inf
         self._follower = Follower()
         self._behind = 0.0
-        self._calm = FREE
-        self._rest_time = 0.0
+        self._calm, self._rest_time = FREE, 0.0
         self._worked_until = -inf
 
     # ---- what a panel reads --------------------------------------------------------------------------------
@@ -268,6 +262,11 @@ class Execution:
             self._come_to_rest()
         return here
 
+    def end_dwell(self, signal: str) -> None:
+        """A signal has come: a dwell that it ends is over."""
+        if signal == self._dwell_signal and self._until > self.clock.time:
+            self._until, self._dwell_signal = self.clock.time, ""
+
     def drop_rest(self) -> bool:
         """The axes brake on the path, and what is left of the move that runs is dropped; whether one runs."""
         if self.motion is None or self.rates.stops:
@@ -305,14 +304,14 @@ class Execution:
         filled = self.preprocessing.fill(one_block=self.single_block)
         if self.preprocessing.revised:
             self._look_ahead()
+        if self.rates.influence.holds_next and self._x2 == 0.0 and self.preprocessing.begins_anew:
+            self._until = self.clock.time + self.clock.cycle_s
+            return True
         if not self.preprocessing.items:
             return self._run_out(filled=filled)
         item = self.preprocessing.items[0]
         if isinstance(item, Move):
             return self._begin(item)
-        if self.rates.influence.holds_next and self._x2 == 0.0 and isinstance(item, Block):
-            self._until = self.clock.time + self.clock.cycle_s
-            return True
         held = self.context.feed_hold or (isinstance(item, Block) and self.preprocessing.queue.knows_hold)
         held = self.rates.gives_up or (self.rates.hold and held)
         if held and self._x2 == 0.0 and not isinstance(item, BlockEnd):
@@ -387,6 +386,7 @@ class Execution:
             self.context = item.context
             self.rates.enter(item.context)
             self._until = self.clock.time + item.seconds
+            self._dwell_signal = item.context.dwell_signal
         else:
             self.context = item.context
             self._machinery.perform(item)

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import copysign
 
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.mainrun.motion.speed import FREE, Calm, Profile, straight_profile
 from polycnc.motion.averaging import way_after

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import cos, hypot, sin
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.records import dataclass
 from polycnc.motion.kernels.columns import PLACES, Form, Limits, PieceRecord, State
 from polycnc.motion.pole import RING_MM
 

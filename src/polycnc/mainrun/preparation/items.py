@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import inf
 from typing import TYPE_CHECKING
 
 from polycnc.channel.interpolator import Influence
 from polycnc.channel.intervention import NOTHING_BACK
+from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -167,6 +168,7 @@ class Rates:
         hold: Feed hold: the axes come to rest.
         feed_cancelled: The feed override is switched off.
         gives_up: Reset or emergency stop: so they do in threads and taps.
+        drives_off: Emergency stop, or the power goes off.
     """
 
     feed: float = 1.0
@@ -176,6 +178,7 @@ class Rates:
     hold: bool = False
     feed_cancelled: bool = False
     gives_up: bool = False
+    drives_off: bool = False
 
     def rapid_on(self, move: Row) -> float:
         """Rapid override that acts on a move."""

@@ -187,6 +187,13 @@ class Preprocessing:
         return self.finished or self.waiting is not None
 
     @property
+    def begins_anew(self) -> bool:
+        """Whether a block begins next, or one that has waited for everything before it."""
+        if self.items:
+            return isinstance(self.items[0], Block)
+        return self.waiting is not None and self.waiting.reason is Why.PREPROCESSING
+
+    @property
     def is_bare(self) -> bool:
         """Whether nothing of what a waiting program does next is prepared, nor read ahead for compensation."""
         done = all(isinstance(item, BlockEnd) for item in self.items)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from polycnc.mainrun.commands.states import State
 from polycnc.mainrun.reading.snapshot import Overrides, Snapshot
 from polycnc.motion.frames import without_transformation
+from polycnc.toolpath.events import Auxiliary, SpindleSpeed, ToolSelection
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -16,6 +17,18 @@ if TYPE_CHECKING:
     from polycnc.mainrun.execution.channel_run import ChannelRun
     from polycnc.mainrun.execution.operation import Operation
     from polycnc.mainrun.reading.snapshot import ChannelSnapshot, Positions, SpindleState
+    from polycnc.toolpath import Event
+
+
+def _word(event: Event) -> str:
+    """How an auxiliary function is written in a program; empty for what is no such function."""
+    if isinstance(event, Auxiliary):
+        return f"M{event.code}"
+    if isinstance(event, SpindleSpeed):
+        return f"S{event.speed:g}"
+    if isinstance(event, ToolSelection):
+        return f"T{event.tool:g}" if isinstance(event.tool, float | int) else f'T="{event.tool}"'
+    return ""
 
 
 class Readings:
@@ -89,6 +102,12 @@ class Readings:
         target = run.display.positions(waits, waits, waits, context).work
         left = run.display.positions(here, waits, here, context).to_go
         return {axis: (target[axis], left[axis]) for axis in target}
+
+    @property
+    def collected(self) -> tuple[str, ...]:
+        """What a block search has collected for cycle start to put out: `M3`, `S1000`, `T2`."""
+        happenings = self._operation.collected.get(self._runs.first.number, ())
+        return tuple(word for each in happenings if (word := _word(each.event)))
 
     @property
     def feed(self) -> float:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING
+
+from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -109,6 +111,7 @@ class ChannelSnapshot:
         messages: Texts that its program has put out.
         program: Name of the program that is loaded in it; empty for none.
         parts: How often a program that an operator has started in it has come to its end.
+        point: Where its tool is: X, Y and Z in the system of the work offset, mm (radius).
     """
 
     number: int
@@ -124,6 +127,7 @@ class ChannelSnapshot:
     messages: tuple[str, ...] = ()
     program: str = ""
     parts: int = 0
+    point: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True, slots=True)

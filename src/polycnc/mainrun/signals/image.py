@@ -7,9 +7,10 @@ it takes in: `FIN_M8` when M8 is done (only asked for where a rule of the machin
 
 from __future__ import annotations
 
-import re
 from math import inf
 from typing import TYPE_CHECKING
+
+from polycnc.deferred.regexes import regex
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
     from polycnc.machine.rules import Rule
     from polycnc.mainrun.execution.clock import Clock
 
-_FUNCTION = re.compile(r"M\d+|G\d+(?:\.\d+)?")
+_FUNCTION = regex(r"M\d+|G\d+(?:\.\d+)?")
 #: In front of the function that a rule says is done.
 DONE = "FIN_"
 #: Rounds of the rules at one moment, after which outputs that chase each other wait for the next cycle.

@@ -16,8 +16,9 @@ from math import inf, sqrt
 from polycnc.kernels.layout import Floats
 from polycnc.motion.kernels.columns import PLACES, SPLINE, Form, PieceRecord, State, piece_width
 
-#: A line is cut if what is left of it is at least this part of it.
-WORTH_CUTTING = 0.1
+#: A line is cut if what is left of it is at least this part of it; a part of a curve if that is so many mm, so that it
+#: makes no difference in how many parts it was laid.
+WORTH_CUTTING, WORTH_CUTTING_MM = 0.1, 1e-3
 #: Ways shorter than this (mm) count as none.
 SLIVER_MM = 1e-6
 
@@ -77,7 +78,8 @@ def hold_behind(pieces: Floats, p: int, n: int, state: State) -> int:
     while q >= 0 and left > SLIVER_MM and pieces[q * width + PieceRecord.FORM] != Form.TIMED:
         at = q * width
         length = pieces[at + PieceRecord.LENGTH]
-        if worth_cutting(pieces, at, left) and cut(pieces, q, n, state, length - left):
+        bounds = cap2 < pieces[at + PieceRecord.CAP2] or pull < pieces[at + PieceRecord.PULL]
+        if bounds and worth_cutting(pieces, at, left) and cut(pieces, q, n, state, length - left):
             cuts += 1
             q += 1
             continue
@@ -92,10 +94,10 @@ def hold_behind(pieces: Floats, p: int, n: int, state: State) -> int:
 
 
 def hold_ahead(pieces: Floats, p: int, n: int, state: State) -> None:
-    """Give piece p the bounds of the joints before it that reach so far, and cut it where the next one ends."""
-    width, at, way, edge = piece_width(n), p * piece_width(n), 0.0, inf
+    """Give piece p the bounds of the joints before it that reach so far, and cut it where the lowest one ends."""
+    width, at, way = piece_width(n), p * piece_width(n), 0.0
     cap2, pull = pieces[at + PieceRecord.CAP2], pieces[at + PieceRecord.PULL]
-    low2, low_pull = inf, inf
+    low2, low_pull, end2, end_pull = inf, inf, inf, inf
     longest = 0.5 * sqrt(state.run.top2) * state.run.window
     for q in range(p, -1, -1):
         joint = q * width
@@ -107,13 +109,14 @@ def hold_ahead(pieces: Floats, p: int, n: int, state: State) -> None:
             break
         left = pieces[joint + PieceRecord.HOLD_WAY] - way
         if left > SLIVER_MM:
-            low2, low_pull = (
-                min(low2, pieces[joint + PieceRecord.HOLD2]),
-                min(low_pull, pieces[joint + PieceRecord.HOLD_PULL]),
-            )
-            edge = min(edge, left)
+            hold2, hold_pull = pieces[joint + PieceRecord.HOLD2], pieces[joint + PieceRecord.HOLD_PULL]
+            if hold2 < low2 or (hold2 == low2 and left > end2):
+                low2, end2 = hold2, left
+            if hold_pull < low_pull or (hold_pull == low_pull and left > end_pull):
+                low_pull, end_pull = hold_pull, left
         if q > 0:
             way += pieces[joint - width + PieceRecord.LENGTH]
+    edge = min(end2 if low2 < cap2 else inf, end_pull if low_pull < pull else inf)
     # The next point of a spline still turns the end of its last chord.
     if state.row.kind != SPLINE and worth_cutting(pieces, at, edge):
         cut(pieces, p, n, state, edge)
@@ -124,7 +127,9 @@ def hold_ahead(pieces: Floats, p: int, n: int, state: State) -> None:
 def worth_cutting(pieces: Floats, at: int, edge: float) -> bool:
     """Whether a bound that holds over `edge` mm of a piece leaves much of it free."""
     length = pieces[at + PieceRecord.LENGTH]
-    return pieces[at + PieceRecord.FORM] <= Form.BENT and edge < (1.0 - WORTH_CUTTING) * length
+    if pieces[at + PieceRecord.FORM] == Form.BENT:
+        return edge < length - min(WORTH_CUTTING * length, WORTH_CUTTING_MM)
+    return pieces[at + PieceRecord.FORM] == Form.STRAIGHT and edge < (1.0 - WORTH_CUTTING) * length
 
 
 def cut(pieces: Floats, p: int, n: int, state: State, first: float) -> bool:
@@ -135,11 +140,11 @@ def cut(pieces: Floats, p: int, n: int, state: State, first: float) -> bool:
     width, count = piece_width(n), state.run.pieces
     if (count + 1) * width > len(pieces):
         return False
-    for k in range(count * width - 1, (p + 1) * width - 1, -1):
-        pieces[k + width] = pieces[k]
+    for q in range(count - 1, p - 1, -1):
+        at = q * width
+        for k in range(width):
+            pieces[at + width + k] = pieces[at + k]
     at = p * width
-    for k in range(at, at + width):
-        pieces[k + width] = pieces[k]
     state.run.pieces += 1
     share = first / pieces[at + PieceRecord.LENGTH]
     rest = at + width

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, TypeAlias
 
 from polycnc.control.fanuc.lathe.tools import screens as lathe
 from polycnc.control.fanuc.lathe.tools.screens import Page
+from polycnc.deferred.regexes import regex
 from polycnc.mainrun import CommandRefused
 from polycnc.panel.screens.sources import SOURCES
 from polycnc.panel.screens.tables import Table
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 Action: TypeAlias = Callable[["ScreenState"], None]
 
 #: An axis with a value behind it, which may be missing; a name with a number wants an equals sign (`Q1=5`).
-_AXIS_VALUE = re.compile(r"(?P<axis>[A-Z]+\d+(?==)|[A-Z])\s*=?\s*(?P<value>[+-]?\d*\.?\d*)")
+_AXIS_VALUE = regex(r"(?P<axis>[A-Z]+\d+(?==)|[A-Z])\s*=?\s*(?P<value>[+-]?\d*\.?\d*)")
 
 
 def _number(screen: ScreenState) -> float:
@@ -182,14 +182,35 @@ def delete_program(screen: ScreenState) -> None:
 
 
 def search_block(screen: ScreenState) -> None:
-    """Block search: cycle start goes on at the block number or line that has been keyed in."""
+    """Block search: cycle start goes on at the block number or line that has been keyed in, or at the cursor."""
     typed = screen.buffer.strip()
-    screen.control.block_search(int(typed) if typed.isdigit() else typed)
-    screen.buffer = ""
+    if not typed and screen.program_row is not None:
+        screen.control.block_search(screen.control.first_line(screen.control.program) + screen.program_row)
+    else:
+        screen.control.block_search(int(typed) if typed.isdigit() else typed)
+    screen.program_row, screen.buffer = None, ""
+
+
+def search_interruption(screen: ScreenState) -> None:
+    """The cursor goes to the block of the main program that was in execution last."""
+    block = screen.interrupted
+    if not block.program or block.program != screen.control.program:
+        raise CommandRefused("screen.no-interruption")
+    screen.look_at(block.line - screen.control.first_line(block.program))
+
+
+def search_text(screen: ScreenState) -> None:
+    """The cursor goes to the next block with the text that has been keyed in."""
+    screen.find(screen.buffer, 1)
+
+
+def to_top(screen: ScreenState) -> None:
+    """The cursor goes to the first block of the program; what has been searched is given up."""
+    screen.look_at(0)
 
 
 #: A number behind a sign, and the operators between numbers.
-_TERM = re.compile(r"\s*([+-]?\d*\.?\d+|[+-]?\d+\.)\s*")
+_TERM = regex(r"\s*([+-]?\d*\.?\d+|[+-]?\d+\.)\s*")
 
 
 def calculate(screen: ScreenState) -> None:
@@ -308,6 +329,9 @@ ACTIONS: dict[str, Action] = {
     "search-program": search_program,
     "delete-program": delete_program,
     "search-block": search_block,
+    "search-interruption": search_interruption,
+    "search-text": search_text,
+    "to-top": to_top,
     "insert": insert,
     "erase-mdi": erase_mdi,
     "write-enable": write_enable,

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.regexes import regex
 from polycnc.mainrun import CommandRefused
 
 if TYPE_CHECKING:
     from pathlib import Path
 
 #: Names of files, without a way out of the folder.
-_NAME = re.compile(r"[\w-][\w.+ -]{0,62}")
+_NAME = regex(r"[\w-][\w.+ -]{0,62}")
 
 
 class Card:

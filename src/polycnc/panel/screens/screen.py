@@ -11,9 +11,9 @@ Whoever looks at the control looks at the same screen: all browsers share one.
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.regexes import regex
 from polycnc.mainrun import CommandRefused, Mode
 from polycnc.messages import UserError
 from polycnc.messages.catalogue import language
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 #: Blocks that are looked through for a number.
 LONGEST_LOOK = 500
 #: A block with its number.
-_NUMBERED = re.compile(r"\s*/?\d?\s*[Nn](\d+)")
+_NUMBERED = regex(r"\s*/?\d?\s*[Nn](\d+)")
 #: Characters that the key-in buffer takes.
 LONGEST_BUFFER = 127
 #: Keys whose name is not what they type.
@@ -68,6 +68,8 @@ class Screen(ScreenState):
         self.shifted = False
         if key in self.family.keys:
             self.show(self.family.keys[key])
+        elif key in _MOVES and key in ("UP", "DOWN") and self.buffer and self._reads_program:
+            self.find(self.buffer, _MOVES[key][0])
         elif key in _MOVES:
             self.move(*_MOVES[key])
         elif key in ("PAGE_UP", "PAGE_DOWN") and self.page.turns:
@@ -90,6 +92,11 @@ class Screen(ScreenState):
             self.type(key)
         else:
             raise CommandRefused("panel.unknown", name=key, known=", ".join(self.family.keys))
+
+    @property
+    def _reads_program(self) -> bool:
+        """Whether the cursor stands in a program, where a text that has been keyed in is looked for."""
+        return self.shows("program") and self.table is None
 
     def _edit(self, key: str) -> None:
         """A key that changes the key-in buffer, or enters it."""

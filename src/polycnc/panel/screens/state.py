@@ -3,28 +3,26 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections import deque
 from dataclasses import replace
 from datetime import UTC, datetime
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from polycnc.mainrun import CommandRefused
+from polycnc.mainrun import CommandRefused, State
+from polycnc.mainrun.reading.snapshot import ActiveBlock
 from polycnc.messages import UserError
 from polycnc.panel.screens.card import Card
 from polycnc.panel.screens.measuring import SIGNALS, Measuring
 from polycnc.panel.screens.pages import family_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Mapping
+    from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
     from polycnc.control.parameters import KnownParameter
     from polycnc.mainrun import VirtualControl
     from polycnc.mainrun.reading.snapshot import Record, Snapshot
     from polycnc.panel.screens.pages import Column, Page, SoftKey, WindowSpec
 
-#: Points of the way that the picture shows.
-LONGEST_TRAIL = 4000
 #: The signal of the button that keeps the position.
 LATCH = "PRC"
 #: The panel's own setting: when maintenance was done.
@@ -75,7 +73,8 @@ class ScreenState:
         measuring: Measured input B; None on controls without it.
         writes_parameters: Parameters may be written.
         clock: The time of day.
-        trail: Where the axes have been, machine coordinates, the oldest first.
+        program_row: Row of the cursor in the program; None where the window follows the block in execution.
+        interrupted: The block of the main program that was last in execution.
 
     Raises:
         CommandRefused: polycnc knows no screens of this control.
@@ -103,10 +102,11 @@ class ScreenState:
         self.latched: dict[str, float] = {}
         self.measuring = Measuring(control) if self.family.measures else None
         control.listeners.append(self._hear)
-        self.trail: deque[tuple[float, ...]] = deque(maxlen=LONGEST_TRAIL)
         self.clock: Callable[[], datetime] = lambda: datetime.now(UTC).astimezone()
         self._came: dict[str, datetime] = {}
         self._cursors: dict[str, tuple[int, int]] = {}
+        self.program_row: int | None = None
+        self.interrupted = ActiveBlock()
 
     @property
     def message(self) -> str:
@@ -227,11 +227,59 @@ class ScreenState:
         (row, column), table = self.cursor, self.table
         if self.measuring is not None and self.measuring.leads_cursor:
             return
+        if self.shows("program") and table is None:
+            self.look_at((self.program_row if self.program_row is not None else self.running_row) + rows)
+            return
         row, column = row + rows, column + columns
         if table is not None:
             row = max(table.first, min(row, table.first + table.count - 1))
             column = max(0, min(column, len(table.columns) - 1))
         self.place(max(row, 0), max(column, 0))
+
+    # ---- the program -----------------------------------------------------------------------------------------
+
+    @property
+    def shown_program(self) -> tuple[str, Sequence[str], int]:
+        """The program that a program window shows: its name, its lines, the line of its file where it begins."""
+        snapshot = self.control.snapshot
+        name = (
+            snapshot.program if self.program_row is not None else snapshot.block.program or snapshot.program
+        )
+        try:
+            return name, self.control.program_lines(name) if name else (), self.control.first_line(name)
+        except CommandRefused:
+            return name, (), 1
+
+    @property
+    def running_row(self) -> int:
+        """The row of the block in execution in the main program; 0 where none is."""
+        snapshot = self.control.snapshot
+        if not snapshot.program or snapshot.block.program != snapshot.program:
+            return 0
+        return max(0, snapshot.block.line - self.control.first_line(snapshot.program))
+
+    def look_at(self, row: int) -> None:
+        """Put the cursor into the program; while it runs, the window follows the block in execution."""
+        if self.control.state is State.RUNNING or not self.control.program:
+            self.program_row = None
+            return
+        lines = self.control.program_lines(self.control.program)
+        self.program_row = max(0, min(row, len(lines) - 1))
+
+    def find(self, text: str, step: int) -> None:
+        """Put the cursor on the next row of the program that has a text, onwards (1) or backwards (-1).
+
+        Raises:
+            CommandRefused: There is none.
+        """
+        here = self.program_row if self.program_row is not None else self.running_row
+        name = self.control.program
+        lines, wanted = self.control.program_lines(name) if name else (), text.strip().upper()
+        rows = range(here + 1, len(lines)) if step > 0 else range(here - 1, -1, -1)
+        found = next((row for row in rows if wanted in lines[row].upper()), None)
+        if found is None:
+            raise CommandRefused("screen.not-found", text=text)
+        self.look_at(found)
 
     def _hear(self, record: Record) -> None:
         """The record button of the machine keeps where the axes are (III.2.1.2, PRC); a sensor measures (III.2.1.3)."""
@@ -279,7 +327,7 @@ class ScreenState:
         self._came = {each: self._came.get(each) or self.clock() for each in now}
 
     def follow(self) -> None:
-        """Note where the axes are, and go on with what takes time; called while time passes."""
+        """Note alarms, and go on with what takes time; called while time passes."""
         if self.pending is not None:
             try:
                 if not self.pending.goes_on(self):
@@ -288,6 +336,8 @@ class ScreenState:
                 self.refusal = refusal
                 self.finish()
         self._note_alarms()
-        here = tuple(self.control.positions.real.values())
-        if not self.trail or here != self.trail[-1]:
-            self.trail.append(here)
+        if self.control.state is State.RUNNING:
+            self.program_row = None
+            block = self.control.active_block
+            if block.program and block.program == self.control.program:
+                self.interrupted = block

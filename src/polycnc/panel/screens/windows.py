@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
-from dataclasses import dataclass
 from itertools import zip_longest
 from typing import TYPE_CHECKING, TypeAlias
 
 from polycnc.control.fanuc.lathe.tools.screens import modal_codes
-from polycnc.mainrun import CommandRefused
+from polycnc.deferred.records import dataclass
+from polycnc.deferred.regexes import regex
 from polycnc.messages import text
 from polycnc.panel.description import RETURNED, is_returned
 from polycnc.panel.screens import operate, tables
@@ -39,7 +38,7 @@ class Asked:
 Reader: TypeAlias = Callable[[Asked], Rows]
 
 #: A G code: its number, and what stands behind the point.
-_G_CODE = re.compile(r"G(\d+)((?:\.\d+)?)")
+_G_CODE = regex(r"G(\d+)((?:\.\d+)?)")
 #: Blocks that a program window shows in front of the one in execution.
 _BEFORE = 3
 
@@ -130,19 +129,21 @@ def _hours(seconds: float) -> str:
 
 
 def _program(at: Asked) -> Rows:
-    """The program, with the block in execution in sight."""
+    """The program with the block in execution in sight, or the cursor where an operator has moved it."""
     block = at.snapshot.block
-    name = block.program or at.snapshot.program
+    name, lines, first = at.screen.shown_program
     if not name:
         return ()
-    try:
-        lines, first = at.screen.control.program_lines(name), at.screen.control.first_line(name)
-    except CommandRefused:
+    if not lines:
         return ((Cell(block.text, "active"),),)
     active = block.line - first if block.program == name else -1
-    top = max(0, min(active - _BEFORE, len(lines) - at.spec.shown))
+    cursor = at.screen.program_row
+    top = max(0, min((active if cursor is None else cursor) - _BEFORE, len(lines) - at.spec.shown))
     shown = range(top, min(top + at.spec.shown, len(lines)))
-    return tuple((Cell(lines[index], "active" if index == active else "code"),) for index in shown)
+    return tuple(
+        (Cell(lines[index], "active" if index == active else "code", cursor=index == cursor),)
+        for index in shown
+    )
 
 
 def _listing(at: Asked) -> Rows:
@@ -303,7 +304,10 @@ def _soft_switches(at: Asked) -> Rows:
 
 
 def _restart(at: Asked) -> Rows:
-    """Program restart: where the program goes on, `RP` once an axis is there, and the way that is left (5.2.4.8 f)."""
+    """Program restart: where the program goes on, `RP` once an axis is there, the way that is left (5.2.4.8 f).
+
+    Below it what cycle start puts out first: the functions that the search has collected.
+    """
     rows: Mapping[str, tuple[float, float]] = at.screen.control.restart
     if not rows:
         return ()
@@ -312,6 +316,10 @@ def _restart(at: Asked) -> Rows:
         Cell(text("screen.restart-position", at.lang, system=system), "label"),
         Cell(text("screen.remaining", at.lang), "label"),
     )
+    collected = at.screen.control.collected
+    functions = (
+        Cell(text("screen.collected", at.lang), "label"), *(Cell(word, "value") for word in collected)
+    )  # fmt: skip
     return (
         head,
         *(
@@ -323,12 +331,13 @@ def _restart(at: Asked) -> Rows:
             )
             for axis, (goes_on, left) in rows.items()
         ),
+        *((functions,) if collected else ()),
     )
 
 
-def _graph(at: Asked) -> Rows:
-    """The way of the tool so far, a point a row, mm in machine coordinates."""
-    return tuple(tuple(Cell(f"{value:.3f}") for value in point) for point in at.screen.trail)
+def _graph(_at: Asked) -> Rows:
+    """The picture lies over this window: it has no texts."""
+    return ()
 
 
 def _maintenance(at: Asked) -> Rows:

@@ -4,6 +4,7 @@ desk      a control with its screen and its machine panel, and the time that pas
 markup    a screen as HTML
 page      the page: screen, keyboard, machine panel
 editor    the program editor
+teacher   the sheet with exercise and faults
 messages  the JSON interface: commands in, snapshots out
 guard     who may come in: token, origin
 server    all of it together

@@ -2,20 +2,30 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
+from math import ceil
 from time import monotonic
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from polycnc.mainrun import State
+from polycnc.mainrun import CommandRefused, State
 from polycnc.messages import UserError
+from polycnc.panel.course import Course
 from polycnc.panel.panel import Panel
 from polycnc.panel.screens.card import Card
 from polycnc.panel.screens.screen import Screen
+from polycnc.panel.teaching.faults import inject
+from polycnc.panel.teaching.recording import Recording
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
     from pathlib import Path
 
     from polycnc.mainrun import VirtualControl
+    from polycnc.panel.teaching.lesson import Lesson
+    from polycnc.panel.teaching.recording import Replay
 
+#: The trail of the picture has a point at the end of every part of the time, simulated s; of so many parts at most.
+PART_S, PARTS = 0.02, 16
 #: No longer than this passes at once, s: a browser that has slept does not make the machine jump.
 LONGEST_TICK_S = 0.25
 #: The key of the machine panel that starts what was typed in at MDI.
@@ -37,6 +47,10 @@ class Desk:
         screen: Its screen.
         panel: Its machine panel.
         speed: Simulated seconds in a second.
+        course: What its picture shows.
+        recording: What has been done at it.
+        replay: What does again what was recorded; None where people do it.
+        lesson: The exercise that is worked on; None for none.
     """
 
     def __init__(self, control: VirtualControl, speed: float = 1.0, card: Path | None = None) -> None:
@@ -44,6 +58,10 @@ class Desk:
         self.screen = Screen(control)
         self.screen.card = Card(card)
         self.panel = Panel(control)
+        self.course = Course(control)
+        self.recording = Recording(control)
+        self.replay: Replay | None = None
+        self.lesson: Lesson | None = None
         if self.screen.measuring is not None:
             measuring = self.screen.measuring
             self.panel.locked = lambda: measuring.locked
@@ -52,8 +70,8 @@ class Desk:
         kept = control.panel_settings.get(_SWITCHES, {})
         for switch, position in kept.items():
             if switch in self.panel.positions:
-                self.turn(switch, position)
-        self.screen.refusal = None
+                with suppress(UserError):
+                    self._turn(switch, position)
         if kept_unit := control.panel_settings.get(_UNIT):
             self.unit = str(kept_unit)
 
@@ -87,16 +105,64 @@ class Desk:
         if seconds < cycle:
             self._then = now - seconds / self.speed
             return
-        self.control.step(seconds)
+        if self.replay is not None:
+            self.replay.step(seconds, self._pass)
+        else:
+            self._pass(seconds)
         self.screen.follow()
+        self.course.go_on()
+        self._follow()
 
-    def press(self, *keys: str) -> None:
-        """Press keys of the machine panel together; what is refused is the screen's message."""
+    def _pass(self, seconds: float) -> None:
+        """Let simulated time pass, with points on the trail of the picture."""
+        parts = max(1, min(PARTS, ceil(seconds / PART_S)))
+        for _ in range(parts):
+            self.control.step(seconds / parts)
+            self.course.note(self.control.snapshot)
+
+    def _follow(self) -> None:
+        if self.lesson is not None:
+            self.lesson.follow()
+
+    # ---- what is done at it --------------------------------------------------------------------------------
+
+    def do(self, name: str, /, **given: Any) -> None:
+        """Do one of `actions`, as a page does: it is recorded, and what is refused is the screen's message."""
+        self.recording.note(name, **given)
         self.screen.refusal = None
         try:
-            self.operate(*keys)
+            self.actions[name](*given.pop("keys", ()), **given)
         except UserError as refusal:
             self.screen.refusal = refusal
+        if self.lesson is not None and self.screen.refusal is not None:
+            self.lesson.refused += 1
+        self._follow()
+
+    @property
+    def actions(self) -> Mapping[str, Callable[..., object]]:
+        """What hands do, by the names of the JSON interface; each raises `UserError` where it is refused."""
+        screen, panel = self.screen, self.panel
+        return {
+            "press": self.operate, "release": panel.release, "turn": self._turn, "wheel": panel.wheel,
+            "screen_key": screen.press, "soft_key": screen.soft, "side_key": screen.side, "type": screen.type,
+            "fault": self._fault, "signal": self._signal, "display": self._display,
+        }  # fmt: skip
+
+    def press(self, *keys: str) -> None:
+        """Press keys of the machine panel together."""
+        self.do("press", keys=list(keys))
+
+    def release(self, *keys: str) -> None:
+        """Let keys of the machine panel go."""
+        self.do("release", keys=list(keys))
+
+    def turn(self, switch: str, position: str) -> None:
+        """Turn a switch of the machine panel."""
+        self.do("turn", switch=switch, position=position)
+
+    def wheel(self, notches: int) -> None:
+        """Turn the handwheel."""
+        self.do("wheel", notches=notches)
 
     def operate(self, *keys: str) -> None:
         """Press keys of the machine panel together; cycle start in MDI runs what was typed in on the screen.
@@ -108,27 +174,18 @@ class Desk:
         if not (starts and self.screen.takes_start()):
             self.panel.press(*keys)
 
-    def release(self, *keys: str) -> None:
-        """Let keys of the machine panel go."""
-        try:
-            self.panel.release(*keys)
-        except UserError as refusal:
-            self.screen.refusal = refusal
-
-    def turn(self, switch: str, position: str) -> None:
-        """Turn a switch of the machine panel."""
-        self.screen.refusal = None
-        try:
-            self.panel.turn(switch, position)
-        except UserError as refusal:
-            self.screen.refusal = refusal
-            return
+    def _turn(self, switch: str, position: str) -> None:
+        self.panel.turn(switch, position)
         positions = self.panel.positions.items()
         self.control.panel_settings[_SWITCHES] = {name: at for name, at in positions if name != "mode"}
 
-    def wheel(self, notches: int) -> None:
-        """Turn the handwheel."""
-        try:
-            self.panel.wheel(notches)
-        except UserError as refusal:
-            self.screen.refusal = refusal
+    def _display(self, unit: str) -> None:
+        self.unit = unit
+
+    def _fault(self, name: str, pressed: bool = True) -> None:
+        inject(self.control, name, on=pressed)
+
+    def _signal(self, name: str, value: float) -> None:
+        if not name or not isinstance(value, int | float):
+            raise CommandRefused("mainrun.value", name="value", allowed="0 … 1", value=value)
+        self.control.signals[name] = float(value)

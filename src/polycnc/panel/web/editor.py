@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from time import monotonic
 from typing import TYPE_CHECKING
 
 from nicegui import ui
 
 from polycnc.mainrun import CommandRefused
 from polycnc.messages import UserError, text
-from polycnc.panel.editing import findings, parts
+from polycnc.panel.editing import Check, parts
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -16,8 +17,8 @@ if TYPE_CHECKING:
     from polycnc.panel.editing import Finding
     from polycnc.panel.web.desk import Desk
 
-#: A check follows when nothing has been typed for so long, s.
-PAUSE_S = 0.4
+#: A check begins when nothing has been typed for so long, s; it goes on for so long at a time, as often as that.
+PAUSE_S, SPELL_S, TURN_S = 0.4, 0.005, 0.03
 #: Programs up to this length are shown in colours and checked while they are typed, characters.
 LONGEST = 200_000
 
@@ -36,7 +37,8 @@ class Editor:
     def __init__(self, desk: Desk, lang: str) -> None:
         self._desk, self._lang = desk, lang
         self.is_open = False
-        self._due = False
+        self._due = 0.0
+        self._check: Check | None = None
 
     def open(self) -> None:
         """Show the program that is loaded, or an empty text where there is none."""
@@ -55,8 +57,8 @@ class Editor:
                 self._said = ui.label("").classes("editor-said").props('role="status"')
             self._text = ui.codemirror(source, on_change=self._changed).classes("editor-text")
             self._found = ui.element("ul").classes("editor-found").props('role="log"')
-            ui.timer(PAUSE_S, self._check_if_due)
-        self._check()
+            ui.timer(TURN_S, self._go_on)
+        self._begin()
 
     def _button(self, name: str, act: Callable[[], None]) -> None:
         with ui.element("button").classes("k").props('type="button"') as key:
@@ -64,24 +66,37 @@ class Editor:
         key.on("click", act)
 
     def _changed(self) -> None:
-        self._due = True
+        self._due, self._check = monotonic() + PAUSE_S, None
 
-    def _check_if_due(self) -> None:
-        if self._due:
-            self._check()
+    def _go_on(self) -> None:
+        """Look at the text a little further: nobody waits for a check."""
+        if self._due and monotonic() >= self._due:
+            self._begin()
+        if self._check is None:
+            return
+        until = monotonic() + SPELL_S
+        while self._check.go_on():
+            if monotonic() > until:
+                return
+        self._mark(self._check.findings)
+        self._check = None
 
-    def _check(self) -> None:
-        """Colours and findings of the text as it is now."""
-        self._due = False
+    def _begin(self) -> None:
+        """A check of the text as it is now begins."""
+        self._due, self._check = 0.0, None
         source = self._text.value
         if len(source) > LONGEST:
             self._text.decorations = []
-            return
-        control = self._desk.control
-        found = findings(control, self._name.value or "MAIN", source, self._lang)
+        elif source.strip():
+            self._check = Check(self._desk.control, self._name.value or "MAIN", source, self._lang)
+        else:
+            self._mark(())
+
+    def _mark(self, found: tuple[Finding, ...]) -> None:
+        """Colours of the text, and what has been found in it."""
         marks: list[dict[str, object]] = [
             {"kind": "mark", "from": part.start, "to": part.end, "class": f"nc-{part.kind}"}
-            for part in parts(control.control.id, source)
+            for part in parts(self._desk.control.control.id, self._text.value)
         ]
         lines = {each.line for each in found if each.line}
         marks += [{"kind": "line", "line": line, "class": "nc-wrong"} for line in sorted(lines)]
@@ -102,6 +117,7 @@ class Editor:
 
     def _save(self) -> None:
         """Into the memory; what the control refuses is said here."""
+        self._desk.recording.note("store_program", name=self._name.value or "MAIN", text=self._text.value)
         try:
             self._desk.control.store_program(self._name.value or "MAIN", self._text.value)
         except UserError as refusal:

@@ -8,10 +8,6 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from polycnc.panel.screens.view import Cell, View, Window
 
-#: The picture: directions of X, Y and Z on the page, seen from the front right above.
-_X, _Y = (0.866, -0.866, 0.0), (-0.5, -0.5, -1.0)
-_MARGIN = 0.08
-
 
 def of_view(view: View) -> str:
     """Title, windows, key-in line and status line."""
@@ -36,7 +32,7 @@ def of_view(view: View) -> str:
 def _window(window: Window) -> str:
     title = f"<h2>{escape(window.title)}</h2>" if window.title else ""
     if window.kind == "graph":
-        return f'<section class="window graph">{title}{_graph(window)}</section>'
+        return f'<section class="window graph">{title}</section>'
     rows = "".join("<tr>" + "".join(map(_cell, row)) + "</tr>" for row in window.rows)
     return f'<section class="window {escape(window.kind)}">{title}<table>{rows}</table></section>'
 
@@ -44,26 +40,3 @@ def _window(window: Window) -> str:
 def _cell(cell: Cell) -> str:
     style = f"{cell.style} cursor" if cell.cursor else cell.style
     return f'<td class="{escape(style)}">{escape(cell.text)}</td>'
-
-
-def _graph(window: Window) -> str:
-    """The way of the tool, as a line in parallel projection."""
-    points = [_projected([float(cell.text) for cell in row]) for row in window.rows]
-    if not points:
-        return '<svg viewBox="0 0 1 1"></svg>'
-    left, top = (min(values) for values in zip(*points, strict=True))
-    right, bottom = (max(values) for values in zip(*points, strict=True))
-    size = max(right - left, bottom - top, 1.0)
-    edge = size * _MARGIN
-    box = f"{left - edge:.3f} {top - edge:.3f} {size + 2 * edge:.3f} {size + 2 * edge:.3f}"
-    line = " ".join(f"{x:.3f},{y:.3f}" for x, y in points)
-    x, y = points[-1]
-    return (
-        f'<svg viewBox="{box}" role="img"><polyline points="{line}" stroke-width="{size / 300:.4f}"/>'
-        f'<circle cx="{x:.3f}" cy="{y:.3f}" r="{size / 80:.4f}"/></svg>'
-    )
-
-
-def _projected(point: list[float]) -> tuple[float, float]:
-    x, y, z = (*point, 0.0, 0.0)[:3]
-    return _X[0] * x + _X[1] * y + _X[2] * z, _Y[0] * x + _Y[1] * y + _Y[2] * z

@@ -14,6 +14,7 @@ from math import isfinite
 from typing import TYPE_CHECKING, Any
 
 from polycnc.messages import AlarmError, UserError, text
+from polycnc.messages.catalogue import language
 
 if TYPE_CHECKING:
     from polycnc.panel.web.desk import Desk
@@ -25,13 +26,17 @@ COMMANDS = (
     "write_variable", "read_parameter", "write_parameter", "program_lines", "store_program", "delete_program",
     "select_program",
 )  # fmt: skip
+#: What only reads: nothing of it is recorded.
+READS = frozenset(
+    {"snapshot", "screen", "recording", "lesson", "read_variable", "read_parameter", "program_lines"}
+)
 _NUMBER, _WHOLE = (int, float), (int,)
 #: What arguments may be: one name has one meaning in all commands.
 ARGUMENTS: dict[str, tuple[type, ...]] = {
     "source": (str,), "text": (str,), "target": (int, str), "channel": _WHOLE, "pressed": (bool,), "name": (str,),
     "mode": (str,), "axis": (str,), "direction": _WHOLE, "rapid": (bool, int, float), "steps": _WHOLE, "pulses": _WHOLE,
     "size": _NUMBER, "feed": _NUMBER, "spindle": _NUMBER, "value": (int, float, str), "number": (str,), "keys": (list,),
-    "key": (str,), "index": _WHOLE, "switch": (str,), "position": (str, int), "notches": _WHOLE,
+    "key": (str,), "index": _WHOLE, "switch": (str,), "position": (str, int), "notches": _WHOLE, "unit": (str,),
     "single_block": (bool, str), "optional_stop": (bool,), "block_skip": (bool,), "dry_run": (bool,),
     "machine_lock": (bool,), "z_lock": (bool,), "mst_lock": (bool,), "drf": (bool,),
 }  # fmt: skip
@@ -43,7 +48,7 @@ def answer(desk: Desk, message: str) -> str:
     """Do what a message says, and answer it."""
     try:
         asked = json.loads(message) if len(message) <= LONGEST else None
-    except ValueError:
+    except (ValueError, RecursionError):
         asked = None
     if not isinstance(asked, dict) or not isinstance(asked.get("do"), str):
         return _refused(text("panel.message-form"))
@@ -51,7 +56,10 @@ def answer(desk: Desk, message: str) -> str:
     if not isinstance(given, dict):
         return _refused(text("panel.message-form"))
     try:
-        return json.dumps({"ok": _done(desk, name, given)}, allow_nan=False, default=str)
+        _check(given)
+        if name not in READS:
+            desk.recording.note(name, **given)
+        return json.dumps({"ok": perform(desk, name, given)}, allow_nan=False, default=str)
     except UserError as refusal:
         return _refused(refusal.text())
     except AlarmError as alarm:
@@ -62,18 +70,18 @@ def answer(desk: Desk, message: str) -> str:
         return _refused(text("panel.message-value", name=name, reason=str(error)))
 
 
-def _done(desk: Desk, name: str, given: Mapping[str, Any]) -> object:
+def perform(desk: Desk, name: str, given: Mapping[str, Any]) -> object:
+    """Do what a message asks for; raises what Python raises."""
     control = desk.control
-    _check(given)
     if name == "snapshot":
         return plain(control.snapshot)
     if name == "screen":
         return plain(desk.screen.view())
-    actions: dict[str, Callable[..., object]] = {
-        "press": desk.operate, "release": desk.panel.release, "turn": desk.panel.turn, "wheel": desk.panel.wheel,
-        "screen_key": desk.screen.press, "soft_key": desk.screen.soft, "side_key": desk.screen.side,
-        "type": desk.screen.type,
-    }  # fmt: skip
+    if name == "recording":
+        return plain(desk.recording.acts)
+    if name == "lesson":
+        return desk.lesson.sheet(language()) if desk.lesson is not None else None
+    actions = desk.actions
     if name in actions:
         return plain(_called(actions[name], given))
     if name not in COMMANDS:

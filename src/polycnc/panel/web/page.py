@@ -6,6 +6,7 @@ What stands on it comes from the family's data and the panel's description. What
 from __future__ import annotations
 
 from functools import partial
+from html import escape
 from typing import TYPE_CHECKING
 
 from nicegui import ui
@@ -16,6 +17,8 @@ from polycnc.panel.panel import Light
 from polycnc.panel.screens.pages import in_language
 from polycnc.panel.web.editor import Editor
 from polycnc.panel.web.markup import of_view
+from polycnc.panel.web.teacher import Teacher
+from polycnc.view.web.picture import Picture
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -49,16 +52,17 @@ class Page:
     Args:
         desk: What it shows.
         lang: Its language at first.
+        name: Name of the desk in addresses.
     """
 
-    def __init__(self, desk: Desk, lang: str) -> None:
-        self._desk = desk
+    def __init__(self, desk: Desk, lang: str, name: str) -> None:
+        self._desk, self._name = desk, name
         self._lang = desk.language or lang
         self._shown: dict[str, str] = {}
         self._refreshers: list[Callable[[], None]] = []
         self._held: set[str] = set()
         self._editor = Editor(desk, self._lang)
-        self._body = ui.element("main").classes("desk")
+        self._body = ui.element("div").classes("desk")
         self._build()
         ui.keyboard(on_key=self._typed, ignore=["input", "select", "textarea"])
         ui.timer(REFRESH_S, self._refresh)
@@ -73,6 +77,7 @@ class Page:
                 self._keyboard()
             with ui.element("div").classes("half"):
                 self._machine_panel()
+        self._body.client.run_javascript(f"document.documentElement.lang = '{self._lang}'")
         self._refresh()
 
     def _refresh(self) -> None:
@@ -118,9 +123,10 @@ class Page:
             side: list[ui.element] = []
             if family.side:
                 with ui.element("div").classes("sidekeys"):
-                    side = [self._key("", partial(desk.screen.side, i)) for i in range(8)]
+                    side = [self._key("", partial(desk.do, "side_key", index=i)) for i in range(8)]
+        self._picture_over(".window.graph")
         with ui.element("div").classes("softkeys"):
-            below = [self._key("", partial(desk.screen.soft, i)) for i in range(desk.screen.rows)]
+            below = [self._key("", partial(desk.do, "soft_key", index=i)) for i in range(desk.screen.rows)]
 
         def refresh() -> None:
             view = desk.screen.view(self._lang)
@@ -140,22 +146,34 @@ class Page:
 
         self._refreshers.append(refresh)
 
+    def _picture_over(self, place: str) -> None:
+        """The picture, on the pages of the screen that have a window for it."""
+        course = self._desk.course
+        addresses = {name: f"/lines/{self._name}/{name}" for name in course.lines}
+        picture = Picture(addresses, course.bodies, self._lang, over=place)
+
+        def refresh() -> None:
+            if self._desk.screen.shows("graph"):
+                picture.show(course.pose, course.lines)
+
+        self._refreshers.append(refresh)
+
     def _keyboard(self) -> None:
         """Function keys and keys that type."""
-        screen = self._desk.screen
+        desk, screen = self._desk, self._desk.screen
         with ui.element("div").classes("keys"):
             with ui.element("div").classes("row"):
                 for name in screen.family.keys:
-                    self._key(name, partial(screen.press, name))
+                    self._key(name, partial(desk.do, "screen_key", key=name))
             with ui.element("div").classes("row"):
                 for name in self._editing():
                     # Two legends stand one above the other.
                     label = EDITING.get(name, name).replace("/", "/ ")
-                    self._key(label, partial(screen.press, name), hint=name)
+                    self._key(label, partial(desk.do, "screen_key", key=name), hint=name)
             for letters in screen.family.letters:
                 with ui.element("div").classes("row"):
                     for letter in letters.split():
-                        self._key(letter, partial(screen.press, letter))
+                        self._key(letter, partial(desk.do, "screen_key", key=letter))
 
     def _editing(self) -> list[str]:
         """Keys that edit: those of the MDI unit, where its manual names them."""
@@ -169,7 +187,10 @@ class Page:
     def _machine_panel(self) -> None:
         desk, description = self._desk, self._desk.panel.description
         with ui.element("div").classes("bar"):
-            ui.label(f"polycnc · {desk.control.control.id} · {desk.control.machine.id}")
+            ui.html(
+                f"<h1>polycnc · {desk.control.control.id} · {escape(desk.control.machine.id)}</h1>",
+                sanitize=False,
+            )
             tools = ui.label("").classes("tools").props('role="status"')
             with ui.element("div").classes("flow"):
                 if len(description.mdi_units) > 1:
@@ -181,6 +202,7 @@ class Page:
                 self._key("☀", self._day, hint=text("panel.theme", self._lang))
                 self._key("?", self._help, hint=text("panel.help", self._lang))
                 self._key("✎", self._edit, hint=text("editor.title", self._lang))
+                self._key("☑", self._teach, hint=text("lesson.title", self._lang))
         with self._group("panel.mode-switch"), ui.element("div").classes("flow"):
             modes = {
                 name: self._key(in_language(mode.name, self._lang), partial(desk.turn, "mode", name))
@@ -216,7 +238,7 @@ class Page:
     def _group(self, title: str) -> ui.element:
         group = ui.element("section").classes("group")
         with group:
-            ui.html(f"<h3>{text(title, self._lang)}</h3>", sanitize=False)
+            ui.html(f"<h2>{text(title, self._lang)}</h2>", sanitize=False)
         return group
 
     def _machine_key(self, name: str, label: str) -> ui.element:
@@ -303,11 +325,11 @@ class Page:
         elif name in OPERATED:
             self._desk.press(OPERATED[name])
         elif name in TYPED:
-            self._desk.screen.press(TYPED[name])
+            self._desk.do("screen_key", key=TYPED[name])
         elif name[:1] == "F" and name[1:].isdigit():
-            self._desk.screen.soft(int(name[1:]) - 1)
+            self._desk.do("soft_key", index=int(name[1:]) - 1)
         elif len(name) == 1:
-            self._desk.screen.type(name.upper())
+            self._desk.do("type", text=name.upper())
         self._refresh()
 
     def _speak(self, lang: str) -> None:
@@ -315,7 +337,7 @@ class Page:
         self._build()
 
     def _display(self, unit: str) -> None:
-        self._desk.unit = unit
+        self._desk.do("display", unit=unit)
         self._build()
 
     def _show_tools(self, display: ui.label) -> None:
@@ -331,10 +353,14 @@ class Page:
         self._editor = Editor(self._desk, self._lang)
         self._editor.open()
 
+    def _teach(self) -> None:
+        Teacher(self._desk, self._lang).open()
+
     def _help(self) -> None:
         """The sheet of keys."""
-        with ui.dialog() as dialog, ui.card():
-            ui.label(text("panel.help", self._lang))
+        title = text("panel.help", self._lang)
+        with ui.dialog().props(f'aria-label="{_quoted(title)}"') as dialog, ui.card().classes("teacher"):
+            ui.label(title)
             for key, meaning in (
                 *TYPED.items(),
                 *OPERATED.items(),

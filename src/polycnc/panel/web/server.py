@@ -5,19 +5,22 @@ from __future__ import annotations
 from importlib import resources
 from typing import TYPE_CHECKING
 
-from fastapi import WebSocket, WebSocketDisconnect
+from fastapi import Response, WebSocket, WebSocketDisconnect
 from nicegui import app, ui
 
 from polycnc.messages import text
 from polycnc.panel.web.guard import LOOPBACK, Guard
 from polycnc.panel.web.messages import answer
 from polycnc.panel.web.page import Page
+from polycnc.view.web import delivery
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from polycnc.panel.web.desk import Desk
 
+#: A browser that a busy computer keeps away for so long, s, goes on with the same page.
+RECONNECT_S = 30.0
 #: How often the time of the controls goes on, s.
 TICK_S = 0.02
 
@@ -32,17 +35,18 @@ def build(desks: Mapping[str, Desk], lang: str, token: str = "") -> None:
     """
     style = resources.files("polycnc.panel.web").joinpath("panel.css").read_text(encoding="utf-8")
 
-    def page_of(desk: Desk) -> Callable[[], None]:
+    def page_of(name: str) -> Callable[[], None]:
         def show() -> None:
             ui.add_css(style)
-            Page(desk, lang)
+            Page(desks[name], lang, name)
 
         return show
 
     def index() -> None:
         ui.add_css(style)
-        with ui.element("main").classes("half"):
-            ui.label(text("panel.index", lang))
+        ui.run_javascript(f"document.documentElement.lang = '{lang}'")
+        with ui.element("div").classes("half index"):
+            ui.html(f"<h1>{text('panel.index', lang)}</h1>", sanitize=False)
             for name, desk in desks.items():
                 ui.link(f"{name}: {desk.control.control.id}", f"/{name}")
 
@@ -57,9 +61,14 @@ def build(desks: Mapping[str, Desk], lang: str, token: str = "") -> None:
         except WebSocketDisconnect:
             return
 
-    ui.page("/", title="polycnc")(page_of(next(iter(desks.values()))) if len(desks) == 1 else index)
-    for name, desk in desks.items():
-        ui.page(f"/{name}", title=f"polycnc {name}")(page_of(desk))
+    def line(name: str, which: str, era: int = -1, first: int = 0) -> Response:
+        lines = desks[name].course.lines.get(which) if name in desks else None
+        return Response(status_code=404) if lines is None else delivery.answer(lines, era, first)
+
+    ui.page("/", title="polycnc")(page_of(next(iter(desks))) if len(desks) == 1 else index)
+    for name in desks:
+        ui.page(f"/{name}", title=f"polycnc {name}")(page_of(name))
+    app.add_api_route("/lines/{name}/{which}", line)
     app.add_api_websocket_route("/api/{name}", talk)
     app.add_middleware(Guard, token=token)
 
@@ -79,5 +88,5 @@ def serve(*, host: str, port: int, opens: bool) -> None:
     """Run the server until it is interrupted."""
     ui.run(
         host=host, port=port, show=opens, reload=False, title="polycnc", favicon="⚙", show_welcome_message=False,
-        binding_refresh_interval=None,
+        binding_refresh_interval=None, reconnect_timeout=RECONNECT_S,
     )  # fmt: skip

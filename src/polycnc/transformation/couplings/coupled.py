@@ -6,9 +6,9 @@ axes count all along the path, and every display, plan and sample has them where
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.records import dataclass
 from polycnc.transformation.contract import OneToOne, unchanged
 from polycnc.transformation.couplings.graph import in_order
 

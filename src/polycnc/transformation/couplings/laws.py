@@ -6,9 +6,9 @@ coordinate system, mm or degrees, as numbers or as columns of numbers.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
+from polycnc.deferred.records import dataclass
 from polycnc.transformation.numbers import NUMBER, constant
 
 if TYPE_CHECKING:

@@ -7,9 +7,9 @@ beside the work, and the rotary axis stands where the centre line is.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.records import dataclass
 from polycnc.transformation.contract import OneToOne, unchanged
 
 if TYPE_CHECKING:

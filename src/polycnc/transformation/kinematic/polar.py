@@ -5,9 +5,9 @@ The linear axis follows by the distance of a point from the centre, the rotary o
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.records import dataclass
 from polycnc.transformation.contract import unchanged
 from polycnc.transformation.numbers import (
     DEGREE,

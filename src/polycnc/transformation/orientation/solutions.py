@@ -9,11 +9,11 @@ At the pole, where the tool lies along the first of the two axes, that one may s
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from itertools import combinations
 from math import acos, atan2, degrees, hypot, sqrt
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.vectors import cross, dot, times
 from polycnc.machine.kinematics import turn_about, unit
 from polycnc.transformation.numbers import RADIAN

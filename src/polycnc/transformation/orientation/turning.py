@@ -8,11 +8,12 @@ the way: it does not notice.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
 from math import radians
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.records import dataclass
 from polycnc.transformation.orientation.choice import nearest
 from polycnc.transformation.orientation.directions import angle_between
 from polycnc.transformation.orientation.solutions import pole_angle, solutions_for
@@ -78,7 +79,7 @@ class Turning:
         if not course.both_ends:
             shares, places = tuple(part * share for share in self.shares), self.places
             return Turning(self.columns, (*shares, 1.0), (*places, places[-1]))
-        middle = self._at(tuple(start), HALF)
+        middle = self.at(start, HALF)
         early = [(part * s, p) for s, p in zip(self.shares, self.places, strict=True) if s < HALF]
         late = [
             (1.0 - part * (1.0 - s), p) for s, p in zip(self.shares, self.places, strict=True) if s > HALF
@@ -86,15 +87,22 @@ class Turning:
         knots = [*early, (part * HALF, middle), (1.0 - part * HALF, middle), *late]
         return Turning(self.columns, tuple(share for share, _ in knots), tuple(place for _, place in knots))
 
-    def _at(self, start: tuple[float, ...], share: float) -> tuple[float, ...]:
-        """Positions after a share of the turn."""
-        before, places = 0.0, start
+    def at(self, start: Sequence[float], share: float) -> tuple[float, ...]:
+        """Positions after a share of the turn; `start` are those in front of it."""
+        before, places = 0.0, tuple(start)
         for after, ahead in zip(self.shares, self.places, strict=True):
             if share <= after:
                 part = (share - before) / (after - before)
                 return tuple(a + (b - a) * part for a, b in zip(places, ahead, strict=True))
             before, places = after, ahead
         return places
+
+    def part(self, start: Sequence[float], first: float, last: float) -> Turning:
+        """The turn on a part of the move, once it has no course; `start` are the positions in front of the move."""
+        width = last - first
+        inner = [(s, p) for s, p in zip(self.shares, self.places, strict=True) if first < s < last]
+        shares = (*((share - first) / width for share, _ in inner), 1.0)
+        return Turning(self.columns, shares, (*(places for _, places in inner), self.at(start, last)))
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,6 @@ A path without a program is not waited for: so the program of one turret can be 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
@@ -15,6 +14,7 @@ from polycnc.channel.waits import PreprocessingStop
 from polycnc.control.fanuc.lathe.cycles.single import CYCLES
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion.path import target
+from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

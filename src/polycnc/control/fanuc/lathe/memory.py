@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.channel.states.state import Lifetime, lasting
 from polycnc.control.word_address.macro_b.parameter_input import set_parameter
 from polycnc.control.word_address.macro_b.variables import MacroMemory
 from polycnc.control.word_address.memory import ProgrammingFrames
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, Frame, scaling, translation
 
 if TYPE_CHECKING:
@@ -41,7 +41,7 @@ class TurningFrames(ProgrammingFrames):
     def product(self) -> Frame:
         """The whole frame of the geometry axes."""
         x, y, z = (self.offset[i] if i >= 0 else 0.0 for i in self.geometry)
-        frame = self.turret @ translation(x, y, z) @ super(TurningFrames, self).product()
+        frame = self.turret @ translation(x, y, z) @ super().product()
         return IDENTITY if frame.is_identity else frame
 
     def set_turret(self, distance: float | None) -> None:

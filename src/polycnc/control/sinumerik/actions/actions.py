@@ -6,7 +6,7 @@ action that raises an alarm is not looked at any more; the others go on (10.7).
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.interpolator import Influence
@@ -17,6 +17,7 @@ from polycnc.control.sinumerik.actions.action import Action
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.signals import measuring_actions
+from polycnc.deferred.records import dataclass
 from polycnc.language.sinumerik.errors import arithmetic
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import Deed
@@ -189,6 +190,11 @@ class SynchronisedActions(State, lifetime=Lifetime.POWER):
         action.is_done = True
         action.cycles.clear()
         self.run.clocked.fail(error, program=action.code.program, line=action.code.line)
+
+    @property
+    def goes_home(self) -> bool:
+        """A reset waits for nothing here."""
+        return False
 
     @property
     def is_quiet(self) -> bool:

@@ -6,7 +6,7 @@ reorganised: the block waits until everything before it is executed and the axis
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
@@ -16,6 +16,7 @@ from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.couplings.links import coupled
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.messages import AlarmError
@@ -175,6 +176,22 @@ def await_rest(channel: SinumerikChannel, columns: Iterable[int], leading: int |
         return any(clocked.commanded(column).moves for column in waited)
 
     channel.event(Deed("WAITP", None, _nothing, is_silent=False, awaits=moves))
+
+
+def call(channel: SinumerikChannel, name: str, places: dict[int, float]) -> None:
+    """Axes, which stand, are at other machine positions from here on, by column; nothing moves (PRESETON, AXCTSWE)."""
+    machine, clocked = channel.coordinates.machine, channel.actual.clocked
+    for column, place in places.items():
+        machine[column] = place
+    channel.coordinates.arrive_machine(machine)
+    if clocked is None:
+        return
+
+    def do() -> None:
+        for column, place in places.items():
+            clocked.stand_at(column, place)
+
+    channel.event(Deed(name, None, do, places=tuple(places.items())))
 
 
 def _nothing() -> None:

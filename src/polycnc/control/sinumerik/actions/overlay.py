@@ -7,13 +7,14 @@ CORROF takes them away, DRFOF the handwheel's: the axis stays, coordinates know 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.interpolator import HANDWHEEL_OFFSET
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.block import arguments
+from polycnc.deferred.records import dataclass
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.messages import AlarmError
 

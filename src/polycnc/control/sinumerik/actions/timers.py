@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
+from polycnc.deferred.records import dataclass
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import Deed
 

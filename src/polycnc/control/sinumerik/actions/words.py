@@ -11,6 +11,7 @@ from polycnc.control.sinumerik.actions.axes import ActionAxes
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.positions import Dimension, is_diameter
 from polycnc.control.sinumerik.m_functions import DIRECTIONS
+from polycnc.control.sinumerik.motion import indexing
 from polycnc.control.sinumerik.signals import measuring_actions
 from polycnc.geometry.units import INCH_MM
 from polycnc.messages import AlarmError
@@ -58,9 +59,16 @@ def _rotary(run: Running, column: int, here: float, target: float, modifier: str
 
 
 def endless(run: Running, index: Any, _modifier: str, value: float) -> None:
-    """MOV: an axis goes on without end; 0 stops it."""
+    """MOV: an axis goes on without end; 0 stops it, an indexing axis at its next position."""
     column = _commandable(run, index)
     run.targets.pop(column, None)
+    if not value:
+        left, speed = run.clocked.commanded(column).left, action_axes.speed_of(run.channel, column)
+        stop = indexing.stop_of(run.channel, column, run.clocked.machine(column), left, speed)
+        if stop is not None:
+            run.targets[column] = stop
+            run.directions.pop(column, None)
+            return
     run.directions[column] = (value > 0) - (value < 0)
 
 

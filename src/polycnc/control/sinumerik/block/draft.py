@@ -7,7 +7,7 @@ the same block in the same modal state is worked out once.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from polycnc.control.sinumerik.block.positions import AxisTerm, axis_term
 from polycnc.language.sinumerik.names.values import Axis
@@ -16,6 +16,7 @@ from polycnc.language.sinumerik.words import WordAlarm, WordShape
 if TYPE_CHECKING:
     from polycnc.channel.mode import Mode
     from polycnc.control.sinumerik.family import SinumerikChannel
+    from polycnc.geometry.frames import Vector
     from polycnc.language.sinumerik.words import Block
 
     Values = tuple[Any, ...]
@@ -24,8 +25,20 @@ if TYPE_CHECKING:
 Step = Callable[["SinumerikChannel", "Values"], None]
 #: Where a block ends: a position of all axes.
 Goal = Callable[["SinumerikChannel", "Values"], list[float]]
-#: The end of a block with its rotary axes, from the end of its tip.
-Lead = Callable[["SinumerikChannel", "Values", list[float]], list[float]]
+
+
+class TipPath(Protocol):
+    """How the tip goes along a block; a part of its way is a number from 0 (start) to 1 (end)."""
+
+    def at(self, part: float) -> list[float]:
+        """Work coordinates of all axes after a part of the way."""
+
+    def direction(self, part: float) -> Vector:
+        """Unit vector of travel on the geometry axes; zero where they stand."""
+
+
+#: The end of a block with its rotary axes, from the end of its tip and the way there; None for a straight one.
+Lead = Callable[["SinumerikChannel", "Values", list[float], TipPath | None], list[float]]
 
 
 class Draft:

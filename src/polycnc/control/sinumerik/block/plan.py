@@ -6,7 +6,6 @@ corners; motion, or what a function of group 2 or 3 does; stops. A program end c
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import partial
 from math import nan
 from typing import TYPE_CHECKING
@@ -46,6 +45,7 @@ from polycnc.control.sinumerik.transformations import (
     smoothing,
 )
 from polycnc.control.sinumerik.transformations.words import SECOND, SINGLE, TRIPLES
+from polycnc.deferred.records import dataclass
 from polycnc.language.bulk import Enter, Idle, Note, declare
 from polycnc.messages import AlarmError
 

@@ -9,13 +9,14 @@ Source: job planning 1.25.2.5 (SBLOF, SBLON), 8.4.
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from polycnc.channel.stack import LevelKind
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.channel.waits import Wait, Why
 from polycnc.control.sinumerik.signals import sections
+from polycnc.deferred.records import dataclass
+from polycnc.deferred.regexes import regex
 
 if TYPE_CHECKING:
     from polycnc.channel.stack import Level
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
 IGNORE_ROUTINES = 1 << 1
 #: MD10702 bit 12: no halt in the block of SBLON under SBL2.
 IGNORE_SBLON = 1 << 12
-_SBLON = re.compile(r"\bSBLON\b", re.IGNORECASE)
+_SBLON = regex(r"\bSBLON\b", re.IGNORECASE)
 
 
 @dataclass(slots=True)

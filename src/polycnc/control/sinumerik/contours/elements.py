@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from itertools import pairwise
 from math import atan2, degrees, floor, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
+from polycnc.deferred.records import dataclass
 from polycnc.geometry import arcs, offset
 from polycnc.geometry.tolerances import NO_WAY
 

@@ -6,7 +6,7 @@ noted as its block means it, before roundings and chamfers are put in, which bec
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import isnan
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -28,6 +28,7 @@ from polycnc.control.sinumerik.motion.contour_reading import (
     without_away,
 )
 from polycnc.control.sinumerik.tables import feed_type, length_factor
+from polycnc.deferred.records import dataclass
 from polycnc.geometry import offset
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY

@@ -9,10 +9,10 @@ row at which it falls next, negative, or END for the last time.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.contours.elements import SAME_MM, Element
+from polycnc.deferred.records import dataclass
 from polycnc.geometry import offset
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ Synchronised gears lead it to its place first, beside the path, if the machine's
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from polycnc.channel.states.state import Lifetime, State
@@ -19,6 +19,7 @@ from polycnc.control.sinumerik.curve_tables import definition as curve_definitio
 from polycnc.control.sinumerik.curve_tables.memory import table_of
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tables import length_factor
+from polycnc.deferred.records import dataclass
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.messages import AlarmError
 from polycnc.transformation.couplings.laws import ByCurve, Ratio
@@ -34,13 +35,6 @@ MOST_LEADING = 5
 BLOCK_CHANGES = frozenset(("NOC", "FINE", "COARSE", "IPOSTOP"))
 #: Ways of approach: to the next tooth gap; to the place itself by the shorter way, downwards, upwards.
 TOOTH_GAPS, SHORTEST, DOWN, UP = frozenset(("NTGT", "NTGP")), frozenset(("DCT", "DCP")), "ACN", "ACP"
-
-
-@dataclass(slots=True)
-class Gears(State, lifetime=Lifetime.POWER):
-    """Gears that are defined: the columns of their leading axes, by that of the following axis."""
-
-    leading: dict[int, tuple[int, ...]] = field(default_factory=dict)
 
 
 class Wheel(NamedTuple):
@@ -59,6 +53,30 @@ class Wheel(NamedTuple):
     denominator: float
 
 
+@dataclass(slots=True)
+class Gear:
+    """A gear that EGDEF has defined.
+
+    Attributes:
+        types: What each leading axis leads by, by its column in the order of definition: 0 actual value, 1 setpoint.
+        wheels: What it was switched on with, by the column of the leading axis.
+        place: Synchronous place of the following axis.
+        block_change: When the block that switched it on ended.
+    """
+
+    types: dict[int, int]
+    wheels: dict[int, Wheel] = field(default_factory=dict)
+    place: float = 0.0
+    block_change: str = ""
+
+
+@dataclass(slots=True)
+class Gears(State, lifetime=Lifetime.POWER):
+    """Gears that are defined, by the column of the following axis."""
+
+    defined: dict[int, Gear] = field(default_factory=dict)
+
+
 def define(channel: SinumerikChannel, args: Arguments) -> None:
     """EGDEF(following,leading 1,type 1,…): types 0 actual value, 1 setpoint; a preprocessing stop.
 
@@ -74,10 +92,11 @@ def define(channel: SinumerikChannel, args: Arguments) -> None:
         raise AlarmError("16779", axis=channel.axes[following])
     if following in leading:
         raise AlarmError("16785", axis=channel.axes[following])
-    if following in Gears.of(channel).leading or following in Couplings.of(channel).links:
+    if following in Gears.of(channel).defined or following in Couplings.of(channel).links:
         raise AlarmError("16797", axis=channel.axes[following])
     _stop(channel, "EGDEF")
-    Gears.of(channel).leading[following] = tuple(leading)
+    types = map(arguments.whole, args[2::2])
+    Gears.of(channel).defined[following] = Gear(dict(zip(leading, types, strict=True)))
 
 
 def delete(channel: SinumerikChannel, args: Arguments) -> None:
@@ -86,7 +105,7 @@ def delete(channel: SinumerikChannel, args: Arguments) -> None:
     if Couplings.of(channel).of_kind(following, Kind.GEAR):
         raise AlarmError("16797", axis=channel.axes[following])
     _stop(channel, "EGDEL")
-    Gears.of(channel).leading.pop(following, None)
+    Gears.of(channel).defined.pop(following, None)
 
 
 def switch_on(channel: SinumerikChannel, args: Arguments) -> None:
@@ -161,10 +180,12 @@ def _begin(channel: SinumerikChannel, name: str, args: Arguments) -> int:
     following = _column(channel, args[0])
     if str(args[1]).upper() not in BLOCK_CHANGES:
         raise AlarmError("16795", text=str(args[1]))
-    if following not in Gears.of(channel).leading:
+    gear = Gears.of(channel).defined.get(following)
+    if gear is None:
         raise AlarmError("16796", axis=channel.axes[following])
     if Couplings.of(channel).of_kind(following, Kind.GEAR):
         raise AlarmError("16797", axis=channel.axes[following])
+    gear.block_change = str(args[1]).upper()
     return following
 
 
@@ -180,7 +201,7 @@ def _wheels(
         if leading in seen:
             raise AlarmError("14020", text=name)
         seen.add(leading)
-        if leading not in Gears.of(channel).leading[following]:
+        if leading not in Gears.of(channel).defined[following].types:
             raise AlarmError("16796", axis=channel.axes[leading])
         numerator, denominator = (arguments.real(value) for value in args[k + width - 2 : k + width])
         place = None if width == 3 else _place(channel, leading, args[k + 1])
@@ -206,11 +227,22 @@ def _link(channel: SinumerikChannel, wheel: Wheel, place: float) -> Link:
     return Link(Kind.GEAR, ByCurve(wheel.leading, table, table.followed(place).place), table.number)
 
 
-def _engage(channel: SinumerikChannel, following: int, wheels: Sequence[Wheel]) -> None:
+def _engage(
+    channel: SinumerikChannel, following: int, wheels: Sequence[Wheel], place: float | None = None
+) -> None:
+    """The gear is on; `place` is the synchronous place of the following axis, by default where it is."""
     machine = channel.coordinates.machine
     links = [link for link in Couplings.of(channel).links.get(following, []) if link.kind is not Kind.GEAR]
     links += [_link(channel, wheel, machine[wheel.leading]) for wheel in wheels]
     switching.change(channel, following, links)
+    gear = Gears.of(channel).defined[following]
+    gear.place = machine[following] if place is None else place
+    gear.wheels = {
+        wheel.leading: wheel
+        if wheel.synchronous is not None
+        else wheel._replace(synchronous=machine[wheel.leading])
+        for wheel in wheels
+    }
 
 
 def _synchronise(
@@ -220,9 +252,10 @@ def _synchronise(
     wheels = list(_wheels(channel, name, following, args, width=4))
     switching.begin(channel, name)
     here = channel.coordinates.machine
-    target = _target(channel, following, _place(channel, following, place), wheels, how)
+    wanted = _place(channel, following, place)
+    target = _target(channel, following, wanted, wheels, how)
     approach(channel, following, target - here[following])
-    _engage(channel, following, wheels)
+    _engage(channel, following, wheels, wanted)
 
 
 def _target(

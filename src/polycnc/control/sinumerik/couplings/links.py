@@ -7,13 +7,14 @@ When a coupling ends, the axes stay where they are, and words mean their places 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from enum import IntEnum
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.curve_tables.memory import CurveTables
 from polycnc.control.sinumerik.data.machine_data import MachineData
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY
 from polycnc.transformation.couplings.coupled import Coupled, Shown
 from polycnc.transformation.seated import Seated
@@ -32,6 +33,8 @@ class Kind(IntEnum):
 
     SLAVE = 0
     """Of a master (MASLON), which it does not tell."""
+    GANTRY = -1
+    """Of a gantry, which it does not tell either."""
     TRAIL = 8
     LEAD = 16
     GEAR = 32
@@ -91,6 +94,7 @@ class Couplings(State, lifetime=Lifetime.POWER):
         kept = {kind for kind, bit in KEPT_BY_MASK.items() if mask & 1 and mask >> bit & 1} | {
             Kind.GEAR,
             Kind.SLAVE,
+            Kind.GANTRY,
         }
         for column in list(self.links):
             stay = [link for link in self.links[column] if link.kind in kept and lifetime < Lifetime.POWER]

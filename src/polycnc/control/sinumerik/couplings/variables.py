@@ -2,22 +2,25 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.positions import shown
 from polycnc.control.sinumerik.couplings import masters
+from polycnc.control.sinumerik.couplings.gears import Gears
 from polycnc.control.sinumerik.couplings.links import Couplings, Kind
 from polycnc.control.sinumerik.couplings.spindle_pairs import SYNCHRONOUS, SpindlePairs
 from polycnc.control.sinumerik.tables import MINUTE
 from polycnc.control.sinumerik.tangential.definitions import coupling_state
 from polycnc.language.sinumerik.names.spindles import spindle_number
 from polycnc.language.sinumerik.names.values import Axis, Type
+from polycnc.messages import AlarmError
 from polycnc.transformation.couplings.laws import ByCurve
 
 if TYPE_CHECKING:
+    from polycnc.control.sinumerik.couplings.gears import Gear
     from polycnc.control.sinumerik.family import SinumerikChannel
-    from polycnc.control.sinumerik.variables.row import Indices, RowWithStop
+    from polycnc.control.sinumerik.variables.row import Indices, Reader, RowWithStop
 
 
 def _acts(channel: SinumerikChannel, indices: Indices) -> int:
@@ -35,7 +38,7 @@ def _acts(channel: SinumerikChannel, indices: Indices) -> int:
     clocked = channel.actual.clocked
     if clocked is not None:
         kinds |= {Kind.LEAD if isinstance(law, ByCurve) else Kind.TRAIL for law in clocked.led_by(column)}
-    return sum(kinds) + coupling_state(channel, column)
+    return sum(max(kind, 0) for kind in kinds) + coupling_state(channel, column)
 
 
 def _master_place(channel: SinumerikChannel, indices: Indices) -> float:
@@ -63,7 +66,98 @@ def _master(channel: SinumerikChannel, indices: Indices) -> int:
     return masters.master_of(channel, indices[0] if indices else None)
 
 
+# ---- electronic gears: `$AA_EG_…[following, leading]`
+
+
+def _gear(channel: SinumerikChannel, indices: Indices) -> Gear | None:
+    """The gear of the following axis that a variable names."""
+    return Gears.of(channel).defined.get(arguments.column(channel, indices[0] if indices else None))
+
+
+def _of_wheel(attribute: str) -> Reader:
+    """What a gear was switched on with for one leading axis; 0 for one that it has not."""
+
+    def read(channel: SinumerikChannel, indices: Indices) -> float:
+        gear, leading = _gear(channel, indices), arguments.column(channel, indices[1])
+        wheel = gear.wheels.get(leading) if gear is not None else None
+        return 0.0 if wheel is None else getattr(wheel, attribute) or 0.0
+
+    return _with_leading(read)
+
+
+def _with_leading(read: Reader) -> Reader:
+    """Readers of two axes; 12400 where one is missing."""
+
+    def checked(channel: SinumerikChannel, indices: Indices) -> Any:
+        if len(indices) != 2:
+            raise AlarmError("12400", text="$AA_EG")
+        return read(channel, indices)
+
+    return checked
+
+
+def _leading_acts(channel: SinumerikChannel, indices: Indices) -> bool:
+    """`$AA_EG_ACTIVE[following, leading]`: the leading axis moves the following one now."""
+    following, leading = (arguments.column(channel, index) for index in indices)
+    return any(link.law.leading == leading for link in Couplings.of(channel).of_kind(following, Kind.GEAR))
+
+
+def _leading_type(channel: SinumerikChannel, indices: Indices) -> int:
+    """`$AA_EG_TYPE[following, leading]`: 0 actual value, 1 setpoint."""
+    gear = _gear(channel, indices)
+    return gear.types.get(arguments.column(channel, indices[1]), 0) if gear is not None else 0
+
+
+def _leading_axis(channel: SinumerikChannel, indices: Indices) -> Axis:
+    """`$AA_EG_AX[n, following]`: the leading axis n, counted from 0."""
+    if len(indices) != 2:
+        raise AlarmError("12400", text="$AA_EG_AX")
+    gear, n = _gear(channel, indices[1:]), arguments.whole(indices[0])
+    columns = list(gear.types) if gear is not None else []
+    if not 0 <= n < len(columns):
+        raise AlarmError("17020", text="$AA_EG_AX", index=n)
+    return Axis(channel.axes[columns[n]])
+
+
+def _leading_count(channel: SinumerikChannel, indices: Indices) -> int:
+    """`$AA_EG_NUM_LA[following]`: leading axes that EGDEF names."""
+    gear = _gear(channel, indices)
+    return 0 if gear is None else len(gear.types)
+
+
+def _synchronous_place(channel: SinumerikChannel, indices: Indices) -> float:
+    """`$AA_EG_SYNFA[following]`: its synchronous place."""
+    gear = _gear(channel, indices)
+    return 0.0 if gear is None else gear.place
+
+
+def _block_change(channel: SinumerikChannel, indices: Indices) -> str:
+    """`$P_EG_BC[following]`: when the block that switches the gear on ends."""
+    gear = _gear(channel, indices)
+    return "" if gear is None else gear.block_change
+
+
+def _difference(channel: SinumerikChannel, indices: Indices) -> float:
+    """`$VA_EG_SYNCDIFF[following]`: how far it is from its place, which is nothing where no axis lags."""
+    arguments.column(channel, indices[0] if indices else None)
+    return 0.0
+
+
+GEAR_VARIABLES: dict[str, RowWithStop] = {
+    "$AA_EG_ACTIVE": (Type.BOOL, _with_leading(_leading_acts), None, True),
+    "$AA_EG_AX": (Type.AXIS, _leading_axis, None, True),
+    "$AA_EG_DENOM": (Type.REAL, _of_wheel("denominator"), None, True),
+    "$AA_EG_NUMERA": (Type.REAL, _of_wheel("numerator"), None, True),
+    "$AA_EG_NUM_LA": (Type.INT, _leading_count, None, True),
+    "$AA_EG_SYN": (Type.REAL, _of_wheel("synchronous"), None, True),
+    "$AA_EG_SYNFA": (Type.REAL, _synchronous_place, None, True),
+    "$AA_EG_TYPE": (Type.INT, _with_leading(_leading_type), None, True),
+    "$P_EG_BC": (Type.STRING, _block_change, None, False),
+    "$VA_EG_SYNCDIFF": (Type.REAL, _difference, None, True),
+}
+
 COUPLING_VARIABLES: dict[str, RowWithStop] = {
+    **GEAR_VARIABLES,
     "$AA_COUP_ACT": (Type.INT, _acts, None, True),
     "$AA_COUP_OFFS": (Type.REAL, _offset, None, True),
     "$VA_COUP_OFFS": (Type.REAL, _offset, None, True),

@@ -7,10 +7,10 @@ table.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import floor, inf
 from typing import TYPE_CHECKING, NamedTuple
 
+from polycnc.deferred.records import dataclass
 from polycnc.geometry import polynomials
 from polycnc.geometry.polynomials import Coefficients
 from polycnc.geometry.tolerances import NO_WAY

@@ -6,7 +6,6 @@ functions, frames, positions and R parameters are as before CTABDEF.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
@@ -16,6 +15,7 @@ from polycnc.control.sinumerik.curve_tables.memory import CurveTables, memory_na
 from polycnc.control.sinumerik.curve_tables.recorder import CurveRecorder
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.motion.contour_reading import ContourReading, reading_from_here
+from polycnc.deferred.records import dataclass
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.messages import AlarmError
 

@@ -6,7 +6,6 @@ G functions, feed and frames are put back.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import partial
 from math import nan
 from typing import TYPE_CHECKING, NamedTuple
@@ -15,6 +14,7 @@ from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.motion.contour_reading import ContourReading, reading_from_here, without_away
 from polycnc.cycles.turning.contour import Contour, Piece
+from polycnc.deferred.records import dataclass
 from polycnc.geometry import offset
 from polycnc.language.sinumerik.statements.calls import call_section, call_without_arguments, named_program
 from polycnc.messages import AlarmError

@@ -127,12 +127,25 @@ def _if_moved(moves: Moves, center: tuple[float, float]) -> tuple[float | None, 
 
 def drill(moves: Moves, a: Arguments) -> None:
     """CYCLE81, CYCLE82: drilling, centring, with dwell."""
-    if any(a[name] for name in ("S_ZA", "S_ZD")):
-        raise not_supported("CYCLE82 S_ZA S_ZD")
     found = levels_of_drill(moves, a)
-    if found is not None:
-        dwell = pause(a["DTB"], a.digit("_AMODE", 1))
-        perform(moves, holes.drill(found.hole(dwell)), Acts(moves.channel.feed))
+    if found is None:
+        return
+    feed = moves.channel.feed
+    hole = found.hole(pause(a["DTB"], a.digit("_AMODE", 1)))
+    before, last = _stage(a, "S_ZA", "S_FA", feed), _stage(a, "S_ZD", "S_FD", feed)
+    if before is None and last is None:
+        perform(moves, holes.drill(hole), Acts(feed))
+        return
+    if sum(stage.way for stage in (before, last) if stage is not None) > abs(found.depth - found.reference):
+        raise AlarmError("61107")
+    perform(moves, deep.drill_in_stages(hole, found.reference, before, last), Acts(feed))
+
+
+def _stage(a: Arguments, way: str, own: str, feed: float) -> deep.Stage | None:
+    """A part of a hole at a feed of its own, the path feed where it has none; None where the hole has no such part."""
+    if not a[way]:
+        return None
+    return deep.Stage(abs(a[way]), a[own] / feed if a[own] > 0.0 and feed > 0.0 else 1.0)
 
 
 def bore(moves: Moves, a: Arguments) -> None:
@@ -195,6 +208,17 @@ def bore_and_halt(moves: Moves, a: Arguments) -> None:
 # ---- deep holes
 
 
+#: What a call of CYCLE830 may hold behind the parameters that polycnc knows.
+REST = [f"_REST{number}" for number in range(1, 25)]
+
+
+def deep_hole_2(moves: Moves, a: Arguments) -> None:
+    """CYCLE830: as CYCLE83, the first depth absolute; pilot holes, soft entries and through drilling are PC0001."""
+    if any(a.plain(name) for name in REST):
+        raise not_supported("CYCLE830: pilot hole, entry, through drilling")
+    deep_hole(moves, a)
+
+
 def deep_hole(moves: Moves, a: Arguments) -> None:
     """CYCLE83: strokes that become shorter, breaking chips (VARI=0) or clearing them (VARI=1)."""
     found = levels_of_drill(moves, a)
@@ -241,11 +265,12 @@ def _first_depth(moves: Moves, a: Arguments, found: Levels, total: float) -> flo
 
 def _degression(a: Arguments, mode: int) -> float:
     """Amount above 0, factor below, 0 for none; as a percentage where _AMODE says so (100: none)."""
-    value = a.plain("DAM")
+    name = "DAM" if a.has("DAM") else "_DAM"
+    value = a.plain(name)
     if mode == 2 or (mode == 0 and value < 0.0):
         factor = abs(value) / 100.0 if mode == 2 else min(abs(value), 1.0)
         return 0.0 if factor in (0.0, 1.0) and mode == 2 else -factor
-    return abs(a["DAM"])
+    return abs(a[name])
 
 
 def _first_feed(factor: float, *, percent: bool) -> float:

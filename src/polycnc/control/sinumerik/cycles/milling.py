@@ -1,4 +1,4 @@
-"""Pockets, slots, elongated holes: POCKET1 to POCKET4, SLOT1, SLOT2, LONGHOLE (shapes: `polycnc.cycles`)."""
+"""Pockets, slots, elongated holes: POCKET1 to POCKET4, SLOT1, SLOT2, LONGHOLE, CYCLE899 (shapes: `polycnc.cycles`)."""
 
 from __future__ import annotations
 
@@ -11,9 +11,11 @@ from polycnc.control.sinumerik.cycles.levels import levels
 from polycnc.control.sinumerik.cycles.moves import require_tool
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.cycles.count import checked
+from polycnc.cycles.milling import open_slot as open_slots
 from polycnc.cycles.milling import pockets, slots
+from polycnc.cycles.milling.open_slot import OpenSlot
 from polycnc.cycles.milling.pockets import Insertion, Pocket
-from polycnc.cycles.milling.stroke import MillStroke, Place
+from polycnc.cycles.milling.stroke import MillStroke, Place, steps
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
@@ -386,3 +388,59 @@ def long_hole(moves: Moves, a: Arguments) -> None:
         ends = place(inner, 0.0), place(outer, 0.0)
         strokes = slots.to_and_fro(ends, moves.point, found, abs(a["MID"]), feed, depth_feed)
         perform(moves, strokes)
+
+
+# ---- an open slot
+
+#: Units of VARI of CYCLE899 beside roughing, finishing and finishing of the walls; what is behind them: the technique.
+BASE, PREFINISHING, OPEN_CHAMFER = 3, 5, 6
+TROCHOIDAL, PLUNGING = 1, 2
+_TECHNIQUE_PLACES = (1, 2, 3)
+
+
+def open_slot(moves: Moves, a: Arguments) -> None:
+    """CYCLE899: a slot that is open at one end: roughed in circles or in plunges, or finished.
+
+    Raises:
+        AlarmError: As the other milling cycles; 61002 for VARI, 61105 for a tool that does not go in, 61118 for a slot
+            without length or width; PC0001 for chamfering.
+    """
+    radius = cutter(moves)
+    kind = a.digit("_VARI", 0)
+    if kind == OPEN_CHAMFER:
+        raise not_supported("CYCLE899 _VARI")
+    technique = next((digit for place in _TECHNIQUE_PLACES if (digit := a.digit("_VARI", place))), TROCHOIDAL)
+    if kind not in (ROUGHING, FINISHING, BASE, EDGE, PREFINISHING) or technique not in (TROCHOIDAL, PLUNGING):
+        raise AlarmError("61002")
+    length, width = abs(a["_LENG"]), abs(a["_WID"])
+    if not length or not width:
+        raise AlarmError("61118")
+    base_allowance = abs(a["_FALD"]) if kind in (ROUGHING, PREFINISHING) else 0.0
+    found = milling_levels(moves, a, base_allowance, "_MID")
+    if found is None:
+        return
+    slot = OpenSlot(
+        Place(reference_point(moves, a), a["_STA"]),
+        length,
+        width,
+        radius,
+        width_of_cut(a, radius),
+        allowance=0.0 if kind in (FINISHING, EDGE) else abs(a["_FAL"]),
+        clearance=abs(a["SDIS"]),
+        ccw=is_ccw(moves, a.integer("_CDIR"), inside=True),
+        feed=feed_of(a, "_FFP1"),
+        safe=found.safe,
+        retract=found.retract,
+    )
+    if slot.reach < -NO_WAY or slot.last < -NO_WAY:
+        raise AlarmError("61105")
+    below = [found.depth]
+    if kind != BASE:
+        total = abs(found.depth - found.reference) - base_allowance
+        below = [found.reference + found.down * part for part in steps(total, abs(a["_MID"]))]
+    if kind != ROUGHING:
+        perform(moves, open_slots.walls(slot, below, base=kind in (FINISHING, BASE)))
+    elif technique == PLUNGING:
+        perform(moves, open_slots.plunging(slot, below))
+    else:
+        perform(moves, open_slots.circling(slot, below))

@@ -19,7 +19,6 @@ from polycnc.control.sinumerik.cycles.milling import (
     variant,
 )
 from polycnc.control.sinumerik.cycles.moves import require_tool
-from polycnc.control.sinumerik.errors import not_supported
 from polycnc.cycles.count import checked
 from polycnc.cycles.milling import contour as path_milling
 from polycnc.cycles.milling import facing, spigots
@@ -55,8 +54,6 @@ def face(moves: Moves, a: Arguments) -> None:
     strips = STRIPS.get(a.digit("_VARI", 1))
     if strips is None:
         raise AlarmError("61002")
-    if a.integer("_LIM"):
-        raise not_supported(f"{a.cycle} _LIM")
     found = levels(moves, a)
     if found is None:
         return
@@ -76,10 +73,19 @@ def face(moves: Moves, a: Arguments) -> None:
         feed=feed_of(a, "_FFP1"),
         safe=found.safe,
         retract=found.retract,
+        walls=_walls(a),
     )
+    if not shape.fits:
+        raise AlarmError("61105")
     total = abs(found.depth - found.reference)
     rough = levels_below(found, total - abs(a["_FALD"]), a["_MID"])
     perform(moves, facing.face(shape, rough if kind == ROUGHING else [found.depth]))
+
+
+def _walls(a: Arguments) -> tuple[bool, bool, bool, bool]:
+    """Sides that the tool does not pass: digits of _LIM for abscissa - and +, ordinate - and +."""
+    first, second, third, fourth = (bool(a.digit("_LIM", place)) for place in range(4))
+    return first, second, third, fourth
 
 
 def _size(a: Arguments) -> tuple[float, float]:

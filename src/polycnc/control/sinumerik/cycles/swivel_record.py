@@ -6,7 +6,6 @@ by hand: the cycle says where to.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import inf
 from typing import TYPE_CHECKING
 
@@ -18,6 +17,7 @@ from polycnc.control.sinumerik.tools.holders.stored import (
     Carrier,
     CarrierData,
 )
+from polycnc.deferred.records import dataclass
 from polycnc.machine.kinematics import Kinematics
 from polycnc.machine.model import Joint
 from polycnc.messages import AlarmError

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from polycnc.control.sinumerik.cycles import (
     contour,
     drilling,
+    engraving,
     grooves,
     high_speed_settings,
     milling,
@@ -51,6 +52,10 @@ CYCLES: dict[str, Cycle] = {
     "CYCLE82": Cycle(f"{_HOLE} DTB {_SL} _VARI S_ZA S_FA S_ZD S_FD", drilling.drill),
     "CYCLE83": Cycle(
         f"{_HOLE} FDEP FDPR DAM DTB DTS FRF VARI _AXN _MDEP _VRT _DTD _DIS1 {_SL}", drilling.deep_hole
+    ),
+    "CYCLE830": Cycle(
+        f"RTP RFP SDIS DP FDEP _DAM DTB DTS FRF VARI _MDEP _VRT _DTD _DIS1 {' '.join(drilling.REST)}",
+        drilling.deep_hole_2,
     ),
     "CYCLE84": Cycle(
         f"{_HOLE} DTB SDAC MPIT PIT POSS SST SST1 _AXN _PITA _TECHNO _VARI _DAM _VRT {_PITCHES} {_SL}",
@@ -96,6 +101,9 @@ CYCLES: dict[str, Cycle] = {
         milling.slot2,
     ),
     "LONGHOLE": Cycle(f"{_HOLE} NUM LENG CPA CPO RAD STA1 INDA FFD FFP1 MID {_SL_MILL}", milling.long_hole),
+    "CYCLE60": Cycle(
+        f"_TEXT {_HOLE} _PA _PO _STA _CP1 _CP2 _WID _DF _FFD _FFP1 _VARI _CODEP {_SL}", engraving.engrave
+    ),
     "CYCLE61": Cycle(
         f"{_MILL} _PA _PO _LENG _WID _MID _MIDA _FALD _FFP1 _VARI _LIM _DMODE _AMODE", surfaces.face
     ),
@@ -121,6 +129,10 @@ CYCLES: dict[str, Cycle] = {
         surfaces.polygon,
     ),
     "CYCLE90": Cycle(f"{_HOLE} DIATH KDIAM PIT FFR CDIR TYPTH CPA CPO", surfaces.thread),
+    "CYCLE899": Cycle(
+        f"{_MILL} _LENG _WID _PA _PO _STA _MID _MIDA _FAL _FALD _FFP1 _CDIR _VARI {_SL} _UMODE _FS _ZFS",
+        milling.open_slot,
+    ),
     "CYCLE93": Cycle(
         "SPD SPL WIDG DIAG STA1 ANG1 ANG2 RCO1 RCO2 RCI1 RCI2 FAL1 FAL2 IDEP DTB VARI _VRT _DN",
         grooves.groove,

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import nan
 from typing import NamedTuple
 
 from polycnc.channel.states.state import Lifetime, State, lasting
+from polycnc.deferred.records import dataclass
 from polycnc.toolpath.modes import FeedMode
 
 

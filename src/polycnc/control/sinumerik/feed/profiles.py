@@ -6,12 +6,12 @@ whatever G90 and G91 say. FLIN and FCUB act under G93 and G94; elsewhere F is co
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from itertools import pairwise
 from math import ceil, isnan, nan
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.channel.states.state import Lifetime, State
+from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

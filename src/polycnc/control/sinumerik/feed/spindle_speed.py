@@ -5,7 +5,6 @@ Source: Fundamentals (G96, G961, G962, G97, G971, G972, LIMS; FPR, FPRAON, FPRAO
 
 from __future__ import annotations
 
-import re
 from math import pi
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +13,7 @@ from polycnc.control.sinumerik.block.arguments import Arguments
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.tables import MM_PER_M
+from polycnc.deferred.regexes import regex
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.messages import AlarmError
 
@@ -28,7 +28,7 @@ SURFACE_LIMIT = "$SA_SPIND_MAX_VELO_LIMS"
 DATA = frozenset((LOWEST, HIGHEST, SURFACE_LIMIT))
 #: Feed types under which LIMS acts.
 SURFACE_LIMITED = frozenset(("G96", "G961", "G962", "G97", "G971", "G972"))
-_SPINDLE = re.compile(r"S\d+")
+_SPINDLE = regex(r"S\d+")
 KEEPS_SPEED = frozenset(("G97", "G971", "G972", "G973"))
 
 

@@ -5,11 +5,12 @@ Source: Fundamentals (S, M3, M4, M5, SPOS, SETMS, G96, LIMS, G25/G26 S).
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.data.machine_data import MachineData
+from polycnc.deferred.records import dataclass
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -67,7 +68,7 @@ class Spindles(State, lifetime=Lifetime.POWER):
 
     def end(self, channel: Channel, lifetime: Lifetime) -> None:
         """A reset stops the spindles, but for those that MD35040 keeps turning."""
-        super(Spindles, self).end(channel, lifetime)
+        super().end(channel, lifetime)
         if lifetime is Lifetime.RESET:
             data = MachineData.of(channel)
             self.stop(kept=[n for n in self.all if data.integer("$MA_SPIND_ACTIVE_AFTER_RESET", f"S{n}")])

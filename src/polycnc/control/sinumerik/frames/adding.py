@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik.frames.memory import (
@@ -13,6 +12,7 @@ from polycnc.control.sinumerik.frames.memory import (
     chain,
 )
 from polycnc.control.sinumerik.frames.variables import FRAME_VARIABLES
+from polycnc.deferred.regexes import regex
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from polycnc.language.sinumerik.names.frame import NcFrame
 
 OK, WRONG_TARGET, NOT_CONFIGURED, NO_ROTATION = range(4)
-_TARGET = re.compile(r"(\$P_[A-Z]+)(?:\[(\d+)\])?")
+_TARGET = regex(r"(\$P_[A-Z]+)(?:\[(\d+)\])?")
 #: Errors of writing a frame and what ADDFRAME returns for them.
 _ERRORS = {"18310": NO_ROTATION, "17020": NOT_CONFIGURED, "18311": NOT_CONFIGURED}
 #: The link of the chain to which a target belongs, and whether the number in brackets counts in it.

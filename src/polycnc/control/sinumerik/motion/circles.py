@@ -9,6 +9,7 @@ from functools import partial
 from math import cos, hypot, pi, radians, sin
 from typing import TYPE_CHECKING
 
+from polycnc.channel.moves.chord_path import ChordPath
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move
 from polycnc.control.sinumerik import tables
@@ -130,7 +131,8 @@ class Arc(RoundACentre):
             raise AlarmError("14048")
         feed = channel.feed if self.feed is None else number(values, self.feed) * self.feed_factor
         if self.lead is not None:
-            end = self.lead(channel, values, end)
+            move = _arc(channel, self.columns, self.axes, end, center, self.ccw, turns)
+            end = self.lead(channel, values, end, MovePath(move, channel.coordinates.geometry))
         arc(channel, self.columns, self.axes, end, center, moves.checked_feed(feed), self.ccw, turns)
 
     def _by_radius(
@@ -240,6 +242,19 @@ def arc(
     turns: float = 0.0,
 ) -> None:
     """Move along an arc of a plane; with a way along the third axis it is a helix."""
+    _follow(channel, _arc(channel, columns, axes, end, center, ccw, turns), feed)
+
+
+def _arc(
+    channel: SinumerikChannel,
+    columns: tuple[int, int, int],
+    axes: tuple[int, int, int],
+    end: list[float],
+    center: arcs.Point,
+    ccw: bool,
+    turns: float = 0.0,
+) -> Move:
+    """The arc of a plane to a point."""
     start = channel.coordinates.position
     third = columns[2]
     rises = third >= 0 and abs(end[third] - start[third]) > NO_WAY
@@ -247,30 +262,24 @@ def arc(
     space[axes[0]], space[axes[1]] = center
     space[axes[2]] = start[third] if third >= 0 else 0.0
     normal[axes[2]] = 1.0
-    curve(channel, arc_kind(ccw=ccw, helix=rises), end, feed, _vector(space), _vector(normal), turns)
+    kind = arc_kind(ccw=ccw, helix=rises)
+    return Move(kind, start, end, center=_vector(space), normal=_vector(normal), turns=turns)
 
 
-def curve(
-    channel: SinumerikChannel,
-    kind: Kind,
-    end: list[float],
-    feed: float,
-    center: Vector,
-    normal: Vector,
-    turns: float = 0.0,
-) -> None:
+def _follow(channel: SinumerikChannel, move: Move, feed: float) -> None:
     """Move along an arc in space and remember it for CT."""
-    sense = 1.0 if kind in CCW_KINDS else -1.0
-    c, last = channel.coordinates, LastMove.of(channel)
-    start = c.position
-    last.start, last.arc = start, ArcOfMove(center, normal, sense)
-    if not bends_arcs(channel, normal):
-        channel.curve(kind, end, feed, center=center, normal=normal, turns=turns)
+    sense = 1.0 if move.kind in CCW_KINDS else -1.0
+    c, last, center = channel.coordinates, LastMove.of(channel), move.center or (0.0, 0.0, 0.0)
+    last.start, last.arc = move.start, ArcOfMove(center, move.normal, sense)
+    if not bends_arcs(channel, move.normal):
+        channel.curve(move.kind, move.end, feed, center=center, normal=move.normal, turns=move.turns)
         return
     # Factors that differ make an ellipse of it (Fundamentals, SCALE).
-    move = Move(kind, start, end, feed, center=center, normal=normal, turns=turns)
     largest = max(hypot(*column) for column in zip(*c.zero.m, strict=True))
-    for point in MovePath(move, c.geometry).chords(CHORD_ERROR_MM / largest):
+    path = MovePath(move, c.geometry)
+    points = list(path.chords(CHORD_ERROR_MM / largest))
+    chords = [(k / len(points), point) for k, point in enumerate(points, 1)]
+    for point in ChordPath(move.start, chords, path.direction, c.geometry).led(channel):
         channel.curve(Kind.SPLINE, point, feed)
 
 
@@ -300,16 +309,17 @@ def through_point(draft: Draft) -> Step | None:
                 via[column] += value * length_factor(draft.mode)
             else:
                 via[column] = value * absolute_factor(channel, draft, column)
+        move = _three_points(channel, draft, start, via, end)
         if lead is not None:
-            end = lead(channel, values, end)
-        _three_points(channel, draft, start, via, end)
+            move.end = lead(channel, values, end, MovePath(move, channel.coordinates.geometry))
+        _follow(channel, move, moves.checked_feed(channel.feed))
 
     return run
 
 
 def _three_points(
     channel: SinumerikChannel, draft: Draft, start: list[float], via: list[float], end: list[float]
-) -> None:
+) -> Move:
     geometry = channel.coordinates.geometry
     a, b, c = (_vector([p[i] if i >= 0 else 0.0 for i in geometry]) for p in (start, via, end))
     try:
@@ -319,7 +329,7 @@ def _three_points(
     kind = Kind.CCW
     if normal[PLANES[draft.mode["plane"]][2]] < -1e-12:
         kind, normal = Kind.CW, (-normal[0], -normal[1], -normal[2])
-    curve(channel, kind, end, moves.checked_feed(channel.feed), center, normal)
+    return Move(kind, start, end, center=center, normal=normal)
 
 
 # ---- CT
@@ -329,14 +339,14 @@ def tangential(draft: Draft) -> Step | None:
     """CT: the arc that leaves the previous move without a kink; straight ahead it is a line."""
     columns = moves.plane_columns(draft)
     axes = PLANES[draft.mode["plane"]]
-    goal = moves.goal_of(draft)
-    if goal is None:
+    goal, lead = moves.goal_of_tip(draft), draft.take_lead()
+    if goal is None and lead is None:
         return None
 
     def run(channel: SinumerikChannel, values: Values) -> None:
         start = channel.coordinates.position
         tangent = last_direction(channel, columns, axes)
-        end = goal(channel, values)
+        end = start.copy() if goal is None else goal(channel, values)
         feed = moves.checked_feed(channel.feed)
         u, v = columns[:2]
         du, dv = end[u] - start[u], end[v] - start[v]
@@ -348,11 +358,15 @@ def tangential(draft: Draft) -> Step | None:
         if abs(side) <= 1e-9 * chord:
             if tangent[0] * du + tangent[1] * dv < 0.0:
                 raise AlarmError("14045")
+            end = end if lead is None else lead(channel, values, end, None)
             moves.line(channel, Kind.FEED, end, feed)
             return
         reach = chord * chord / (2.0 * side)
         center = (start[u] - tangent[1] * reach, start[v] + tangent[0] * reach)
-        arc(channel, columns, axes, end, center, feed, side > 0.0)
+        move = _arc(channel, columns, axes, end, center, side > 0.0)
+        if lead is not None:
+            move.end = lead(channel, values, end, MovePath(move, channel.coordinates.geometry))
+        _follow(channel, move, feed)
 
     return run
 

@@ -6,9 +6,10 @@ the angle round the centre, positive away from the base circle. The curve is wri
 
 from __future__ import annotations
 
-from math import atan, hypot, radians
+from math import atan, hypot, radians, sqrt
 from typing import TYPE_CHECKING
 
+from polycnc.channel.moves.chord_path import ChordPath
 from polycnc.control.sinumerik.block.positions import number, target
 from polycnc.control.sinumerik.motion import moves
 from polycnc.control.sinumerik.motion.circles import RoundACentre
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.block.draft import Draft, Step, Values
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.geometry.arcs import Point
+    from polycnc.geometry.frames import Vector
     from polycnc.geometry.involute import Involute
 
 #: How far the programmed end may miss the involute.
@@ -37,6 +39,7 @@ class InvoluteBlock(RoundACentre):
         self.ccw = draft.mode["motion"] == "INVCCW"
         self.radius, self.angle = draft.take("CR"), draft.take("AR")
         self.terms = draft.take_axes()
+        self.lead = draft.take_lead()
 
     @property
     def is_motion(self) -> bool:
@@ -62,7 +65,11 @@ class InvoluteBlock(RoundACentre):
                 raise AlarmError("14900")
             curve = self._by_angle(begin, center, radius, radians(number(values, self.angle)))
             end[u], end[v] = curve.end
-        _go(channel, self.columns, self.axes, end, curve, moves.checked_feed(channel.feed))
+        feed = moves.checked_feed(channel.feed)
+        path = _path(channel, self.columns, self.axes, end, curve)
+        if self.lead is not None:
+            end = self.lead(channel, values, end, path)
+        _go(channel, self.columns, self.axes, path, curve, feed)
 
     def _base(self, channel: SinumerikChannel, values: Values, begin: Point) -> tuple[Point, float]:
         """Centre and radius of the base circle."""
@@ -92,23 +99,49 @@ class InvoluteBlock(RoundACentre):
             raise AlarmError("14040" if inside else "14910") from None
 
 
-def _go(
+def _path(
     channel: SinumerikChannel,
     columns: tuple[int, int, int],
     axes: tuple[int, int, int],
     end: list[float],
     curve: Involute,
-    feed: float,
-) -> None:
-    """Write the chords; other axes go along in proportion to the length. CT goes on in the direction of the end."""
-    start, (u, v, _) = channel.coordinates.position, columns
-    chords = curve.chords(CHORD_ERROR_MM)
-    for point, share in chords[:-1]:
+) -> ChordPath:
+    """The way along the chords; other axes go along in proportion to the length."""
+    start, (u, v, third), geometry = channel.coordinates.position, columns, channel.coordinates.geometry
+    chords = []
+    for point, share in curve.chords(CHORD_ERROR_MM)[:-1]:
         at = [a + share * (b - a) for a, b in zip(start, end, strict=True)]
         at[u], at[v] = point
-        channel.curve(Kind.SPLINE, at, feed)
-    before = channel.coordinates.position
-    channel.curve(Kind.SPLINE, end, feed)
+        chords.append((share, at))
+    squares = curve.first**2, curve.last**2
+    length = 0.5 * curve.radius * abs(squares[1] - squares[0])
+    rise = (end[third] - start[third]) / length if third >= 0 else 0.0
+    sense = 1.0 if curve.last > curve.first else -1.0
+
+    def toward(part: float) -> Vector:
+        roll = sqrt(squares[0] + (squares[1] - squares[0]) * part)
+        found, size = [0.0, 0.0, 0.0], hypot(1.0, rise)
+        for axis, value in zip(axes, (*curve.direction(roll), sense * rise), strict=True):
+            found[axis] = sense * value / size
+        return found[0], found[1], found[2]
+
+    return ChordPath(start, [*chords, (1.0, end)], toward, geometry)
+
+
+def _go(
+    channel: SinumerikChannel,
+    columns: tuple[int, int, int],
+    axes: tuple[int, int, int],
+    path: ChordPath,
+    curve: Involute,
+    feed: float,
+) -> None:
+    """Write the chords. CT goes on in the direction of the end."""
+    u, v, _ = columns
+    before = end = channel.coordinates.position
+    for point in path.led(channel):
+        before, end = end, point
+        channel.curve(Kind.SPLINE, point, feed)
     leads_away = curve.last > curve.first
     bearing = arcs.angle_at(curve.center, (end[u], end[v]))
     touch = bearing + (1.0 if leads_away is curve.ccw else -1.0) * atan(curve.last)

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.channel.states.state import Lifetime, State
+from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:
     from polycnc.geometry.frames import Vector

@@ -6,7 +6,7 @@ Source: Fundamentals (G0, G1, G4, G33 to G35, G331/G332, G63, G74, G75, POS, POS
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import field
 from math import cos, isnan, nan, radians, sin, tan
 from typing import TYPE_CHECKING, Any
 
@@ -24,6 +24,7 @@ from polycnc.control.sinumerik.signals import measuring
 from polycnc.control.sinumerik.tables import length_factor
 from polycnc.control.sinumerik.transformations import point_to_point, seat
 from polycnc.control.sinumerik.variables.clock import Clock
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.geometry.units import INCH_MM
@@ -175,18 +176,18 @@ def goal_of(draft: Draft) -> Goal | None:
 
     None if the block names no end point.
     """
-    goal, lead = _goal_of_tip(draft), draft.take_lead()
+    goal, lead = goal_of_tip(draft), draft.take_lead()
     if lead is None:
         return goal
 
     def led(channel: SinumerikChannel, values: Values) -> list[float]:
         end = channel.coordinates.position.copy() if goal is None else goal(channel, values)
-        return lead(channel, values, end)
+        return lead(channel, values, end, None)
 
     return led
 
 
-def _goal_of_tip(draft: Draft) -> Goal | None:
+def goal_of_tip(draft: Draft) -> Goal | None:
     """The same, as far as axis words, polar coordinates and a contour angle say."""
     angle, radius = draft.take_shape("AP", "AC", "IC"), draft.take_shape("RP", "AC", "IC")
     contour_angle = draft.take("ANG")

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import nan
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
+from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:
     from polycnc.geometry.frames import Vector

@@ -8,7 +8,6 @@ routine ends and the rest of the interrupted block is made from that point on.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import hypot, isnan, nan
 from typing import TYPE_CHECKING, Any
 
@@ -19,6 +18,7 @@ from polycnc.control.sinumerik.motion import circles, moves
 from polycnc.control.sinumerik.signals import interrupts
 from polycnc.control.sinumerik.tables import length_factor
 from polycnc.control.sinumerik.variables.row import RowWithStop
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.language.sinumerik.names.values import Axis, Type

@@ -1,4 +1,4 @@
-"""Splines and polynomials: ASPLINE, BSPLINE, CSPLINE, SPLINEPATH, POLY, POLYPATH (job planning 4.2, 4.3, 4.6).
+"""Splines and polynomials: ASPLINE, BSPLINE, CSPLINE, SPLINEPATH, POLY (job planning 4.2, 4.3, 4.6).
 
 A and C splines go through every programmed point, and a display shows one motion for each. The control points of a B
 spline and the coefficients of a polynomial give curves of their own. All are cut into chords.
@@ -6,11 +6,12 @@ spline and the coefficients of a polynomial give curves of their own. All are cu
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from itertools import pairwise
 from math import hypot
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from polycnc.channel.moves.chord_path import ChordPath
 from polycnc.channel.moves.path import Recorder
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.block import arguments
@@ -20,9 +21,11 @@ from polycnc.control.sinumerik.curve_tables.recorder import recorder_of
 from polycnc.control.sinumerik.feed.pace import Overrides
 from polycnc.control.sinumerik.motion import moves
 from polycnc.control.sinumerik.motion.points_stage import POINT, PointsStage, direction_before
+from polycnc.control.sinumerik.motion.polynomial_groups import AXES, PolynomialGroups
 from polycnc.control.sinumerik.motion.spline_stage import TOLERANCE_MM
 from polycnc.control.sinumerik.tables import length_factor
 from polycnc.control.sinumerik.tools import stages
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.through_points import End
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.language.sinumerik.words import WordAlarm
@@ -30,10 +33,11 @@ from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from polycnc.control.sinumerik.block.draft import Draft, Step, Values
     from polycnc.control.sinumerik.family import SinumerikChannel
+    from polycnc.geometry.frames import Vector
 
 LARGEST_WEIGHT, DEGREES, STANDARD_DEGREE = 3.0, (2, 3), 3
 LEAST_PARAMETER, LARGEST_PARAMETER = 0.0001, 99999.9999
@@ -43,6 +47,8 @@ LEAST_GROUP = 3
 MAX_COEFFICIENTS = 5
 #: Chords of a polynomial at most, and the points at which its denominator is looked at.
 MAX_CHORDS, SAMPLES = 4096, 1000
+#: Half the part of the parameter over which the direction of a polynomial is taken.
+SLOPE = 1e-6
 
 
 @dataclass(slots=True)
@@ -51,12 +57,10 @@ class Splines(State, lifetime=Lifetime.POWER):
 
     Attributes:
         group: Columns of SPLINEPATH; None for the first axes.
-        interpolated: Groups of POLYPATH.
         window: Which of the last blocks were points of the active spline.
     """
 
     group: frozenset[int] | None = None
-    interpolated: tuple[str, ...] = ("AXES",)
     window: list[bool] = field(default_factory=list)
 
 
@@ -195,8 +199,8 @@ def polynomial(draft: Draft) -> Step | None:
     """POLY: PO[axis]=(end,a2,a3,a4,a5), axis=PO(…), PO[]=(b_end,b2,…), PL; plain axes move evenly."""
     length = draft.take("PL")
     polynomials, denominator = _take_polynomials(draft)
-    terms = draft.take_axes()
-    if not polynomials and not terms:
+    terms, lead = draft.take_axes(), draft.take_lead()
+    if not polynomials and not terms and lead is None:
         return None
     factor = length_factor(draft.mode)
 
@@ -204,8 +208,8 @@ def polynomial(draft: Draft) -> Step | None:
         feed = moves.checked_feed(channel.feed)
         end = _end(channel, terms, polynomials, values)
         interval = _parameter(values, length)
-        if "AXES" not in Splines.of(channel).interpolated:
-            moves.line(channel, Kind.FEED, end, feed)
+        if AXES not in PolynomialGroups.of(channel).acting:
+            moves.line(channel, Kind.FEED, end if lead is None else lead(channel, values, end, None), feed)
             return
         below = _denominator(values, denominator, interval)
         start = channel.coordinates.position
@@ -228,10 +232,30 @@ def polynomial(draft: Draft) -> Step | None:
         points = _chords(curves, below, start, end, interval)
         if channel.mode["path_reference"] == "SPATH":
             _by_length(points, start, curves, _path_axes(channel), interval)
-        for point in points:
+        path = _path(channel, points, lambda part: _point(curves, below, start, interval * part))
+        if lead is not None:
+            points[-1][:] = lead(channel, values, end, path)
+        for point in path.led(channel):
             moves.line(channel, kind, point, feed)
 
     return run
+
+
+def _path(
+    channel: SinumerikChannel, points: list[list[float]], at: Callable[[float], list[float]]
+) -> ChordPath:
+    """The way along chords that are equal parts of the parameter; `at` is the curve itself."""
+    geometry = channel.coordinates.geometry
+
+    def toward(part: float) -> Vector:
+        low, high = max(part - SLOPE, 0.0), min(part + SLOPE, 1.0)
+        a, b = at(low), at(high)
+        x, y, z = (b[column] - a[column] if column >= 0 else 0.0 for column in geometry)
+        size = hypot(x, y, z)
+        return (x / size, y / size, z / size) if size else (0.0, 0.0, 0.0)
+
+    chords = [(k / len(points), point) for k, point in enumerate(points, 1)]
+    return ChordPath(channel.coordinates.position, chords, toward, geometry)
 
 
 def _path_axes(channel: SinumerikChannel) -> tuple[int, ...]:
@@ -379,11 +403,4 @@ def _deviation(points: Sequence[Sequence[float]]) -> float:
     return max(gaps)
 
 
-def polynomial_groups(channel: SinumerikChannel, args: tuple[Any, ...]) -> None:
-    """POLYPATH("AXES", "VECT"): which axes coefficients are for; none without arguments."""
-    if any(group not in ("AXES", "VECT") for group in args):
-        raise AlarmError("14020", text="POLYPATH")
-    Splines.of(channel).interpolated = args
-
-
-PROCEDURES: dict[str, Procedure] = {"SPLINEPATH": spline_group, "POLYPATH": polynomial_groups}
+PROCEDURES: dict[str, Procedure] = {"SPLINEPATH": spline_group}

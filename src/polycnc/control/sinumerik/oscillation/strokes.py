@@ -6,12 +6,13 @@ reversal point.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.actions.axes import ActionAxes
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.tolerances import NO_WAY
 
 if TYPE_CHECKING:
@@ -176,6 +177,11 @@ class Oscillations(State, lifetime=Lifetime.POWER):
         for infeed in self.infeeds:
             infeed.step(clocked)
         self.infeeds = [infeed for infeed in self.infeeds if not infeed.is_done(clocked)]
+
+    @property
+    def goes_home(self) -> bool:
+        """A reset waits for nothing here."""
+        return False
 
     @property
     def is_quiet(self) -> bool:

@@ -12,6 +12,7 @@ from polycnc.control.sinumerik.oscillation import strokes
 from polycnc.control.sinumerik.oscillation.infeed import Infeed, PartialInfeeds
 from polycnc.control.sinumerik.oscillation.strokes import Oscillations
 from polycnc.control.sinumerik.tables import length_factor
+from polycnc.control.sinumerik.transformations import seat
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.toolpath.events import Deed
@@ -75,6 +76,8 @@ def options(draft: Draft, position: int, shape: WordShape) -> Step:
 def switch(draft: Draft, position: int, shape: WordShape) -> Step:
     """OS[axis]=1, 0: when the axes are there, oscillation begins or ends; the program goes on."""
     column = axis_column(draft, position, shape)
+    name = shape.index.name if isinstance(shape.index, Axis) else draft.channel.axes[column]
+    seat.check_positioning(draft.channel, name, column, by_axes=False)
     draft.channel.on_clock()
 
     def run(channel: SinumerikChannel, values: Values) -> None:

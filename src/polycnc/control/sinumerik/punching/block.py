@@ -6,7 +6,6 @@ cut paths without strokes too.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
@@ -17,6 +16,7 @@ from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.punching.strokes import Acceleration, Begin, End, SegmentStage
 from polycnc.control.sinumerik.signals import measuring
 from polycnc.control.sinumerik.tables import length_factor
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.planes import PLANES
 from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError

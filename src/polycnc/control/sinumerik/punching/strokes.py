@@ -6,12 +6,13 @@ hold back. The marks end here.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import ceil, hypot
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move, PlacedEvent, Rank, Stage
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.toolpath.context import Pace
 from polycnc.toolpath.events import Event, Stroke

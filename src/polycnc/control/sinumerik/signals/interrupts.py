@@ -8,7 +8,7 @@ still made; a routine that ends without REPOS leaves it, and the next block goes
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.moves.move_path import MovePath
@@ -17,6 +17,7 @@ from polycnc.channel.stack import LevelKind
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.block import arguments, single_block
 from polycnc.control.sinumerik.signals import retraction
+from polycnc.deferred.records import dataclass
 from polycnc.language.sinumerik.statements.calls import call_without_arguments, named_program
 from polycnc.messages import AlarmError
 

@@ -7,7 +7,7 @@ running block. A job that deletes the distance to go ends the move there, withou
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.moves.move_path import MovePath
@@ -17,6 +17,7 @@ from polycnc.control.sinumerik.actions import fifo as fifos
 from polycnc.control.sinumerik.block.positions import shown
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.variables.row import Indices, RowWithStop
+from polycnc.deferred.records import dataclass
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError
@@ -391,8 +392,8 @@ def _is_active(channel: SinumerikChannel, indices: Indices) -> bool:
 
 
 MEASURE_VARIABLES: dict[str, RowWithStop] = {
-    **{f"$AA_MM{slot or ''}": (Type.REAL, _measured(slot, work=False), None, False) for slot in range(5)},
-    **{f"$AA_MW{slot or ''}": (Type.REAL, _measured(slot, work=True), None, False) for slot in range(5)},
+    **{f"$AA_MM{slot or ''}": (Type.REAL, _measured(slot, work=False), None, True) for slot in range(5)},
+    **{f"$AA_MW{slot or ''}": (Type.REAL, _measured(slot, work=True), None, True) for slot in range(5)},
     "$AC_MEA": (Type.INT, _of_probe("$AC_MEA", lambda state: state.triggered), None, True),
     "$A_PROBE": (
         Type.INT,

@@ -6,7 +6,7 @@ the place of an edge is exact on lines.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.moves.move_path import MovePath
@@ -24,6 +24,7 @@ from polycnc.control.sinumerik.signals.measuring import (
     Job,
     Measuring,
 )
+from polycnc.deferred.records import dataclass
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
@@ -116,6 +117,11 @@ class ActionProbes(State, lifetime=Lifetime.RESET):
     @property
     def lingers(self) -> bool:
         """The end of the program does not wait for probes."""
+        return False
+
+    @property
+    def goes_home(self) -> bool:
+        """A reset waits for nothing here."""
         return False
 
     @property

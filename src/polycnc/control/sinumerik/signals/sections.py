@@ -6,12 +6,13 @@ effect.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.block.arguments import Arguments, Procedure
 from polycnc.control.sinumerik.variables.row import RowWithStop
+from polycnc.deferred.records import dataclass
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.language.sinumerik.statements.sections import ENDS_CONTEXT
 

@@ -6,11 +6,11 @@ at a corner it turns the short way.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import atan2, ceil, degrees, hypot, inf, pi, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.channel.moves.move_path import MovePath
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.angles import TURN_DEG, nearest_turn
 
 if TYPE_CHECKING:

@@ -9,17 +9,20 @@ Source: job planning 7.5.1 to 7.5.4.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import acos, hypot, radians, sin, sqrt
 from typing import TYPE_CHECKING
 
+from polycnc.channel.moves.knots import knot_context
+from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move, Rank, Stage
 from polycnc.compensation.spatial import CHORD_ERROR_MM, Directions
-from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tools.edges import DP_CORNER_RADIUS, DP_RADIUS, DP_SIDE_ANGLE
 from polycnc.control.sinumerik.tools.spatial import ToolOnWork
 from polycnc.control.sinumerik.transformations import seat
+from polycnc.control.sinumerik.transformations.directions import SQUARE
 from polycnc.control.sinumerik.transformations.posture import Orienting
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.arcs import parts_for_chord_error
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.vectors import axis_vector, dot
@@ -119,7 +122,7 @@ class FaceStage(Stage):
     """Leads the tip of a face mill over points of the surface.
 
     Args:
-        geometry: Columns of X, Y, Z.
+        channel: The channel.
         posture: How the tool stands on the work.
         cutter: Its shape.
         surface: Where the normals are told, in the basic system.
@@ -130,23 +133,25 @@ class FaceStage(Stage):
 
     def __init__(
         self,
-        geometry: tuple[int, int, int],
+        channel: SinumerikChannel,
         posture: Directions,
         cutter: Cutter,
         surface: Orienting,
         frame: Frame,
     ) -> None:
-        self._geometry, self._posture, self._cutter = geometry, posture, cutter
+        self._channel, self._geometry = channel, channel.coordinates.geometry
+        self._posture, self._cutter = posture, cutter
         self._surface, self._frame = surface, frame
         self._at: list[float] | None = None
         self._shift: Vector = (0.0, 0.0, 0.0)
 
     def move(self, move: Move) -> None:
-        """Take the next move."""
-        if move.is_arc:
-            raise not_supported("G2 G3: CUT3DF")
+        """Take the next move; an arc becomes chords."""
+        path = MovePath(move, self._geometry)
         first, last = self._normal(self._surface.first_normal), self._normal(self._surface.normal)
         self._surface.first_normal = self._surface.normal
+        if self._at is not None:
+            self._check_square(path, first, last)
         if self._at is None:
             self._emit(move, move.end, last)
             return
@@ -154,11 +159,21 @@ class FaceStage(Stage):
         if max(abs(a - b) for a, b in zip(offset, self._shift, strict=True)) > CHORD_ERROR_MM:
             self._emit(move, move.start, first)
         count = self._pieces(move, first, last)
+        if move.is_arc:
+            count = max(count, parts_for_chord_error(path.radius, path.sweep, CHORD_ERROR_MM))
         for k in range(1, count + 1):
-            part = k / count
-            place = [a + part * (b - a) for a, b in zip(move.start, move.end, strict=True)]
-            normal = unit(_between(first, last, part))
-            self._emit(move if count == 1 else replace(move, kind=Kind.SPLINE), place, normal)
+            piece = move
+            if k < count or move.is_arc:
+                piece = replace(move, kind=Kind.SPLINE, center=None, turns=0.0, turning=None)
+            if k < count:  # displays show one motion
+                piece.context = knot_context(self._channel, move.context)
+            self._emit(piece, path.at(k / count), unit(_between(first, last, k / count)))
+
+    def _check_square(self, path: MovePath, first: Vector, last: Vector) -> None:
+        """10769 for a normal that lies along the path, at its start or end (6.2.5)."""
+        along = max(abs(dot(first, path.direction(0.0))), abs(dot(last, path.direction(1.0))))
+        if along > SQUARE:
+            raise AlarmError("10769")
 
     def _pieces(self, move: Move, first: Vector, last: Vector) -> int:
         """Chords that keep to the way of the tip."""
@@ -196,8 +211,8 @@ def select(channel: SinumerikChannel) -> None:
     leave(channel)
     surface = Orienting.of(channel)
     surface.first_normal = surface.normal
-    geometry, frame = channel.coordinates.geometry, seat.frame_in_front(channel)
-    channel.path.put(FaceStage(geometry, _posture(channel, frame), cutter, surface, frame))
+    frame = seat.frame_in_front(channel)
+    channel.path.put(FaceStage(channel, _posture(channel, frame), cutter, surface, frame))
 
 
 def _posture(channel: SinumerikChannel, frame: Frame) -> Directions:

@@ -5,7 +5,7 @@ Source: job planning 7.1 (tool parameters), 7.3 (assignment of lengths); Fundame
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, retained
@@ -23,6 +23,7 @@ from polycnc.control.sinumerik.tools.edges import (
     Edge,
 )
 from polycnc.control.sinumerik.tools.lengths import OTHER_LENGTHS, TURNING_LENGTHS, Rules, along_axes
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.vectors import minus, times
 from polycnc.memory.encoding import encoded
@@ -76,6 +77,7 @@ class Tools(State, lifetime=Lifetime.POWER):
         carrier: How an orientable tool carrier or head turns and shifts the lengths; None where there is none.
         cut_turns: Edge position and its companions turn with the carrier (CUTMOD).
         overlay: Online offsets along X, Y, Z, as the tool is turned, mm.
+        used: Numbers of the tools that came into the spindle since pieces were counted last (SETPIECE).
     """
 
     tools: dict[int, Tool] = retained(TOOLS)
@@ -93,11 +95,12 @@ class Tools(State, lifetime=Lifetime.POWER):
     carrier: Frame | None = None
     cut_turns: bool = False
     overlay: Vector = (0.0, 0.0, 0.0)
+    used: set[int] = field(default_factory=set)
 
     @classmethod
     def first(cls, channel: Channel) -> Self:
         """No tool in the spindle; in the memory is what is retained, else what the setup says."""
-        tools = super(Tools, cls).first(channel)
+        tools = super().first(channel)
         if not tools.tools and channel.states.get(cls) is None:  # a program may have taken all tools out
             tools.tools.update(tools_of_setup(channel.setup.tools))
         if MachineData.of(channel).integer("$MN_MM_TYPE_OF_CUTTING_EDGE") == 1:
@@ -110,7 +113,7 @@ class Tools(State, lifetime=Lifetime.POWER):
 
     def end(self, channel: Channel, lifetime: Lifetime) -> None:
         """After a reset the tool stays in the spindle; bit 6 of MD20110 keeps its offsets, else MD20130 says which."""
-        super(Tools, self).end(channel, lifetime)
+        super().end(channel, lifetime)
         data = MachineData.of(channel)
         if lifetime is Lifetime.RESET and data.integer("$MC_RESET_MODE_MASK") & (1 | KEEPS_EDGE) == 1:
             edge = data.integer("$MC_CUTTING_EDGE_RESET_VALUE")
@@ -169,6 +172,8 @@ class Tools(State, lifetime=Lifetime.POWER):
         """Put a tool into the spindle; MD20270 says which edge then holds."""
         default = data.integer("$MC_CUTTING_EDGE_DEFAULT")
         self.active = number
+        if number:
+            self.used.add(number)
         self._forget_additions()
         if self.is_flat:
             self.next_edge = None

@@ -8,7 +8,7 @@ Source: job planning 7.4 (FTOCON, PUTFTOC), 7.10 (TOFFON, TOFFOF, `$AA_TOFF`).
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
@@ -17,6 +17,7 @@ from polycnc.control.sinumerik.frames import active as frames
 from polycnc.control.sinumerik.tools import selection
 from polycnc.control.sinumerik.tools.edges import DP_WEAR_LENGTH
 from polycnc.control.sinumerik.tools.holders.active import ActiveCarrier
+from polycnc.deferred.records import dataclass
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.messages import AlarmError
 
@@ -42,7 +43,7 @@ class Overlay(State, lifetime=Lifetime.RESET):
 
     def end(self, channel: Channel, lifetime: Lifetime) -> None:
         """A reset takes all of them away."""
-        super(Overlay, self).end(channel, lifetime)
+        super().end(channel, lifetime)
         channel.memory.tools.overlay = (0.0, 0.0, 0.0)
 
 

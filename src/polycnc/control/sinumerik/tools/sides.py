@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from polycnc.channel.states.state import Lifetime, State
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, Matrix
 
 SIDES = {"G41": 1, "G42": -1}

@@ -14,7 +14,6 @@ As its direction is that of the contour's first move, an approach waits for that
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import isnan, nan
 from typing import TYPE_CHECKING
 
@@ -35,6 +34,7 @@ from polycnc.control.sinumerik.tools.smooth_stage import (
     Shape,
     with_value,
 )
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError

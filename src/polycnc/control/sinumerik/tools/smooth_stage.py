@@ -5,11 +5,11 @@ See `smooth_approach` for what an approach is made of.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import isnan
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.path import Move, Rank, Stage
+from polycnc.deferred.records import dataclass
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 

@@ -1,16 +1,20 @@
 """Radius compensation in space: CUT3DC, CUT3DCC, CUT3DCCD, with ISD, ORIC and ORID.
 
 The tool stands beside the path by its radius, square on the path and on itself. An approach is always NORM. CUT3DCC is
-told the contour, CUT3DCCD the path of the standard tool's centre: there wear and OFFN alone are the offset.
+told the contour, CUT3DCCD the path of the standard tool's centre: there wear and OFFN alone are the offset. Both take
+the tool along itself to the limiting surface, whose normal A4 to C5 tell (`compensation.limiting_surface`).
 
 Source: job planning 7.5 (CUT3D…, ISD), 7.6 (ORIC, ORID).
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Protocol, runtime_checkable
+from dataclasses import replace
+from functools import partial
+from typing import TYPE_CHECKING, NamedTuple, Protocol, runtime_checkable
 
+from polycnc.channel.moves.knots import knot_context
+from polycnc.compensation.limiting_surface import Mill, across, infeed
 from polycnc.compensation.spatial import (
     ARC_FIRST,
     INTERSECTION_FIRST,
@@ -20,9 +24,11 @@ from polycnc.compensation.spatial import (
     Rules,
     SpatialStage,
 )
-from polycnc.control.sinumerik.errors import not_supported
-from polycnc.control.sinumerik.tools.edges import DP_RADIUS
+from polycnc.control.sinumerik.tools.edges import DP_CORNER_RADIUS, DP_RADIUS
 from polycnc.control.sinumerik.tools.sides import SIDES, Contour
+from polycnc.control.sinumerik.transformations import seat
+from polycnc.control.sinumerik.transformations.posture import Orienting
+from polycnc.deferred.records import dataclass
 from polycnc.machine.kinematics import unit
 from polycnc.messages import AlarmError
 from polycnc.transformation.chain import Chain
@@ -43,8 +49,10 @@ BY_CENTRE = "CUT3DCCD"
 #: With a limiting surface: mills with a cylinder at their end, or a torus; balls and cones are none.
 LIMITED = frozenset(("CUT3DCC", "CUT3DCCD"))
 MILLS, REFUSED = range(1, 400), frozenset((111, 155, 156, 157))
+#: Types whose corner counts there; a ball is all corner.
+TORI, BALL = (121, 131), 110
 #: 180 degrees without a corner, and a corner that turns from an inner to an outer one.
-RULES = Rules(no_corner="10764", changes="10770", square_start=True)
+RULES = Rules(no_corner="10764", changes="10770", square_start=True, no_room="10751")
 #: Angle of a contour below which G451 leads round it on an arc: MD20210 counts from the straight line.
 STRAIGHT_DEG = 180.0
 
@@ -96,17 +104,46 @@ class ToolOnWork:
         return unit(tool if self.seat is None else self.seat.frame.inverse().direct(*tool))
 
 
+class Floor(NamedTuple):
+    """The limiting surface beside a wall (CUT3DCC, CUT3DCCD): whose normal blocks tell, and both mills.
+
+    Attributes:
+        surface: Where the normal is told, in the basic system.
+        frame: From the work to the basic system.
+        standard: The mill for which the program was made.
+        actual: The one that cuts.
+    """
+
+    surface: Orienting
+    frame: Frame
+    standard: Mill
+    actual: Mill
+
+
 class CircumferentialStage(SpatialStage):
-    """The stage for straight blocks; PC0001 for arcs."""
+    """The stage of this control; `floor` is None without a limiting surface."""
+
+    floor: Floor | None = None
 
     def move(self, move: Move) -> None:
-        """Take the next move."""
-        if move.is_arc:
-            raise not_supported("G2 G3: CUT3DC")
+        """Take the next move; 10753 for an arc that would lead to the contour."""
+        if move.is_arc and self._starts:
+            raise AlarmError("10753")
         super().move(move)
 
+    def _deeper(self, normal: Vector, tool: Vector, tangent: Vector) -> float:
+        """What the tool lacks to the limiting surface at the end of a block."""
+        floor = self.floor
+        if floor is None:
+            return 0.0
+        found = across(floor.frame.inverse().direct(*floor.surface.normal), tangent)
+        if found is None:
+            return 0.0
+        moved = floor.actual.radius - floor.standard.radius
+        return -infeed(floor.standard, floor.actual, moved, normal, tool, found)
 
-def stage_of(channel: SinumerikChannel) -> SpatialStage | None:
+
+def stage_of(channel: SinumerikChannel) -> CircumferentialStage | None:
     """The stage, while it compensates."""
     return channel.path.find(CircumferentialStage)
 
@@ -129,10 +166,17 @@ def select_side(channel: SinumerikChannel) -> None:
         channel.flush()
         stage = channel.path.put(
             CircumferentialStage(
-                channel.coordinates.geometry, posture, size, side, _corners(channel), _rules(channel)
+                channel.coordinates.geometry,
+                posture,
+                size,
+                side,
+                _corners(channel),
+                _rules(channel),
+                partial(knot_context, channel),
             )
         )
     stage.depth = Contour.of(channel).depth_mm
+    stage.floor = _floor(channel)
 
 
 def _check_tool(channel: SinumerikChannel) -> None:
@@ -141,6 +185,29 @@ def _check_tool(channel: SinumerikChannel) -> None:
         return
     if edge.type not in MILLS or edge.type in REFUSED:
         raise AlarmError("10774", type=edge.type)
+
+
+def _floor(channel: SinumerikChannel) -> Floor | None:
+    """What CUT3DCC and CUT3DCCD know of the limiting surface; 10774 for a corner that is none (7.5.7).
+
+    The contour of CUT3DCC is that of a cylinder with the radius of the tool, the path of CUT3DCCD that of the standard
+    tool with its corner.
+    """
+    tools, code = channel.memory.tools, channel.mode["tool_offset"]
+    edge: Edge | None = tools.edge
+    if edge is None or code not in LIMITED:
+        return None
+    standard, size = edge.values[DP_RADIUS], tools.radius + Contour.of(channel).allowance_mm
+    corners = (0.0, 0.0)
+    if edge.type in TORI:
+        corners = edge.values[DP_CORNER_RADIUS], edge.total(DP_CORNER_RADIUS)
+    elif edge.type == BALL:
+        corners = standard, size
+    if min(corners) < 0.0 or size <= 0.0:
+        raise AlarmError("10774", type=edge.type)
+    of_program = Mill(standard, corners[0] if code == BY_CENTRE else 0.0)
+    surface, frame = Orienting.of(channel), seat.frame_in_front(channel)
+    return Floor(surface, frame, of_program, Mill(size, corners[1]))
 
 
 def leave(channel: SinumerikChannel) -> None:
@@ -157,7 +224,7 @@ def follow(channel: SinumerikChannel) -> None:
         return
     if stage.radius != radius(channel):
         stage.change(stage.side, radius(channel))
-    stage.depth = Contour.of(channel).depth_mm
+    stage.depth, stage.floor = Contour.of(channel).depth_mm, _floor(channel)
     stage.corners, stage.rules = _corners(channel), _rules(channel)
 
 

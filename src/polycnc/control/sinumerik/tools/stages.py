@@ -213,6 +213,7 @@ def changed_radius(channel: SinumerikChannel) -> None:
     if stage is not None and channel.mode["compensation"] != "G40":
         _settle_corner(channel)
         stage.change_radius(radius(channel), tip(channel))
+        channel.context_changed()  # rows tell the distance from the contour
 
 
 def changed_frame(channel: SinumerikChannel) -> None:

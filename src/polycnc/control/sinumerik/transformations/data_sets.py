@@ -6,10 +6,11 @@ whose data say nothing has what its kinematic chain allows, one of each kind. Th
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import atan2, degrees
 from typing import TYPE_CHECKING, NamedTuple
 
+from polycnc.deferred.records import dataclass
 from polycnc.machine.kinematics import Kinematics, unit
 from polycnc.messages import AlarmError
 from polycnc.transformation.kinematic.cylinder import Cylinder
@@ -57,12 +58,14 @@ class Build:
         lengths: Where lengths of the tool count: `tip` (within), `behind`, or `before`.
         walls: Where a linear axis keeps the tool square to groove walls (TRACYL, types 513 and 514), the column
             that says how far it goes; else -1.
+        bound: Columns of axes that move with the path alone: neither positioned nor oscillating beside it.
     """
 
     inner: Transformation
     used: frozenset[int] = frozenset()
     lengths: str = "behind"
     walls: int = -1
+    bound: frozenset[int] = frozenset()
 
 
 def find(channel: SinumerikChannel, kind: str, number: int) -> DataSet:
@@ -187,9 +190,9 @@ def cylinder(channel: SinumerikChannel, found: DataSet, diameter: float, *, wall
         if not has_y:
             raise AlarmError("14401", text="TRACYL")
         groove = GrooveCylinder(rotary, geometry[1], diameter / 2.0 * RADIAN, made)
-        return Build(groove, frozenset((rotary,)), walls=rotary)
+        return Build(groove, frozenset((rotary,)), walls=rotary, bound=frozenset((geometry[1],)))
     inner = Cylinder.of_radius(rotary, diameter / 2.0, made, geometry[1] if has_y else -1)
-    return Build(inner, frozenset((rotary,)))
+    return Build(inner, frozenset((rotary,)), bound=frozenset((made[1],)))
 
 
 def inclined(channel: SinumerikChannel, angle: float) -> Build:

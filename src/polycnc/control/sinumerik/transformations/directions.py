@@ -21,7 +21,7 @@ from polycnc.control.sinumerik.transformations.words import (
     SECOND,
 )
 from polycnc.geometry.frames import IDENTITY, Frame
-from polycnc.geometry.vectors import dot, minus
+from polycnc.geometry.vectors import dot
 from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError
 from polycnc.transformation.orientation.directions import (
@@ -41,15 +41,13 @@ from polycnc.transformation.planes.tilted import by_own_axes
 
 if TYPE_CHECKING:
     from polycnc.channel.mode import Mode
-    from polycnc.control.sinumerik.block.draft import Values
+    from polycnc.control.sinumerik.block.draft import TipPath, Values
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.transformations.posture import Orienting, Posture
     from polycnc.control.sinumerik.transformations.words import Words
     from polycnc.geometry.frames import Vector
     from polycnc.machine.kinematics import Angles
     from polycnc.transformation.orientation.directions import Way
-
-    Ends = tuple[list[float], list[float]]
 
 #: Sense about the axis of a cone, seen along it: clockwise is right-handed.
 SENSES = {"ORICONCW": 1, "ORICONCCW": -1}
@@ -71,7 +69,7 @@ SAME = 1e-6
 
 
 def target_of(
-    posture: Posture, state: Orienting, words: Words, mode: Mode, values: Values, ends: Ends, kind: str
+    posture: Posture, state: Orienting, words: Words, mode: Mode, values: Values, path: TipPath, kind: str
 ) -> Vector | None:
     """The direction at the end of a block; None where its words do not say.
 
@@ -94,13 +92,15 @@ def target_of(
     if by_path:
         return None
     if "LEAD" in words.single or "TILT" in words.single:
-        tangent = _tangent(posture, ends)
+        tangent = tangent_of(posture, path, 1.0)
         normal = _normals(posture, state, words, values)(1.0)
         if tangent is None:
             return None
+        if abs(dot(normal, tangent)) > SQUARE:
+            raise AlarmError("14115")
         return leaned(tangent, normal, state.lead, state.tilt, about_normal=_tilts_about_normal(posture))
     if words.columns:
-        return posture.direction(posture.angles(ends[1]))
+        return posture.direction(posture.angles(path.at(1.0)))
     return None
 
 
@@ -145,9 +145,9 @@ def _tilts_about_normal(posture: Posture) -> bool:
     return posture.channel.memory.data.integer("$MC_ORIPATH_MODE") // 10 % 10 == 1
 
 
-def _tangent(posture: Posture, ends: Ends) -> Vector | None:
-    """Direction of the tip's way; None where it stands still."""
-    return unit_of(minus(posture.tip(ends[1]), posture.tip(ends[0])))
+def tangent_of(posture: Posture, path: TipPath, part: float) -> Vector | None:
+    """Direction in which the tip goes after a part of its way; None where it stands still."""
+    return unit_of(posture.seated.frame.direct(*path.direction(part)))
 
 
 def _normals(posture: Posture, state: Orienting, words: Words, values: Values) -> Way:
@@ -170,7 +170,7 @@ def way_of(
     state: Orienting,
     words: Words,
     values: Values,
-    ends: Ends,
+    path: TipPath,
     kind: str,
     target: Vector | None,
     near: Angles,
@@ -179,13 +179,11 @@ def way_of(
     start = posture.direction(near)
     turning, aside = words.coefficients(values, "PHI"), words.coefficients(values, "PSI")
     if kind == "ORIAXES":
-        if turning or aside:
-            raise AlarmError("14134", text="ORIAXES")
         return None
     if kind in CONES:
         return _cone(posture, state, words, values, start, target, kind)
     if kind == "ORICURVE":
-        return _second_curve(posture, state, words, values, ends, start)
+        return _second_curve(posture, state, words, values, path, start)
     if target is None or (angle_between(start, target) < SAME and not aside):
         return None
     way = great_circle(start, target, turning, aside)
@@ -262,12 +260,12 @@ def _through(
 
 
 def _second_curve(
-    posture: Posture, state: Orienting, words: Words, values: Values, ends: Ends, start: Vector
+    posture: Posture, state: Orienting, words: Words, values: Values, path: TipPath, start: Vector
 ) -> Way | None:
     """ORICURVE: the tool leads through a second point, whose curve XH, YH, ZH and PO[XH] … tell (6.2.9)."""
     channel = posture.channel
     columns = posture.seated.geometry
-    first, last = ([end[i] for i in columns] for end in ends)
+    first = [path.at(0.0)[i] for i in columns]
     given = {**words.second, **words.polynomials}
     if not any(name in given for name in SECOND):
         return None
@@ -295,7 +293,7 @@ def _second_curve(
         return (x, y, z)
 
     def tip(u: float) -> Vector:
-        x, y, z = (a + (b - a) * u for a, b in zip(first, last, strict=True))
+        x, y, z = (path.at(u)[i] for i in columns)
         return (x, y, z)
 
     way = between_curves(tip, at)
@@ -303,23 +301,24 @@ def _second_curve(
     return lambda u: unit_of(frame.direct(*way(u))) or start
 
 
-def along_path(posture: Posture, state: Orienting, words: Words, values: Values, ends: Ends) -> Way | None:
+def along_path(posture: Posture, state: Orienting, words: Words, values: Values, path: TipPath) -> Way | None:
     """ORIPATH, ORIPATHS: LEAD and TILT hold all along the block (6.5); None where the tip stands still.
 
     Raises:
         AlarmError: 14115 for a normal along the path.
     """
-    tangent = _tangent(posture, ends)
-    if tangent is None:
+    tangents = [tangent_of(posture, path, part) for part in (0.0, 1.0)]
+    if None in tangents:
         return None
     normals = _normals(posture, state, words, values)
-    if max(abs(dot(normals(0.0), tangent)), abs(dot(normals(1.0), tangent))) > SQUARE:
+    if max(abs(dot(normals(u), t)) for u, t in enumerate(tangents) if t is not None) > SQUARE:
         raise AlarmError("14115")
     leads = polynomial(state.lead, state.lead, words.coefficients(values, "PHI"))
     tilts = polynomial(state.tilt, state.tilt, words.coefficients(values, "PSI"))
     about_normal = _tilts_about_normal(posture)
 
     def way(u: float) -> Vector:
+        tangent = tangent_of(posture, path, u) or (0.0, 0.0, 0.0)
         return leaned(tangent, normals(u), leads(u), tilts(u), about_normal=about_normal)
 
     return way

@@ -11,8 +11,11 @@ from itertools import pairwise
 from math import degrees, dist, nan
 from typing import TYPE_CHECKING
 
+from polycnc.channel.moves.move_path import MovePath
+from polycnc.channel.moves.path import Move
 from polycnc.channel.moves.turning import TurningStage
 from polycnc.control.sinumerik.errors import not_supported
+from polycnc.control.sinumerik.motion.polynomial_groups import DIRECTION, PolynomialGroups
 from polycnc.control.sinumerik.transformations import data_sets, directions, seat, spin
 from polycnc.control.sinumerik.transformations.posture import Orienting, Posture
 from polycnc.control.sinumerik.transformations.words import (
@@ -21,6 +24,7 @@ from polycnc.control.sinumerik.transformations.words import (
     FIRST_NORMAL,
     LAST_NORMAL,
     RETRACTION,
+    SECOND,
     Words,
     take,
 )
@@ -32,7 +36,7 @@ from polycnc.transformation.orientation.turning import Course, Knot, Turning, fo
 
 if TYPE_CHECKING:
     from polycnc.channel.mode import Mode
-    from polycnc.control.sinumerik.block.draft import Draft, Values
+    from polycnc.control.sinumerik.block.draft import Draft, TipPath, Values
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.geometry.frames import Vector
     from polycnc.machine.kinematics import Angles
@@ -41,8 +45,13 @@ if TYPE_CHECKING:
 #: Half the opening of the cone about a pole in which the axes go evenly, degrees (MD24540 as delivered).
 POLE_LIMIT = 2.0
 #: Motions along which the direction has a way of its own; along splines and threads the axes go evenly.
-LEADS = ("G0", "G1", "G2", "G3", "CIP", "CT")
-CIRCLES = LEADS[2:]
+LEADS = ("G0", "G1", "POLY", "G2", "G3", "CIP", "CT", "INVCW", "INVCCW")
+#: Those that bend in a way that ORICURVE does not go along with, and that move even where they end where they began.
+ROUND = LEADS[3:]
+#: Those that are written as chords.
+IN_CHORDS = ("POLY", "INVCW", "INVCCW")
+#: With these ORICURVE is not allowed either (6.2.9).
+NOT_WITH_CURVES = (*ROUND, "ASPLINE", "CSPLINE")
 #: Angles that differ by less are the same, degrees.
 SAME_DEG = 1e-6
 #: Directions that differ by less are the same, radians.
@@ -70,7 +79,7 @@ def plan(draft: Draft) -> None:
     if words is None:
         return
     if point is None and _tells_a_surface(draft, words):
-        draft.lead = lambda channel, values, end: surface(channel, words, values, end)
+        draft.lead = lambda channel, values, end, _path: surface(channel, words, values, end)
         return
     if point is None:
         raise AlarmError("14101")
@@ -80,7 +89,31 @@ def plan(draft: Draft) -> None:
         raise AlarmError("14133", text=mode["orientation_smoothing"])
     if words.columns and not _is_way(words) and not _matters(mode, draft):
         return
-    draft.lead = lambda channel, values, end: turn(channel, words, mode, values, end)
+    _check_polynomials(words, mode, interpolation(mode, draft.channel, by_axes=bool(words.columns)))
+    draft.lead = lambda channel, values, end, path: turn(channel, words, mode, values, end, path)
+
+
+def _check_polynomials(words: Words, mode: Mode, kind: str) -> None:
+    """Which polynomials and which second curve go with the motion and the interpolation (6.2.9, 6.3).
+
+    Raises:
+        AlarmError: 14136 for polynomials along a spline, 14137 for angles and 14138 for a second curve with another
+            interpolation, 14134 for ORICURVE along circles, involutes, splines through points and the compressor.
+    """
+    second = any(name in words.second or name in words.polynomials for name in SECOND)
+    if (
+        second
+        and kind == "ORICURVE"
+        and (mode["motion"] in NOT_WITH_CURVES or mode["compressor"] != "COMPOF")
+    ):
+        compresses = mode["motion"] not in NOT_WITH_CURVES
+        raise AlarmError("14134", text=mode["compressor"] if compresses else mode["motion"])
+    if words.polynomials and mode["motion"] in ("ASPLINE", "BSPLINE", "CSPLINE"):
+        raise AlarmError("14136", text=mode["motion"])
+    if kind in ("ORIAXES", "ORICURVE") and not words.polynomials.keys().isdisjoint(("PHI", "PSI")):
+        raise AlarmError("14137", text=kind)
+    if second and mode["orientation_motion"] != "ORICURVE":
+        raise AlarmError("14138", text=mode["orientation_motion"])
 
 
 def _tells_a_surface(draft: Draft, words: Words) -> bool:
@@ -145,21 +178,32 @@ def finish(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 -
 
 
 def turn(
-    channel: SinumerikChannel, words: Words, mode: Mode, values: Values, end: list[float]
+    channel: SinumerikChannel,
+    words: Words,
+    mode: Mode,
+    values: Values,
+    end: list[float],
+    path: TipPath | None,
 ) -> list[float]:
-    """Where a block ends whose tip goes to `end`; the way of the rotary axes there is `channel.turning`."""
+    """Where a block ends whose tip goes to `end`; the way of the rotary axes there is `channel.turning`.
+
+    `path` is the way of the tip; None for a straight one.
+    """
     posture, state = Posture.of(channel, mode), Orienting.of(channel)
+    start = channel.coordinates.position
+    if path is None:
+        path = MovePath(Move(Kind.FEED, start, end), channel.coordinates.geometry)
+    words = words._replace(bends=DIRECTION in PolynomialGroups.of(channel).acting)
     kind = interpolation(mode, channel, by_axes=bool(words.columns))
-    ends = (channel.coordinates.position, end)
-    target = directions.target_of(posture, state, words, mode, values, ends, kind)
-    near, way, angles = posture.angles(ends[0]), None, None
+    target = directions.target_of(posture, state, words, mode, values, path, kind)
+    near, way, angles = posture.angles(start), None, None
     if is_point_to_point(mode):
         angles = _configured(posture, state, target, near)
     elif kind in BY_PATH:
-        way = _along_path(posture, state, words, mode, values, end)
+        way = _along_path(posture, state, words, mode, values, path)
         near = posture.angles(channel.coordinates.position)
     else:
-        way = directions.way_of(posture, state, words, values, ends, kind, target, near)
+        way = directions.way_of(posture, state, words, values, path, kind, target, near)
     if way is not None:
         knots = follow(posture.point.kinematics, way, near, posture.reaches, _pole_limit(channel))
         if knots is None:
@@ -172,17 +216,19 @@ def turn(
     else:
         knots = [Knot(1.0, posture.angles(end))]
     knots = _as_named(posture, words, end, knots)
-    knots = spin.turned(posture, state, words, mode, values, ends, near, knots)
-    course = _course(posture, mode, near, knots, ends)
-    return _placed(channel, posture, knots, end, course)
+    knots = spin.turned(posture, state, words, mode, values, path, near, knots)
+    if kind == "ORIAXES":  # relative to the path the tool spins at the end of the block alone (6.5.3)
+        knots = knots[-1:]
+    course = _course(posture, mode, near, knots, (start, end))
+    return _placed(channel, posture, mode, knots, end, course)
 
 
 def _course(
-    posture: Posture, mode: Mode, near: Angles, knots: list[Knot], ends: directions.Ends
+    posture: Posture, mode: Mode, near: Angles, knots: list[Knot], ends: tuple[list[float], list[float]]
 ) -> Course | None:
     """On which part of the block the tool turns: OSS, OSSE at the rate ORIS (7.6); None for all of it."""
     both, rate = AT_ENDS.get(mode["orientation_smoothing"]), Orienting.of(posture.channel).rate
-    moves = dist(posture.tip(ends[0]), posture.tip(ends[1])) > 0.0 or mode["motion"] in CIRCLES
+    moves = dist(posture.tip(ends[0]), posture.tip(ends[1])) > 0.0 or mode["motion"] in ROUND
     if both is None or rate <= 0.0 or not moves or mode["motion"] not in LEADS:
         return None
     angles = [near, *(knot.angles for knot in knots)]
@@ -193,7 +239,7 @@ def _course(
 
 
 def _along_path(
-    posture: Posture, state: Orienting, words: Words, mode: Mode, values: Values, end: list[float]
+    posture: Posture, state: Orienting, words: Words, mode: Mode, values: Values, path: TipPath
 ) -> Way | None:
     """The way of ORIPATH; where the block before has left the direction otherwise, over on a great circle.
 
@@ -201,7 +247,7 @@ def _along_path(
     """
     channel = posture.channel
     start = channel.coordinates.position
-    way = directions.along_path(posture, state, words, values, (start, end))
+    way = directions.along_path(posture, state, words, values, path)
     standing = posture.direction(posture.angles(start))
     if way is None or angle_between(standing, way(0.0)) < SAME:
         return way
@@ -261,7 +307,12 @@ def _as_named(posture: Posture, words: Words, end: list[float], knots: list[Knot
 
 
 def _placed(
-    channel: SinumerikChannel, posture: Posture, knots: list[Knot], end: list[float], course: Course | None
+    channel: SinumerikChannel,
+    posture: Posture,
+    mode: Mode,
+    knots: list[Knot],
+    end: list[float],
+    course: Course | None,
 ) -> list[float]:
     """The end of the block with its rotary axes; several knots, or a course of its own, are the turning of its move."""
     columns = tuple(posture.column(axis) for axis in posture.point.kinematics.axes)
@@ -270,7 +321,7 @@ def _placed(
         end[column] = place
         channel.coordinates.pending[column] = 0.0
     channel.turning = None
-    if len(knots) > 1 or course is not None:
+    if len(knots) > 1 or course is not None or mode["motion"] in IN_CHORDS:
         shares, places = zip(*((knot.share, posture.places(knot.angles)) for knot in knots), strict=True)
         channel.turning = Turning(columns, shares, places, course)
         if channel.path.find(TurningStage) is None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
@@ -11,6 +10,7 @@ from polycnc.control.sinumerik.tools import stages
 from polycnc.control.sinumerik.transformations import data_sets, seat
 from polycnc.control.sinumerik.transformations.orientation import is_point_to_point
 from polycnc.control.sinumerik.transformations.posture import Orienting
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY
 from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError
@@ -56,6 +56,9 @@ def plan(draft: Draft) -> None:
     if not draft.mode[seat.GROUP]:
         return
     if draft.mode["point_to_point"] == "PTP" and draft.mode["compensation"] != "G40":
+        raise AlarmError("14144")
+    moves = draft.lead is not None or bool(draft.axis_terms())
+    if draft.mode["point_to_point"] == "PTP" and moves and draft.mode["motion"] not in ("G0", "G1"):
         raise AlarmError("14144")
     if is_point_to_point(draft.mode):
         draft.by_axes = True

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.transformations import seat
+from polycnc.deferred.records import dataclass
 from polycnc.messages import AlarmError
 from polycnc.transformation.orientation.choice import is_within
 from polycnc.transformation.orientation.directions import unit_of

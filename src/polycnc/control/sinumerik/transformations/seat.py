@@ -7,7 +7,7 @@ or the tool calls `stand`, by way of `frames.active.apply`.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import inf
 from typing import TYPE_CHECKING, Any
 
@@ -18,6 +18,7 @@ from polycnc.control.sinumerik.data.machine_data import MachineData
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.transformations import data_sets
 from polycnc.control.sinumerik.transformations.data_sets import Build
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY
 from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES
 from polycnc.messages import AlarmError
@@ -62,7 +63,7 @@ class Transformations(State, lifetime=Lifetime.RESET):
     def end(self, channel: Channel, lifetime: Lifetime) -> None:
         """A reset brings the geometry axes of the machine back, unless MD20118 keeps the assigned ones."""
         columns = self.columns
-        super(Transformations, self).end(channel, lifetime)
+        super().end(channel, lifetime)
         if lifetime is Lifetime.RESET and not MachineData.of(channel).integer("$MC_GEOAX_CHANGE_RESET"):
             self.columns = columns
 
@@ -316,11 +317,14 @@ def refuse_transformed(channel: SinumerikChannel, columns: Iterable[int], code: 
 def check_positioning(channel: SinumerikChannel, name: str, column: int, *, by_axes: bool) -> None:
     """17610 for a positioning axis that the transformation uses up; of point to point travel for any of its axes.
 
-    The axes that it makes may be positioned: X of an inclined axis (6.8.3, example).
+    The axes that it makes may be positioned: X of an inclined axis (6.8.3, example); but not the one round the
+    cylinder, nor the one for groove walls, of TRACYL (6.8.2).
     """
     build = Transformations.of(channel).build
     if build is None:
         return
+    if column in build.bound:
+        raise AlarmError("17610", axis=name)
     is_made = name in channel.memory.columns
     if (column in build.used and not is_made) or (by_axes and column in transformed(channel)):
         raise AlarmError("17610", axis=channel.axes[column])

@@ -20,6 +20,7 @@ from polycnc.control.sinumerik.tools.holders.active import ActiveCarrier
 from polycnc.control.sinumerik.transformations import data_sets, seat
 from polycnc.control.sinumerik.transformations.data_sets import Build
 from polycnc.control.sinumerik.transformations.seat import Transformations
+from polycnc.control.sinumerik.transformations.walls import WallStage
 from polycnc.language.sinumerik.names.frame import NEUTRAL
 from polycnc.messages import AlarmError
 from polycnc.transformation.chain import Chain
@@ -117,7 +118,7 @@ def _linked(channel: SinumerikChannel, found: data_sets.DataSet, rest: list[floa
     first = _first_link(channel, links[0], parameters[0])
     second = _leaning(channel, links[1], parameters[own])
     inner = Chain((first.inner, second.inner))
-    return Build(inner, first.used | second.used, first.lengths)
+    return Build(inner, first.used | second.used, first.lengths, bound=first.bound)
 
 
 def _first_link(channel: SinumerikChannel, found: data_sets.DataSet, parameter: float | None) -> Build:
@@ -195,6 +196,7 @@ def end_contour(channel: SinumerikChannel) -> None:
 def _change(channel: SinumerikChannel, kind: str, build: Build | None) -> None:
     """A transformation acts, or none: frames, working area and protection zones are deselected, nothing moves."""
     state, memory = Transformations.of(channel), channel.memory
+    channel.path.take(WallStage)
     state.kind, state.build = kind, build
     seat.regroup(channel, None)  # a transformation has geometry axes of its own
     swivelled = any(memory.frames.system[name] != NEUTRAL for name in OF_SWIVEL)

@@ -10,6 +10,7 @@ from __future__ import annotations
 from math import atan2, degrees
 from typing import TYPE_CHECKING
 
+from polycnc.control.sinumerik.transformations.directions import tangent_of
 from polycnc.control.sinumerik.transformations.words import ANGLES
 from polycnc.geometry.vectors import cross, dot, minus, times
 from polycnc.machine.kinematics import turn_about, unit
@@ -20,7 +21,7 @@ from polycnc.transformation.orientation.turning import Knot
 
 if TYPE_CHECKING:
     from polycnc.channel.mode import Mode
-    from polycnc.control.sinumerik.block.draft import Values
+    from polycnc.control.sinumerik.block.draft import TipPath, Values
     from polycnc.control.sinumerik.transformations.posture import Orienting, Posture
     from polycnc.control.sinumerik.transformations.words import Words
     from polycnc.geometry.frames import Vector
@@ -47,7 +48,7 @@ def turned(
     words: Words,
     mode: Mode,
     values: Values,
-    ends: tuple[list[float], list[float]],
+    path: TipPath,
     near: Angles,
     knots: list[Knot],
 ) -> list[Knot]:
@@ -69,11 +70,11 @@ def turned(
         return knots
     start, end = (posture.direction(each) for each in (near, knots[-1].angles))
     moves = angle_between(start, end) > SAME
-    tangent = unit_of(minus(posture.tip(ends[1]), posture.tip(ends[0])))
+    tangent = tangent_of(posture, path, 0.0)
     absolute = (
         code == "ORIROTA" or (code != ALONG_PATH and not moves) or (code == ALONG_PATH and tangent is None)
     )
-    into = tangent if code == ALONG_PATH else unit_of(cross(start, end))
+    into = unit_of(cross(start, end))
     before = state.theta if absolute or code == ALONG_PATH else _theta(words, mode, values, state)
     state.theta = _theta(words, mode, values, state)
     angle = polynomial(before, state.theta, _higher(words, values))
@@ -82,10 +83,12 @@ def turned(
     for share in sorted({*(k / PIECES for k in range(1, PIECES + 1)), *(knot.share for knot in knots)}):
         angles = _between(near, knots, share)
         along = posture.direction(angles)
-        if absolute or into is None:
+        if code == ALONG_PATH and not absolute:
+            reference = _across(tangent_of(posture, path, share) or along, along)
+        elif absolute or into is None:
             reference = _carried(posture, along)
         else:
-            reference = _across(into if code == ALONG_PATH else cross(into, along), along)
+            reference = _across(cross(into, along), along)
         last = on_nearest_turn(_spin(posture, angles, axis, reference, angle(share)), last)
         found.append(Knot(share, {**angles, axis: last}))
     return found if _bends(near, found) else found[-1:]

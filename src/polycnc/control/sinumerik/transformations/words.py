@@ -25,8 +25,8 @@ TRIPLES = {f"{letter}{digit}": (digit, i) for digit in range(2, 9) for i, letter
 SINGLE = ("LEAD", "TILT", "NUT", "THETA")
 SECOND = ("XH", "YH", "ZH")
 OF_ANGLES = ("PHI", "PSI", "THT")
-#: A polynomial has so many coefficients behind its end, or none.
-MOST_COEFFICIENTS = 5
+#: Numbers of a polynomial of degree 5: with its end in front of them, or without (6.3).
+MOST_COEFFICIENTS = {"PHI": 4, "PSI": 4, "THT": 5, "XH": 5, "YH": 5, "ZH": 5}
 #: Codes of group 51 that lead the direction along a cone, and those that keep it to the path.
 CONES = ("ORICONCW", "ORICONCCW", "ORICONTO", "ORICONIO")
 BY_PATH = ("ORIPATH", "ORIPATHS")
@@ -42,6 +42,7 @@ class Words(NamedTuple):
         polynomials: Places of PO[PHI] and its like.
         theta: What stands round the value of THETA: AC, IC, or nothing.
         columns: Columns of the orientation axes that the block names themselves.
+        bends: Polynomials act; else only their ends count (POLYPATH).
     """
 
     triples: Mapping[int, Mapping[int, int]]
@@ -50,6 +51,7 @@ class Words(NamedTuple):
     polynomials: Mapping[str, int]
     theta: str
     columns: frozenset[int]
+    bends: bool = True
 
     def vector(self, values: Values, digit: int) -> Vector | None:
         """A triple, zero for components that are not programmed; None where none of them is."""
@@ -65,15 +67,19 @@ class Words(NamedTuple):
         return None if place is None else number(values, place)
 
     def coefficients(self, values: Values, name: str) -> tuple[float, ...]:
-        """The numbers of a polynomial; none where it is not programmed. 12560 for too many."""
+        """The numbers of a polynomial; none where it is not programmed. 14102 for too many."""
         place = self.polynomials.get(name)
         if place is None:
             return ()
         value = values[place]
         numbers = value if isinstance(value, tuple) else (value,)
-        if len(numbers) > MOST_COEFFICIENTS:
+        if len(numbers) > MOST_COEFFICIENTS[name]:
             raise WordAlarm("14102", place, text=name)
-        return tuple(_real(each, place) for each in numbers)
+        found = tuple(_real(each, place) for each in numbers)
+        if self.bends:
+            return found
+        has_end = name in SECOND or (name == "THT" and "THETA" not in self.single and len(found) > 1)
+        return (found[0], *[0.0] * (len(found) - 1)) if has_end else ()
 
 
 def _real(value: Any, place: int) -> float:
@@ -117,11 +123,12 @@ def take(draft: Draft, orientation_axes: frozenset[int], *, virtual: bool = Fals
         draft.close(position)
     columns = draft.memory.columns
     named = frozenset(columns[w.address] for _, w in draft.open_words() if w.address in columns)
+    moves = bool(named) or any(w.address == "PO" for _, w in draft.open_words())
     words = Words(triples, single, second, polynomials, theta, named & orientation_axes)
     _check(words)
     by_path = draft.mode["orientation_motion"] in BY_PATH or draft.mode["rotation_vector"] == "ORIROTC"
     says = triples or single or second or polynomials or words.columns
-    return words if says or (by_path and named) else None
+    return words if says or (by_path and moves) else None
 
 
 def _check(words: Words) -> None:

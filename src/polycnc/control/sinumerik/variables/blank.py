@@ -5,10 +5,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik.variables.stored import Stored
+from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

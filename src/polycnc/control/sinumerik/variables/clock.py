@@ -9,11 +9,11 @@ Source: the list manual of system variables by name.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from datetime import datetime, timedelta
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
+from polycnc.deferred.records import dataclass
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ class Clock(State, lifetime=Lifetime.POWER):
 
     def compared(self) -> object:
         """What was waited matters to a program that has looked."""
-        return super(Clock, self).compared() if self.is_read else ()
+        return super().compared() if self.is_read else ()
 
     def look(self) -> float:
         """The time now; looking takes its own."""

@@ -5,7 +5,7 @@ A program that uses one gets an alarm that says so, not that the name does not e
 
 from __future__ import annotations
 
-import re
+from polycnc.deferred.regexes import regex
 
 _TABLE = """
 $AA_ACC $AA_ACT_INDEX_AX_POS_NO $AA_ALARM_STAT $AA_APPROACH_POS $AA_ATOL $AA_AXCHANGE_STAT
@@ -49,7 +49,7 @@ $VA_STOPSI $VA_SYNCDIFF $VA_TORQUE $VA_TORQUE_AT_LIMIT $VA_VACTM $VA_VALVELIFT $
 """
 _NAMES = frozenset(_TABLE.split())
 #: Families with numbers in their names.
-_FAMILIES = re.compile(
+_FAMILIES = regex(
     r"\$(TC_(SCP|ECP|TPG|MPP|MPTH|DPX|DPCS|MOPC|TPCX|TPCS|ADPT)[A-Z]*\d+|AC_FIFO\d+|AC_FCT[A-Z]*\d?"
     r"|AA_(MM|MW|WM)\d?|AC_MEA|A_TOOLM?L?N?|P_WORKAREA_\w+|P_SUB_\w+|O[CNA]?_?[A-Z]\w+)"
 )

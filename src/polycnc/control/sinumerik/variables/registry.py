@@ -9,8 +9,6 @@ Source: job planning 1.1.2 (prefixes), 5.1 (actual values), and the manual of sy
 
 from __future__ import annotations
 
-import re
-from dataclasses import dataclass
 from math import isnan
 from typing import TYPE_CHECKING, Any
 
@@ -20,6 +18,7 @@ from polycnc.control.sinumerik.axes.geometry import GEOMETRY_VARIABLES
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.positions import shown
 from polycnc.control.sinumerik.channels import link_memory
+from polycnc.control.sinumerik.channels.axis_containers import CONTAINER_VARIABLES
 from polycnc.control.sinumerik.couplings import links
 from polycnc.control.sinumerik.couplings.spindle_pairs import SpindlePairs, turns
 from polycnc.control.sinumerik.couplings.variables import COUPLING_VARIABLES
@@ -32,11 +31,15 @@ from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.feed.tolerances import TOLERANCE_VARIABLES
 from polycnc.control.sinumerik.frames.variables import FRAME_VARIABLES
 from polycnc.control.sinumerik.limits import working_area
+from polycnc.control.sinumerik.motion.indexing import INDEX_VARIABLES
 from polycnc.control.sinumerik.motion.repositioning import REPOS_VARIABLES
 from polycnc.control.sinumerik.replaced import REPLACED_VARIABLES
 from polycnc.control.sinumerik.signals.measuring import MEASURE_VARIABLES
 from polycnc.control.sinumerik.signals.sections import SECTION_VARIABLES
 from polycnc.control.sinumerik.tables import MINUTE
+from polycnc.control.sinumerik.tools.management.lists import LIST_VARIABLES
+from polycnc.control.sinumerik.tools.management.magazines import MAGAZINE_VARIABLES
+from polycnc.control.sinumerik.tools.management.monitoring import MONITORING_VARIABLES
 from polycnc.control.sinumerik.tools.online import OVERLAY_VARIABLES
 from polycnc.control.sinumerik.tools.sides import Contour
 from polycnc.control.sinumerik.tools.variables import IN_MAIN_RUN, TOOL_VARIABLES
@@ -48,6 +51,8 @@ from polycnc.control.sinumerik.variables.row import Indices, Reader, Writer
 from polycnc.control.sinumerik.variables.run_times import KEPT_TIMES, RUN_TIMES
 from polycnc.control.sinumerik.variables.stored import Stored
 from polycnc.control.sinumerik.variables.surroundings import SURROUNDINGS
+from polycnc.deferred.records import dataclass
+from polycnc.deferred.regexes import regex
 from polycnc.language.sinumerik.names.frame import NcFrame
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.messages import AlarmError
@@ -161,7 +166,7 @@ def _spindle_of(channel: SinumerikChannel, axis: str) -> Spindle | None:
 # ---- machine and setting data
 
 #: Data that polycnc knows by their names alone: these are texts.
-_TEXT_DATUM = re.compile(r"_(NAME|NAME_TAB|PATH|SERIAL_NUMBER|VERSION)$")
+_TEXT_DATUM = regex(r"_(NAME|NAME_TAB|PATH|SERIAL_NUMBER|VERSION)$")
 
 #: Data that a program may only clear: what they switch on is not executed.
 NOT_EXECUTED = frozenset(("$SC_CUTDIRMOD",))
@@ -265,12 +270,9 @@ def _spindle_value(attribute: str) -> Reader:
 
 
 def _turning_speed(channel: SinumerikChannel, indices: Indices) -> float:
-    """What a spindle turns with, without sign; one that stands is told by its programmed speed."""
-    memory = channel.memory
-    spindle = memory.spindles.get(arguments.spindle(indices[0]) if indices else None)
-    if SpindlePairs.of(channel).acting(spindle.number) is not None:
-        return abs(turns(channel, spindle.number))
-    return spindle_speed.turning_speed(memory, spindle, channel.mode["feed"])
+    """`$AA_S[n]`: what a spindle turns with, rpm, negative for M4; 0 while it stands."""
+    number = arguments.spindle(indices[0]) if indices else None
+    return turns(channel, channel.memory.spindles.get(number).number)
 
 
 def _direction(channel: SinumerikChannel, indices: Indices) -> int:
@@ -394,6 +396,10 @@ VARIABLES: dict[str, SystemVariable] = {
     **{name: SystemVariable(name, *row) for name, row in GEOMETRY_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in FRAME_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in TOOL_VARIABLES.items()},
+    **{
+        name: SystemVariable(name, *row)
+        for name, row in {**LIST_VARIABLES, **MAGAZINE_VARIABLES, **MONITORING_VARIABLES}.items()
+    },
     **{name: SystemVariable(name, *TOOL_VARIABLES[of], stop=True) for name, of in IN_MAIN_RUN.items()},
     **{name: SystemVariable(name, *row) for name, row in OVERLAY_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in working_area.AREA_VARIABLES.items()},
@@ -401,6 +407,8 @@ VARIABLES: dict[str, SystemVariable] = {
     **{name: SystemVariable(name, *row) for name, row in AXIS_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in TOLERANCE_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in COUPLING_VARIABLES.items()},
+    **{name: SystemVariable(name, *row) for name, row in CONTAINER_VARIABLES.items()},
+    **{name: SystemVariable(name, *row) for name, row in INDEX_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in REPOS_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in MEASURE_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in DEFINITION_VARIABLES.items()},

@@ -7,13 +7,15 @@ says MD27860.
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.channel.waits import CLOCK
 from polycnc.control.sinumerik.actions.actions import SynchronisedActions
 from polycnc.control.sinumerik.errors import not_supported
+from polycnc.deferred.records import dataclass
+from polycnc.deferred.regexes import regex
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import Deed
@@ -32,7 +34,7 @@ OPERATING, CYCLE, CUTTING, WITHOUT_TOOL = 0, 1, 2, 7
 NEUTRAL, EXIT, START, STOP, GO_ON = range(5)
 MINUTE_S = 60.0
 #: What a program says that is timed from its start.
-_NAMES = re.compile(
+_NAMES = regex(
     r"\$A[CN]_(SETUP|POWERON|OPERATING|CYCLE|CUTTING|(ACT|OLD)_PROG_NET)_TIME|\$AC_PROG_NET_TIME_TRIGGER",
     re.IGNORECASE,
 )
@@ -158,6 +160,11 @@ class RunTimes(State, lifetime=Lifetime.POWER):
     @property
     def lingers(self) -> bool:
         """The end of the program need not wait."""
+        return False
+
+    @property
+    def goes_home(self) -> bool:
+        """A reset waits for nothing here."""
         return False
 
     @property

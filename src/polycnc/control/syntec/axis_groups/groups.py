@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import field
 from typing import TYPE_CHECKING
 
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.channel.waits import Wait, Why
+from polycnc.deferred.records import dataclass
 from polycnc.program.split import split_channels
 
 if TYPE_CHECKING:
@@ -14,6 +16,15 @@ if TYPE_CHECKING:
     from polycnc.program import Program
 
 MEETINGS = "meetings"
+#: A file with sections of axis groups that is called is smaller than this, bytes.
+LARGEST_CALLED_FILE = 60_000
+
+
+@dataclass(slots=True)
+class SectionState(State, lifetime=Lifetime.POWER):
+    """What this axis group runs of the files that it has called."""
+
+    of_files: dict[Program, Program] = field(default_factory=dict)
 
 
 @dataclass(slots=True, eq=False)
@@ -41,6 +52,25 @@ def start_others(channel: SyntecChannel, program: Program) -> None:
         if number != channel.number and group.has(number):
             group.select(number, program)
             group.start(number)
+
+
+def section(channel: SyntecChannel, program: Program) -> Program:
+    """What an axis group runs of a file that is called: its own section where the file has sections (`$1`, `$2`).
+
+    Raises:
+        AlarmError: COR-203, the file is too large for that.
+    """
+    found: dict[Program, Program] = SectionState.of(channel).of_files
+    if program not in found:
+        sections = split_channels(program)
+        if sections and _bytes_of(program) >= LARGEST_CALLED_FILE:
+            raise channel.control.fail("group_file_size", address="P")
+        found[program] = sections.get(channel.number, program)
+    return found[program]
+
+
+def _bytes_of(program: Program) -> int:
+    return sum(len(line.encode()) + 1 for line in program.lines)
 
 
 def meet(channel: SyntecChannel, words: Words) -> None:

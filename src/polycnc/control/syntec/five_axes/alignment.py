@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.coordinates.systems import TurnState, renew_preset_frame
 from polycnc.control.syntec.units import least_unit
-from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
+from polycnc.control.word_address.coordinates.systems import refresh_zero
+from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.tools import length
 from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.tools.radius import RadiusState
@@ -95,8 +96,7 @@ def _stand_on_plane(channel: SyntecChannel, angles: Angles) -> None:
     memory = channel.memory
     kinematics = Kinematics.of(channel.machine)
     c = channel.coordinates
-    zero = [c.offsets[axis] - ZeroState.of(channel).length[axis] if axis >= 0 else 0.0 for axis in c.geometry]
-    TurnState.of(channel).table = table_turn(kinematics, angles, zero)
+    TurnState.of(channel).table = table_turn(kinematics, angles, (0.0, 0.0, 0.0))
     renew_preset_frame(memory)
     LengthState.of(channel).direction = kinematics.tool_on_machine(angles)
     length.renew_direction(channel)
@@ -115,6 +115,8 @@ def _angles(channel: SyntecChannel, words: Words, code: str) -> Angles:
     c = channel.coordinates
     if channel.mode["rotation"] not in ("G68.2", "G68.3") and not state.by_table:
         raise words.fail("tilt_missing", code)
+    if TipState.of(channel).active is not None:
+        raise channel.control.not_yet(f"{code} G43.4")
     way = words.typed("P") if "P" in words else SHORTEST
     if way not in SENSES:
         raise words.fail("align_way", "P")

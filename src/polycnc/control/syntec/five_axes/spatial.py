@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING
 
+from polycnc.channel.moves.knots import knot_context
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.compensation.spatial import ARC_FIRST, INTERSECTION, Corners, Rules, SpatialStage
 from polycnc.control.syntec.five_axes.tip_control import PostureState
@@ -13,6 +14,7 @@ from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.normal_stage import NormalStage
 from polycnc.control.word_address.transformations.polar_interpolation import PolarState
+from polycnc.deferred.records import dataclass
 from polycnc.machine.kinematics import Kinematics
 from polycnc.transformation.orientation.solutions import Posture
 
@@ -70,7 +72,8 @@ def start(channel: SyntecChannel, words: Words) -> None:
     c = channel.coordinates
     posture = Posture(Kinematics.of(channel.machine), channel.axes, tuple(c.offsets))
     channel.flush()
-    channel.path.put(SpatialStage(c.geometry, posture, radius, SIDES[code], _corners(channel), RULES))
+    within = partial(knot_context, channel)
+    channel.path.put(SpatialStage(c.geometry, posture, radius, SIDES[code], _corners(channel), RULES, within))
 
 
 def _check_start(channel: SyntecChannel, words: Words, code: str) -> None:

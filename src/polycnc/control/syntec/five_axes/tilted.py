@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from polycnc.control.syntec.coordinates.systems import TurnState, renew_preset_frame
 from polycnc.control.word_address.coordinates import frames as base_frames
 from polycnc.control.word_address.coordinates.systems import refresh_zero
+from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.tools import length
 from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.transformations.tilted_plane import named_point
@@ -91,10 +92,12 @@ def set_tilt(channel: SyntecChannel, tilt: Frame) -> None:
     length_state = LengthState.of(channel)
     turn_state = TurnState.of(channel)
     memory = channel.memory
-    if channel.coordinates.transformation is not None and not tilt.is_identity:
-        raise channel.control.not_yet("G68.2 G43.4")
+    c = channel.coordinates
+    if c.transformation is not None and not TipState.of(channel).is_leading(channel) and not tilt.is_identity:
+        raise channel.control.not_yet("G68.2 G12.1")
     turn_state.tilt, turn_state.table = tilt, IDENTITY
     renew_preset_frame(memory)
+    refresh_zero(channel)  # a change of the plane is not travelled, one of the length is
     if length_state.direction is not None:
         length_state.direction = None
         length.renew_direction(channel)

@@ -6,18 +6,20 @@ when it is over (macro language reference, sections 4.2 and 7).
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.stack import LevelKind
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.machine_words import refuse
+from polycnc.control.syntec.axis_groups import groups
 from polycnc.control.syntec.builder import CALLS, SyntecBuilder, may_call_by_g
 from polycnc.control.syntec.macros import interrupts
 from polycnc.control.syntec.macros.variables import INDEXED_LETTERS, Locals
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.macro_b.macro_calls import enter_macro
 from polycnc.control.word_address.macro_b.subprograms import note_call
+from polycnc.deferred.records import dataclass
 from polycnc.language.syntec.blocks import FORMS
 from polycnc.language.syntec.values import Text, Value
 from polycnc.language.word_address import WordBlock
@@ -151,8 +153,7 @@ def _program(channel: SyntecChannel, number: Value | None) -> Program:
         return program
     if not isinstance(number, int | float) or number != int(number) or number < 0:
         raise control.fail("program_number", address="P")
-    found: Program = control.find_program(channel, int(number))
-    return found
+    return groups.section(channel, control.find_program(channel, int(number)))
 
 
 def _plan_modal_call(builder: Builder, plan: Plan) -> Step | None:
@@ -327,7 +328,7 @@ def _enter_subprogram(channel: SyntecChannel, words: Words, program: Program) ->
     count = _whole(words, "L", "repeat_count") if "L" in words else 1
     sequence = _whole(words, "H", "program_number") if "H" in words else None
     if count > 0:
-        enter_shared(channel, program, LevelKind.SUBPROGRAM, count, sequence)
+        enter_shared(channel, groups.section(channel, program), LevelKind.SUBPROGRAM, count, sequence)
 
 
 def _whole(words: Words, address: str, mistake: str) -> int:

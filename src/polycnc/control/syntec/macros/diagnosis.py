@@ -6,9 +6,9 @@ a switch (`D376: 3`), else 0; a drive variable is VACANT, which is what the cont
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.regexes import regex
 from polycnc.language.syntec.values import VACANT, Text, Value, to_long
 from polycnc.messages import AlarmError
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 WRONG_TYPE = "COR-023"
 NO_SUCH_VARIABLE = "COR-016"
 LAST_DIAGNOSIS = 9999
-_DRIVE_VARIABLE = re.compile(r"D[0-9A-Fa-f]{3}h|D[0-9A-Fa-f]{1,2}h")
+_DRIVE_VARIABLE = regex(r"D[0-9A-Fa-f]{3}h|D[0-9A-Fa-f]{1,2}h")
 
 
 def diagnosis(memory: SyntecMemory, index: Value) -> Value:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, retained
+from polycnc.deferred.records import dataclass
 from polycnc.memory.retained import PARAMETERS
 from polycnc.messages import AlarmError
 

@@ -8,10 +8,12 @@ schema of that cycle names. Schemas are the builder's: the setup gives each as a
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
+from polycnc.deferred.records import dataclass
+from polycnc.deferred.regexes import regex
 from polycnc.language.syntec.values import Text, Vacant, Value, whole
 from polycnc.messages import AlarmError
 
@@ -27,7 +29,7 @@ NAME_TOO_LONG, EXISTS = -1, -2
 #: What DBINSERT and DBDELETE give back where they do nothing.
 NO_SUCH_RECORD, NOT_OPEN, NO_SUCH_CYCLE = -1, -2, -3
 LONGEST_NAME = 30
-_VARIABLE = re.compile(r"([#@])(\d+)(?:\[(\d)\])?")
+_VARIABLE = regex(r"([#@])(\d+)(?:\[(\d)\])?")
 
 
 @dataclass(slots=True)

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import field
 from random import Random
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.states.state import Lifetime, State, lasting, retained
+from polycnc.deferred.records import dataclass
 from polycnc.language.syntec.expressions import LAST_LOCAL, NO_SUCH_VARIABLE
 from polycnc.language.syntec.values import VACANT, Text, Vacant, Value, number, storable, to_long, whole
 from polycnc.memory.retained import REGISTERS, VARIABLES
@@ -133,6 +134,8 @@ class FunctionState(State, lifetime=Lifetime.POWER):
     stack: list[Value] = lasting(Lifetime.RESET, factory=list)
     random: Random = field(default_factory=lambda: Random(0))
     colour: int = 0
+    filled: bool = False
+    radius: float = 0.0
 
 
 @dataclass(slots=True)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import hypot
 from typing import TYPE_CHECKING
 
@@ -14,6 +13,7 @@ from polycnc.control.word_address.block.words_as_data import targets_as_data, wo
 from polycnc.control.word_address.motion import path
 from polycnc.control.word_address.motion.arcs import emit_arc
 from polycnc.control.word_address.motion.path import CENTER_WORDS
+from polycnc.deferred.records import dataclass
 from polycnc.geometry import arcs
 from polycnc.geometry.planes import PLANES
 from polycnc.language.bulk import Arc, declare

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import partial
 from math import copysign, hypot, nan, sqrt
 from typing import TYPE_CHECKING
@@ -24,6 +24,7 @@ from polycnc.control.word_address.motion.skip import LastSkip
 from polycnc.control.word_address.tools import radius
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.normal_stage import NormalStage
+from polycnc.deferred.records import dataclass
 from polycnc.geometry import arcs
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.planes import PLANES
@@ -36,6 +37,7 @@ from polycnc.toolpath.modes import FeedMode
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from polycnc.channel.channel import Channel
     from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.codes import Handler, Step
     from polycnc.control.word_address.block.plan import Builder, Plan
@@ -92,14 +94,33 @@ class SkipState(State, lifetime=Lifetime.POWER):
 
     Attributes:
         flags: #1608.
-        machine: Machine position of the last skip.
+        machine: Machine position where the last skip move was cut (#1441 on); None where none was. `LastSkip` has the
+            same as the absolute display shows it (#1361 on).
         groups: Groups of G31.10 that G31.11 will move; `groups_end` is the step behind the last one.
     """
 
-    flags: int = 0
-    machine: list[float] | None = None
+    flags: int = lasting(Lifetime.RESET, 0)
+    machine: list[float] | None = lasting(Lifetime.RESET, None)
     groups: list[SkipGroup] = lasting(Lifetime.RESET, factory=list)
     groups_end: int = 0
+
+    def forget(self, channel: SyntecChannel) -> None:
+        """Another skip move begins (2.77.3)."""
+        self.flags, self.machine = 0, None
+        LastSkip.of(channel).position = None
+
+    def note(self, channel: SyntecChannel, flags: int) -> None:
+        """A skip move is over: its signal has cut it where flags are set."""
+        self.flags = flags
+        if flags:
+            self.machine = channel.coordinates.machine
+            LastSkip.of(channel).position = list(channel.coordinates.position)
+
+    def end(self, channel: Channel, lifetime: Lifetime) -> None:
+        """A reset forgets where a skip move was cut."""
+        super().end(channel, lifetime)
+        if lifetime >= Lifetime.RESET:
+            LastSkip.of(channel).position = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -302,10 +323,9 @@ def skip_move(channel: SyntecChannel, words: Words) -> None:
     c = channel.coordinates
     end = c.to_position(path.reach(channel, words.plan.axis_words, words.values))
     stopped = skip.signal_position(channel, c.position, end, skip_source(channel, words))
-    state.flags = int(stopped is not None)
+    state.forget(channel)
     skip.move_to_signal(channel, end, stopped)
-    LastSkip.of(channel).position = list(c.position)
-    state.machine = c.machine
+    state.note(channel, int(stopped is not None))
 
 
 def skip_source(channel: SyntecChannel, words: Words) -> object:

@@ -1,20 +1,32 @@
 """G05 and G05.1 of SYNTEC: high-precision modes (manual 2.9 to 2.11).
 
-Both let the control bend the path within a tolerance. polycnc checks what is written and keeps the programmed path,
-which lies within every tolerance; the mode is recorded for the planner.
+Both let the control bend the path within a tolerance: rows keep the points of the program, and the planner may round
+what lies between them within the tolerance that the mode gives.
 """
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.syntec.five_axes import tip_control
+from polycnc.control.syntec.parameters import SyntecParameters
+from polycnc.control.syntec.units import least_unit
 from polycnc.control.word_address.motion import nurbs
 from polycnc.control.word_address.motion.path_modes import PathModeState
+from polycnc.deferred.records import dataclass
+from polycnc.geometry.units import INCH_MM
+from polycnc.toolpath.events import Deed
+from polycnc.toolpath.modes import CornerMode
 
 if TYPE_CHECKING:
+    from typing import Self
+
+    from polycnc.channel.channel import Channel
     from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.words import Words
+    from polycnc.toolpath import Context
 
 ON = 10_000
 #: Smallest and largest tolerance of G05.1 Q5, in the program's unit.
@@ -23,6 +35,42 @@ STOPPING_MODES = ("G61", "G63")
 MAX_ROTARY = 2
 FILTERS = (1, 2)
 INTELLIGENT = 5
+#: Largest tolerance of G05.1 Q1 and Q2, in the program's unit; what is above counts as this.
+LARGEST_FILTER = 1.0
+#: Tolerance where neither code nor parameter gives one, mm.
+DEFAULT_MM = 0.01
+
+
+@dataclass(slots=True)
+class SmoothingState(State, lifetime=Lifetime.RESET):
+    """How far the path may be bent where blocks meet, mm; 0 where no mode does that. Arcs keep their shape.
+
+    `fits`: by G05, under which G09 has no effect (2.10.3).
+    """
+
+    tolerance: float = 0.0
+    fits: bool = False
+
+    @classmethod
+    def first(cls, channel: Channel) -> Self:
+        """Pr3986 may switch tolerance control on without a code."""
+        given = SyntecParameters.naming(channel.setup.parameters)
+        return cls(_corner_tolerance(given) if given.tolerance_control == 1 else 0.0)
+
+
+def _corner_tolerance(parameters: SyntecParameters) -> float:
+    return parameters.corner_control * least_unit(parameters) or DEFAULT_MM
+
+
+def smoothed(channel: SyntecChannel, context: Context) -> Context:
+    """A context under G05 or G05.1: corners are rounded within the tolerance, but under G61, G63 and tip control."""
+    state = SmoothingState.of(channel)
+    tolerance = state.tolerance
+    if not tolerance or tip_control.is_on(channel) or channel.mode["path"] in STOPPING_MODES:
+        return context
+    if context.corner_mode is not CornerMode.CONTINUOUS and not state.fits:
+        return context
+    return replace(context, corner_mode=CornerMode.ROUNDED, tolerance_mm=tolerance)
 
 
 def smooth_path(channel: SyntecChannel, words: Words) -> None:
@@ -42,8 +90,27 @@ def smooth_path(channel: SyntecChannel, words: Words) -> None:
             value = words.typed(address)
             if value is not None and not low <= value <= high:
                 raise words.fail("smoothing_format", address)
-    PathModeState.of(channel).contour_control = kind != 0
+    unit = INCH_MM if words.plan.inch else 1.0
+    if kind == 0 or (kind in FILTERS and channel.memory.parameters.uvw_increments == 1):
+        tolerance = 0.0
+    elif error is None:
+        tolerance = _corner_tolerance(channel.memory.parameters)
+    else:
+        tolerance = min(error, LARGEST_FILTER) * unit
+    _switch(channel, tolerance, "G5.1")
+
+
+def _switch(channel: SyntecChannel, tolerance: float, code: str, *, fits: bool = False) -> None:
+    """Another tolerance holds from here on; the axes come to rest in between."""
+    state = SmoothingState.of(channel)
+    state.tolerance, state.fits = tolerance, fits
+    PathModeState.of(channel).contour_control = tolerance > 0.0
+    channel.event(Deed(code, None, _nothing, is_silent=False))
     channel.context_changed()
+
+
+def _nothing() -> None:
+    """The planner knows the tolerance from the rows."""
 
 
 def high_precision(channel: SyntecChannel, words: Words) -> None:
@@ -62,8 +129,18 @@ def high_precision(channel: SyntecChannel, words: Words) -> None:
         raise words.fail("tip_smoothing", "G5")
     if switch == ON and channel.mode["path"] in STOPPING_MODES:
         raise words.fail("smoothing_stops", "G5")
-    PathModeState.of(channel).contour_control = switch == ON
-    channel.context_changed()
+    tolerance = 0.0
+    if switch == ON and error is not None:
+        tolerance = error * (INCH_MM if words.plan.inch else 1.0)
+    elif switch == ON:
+        tolerance = channel.memory.parameters.fit_tolerance / 1000.0 or DEFAULT_MM
+    _switch(channel, 0.0 if _cannot_fit(channel) else tolerance, "G5", fits=True)
+
+
+def _cannot_fit(channel: SyntecChannel) -> bool:
+    """Whether U, V, W are increments, or an axis of the geometry is a diameter: G05 has no effect then (2.10.3)."""
+    axes = (axis for axis in channel.coordinates.geometry if axis >= 0)
+    return channel.memory.parameters.uvw_increments == 1 or any(map(channel.memory.is_diameter, axes))
 
 
 def _check_axes(channel: SyntecChannel, words: Words) -> None:

@@ -8,9 +8,9 @@ a value from an expression is rounded to the least increment.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from math import copysign, floor
 
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.bulk import Conversion, Scaling, declare, declared
 

@@ -39,8 +39,8 @@ class PlainBlocks:
         self._conditions = Conditions()
 
     def ready(self, channel: WordAddressChannel) -> bool:
-        """Single blocks are watched; forbidden zones, unrolled surfaces and held moves are the interpreter's."""
-        if channel.single_block or channel.boundary is not None or not channel.path.is_idle:
+        """Single blocks are watched; forbidden zones, unrolled surfaces and most held moves are not."""
+        if channel.single_block or channel.boundary is not None or not channel.path.takes_runs:
             return False
         if channel.coordinates.transformation is not None or may_refuse_moves(channel):
             return False

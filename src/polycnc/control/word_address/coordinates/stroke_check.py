@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.travel import SLACK
+from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

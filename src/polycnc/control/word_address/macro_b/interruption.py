@@ -6,7 +6,7 @@ follows from what the interruption program does (FANUC macro B §6).
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.stack import LevelKind
@@ -15,6 +15,7 @@ from polycnc.control.word_address.block.codes import MCode
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.macro_b.variables import LOCALS
 from polycnc.control.word_address.motion.skip import signal_position
+from polycnc.deferred.records import dataclass
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, lasting
+from polycnc.deferred.records import dataclass
 from polycnc.toolpath.modes import CornerMode
 
 if TYPE_CHECKING:

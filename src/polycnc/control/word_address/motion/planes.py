@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
@@ -10,6 +10,7 @@ from polycnc.compensation import CutterCompensation
 from polycnc.control.word_address.coordinates.frames import turns_plane
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations import cylinder
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.planes import PLANES
 from polycnc.transformation.kinematic.parallel import ParallelAxes
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import dist
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.motion.path import reach
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.surfaces import first_touch
 from polycnc.machine.setup.values import SkipInput
 from polycnc.messages import AlarmError

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from contextlib import contextmanager
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.path import Move
@@ -11,6 +10,7 @@ from polycnc.channel.states.state import Lifetime, State
 from polycnc.compensation import CutterCompensation, Plane, Violation
 from polycnc.control.word_address.motion import corners
 from polycnc.control.word_address.motion.arcs import mirrors_plane
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.planes import PLANES
 from polycnc.toolpath import Kind
 

@@ -6,13 +6,13 @@ surface, so that arcs, radius compensation and the planner see a plane.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import pi
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.tools.radius import RadiusState, active_compensation
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.planes import PLANES
 from polycnc.transformation.kinematic.cylinder import Cylinder
 

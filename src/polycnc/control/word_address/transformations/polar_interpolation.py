@@ -6,7 +6,6 @@ toolpath are Cartesian; the linear axis follows by the distance from the rotatio
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
@@ -14,6 +13,7 @@ from polycnc.control.word_address.block.numbers import length_converter
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.cylinder import CylinderState
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.planes import PLANES
 from polycnc.transformation.kinematic.polar import PolarPlane
 

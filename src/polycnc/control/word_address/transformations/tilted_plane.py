@@ -6,15 +6,17 @@ with the table when the tool is aligned; on one with a swivel head the length of
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from math import nan
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.coordinates import frames
 from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
+from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.tools import length
 from polycnc.control.word_address.tools.length import LengthState
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, Frame, rotation, translation
 from polycnc.machine.kinematics import Kinematics
 from polycnc.toolpath import Kind
@@ -39,6 +41,7 @@ EULER, ROLL_PITCH_YAW, POINTS, VECTORS, PROJECTION = 0, 1, 2, 3, 4
 #: Blocks of the ways that need several, by Q.
 BLOCKS = {POINTS: 3, VECTORS: 2}
 ORDERS = {123, 132, 213, 231, 312, 321}
+MACHINE_ZERO = (0.0, 0.0, 0.0)
 
 
 @dataclass(slots=True)
@@ -51,6 +54,7 @@ class TiltState(State, lifetime=Lifetime.RESET):
 
 def tilt_plane(channel: WordAddressChannel, words: Words) -> None:
     """G68.2 [P0, P1 Q, P4] X Y Z I J K: origin in the work system, and the turn; P2, P3 in several blocks."""
+    _check_tip(channel, words, "G68.2")
     plane = _told(channel, words)
     if plane is not None:
         _tilt(channel, plane)
@@ -71,6 +75,7 @@ def tilt_by_tool(channel: WordAddressChannel, words: Words) -> None:
 
     X of the plane is square on the tool and on Z of the machine; R turns it about the tool.
     """
+    _check_tip(channel, words, "G68.3")
     c, kinematics = channel.coordinates, Kinematics.of(channel.machine)
     given = {axis for axis, _, _ in words.axes()}
     if given and len(given & set(c.geometry)) < len(c.geometry):
@@ -78,14 +83,22 @@ def tilt_by_tool(channel: WordAddressChannel, words: Words) -> None:
     angles = dict(zip(channel.axes, c.machine, strict=True))
     tool, zero = kinematics.tool_on_machine(angles), _work_zero(channel)
     turn = square_on(tool) @ rotation(2, words.angle("R") or 0.0)
-    table = table_turn(kinematics, angles, zero)
+    table, turned = table_turn(kinematics, angles, zero), table_turn(kinematics, angles, MACHINE_ZERO)
     place = table.apply(*named_point(channel, words, "tilt_format"))
-    _renew(channel, translation(*place) @ turn, tool)
+    plane = table.inverse() @ translation(*place) @ turn
+    _renew(channel, turned, plane, tool)
     if not given:
         here = tuple(c.position[axis] if axis >= 0 else 0.0 for axis in c.geometry)
         place = (translation(*place) @ turn).apply(here[0], here[1], here[2])
-        _renew(channel, translation(*place) @ turn, tool)
-    TiltState.of(channel).plane = table.inverse() @ translation(*place) @ turn
+        plane = table.inverse() @ translation(*place) @ turn
+        _renew(channel, turned, plane, tool)
+    TiltState.of(channel).plane = plane
+
+
+def _check_tip(channel: WordAddressChannel, words: Words, code: str) -> None:
+    """A plane is told and the tool stood on it in front of tool centre point control, not under it."""
+    if TipState.of(channel).active is not None:
+        raise words.fail("tip_mode", code)
 
 
 def _told(channel: WordAddressChannel, words: Words) -> Frame | None:
@@ -110,7 +123,7 @@ def _told(channel: WordAddressChannel, words: Words) -> Frame | None:
 def _tilt(channel: WordAddressChannel, plane: Frame) -> None:
     """A plane of the work, with which the tool is not aligned yet."""
     TiltState.of(channel).plane = plane
-    _renew(channel, plane, None)
+    _renew(channel, IDENTITY, plane, None)
 
 
 def _told_in_several(channel: WordAddressChannel, words: Words, way: int) -> Frame | None:
@@ -164,6 +177,7 @@ def align_tool_about_tip(channel: WordAddressChannel, words: Words) -> None:
 
 
 def _align(channel: WordAddressChannel, words: Words, code: str, *, holds_tip: bool) -> None:
+    _check_tip(channel, words, code)
     c, plane = channel.coordinates, TiltState.of(channel).plane
     if plane is None:
         raise words.fail("tilt_missing", code)
@@ -175,11 +189,11 @@ def _align(channel: WordAddressChannel, words: Words, code: str, *, holds_tip: b
     angles = angles_for(kinematics, wanted, near)
     if angles is None or not set(angles) <= set(channel.axes):
         raise words.fail("tilt_unreachable", code)
-    zero = _work_zero(channel)
     tip, end = c.position, c.machine
     for name, angle in angles.items():
         end[channel.axis_index[name]] = angle
-    _renew(channel, table_turn(kinematics, angles, zero) @ plane, kinematics.tool_on_machine(angles))
+    table = table_turn(kinematics, angles, MACHINE_ZERO)
+    _renew(channel, table, plane, kinematics.tool_on_machine(angles))
     goal = c.from_machine(end)
     if holds_tip:
         for axis in c.geometry:
@@ -201,12 +215,14 @@ def end_tilt(channel: WordAddressChannel, words: Words) -> None:
     state = TiltState.of(channel)
     if state.plane is not None:
         state.plane = None
-        _renew(channel, IDENTITY, None)
+        _renew(channel, IDENTITY, IDENTITY, None)
 
 
-def _renew(channel: WordAddressChannel, frame: Frame, tool: Vector | None) -> None:
-    """Another frame of the work system, and the direction in which the tool's length counts; the machine stays."""
-    ZeroState.of(channel).frame = frame
+def _renew(channel: WordAddressChannel, table: Frame, plane: Frame, tool: Vector | None) -> None:
+    """Another plane of the work, which the table may have turned, and the direction of the tool; the machine stays."""
+    state = ZeroState.of(channel)
+    state.table, state.plane = table, plane
+    refresh_zero(channel)  # a change of the plane is not travelled, one of the length is
     LengthState.of(channel).direction = tool
     length.renew_direction(channel)
     refresh_zero(channel)

@@ -6,14 +6,13 @@ of the tip; their context turns them into positions of the axes.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import nan
 from typing import TYPE_CHECKING
 
-from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words import Words
-from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
+from polycnc.control.word_address.coordinates import tip
+from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero, work_frame
 from polycnc.control.word_address.motion.path import reach
 from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.tools.radius import RadiusState
@@ -27,13 +26,6 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.family import WordAddressChannel
-
-
-@dataclass(slots=True)
-class TipState(State, lifetime=Lifetime.RESET):
-    """What leads the axes while words name the tip; None while they name the axes."""
-
-    active: ToolCentrePoint | None = None
 
 
 def start_following(channel: WordAddressChannel, words: Words) -> None:
@@ -52,8 +44,7 @@ def start_following(channel: WordAddressChannel, words: Words) -> None:
     ZeroState.of(channel).length = [0.0] * len(channel.axes)
     refresh_zero(channel)
     following = ToolCentrePoint(kinematics, channel.axes, c.geometry, tuple(c.offsets), (0.0, 0.0, -value))
-    TipState.of(channel).active = following
-    c.transform(following)
+    tip.lead(channel, following, work_frame(channel, c.offsets), c.offsets)
     channel.context_changed()
 
 
@@ -73,7 +64,8 @@ def plan_with_direction(builder: Builder, plan: Plan) -> Step | None:
             raise words.fail("no_feed")
         c = channel.coordinates
         end = c.to_position(reach(channel, plan.axis_words, values))
-        i, j, k = (words.typed(letter) or 0.0 for letter in "IJK")
+        x, y, z = (words.typed(letter) or 0.0 for letter in "IJK")
+        i, j, k = tip.direction(channel, (x, y, z))
         near = dict(zip(channel.axes, c.machine, strict=True))
         angles = angles_for(Kinematics.of(channel.machine), (i, j, k), near) if i or j or k else None
         if angles is None:
@@ -88,12 +80,13 @@ def plan_with_direction(builder: Builder, plan: Plan) -> Step | None:
 
 def end_following(channel: WordAddressChannel) -> None:
     """G49 or another length code: the axes are named themselves again; nothing moves."""
-    state, c = TipState.of(channel), channel.coordinates
-    active, state.active = state.active, None
-    if active is None or c.transformation != active:
+    state = tip.TipState.of(channel)
+    leads = state.is_leading(channel)
+    state.active = state.seated = None
+    if not leads:
         return
-    c.transform(None)
-    channel.context_changed()
+    channel.coordinates.transform(None)
+    refresh_zero(channel)
 
 
 #: Straight blocks that name the direction of the tool.

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 from polycnc.channel.states.snapshot import unchanging
+from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel

@@ -6,9 +6,9 @@ that exist. Siemens' own files come before those of the builder, and these befor
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING, Any
 
+from polycnc.deferred.regexes import regex
 from polycnc.language.sinumerik.names.initialisation import remember_first_values
 from polycnc.language.sinumerik.names.variables import Array
 from polycnc.messages import AlarmError
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from polycnc.language.sinumerik.names.variables import Variable
     from polycnc.program import Program
 
-_NAME = re.compile(r"_N_(?P<owner>[A-Z]?)(?P<kind>MAC|GUD|ACCESS)(?P<number>\d?)_DEF")
+_NAME = regex(r"_N_(?P<owner>[A-Z]?)(?P<kind>MAC|GUD|ACCESS)(?P<number>\d?)_DEF")
 _KINDS = ("MAC", "GUD", "ACCESS")
 _OWNERS = "SPMIU"
 _ENDS = frozenset({"M30", "M17", "M2", "M02", "RET"})

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from polycnc.deferred.records import dataclass
 from polycnc.language.sinumerik.names.variables import Array
 from polycnc.language.sinumerik.runtime import default_value
 

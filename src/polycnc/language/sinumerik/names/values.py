@@ -6,10 +6,10 @@ Values inside are plain Python values: INT `int`, REAL `float`, BOOL `bool`, CHA
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import Enum
 from math import floor
 
+from polycnc.deferred.records import dataclass
 from polycnc.memory.encoding import encoded
 from polycnc.messages import AlarmError
 

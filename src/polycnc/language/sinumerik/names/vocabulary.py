@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any
 
+from polycnc.deferred.regexes import regex
 from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.statements.calls import find_program
 from polycnc.messages import AlarmError
@@ -21,12 +22,12 @@ MACHINE_DATUM, SYSTEM_VARIABLE, CYCLE, GLOBAL_VARIABLE, MACRO, LOCAL_VARIABLE, F
     206, 207, 208, 209, 210, 211, 400,
 )  # fmt: skip
 
-_AXIS_LETTERS = re.compile(r"[ABCEI-KQU-Z]\d*", re.ASCII)
+_AXIS_LETTERS = regex(r"[ABCEI-KQU-Z]\d*", re.ASCII)
 _FIXED_LETTERS = frozenset("DFGHLMNOPST")
-_G = re.compile(r"G(\d+)", re.ASCII)
-_R = re.compile(r"\$?R\d*", re.ASCII)
-_DATUM = re.compile(r"\$\$?[MSO][NCA]?_?", re.ASCII)
-_VARIABLE = re.compile(r"\s*(\$?\$?\w+)\s*(?:\[([^\[\]]*)\])?\s*", re.ASCII)
+_G = regex(r"G(\d+)", re.ASCII)
+_R = regex(r"\$?R\d*", re.ASCII)
+_DATUM = regex(r"\$\$?[MSO][NCA]?_?", re.ASCII)
+_VARIABLE = regex(r"\s*(\$?\$?\w+)\s*(?:\[([^\[\]]*)\])?\s*", re.ASCII)
 
 #: Alarms for indices that a variable does not take.
 _INDEX_ALARMS = frozenset({"12400", "17020", "17030", "17035"})

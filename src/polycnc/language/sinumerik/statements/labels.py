@@ -5,13 +5,14 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.regexes import regex
 from polycnc.language.sinumerik.lexer import prefix_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-_NUMBER = re.compile(r"\s*([N:])\s*(\d+)\s*", re.IGNORECASE)
-_FIRST = re.compile(r"[ \t]*([A-Z_$][\w$]*)", re.IGNORECASE | re.ASCII)
+_NUMBER = regex(r"\s*([N:])\s*(\d+)\s*", re.IGNORECASE)
+_FIRST = regex(r"[ \t]*([A-Z_$][\w$]*)", re.IGNORECASE | re.ASCII)
 
 
 class Labels:

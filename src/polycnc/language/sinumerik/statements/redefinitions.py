@@ -7,9 +7,9 @@ units as well; all other data of the control their rights alone, setting data th
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING, Any
 
+from polycnc.deferred.regexes import regex
 from polycnc.language.expressions.code import quoted, sequence
 from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.emitter import provide
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from polycnc.language.sinumerik.names.scope import Scope
 
 #: User data that belong to the control: every attribute can be redefined.
-_USER_DATA = re.compile(r"R|\$AC_(PARAM|MARKER|TIMER)|\$TC_(DPC|TPC)\d+")
+_USER_DATA = regex(r"R|\$AC_(PARAM|MARKER|TIMER)|\$TC_(DPC|TPC)\d+")
 #: Setting data that commands of programs change: PRLOC brings them back (1.1.7, table 1-1).
 _CHANGED_BY_PROGRAMS = """
 $SC_THREAD_START_ANGLE $SC_THREAD_RAMP_DISP $SA_PUNCH_DWELLTIME $SA_SPIND_ASSIGN_TAB $SA_SPIND_MIN_VELO_G25

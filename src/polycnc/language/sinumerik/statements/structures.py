@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.records import dataclass
+from polycnc.deferred.regexes import regex
 from polycnc.language.sinumerik.lexer import JUMPS, prefix_of, tokenize
 from polycnc.messages import AlarmError
 
@@ -13,7 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 MAX_NESTING = 16
-_WORD = re.compile(r"IF|ELSE|LOOP|FOR|WHILE|REPEAT|UNTIL", re.IGNORECASE)
+_WORD = regex(r"IF|ELSE|LOOP|FOR|WHILE|REPEAT|UNTIL", re.IGNORECASE)
 _ENDS = {"ENDIF": "IF", "ENDLOOP": "LOOP", "ENDFOR": "FOR", "ENDWHILE": "WHILE", "UNTIL": "REPEAT"}
 _STARTS = frozenset(_ENDS.values())
 

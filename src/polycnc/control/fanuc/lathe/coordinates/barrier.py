@@ -6,9 +6,10 @@ it is the front end of the gripping surface.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING
+
+from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:
     from polycnc.channel.moves.travel import Travel

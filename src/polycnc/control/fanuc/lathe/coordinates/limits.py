@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from math import inf
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.fanuc.lathe.coordinates.barrier import barrier, is_described
 from polycnc.control.word_address.coordinates.stroke_check import StrokeZone, zone_between
+from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import wraps
 from math import nan
 from typing import TYPE_CHECKING, TypeVar
@@ -17,6 +16,7 @@ from polycnc.control.word_address.coordinates.frames import RotationState, rotat
 from polycnc.control.word_address.coordinates.systems import ZeroState
 from polycnc.control.word_address.motion import planes
 from polycnc.control.word_address.tools.radius import RadiusState, active_compensation, suspended
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.planes import PLANES
 from polycnc.toolpath import Kind

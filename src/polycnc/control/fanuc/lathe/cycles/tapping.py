@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
@@ -10,6 +9,7 @@ from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.cycles.drilling import CycleState
 from polycnc.control.word_address.motion.path import FEED_MODES
+from polycnc.deferred.records import dataclass
 from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:

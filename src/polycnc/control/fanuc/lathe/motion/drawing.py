@@ -6,7 +6,7 @@ angle only is a line whose end lies where it meets the line of the next block; i
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from math import nan, radians, sin, tan
 from typing import TYPE_CHECKING
 
@@ -17,6 +17,7 @@ from polycnc.control.fanuc.lathe.motion.corners import LEAST_ANGLE_DEG, corner_s
 from polycnc.control.word_address.block.numbers import Convert, angle_converter
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion import path
+from polycnc.deferred.records import dataclass
 from polycnc.geometry import offset
 from polycnc.geometry.frames import cos_sin_deg
 from polycnc.toolpath import Kind

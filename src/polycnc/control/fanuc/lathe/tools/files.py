@@ -7,8 +7,7 @@ overwritten, everything else stays. A damaged file changes nothing at all.
 
 from __future__ import annotations
 
-import re
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
 from polycnc.control.data_files import DataFileError
@@ -16,6 +15,8 @@ from polycnc.control.fanuc.lathe.tools.data_input import BASIC, GEOMETRY, MAX_OF
 from polycnc.control.fanuc.lathe.tools.offset_memory import OffsetMemory
 from polycnc.control.fanuc.lathe.tools.offsets import MAX_OFFSETS, offset_changed, refresh
 from polycnc.control.word_address.tools.data_input import WORK_SYSTEMS
+from polycnc.deferred.records import dataclass
+from polycnc.deferred.regexes import regex
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -36,10 +37,10 @@ KINDS: Mapping[str, str] = {
     "work": "EXT_WKZ.TXT",
     "work-shift": "WORKSHFT.TXT",
 }
-_WORD = re.compile(r"([A-Z])([+-]?(?:\d+\.?\d*|\.\d+))\s*")
+_WORD = regex(r"([A-Z])([+-]?(?:\d+\.?\d*|\.\d+))\s*")
 #: Two values that differ by less are one: what is left of the way from inches and diameters.
 _ROUNDING = 1e-9
-_COMMENT = re.compile(r"\([^)]*\)")
+_COMMENT = regex(r"\([^)]*\)")
 
 
 # ---- writing ----------------------------------------------------------------------------------------------------

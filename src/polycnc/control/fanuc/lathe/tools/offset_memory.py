@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, retained
+from polycnc.deferred.records import dataclass
 from polycnc.memory.encoding import encoded
 from polycnc.memory.retained import TOOL_OFFSETS, WORK_SHIFT
 
@@ -52,7 +53,7 @@ class OffsetMemory(State, lifetime=Lifetime.RETAINED):
     @classmethod
     def first(cls, channel: LatheChannel) -> Self:
         """What is retained, else what the setup says."""
-        memory = super(OffsetMemory, cls).first(channel)
+        memory = super().first(channel)
         if not memory.numbers:
             for name, tool in channel.setup.tools.items():
                 if isinstance(name, int) or name.isdigit():

@@ -8,13 +8,13 @@ Source: job planning 7.9 (TCARR), 7.11 (CUTMOD).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from itertools import product
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.data.machine_data import MachineData
 from polycnc.control.sinumerik.tools.holders.stored import Carrier, CarrierData
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.angles import TURN_DEG
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.planes import PLANES
@@ -60,7 +60,7 @@ class ActiveCarrier(State, lifetime=Lifetime.POWER):
 
     def end(self, channel: Channel, lifetime: Lifetime) -> None:
         """A reset brings the holder of MD20126 back, unless the tool keeps its offsets; CUTMOD stays."""
-        super(ActiveCarrier, self).end(channel, lifetime)
+        super().end(channel, lifetime)
         data = MachineData.of(channel)
         ends = data.integer("$MC_RESET_MODE_MASK") & (SETS_AT_RESET | KEEPS_EDGE) == SETS_AT_RESET
         if lifetime is Lifetime.RESET and self.number and ends:

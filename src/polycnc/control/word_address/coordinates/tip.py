@@ -1,0 +1,46 @@
+"""Where tool tip control sits (G43.4, G43.5): what leads the axes while words name the tip, with the zero that acts.
+
+The work zero lies behind it, for the tip turns with the table about an axis of the machine; a turn of the work system
+lies in front. So both are put into it whenever they change.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from polycnc.channel.states.state import Lifetime, State
+from polycnc.deferred.records import dataclass
+from polycnc.geometry.frames import IDENTITY, Frame
+from polycnc.transformation.seated import Seated
+
+if TYPE_CHECKING:
+    from polycnc.control.word_address.family import WordAddressChannel
+    from polycnc.transformation.contract import Transformation
+    from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
+
+
+@dataclass(slots=True)
+class TipState(State, lifetime=Lifetime.RESET):
+    """What leads the axes while words name the tip; None while they name the axes."""
+
+    active: ToolCentrePoint | None = None
+    seated: Transformation | None = None
+
+    def is_leading(self, channel: WordAddressChannel) -> bool:
+        """Whether words name the tip now."""
+        return self.active is not None and channel.coordinates.transformation is self.seated
+
+
+def lead(channel: WordAddressChannel, active: ToolCentrePoint, frame: Frame, offsets: list[float]) -> None:
+    """Let words name the tip, in a work system that is turned by a frame and shifted by offsets; the machine stays."""
+    state = TipState.of(channel)
+    state.active = replace(active, zero=tuple(offsets))
+    state.seated = state.active if frame.is_identity else Seated(state.active, frame)
+    channel.coordinates.transform(state.seated, None, (IDENTITY, offsets))
+
+
+def direction(channel: WordAddressChannel, named: tuple[float, float, float]) -> tuple[float, float, float]:
+    """A direction of the work system, as the axes see it."""
+    seated = TipState.of(channel).seated
+    return seated.frame.direct(*named) if isinstance(seated, Seated) else named

@@ -1,0 +1,51 @@
+"""The axes of a machine as bodies."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+
+from polycnc.machine.load import load_machine
+from polycnc.view.bodies import HALF, MachineBodies
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+
+def bodies_of(machine: str) -> MachineBodies:
+    return MachineBodies(load_machine(machine))
+
+
+def test_every_linear_axis_is_a_rail_with_a_carriage_that_the_ones_before_carry() -> None:
+    made = [body for body in bodies_of("mill3").bodies if body.role in ("rail", "carriage")]
+    assert [(body.axis, body.role, body.moves) for body in made] == [
+        ("Y", "rail", (0.0, 0.0, 0.0)), ("Y", "carriage", (0.0, 1.0, 0.0)),
+        ("X", "rail", (0.0, 1.0, 0.0)), ("X", "carriage", (1.0, 1.0, 0.0)),
+        ("Z", "rail", (1.0, 1.0, 0.0)), ("Z", "carriage", (1.0, 1.0, 1.0)),
+    ]  # fmt: skip
+    lathe = [body.axis for body in bodies_of("lathe2").bodies if body.role == "rail"]
+    assert lathe == ["Z", "X"]
+
+
+def test_a_rail_is_as_long_as_the_travel(tmp_path: Path) -> None:
+    file = tmp_path / "shop.toml"
+    file.write_text('base = "mill3"\n[axis.X]\nlimit_minus = -650\nlimit_plus = 0\n', encoding="utf-8")
+    machine = load_machine(file)
+    rail = next(body for body in MachineBodies(machine).bodies if body.role == "rail" and body.axis == "X")
+    assert rail.size[0] == pytest.approx(650.0 + 2 * HALF)
+    assert rail.at[0] == pytest.approx(-325.0)
+
+
+def test_rotary_axes_are_discs_that_turn() -> None:
+    discs = [body for body in bodies_of("mill5-ac-table").bodies if body.role == "disc"]
+    assert [(disc.turns, disc.direction) for disc in discs] == [("A", (1, 0, 0)), ("C", (0, 0, 1))]
+
+
+def test_a_pose_has_the_tool_as_the_work_sees_it() -> None:
+    made = bodies_of("mill5-ac-table")
+    pose = made.pose((1.0, 2.0, 3.0), [10.0, 20.0, 30.0, 90.0, 0.0])
+    assert (pose.point, pose.machine) == ((1.0, 2.0, 3.0), (10.0, 20.0, 30.0))
+    assert pose.angles == {"A": 90.0, "C": 0.0}
+    assert pose.along == pytest.approx((0.0, 1.0, 0.0), abs=1e-9)
+    assert bodies_of("lathe2").pose((0.0, 0.0, 0.0), [5.0, 7.0]).machine == (5.0, 0.0, 7.0)
