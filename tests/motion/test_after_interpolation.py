@@ -57,6 +57,25 @@ def test_a_stroke_waits_where_the_next_move_is_none_of_the_cycle() -> None:
     assert motion(pecks(OVERLAPS, NO_OVERLAP))[0] > motion(pecks(OVERLAPS, STROKE))[0] + 0.015
 
 
+@pytest.mark.parametrize("way", [0.01, 0.1, 0.5])
+def test_a_rapid_begins_so_far_before_the_end_of_the_last(way: float) -> None:
+    rows = Build(("X", "Z")).set(rapid_overlap=way).rapid(100.0, 0.0).rapid(100.0, 80.0)
+    total, samples = motion(rows)
+    x, z = samples.position[:, 0], samples.position[:, 1]
+    begun = int(np.argmax(z > 1e-6))
+    assert 0.0 < 100.0 - x[begun] < way
+    assert total < motion(Build(("X", "Z")).rapid(100.0, 0.0).rapid(100.0, 80.0))[0] - 0.01
+    assert samples.time[-1] == pytest.approx(total, abs=0.0011)
+
+
+def test_a_cut_behind_a_rapid_that_overlaps_waits() -> None:
+    def cut(way: float) -> float:
+        rows = Build(("X", "Z")).set(rapid_overlap=way).rapid(100.0, 0.0).feed(100.0, 80.0)
+        return motion(rows.rapid(0.0, 80.0))[0]
+
+    assert cut(1.0) == pytest.approx(cut(0.0))
+
+
 def test_a_dwell_between_two_strokes_keeps_them_apart() -> None:
     def cut(kind: float) -> float:
         rows = Build(("X", "Z")).set(overlap=kind).feed(0.0, -6.0).dwell(1.0)

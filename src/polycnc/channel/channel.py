@@ -11,7 +11,7 @@ from math import nan
 from typing import TYPE_CHECKING, ClassVar, Generic
 
 from polycnc.channel.coordinates import Coordinates
-from polycnc.channel.failure import end_run, stand_at_last_row, take_back
+from polycnc.channel.failure import begin_again, end_run, stand_at_last_row, take_back
 from polycnc.channel.family import ControlT_co, MemoryT_co, ProgramT_co
 from polycnc.channel.intervention import NOTHING_BACK, MovedByHand
 from polycnc.channel.mode import Mode, ModeTable
@@ -288,7 +288,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
 
         Where a stage has changed the path (compensation that is still on) the tool stands where that has led it.
         """
-        is_changed = not self.path.is_idle
+        is_changed = self.path.changes_ends
         self.flush()
         if is_changed:
             stand_at_last_row(self)
@@ -342,8 +342,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
             take_back(self, found_ahead=bool(error.line))
             self.fail(error)
         except PreprocessingStop:
-            self._take_back_block()
-            self._level.index = self._level.current
+            begin_again(self)
             wait, self._wait = self._wait or PREPROCESSING, None
             return wait
         except ArithmeticError as error:
@@ -385,12 +384,6 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
             if self.attention:
                 break
         return step
-
-    def _take_back_block(self) -> None:
-        """The running block waits for the main run and begins again then: what it has written so far vanishes."""
-        if self.path.head is None and len(self.toolpath.chunk) > self.mark:
-            self.toolpath.truncate(self.mark)
-            self.coordinates.arrive_machine(self.stands_at)
 
     def _look_up(self, level: Level, step: Step | None) -> None:
         """What must be seen to between bursts: stages that count blocks, single block, the block limit."""

@@ -1,4 +1,4 @@
-"""What an alarm does to a channel: the block has done nothing, the alarm goes into the log and the table."""
+"""How a block that alarms has done nothing, and one that must wait nothing yet; the alarm in the log and the table."""
 
 from __future__ import annotations
 
@@ -31,6 +31,14 @@ def take_back(channel: Channel, *, found_ahead: bool = False) -> None:
     elif len(channel.toolpath.chunk) > channel.mark:
         channel.toolpath.truncate(channel.mark)
         stand_at_last_row(channel)
+
+
+def begin_again(channel: Channel) -> None:
+    """The running block waits for the main run and begins again then: what it has written so far vanishes."""
+    channel.level.index = channel.level.current
+    if channel.path.head is None and len(channel.toolpath.chunk) > channel.mark:
+        channel.toolpath.truncate(channel.mark)
+        channel.coordinates.arrive_machine(channel.stands_at)
 
 
 def stand_at_last_row(channel: Channel) -> None:

@@ -155,12 +155,14 @@ class Stage:
     Attributes:
         rank: Its place in the path.
         lasts: It stays in the path when a program is broken off by an alarm or a reset.
+        keeps_ends: Blocks end where the channel knows itself, whatever it does.
         takes_runs: It looks at nothing but moves and ends of blocks, so runs of plain blocks may be scanned for it.
         after: The next stage; the path sets it.
     """
 
     rank: ClassVar[Rank]
     lasts: ClassVar[bool] = False
+    keeps_ends: ClassVar[bool] = False
     takes_runs: ClassVar[bool] = False
     after: Stage
 
@@ -288,6 +290,11 @@ class Path:
     def is_idle(self) -> bool:
         """Whether no stage holds back or changes anything."""
         return not any(stage.active for stage in self._stages)
+
+    @property
+    def changes_ends(self) -> bool:
+        """Whether the axes may stand elsewhere than the channel knows itself."""
+        return any(stage.active and not stage.keeps_ends for stage in self._stages)
 
     @property
     def takes_runs(self) -> bool:

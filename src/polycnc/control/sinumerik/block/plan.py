@@ -146,8 +146,6 @@ def make_plan(channel: SinumerikChannel, block: Block) -> Plan:
     draft.steps += [swings] if swings is not None else []
     started, awaited = moves.positioning(draft)
     draft.steps += started
-    if measures is not None:
-        draft.steps.append(measures[1])
     draft.steps += _asked_moves(draft, moves=own is not None or moving is not None)
     for step in (own, moving):
         if step is not None:
@@ -155,7 +153,7 @@ def make_plan(channel: SinumerikChannel, block: Block) -> Plan:
     draft.steps += [follows] if follows is not None else []
     draft.steps += awaited + draft.behind_motion
     if measures is not None:
-        draft.steps.append(measures[2])
+        draft.steps.append(measures[1])
     draft.steps += [orientation.finish] if draft.lead is not None else []
     draft.steps += [point_to_point.finish] if draft.by_axes else []
     _check_open_words(draft)

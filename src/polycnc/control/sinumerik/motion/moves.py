@@ -20,6 +20,7 @@ from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.limits import working_area
 from polycnc.control.sinumerik.motion.last_move import LastMove
 from polycnc.control.sinumerik.motion.polar import Polar
+from polycnc.control.sinumerik.signals import measuring
 from polycnc.control.sinumerik.tables import length_factor
 from polycnc.control.sinumerik.transformations import point_to_point, seat
 from polycnc.control.sinumerik.variables.clock import Clock
@@ -559,6 +560,7 @@ def _position_axis(term: AxisTerm) -> Step:
     def run(channel: SinumerikChannel, values: Values) -> None:
         end = target(channel, (term,), values)
         working_area.check_target(channel, end)
+        end = measuring.positioned(channel, end)
         action_axes.position_beside(channel, term.column, end)
         channel.coordinates.arrive(end)
 

@@ -90,6 +90,7 @@ class Prober(Stage):
 
     rank = Rank.PROBES
     lasts = True
+    keeps_ends = True
 
     def __init__(self, channel: SinumerikChannel) -> None:
         self.jobs: list[Job] = []
@@ -180,13 +181,11 @@ class Measuring(State, lifetime=Lifetime.POWER):
     Attributes:
         prober: The stage that follows them; None where the setup has none.
         measured: Work and machine position of an axis by number of the value and column.
-        started_at: Where the running measuring block began.
         triggered: $AC_MEA by probe.
     """
 
     prober: Prober | None = None
     measured: dict[tuple[int, int], tuple[float, float]] = field(default_factory=dict)
-    started_at: list[float] | None = None
     triggered: dict[int, bool] = field(default_factory=dict)
 
 
@@ -199,8 +198,8 @@ def watch(channel: SinumerikChannel) -> None:
 # ---- words
 
 
-def measure(draft: Draft) -> tuple[Step, Step, Step] | None:
-    """Steps of a measuring block: before its motion, behind its positioning axes, behind its motion."""
+def measure(draft: Draft) -> tuple[Step, Step] | None:
+    """Steps of a measuring block: before its motion, behind it."""
     words = [(position, word) for position, word in draft.open_words() if word.address in WORDS]
     if not words:
         return None
@@ -217,7 +216,7 @@ def measure(draft: Draft) -> tuple[Step, Step, Step] | None:
         _check_geometry(channel, words, values, path)
         _start(channel, [job for job in jobs if job is not None])
 
-    return begin, _positioned, _end
+    return begin, _end
 
 
 def _moved_columns(draft: Draft, path: set[int]) -> tuple[int, ...]:
@@ -320,23 +319,20 @@ def _start(channel: SinumerikChannel, jobs: list[Job]) -> None:
             state.triggered[probe] = deflected and not job.axial
         if job.fifo:
             fifos.values(channel, job.fifo)
-    state.started_at = channel.coordinates.position
     if prober is not None:
         prober.jobs = [job for job in jobs if not job.fifo]
         prober.continuous.update({job.columns[0]: job for job in jobs if job.fifo})
 
 
-def _positioned(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
-    """Positioning axes have moved without a row: probes switch on their way as well."""
-    state = Measuring.of(channel)
-    prober, start, end = state.prober, state.started_at, channel.coordinates.position
-    if prober is None or start is None or start == end:
-        return
+def positioned(channel: SinumerikChannel, end: list[float]) -> list[float]:
+    """Where a positioning axis comes to on its way to `end`: probes switch on a way without a row as well."""
+    prober, start = Measuring.of(channel).prober, channel.coordinates.position
+    if prober is None or start == end:
+        return end
     move = Move(Kind.FEED, start, end)
     part = prober.follow(move)
-    if part is not None:
-        channel.coordinates.arrive(MovePath(move, channel.coordinates.geometry).at(part))
-        prober.stopped = None
+    prober.stopped = None
+    return end if part is None else MovePath(move, channel.coordinates.geometry).at(part)
 
 
 def _end(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
