@@ -70,7 +70,7 @@ class Straights(NamedTuple):
     Attributes:
         transformation: That acts on them.
         start: Their points of the path, a column an axis; `end` likewise.
-        length: As the feed counts it, none of them zero.
+        length: As the feed counts it, none of them next to zero.
         rapid: Which of them are rapids.
         axes: The machine's axes by columns.
         limits: Of the columns.
@@ -91,7 +91,7 @@ def even(rows: Straights) -> tuple[npt.NDArray[np.bool_], Column, Column]:
     """Which rows ask for much the same all along, and their speed and `ease`."""
     import numpy as np
 
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         looks = [_demands(rows, k / LOOKS) for k in range(LOOKS + 1)]
         sizes = np.array([np.maximum(look.pull, 1.0 / look.top) for look in looks])
         is_even = ~(sizes.max(axis=0) >= UNEVEN * sizes.min(axis=0))

@@ -74,6 +74,8 @@ LEGGED = frozenset((Kind.RAPID, Kind.FEED, *ARC_KINDS))
 NO_STOPS = array("B")
 #: Kinds of rows of which many are looked at together; how many are worth that, and how many are at most.
 STRAIGHT, FEWEST, TOGETHER = frozenset((Kind.RAPID, Kind.FEED)), 64, 4096
+#: Shorter rows are looked at one by one: their shares of the way would be no numbers.
+SHORT = 1e-9
 #: An axis along which an arc's unit normal has more than this does not take part in the arc.
 ACROSS = 0.999
 
@@ -259,7 +261,7 @@ class RealAxes:
             weight if self._rotary(i) and i not in transformation.geometry else 1.0 for i in range(chunk.axes)
         ]
         length = np.array(list(map(hypot, *((end - start) * turned).T.tolist())))
-        moves = length > 0.0
+        moves = length > SHORT
         rows = rows[moves]
         straights = Straights(
             transformation, list(start[moves].T), list(end[moves].T), length[moves],
