@@ -195,8 +195,8 @@ class RealAxes:
         else:
             moves = [row for row, kind in enumerate(chunk.kind) if kind < Kind.DWELL]
             for column, free in zip(bounds.shares, FREE_SHARE, strict=True):
-                column.extend([free] * SHARES * len(chunk))
-            bounds.feed.extend([1.0] * len(chunk))
+                column.extend(array("d", (free,)) * (SHARES * len(chunk)))
+            bounds.feed.extend(array("d", (1.0,)) * len(chunk))
         done = self._even(chunk, moves, contexts, bounds.shares) if transformed else frozenset[int]()
         for row, following in zip_longest(moves, moves[1:]):
             if row in done and following in done:
