@@ -7,9 +7,11 @@ import sys
 
 from benchmarks import (
     bulk,
+    five_axes,
     interpreter,
     mainrun,
     page,
+    panel,
     planner,
     processes,
     sinumerik,
@@ -27,6 +29,7 @@ BENCHMARKS = (
     interpreter.memory,
     bulk.scanner,
     bulk.streaming,
+    five_axes.tip_control,
     startup.small_run,
     sinumerik.loop,
     sinumerik.blocks,
@@ -36,6 +39,9 @@ BENCHMARKS = (
     mainrun.real_time,
     mainrun.actions,
     snapshots.milling,
+    panel.long_program,
+    panel.processor,
+    panel.page,
 )
 
 

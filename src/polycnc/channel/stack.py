@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import field
 from enum import StrEnum
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, Protocol
 
 from polycnc.channel.family import ProgramT_co
@@ -71,7 +72,7 @@ class LevelKind(StrEnum):
     TYPED_IN = "mdi"
     """Blocks that are typed in while a program waits (MDI intervention)."""
 
-    @property
+    @cached_property
     def code_letter(self) -> str:
         """The letter of the code that called the program; empty where none did."""
         return self[0].upper() if self[1:2] == "-" else ""

@@ -7,6 +7,7 @@
 
 from __future__ import annotations
 
+import atexit
 import gc
 from typing import TYPE_CHECKING, NoReturn
 
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
 __all__ = ["main"]
 #: Behind so many new objects Python looks for circles of them. What is loaded and compiled stays to the end, so that
 #: it would find nothing, many times before the first block.
-_NEW_OBJECTS = 50_000
+_NEW_OBJECTS = 200_000
 
 
 def main(arguments: Sequence[str] | None = None) -> NoReturn:
@@ -25,6 +26,7 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
     Whoever interrupts it while its parts are still being loaded gets the same answer as later.
     """
     gc.set_threshold(_NEW_OBJECTS)
+    atexit.register(gc.freeze)  # what is left goes with the process
     try:
         from polycnc.cli.app import main as run
     except KeyboardInterrupt:

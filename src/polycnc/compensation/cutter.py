@@ -62,6 +62,7 @@ class CutterCompensation(Stage):
     """
 
     rank = Rank.COMPENSATION
+    takes_runs = True
 
     def __init__(self, plane: Plane, policy: Policy, violations: Mapping[Violation, str]) -> None:
         self.plane = plane

@@ -143,7 +143,7 @@ def _demands(rows: Straights, share: float) -> ManyDemands:
             twisted = np.minimum(top, cube_root(TWIST * axis.jerk / np.where(twist > NOTHING, twist, 1.0)))
             top = np.where(twist > NOTHING, twisted, top)
             jerk = np.maximum(jerk, _sum(here[i], rows.limits.jerk, used) / axis.jerk)
-            changes = [abs(b - a) / step for a, b in zip(here[i], there[i], strict=True)]
+            changes = [np.abs(np.subtract(b, a)) / step for a, b in zip(here[i], there[i], strict=True)]
             turn = np.maximum(turn, _sum(changes, pulls, used) / axis.jerk)
     return ManyDemands(top, bend, pull, jerk, turn, along)
 

@@ -65,6 +65,8 @@ class Rank(IntEnum):
     AXES = auto()
     #: Slave axes, which only their master moves.
     SLAVES = auto()
+    #: Following axes of a gantry, which no program moves.
+    GANTRY = auto()
     #: Axes that wait for their leading axes: they see where those are.
     COUPLINGS = auto()
     #: Protection zones: they see where the machine would go.
@@ -120,7 +122,7 @@ class Move:
         """The same move between two other positions."""
         return Move(
             self.kind, start, end, self.feed, self.program, self.line, self.context,
-            self.center, self.normal, self.turns, self.parameters,
+            self.center, self.normal, self.turns, self.parameters, self.turning,
         )  # fmt: skip
 
 
@@ -153,11 +155,13 @@ class Stage:
     Attributes:
         rank: Its place in the path.
         lasts: It stays in the path when a program is broken off by an alarm or a reset.
+        takes_runs: It looks at nothing but moves and ends of blocks, so runs of plain blocks may be scanned for it.
         after: The next stage; the path sets it.
     """
 
     rank: ClassVar[Rank]
     lasts: ClassVar[bool] = False
+    takes_runs: ClassVar[bool] = False
     after: Stage
 
     @property
@@ -277,6 +281,11 @@ class Path:
     def is_idle(self) -> bool:
         """Whether no stage holds back or changes anything."""
         return not any(stage.active for stage in self._stages)
+
+    @property
+    def takes_runs(self) -> bool:
+        """Whether runs of plain blocks may be scanned: stages are idle, or take such runs."""
+        return all(stage.takes_runs or not stage.active for stage in self._stages)
 
     @property
     def leads_axes(self) -> bool:

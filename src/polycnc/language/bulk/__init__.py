@@ -3,8 +3,8 @@
 `kernels` reads and works off blocks, `moves` holds what they do; both are pure functions on arrays (`layout`
 names the fields), also as machine code (`compiled`); `text` gives them the bytes. `recipe` is how a control
 declares that a block of some shape in some modal state is plain, `shapes` keeps what was declared in the
-kernels' tables; `scanner` leads a channel through all that. Whatever is not plain goes to the interpreter,
-block by block. Both ways give the same table, bit for bit.
+kernels' tables; `scanner` leads a channel through all that; `staged` hands scanned moves to stages of the path.
+Whatever is not plain goes to the interpreter, block by block. Both ways give the same table, bit for bit.
 """
 
 from polycnc.language.bulk.recipe import (

@@ -13,7 +13,9 @@ from polycnc.language.bulk.kernels import Tables
 from polycnc.language.bulk.layout import State, new_state
 from polycnc.language.bulk.moves import Columns
 from polycnc.language.bulk.shapes import Shapes
+from polycnc.language.bulk.staged import MOST_BLOCKS, StagedRun, leading_moves
 from polycnc.language.bulk.text import Window
+from polycnc.messages import AlarmError
 from polycnc.toolpath.table import CHUNK_ROWS, CURVE_WIDTH
 
 if TYPE_CHECKING:
@@ -197,27 +199,68 @@ class Scanner:
 
     def _some(self, channel: ScannedChannel) -> bool:
         """One call of the kernel; true if it may be called again at once."""
-        level, window, at = channel.level, self._window, self._state.scan
+        level, window = channel.level, self._window
         code = level.code
         lines = code.program.lines
         line = code.line_of_step(level.index)
         if not window.stand_at(lines, line, code.scannable_to(line)):
             return False
-        self._put_state(channel)
-        shapes = self._shapes
-        tables = Tables(window.text, shapes.nexts, shapes.leaves, shapes.rules, shapes.factors)
-        outcome = self._scan(tables, self._state, Columns(*self._columns, self._notes, self._said))
-        taken = at.line - code.program.first_line - window.line
-        if taken:
-            window.place, window.line = at.place, window.line + taken
-            self._take_rows(channel)
-            self._take_state(channel)
-            level.index = code.step_of_line(window.line)
-            level.current = level.index - 1
+        outcome = self._scanned(channel) if channel.path.is_idle else self._staged(channel)
         if outcome == layout.Outcome.UNKNOWN:
             return self._learn(channel, lines[window.line])
         room = len(channel.toolpath.chunk) < CHUNK_ROWS and channel.blocks < channel.block_limit
         return outcome == layout.Outcome.AT_END or (outcome == layout.Outcome.FULL and room)
+
+    def _scanned(self, channel: ScannedChannel) -> int:
+        """Rows of plain blocks straight into the table."""
+        outcome = self._call(channel)
+        taken = self._state.scan.line - channel.level.code.program.first_line - self._window.line
+        if taken:
+            self._take_rows(channel)
+            self._go_on(channel, taken)
+        return outcome
+
+    def _staged(self, channel: ScannedChannel) -> int:
+        """Moves of plain blocks through the stages of the path.
+
+        Where one finds an alarm, the channel stands in that block: the blocks up to there are scanned once more.
+        """
+        at = self._state.scan
+        outcome = self._call(channel, MOST_BLOCKS)
+        first_line = channel.level.code.program.first_line + self._window.line
+        moves = leading_moves(first_line, at, self._columns, self._notes)
+        is_all = moves == at.blocks and at.line == first_line + moves
+        if not moves:
+            return outcome if is_all else layout.Outcome.NOT_PLAIN
+        if not is_all:
+            self._call(channel, moves)
+        run = StagedRun(channel, self._columns)
+        try:
+            run.lead(moves, at.first_curve)
+        except (AlarmError, ArithmeticError):
+            self._call(channel, run.moved)
+            self._go_on(channel, run.moved)
+            channel.blocks += run.blocks - run.moved
+            raise
+        self._go_on(channel, moves)
+        return outcome if is_all else layout.Outcome.NOT_PLAIN
+
+    def _call(self, channel: ScannedChannel, most_blocks: int | None = None) -> int:
+        """Let the kernel work off blocks from where the channel stands; gives how it ended."""
+        self._put_state(channel)
+        at, shapes = self._state.scan, self._shapes
+        if most_blocks is not None:
+            at.most_blocks = min(at.most_blocks, most_blocks)
+        tables = Tables(self._window.text, shapes.nexts, shapes.leaves, shapes.rules, shapes.factors)
+        return self._scan(tables, self._state, Columns(*self._columns, self._notes, self._said))
+
+    def _go_on(self, channel: ScannedChannel, lines: int) -> None:
+        """The channel stands behind the blocks of so many lines."""
+        level, window = channel.level, self._window
+        window.place, window.line = self._state.scan.place, window.line + lines
+        self._take_state(channel)
+        level.index = level.code.step_of_line(window.line)
+        level.current = level.index - 1
 
     def _learn(self, channel: Channel, line: str) -> bool:
         """Ask the control for the rule of a new shape; true if it has one."""

@@ -15,7 +15,7 @@ from polycnc.language.expressions.code import listed
 from polycnc.language.expressions.joined import MAX_JOINED, led_by
 from polycnc.language.word_address.joining import JOINABLE, join, join_loop
 from polycnc.language.word_address.macro_b import Lifting, Reader, macro_shapes
-from polycnc.language.word_address.patterns import Patterns, Spot, negative
+from polycnc.language.word_address.patterns import MOST_LINES, Patterns, Spot, negative
 from polycnc.language.word_address.statements import KEYWORD, Assignment, LoopEnd, parse_statement
 from polycnc.language.word_address.words import ExpressionBlock, WordBlock, code_key, is_fixed_code, word_key
 from polycnc.messages import AlarmError
@@ -70,6 +70,8 @@ class Grammar:
         last_loop: The largest number of a loop (DO m); `deepest_loop` is how deep loops nest.
         shapes: The compiled code of the control's expressions.
         patterns: The lines that have been read.
+        plain: Blocks of the lines that have numbers only: a program calls, retracts and turns back in the same words
+            again and again.
     """
 
     alarms: Mapping[str, str]
@@ -81,6 +83,7 @@ class Grammar:
     deepest_loop: int = 3
     shapes: Shapes = field(default_factory=macro_shapes, compare=False, repr=False)
     patterns: Patterns = field(default_factory=Patterns, compare=False, repr=False)
+    plain: dict[str, WordBlock] = field(default_factory=dict, compare=False, repr=False)
 
 
 def empty_block(_channel: Channel) -> None:
@@ -253,16 +256,23 @@ class WordAddressProgram:
 
     def compile(self, line: str, index: int) -> Step:
         """The step of one line."""
+        plain = self.grammar.plain
+        known = plain.get(line)
+        if known is not None:
+            return known
         text = line.strip()
         if _PLAIN.fullmatch(text) and text[0] != "O":
-            return self._plain(text)
+            if len(plain) >= MOST_LINES:
+                plain.clear()
+            plain[line] = block = self._plain(text)
+            return block
         if not text or text == "%":
             return empty_block
         if len(text) > MAX_BLOCK_LENGTH:
             raise AlarmError(self.grammar.alarms["block_too_long"], column=MAX_BLOCK_LENGTH)
         return self._general(line, index)
 
-    def _plain(self, text: str) -> Step:
+    def _plain(self, text: str) -> WordBlock:
         """A block of words with numbers only."""
         signature: list[str] = []
         values: list[float] = []

@@ -10,7 +10,7 @@ as they are written, so a number of which the reader says nothing is never taken
 
 from __future__ import annotations
 
-from operator import itemgetter
+from operator import call, itemgetter
 from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
 
 from polycnc.deferred.regexes import regex
@@ -72,11 +72,16 @@ class _Line(NamedTuple):
 
 
 class _Pattern(NamedTuple):
-    """Lines with equal characters but for digits: the places of their values, and by all other numbers the lines."""
+    """Lines with equal characters but for digits: the places of their values, and by all other numbers the lines.
+
+    `written` has lines by those numbers as they are written, `lines` by what they mean.
+    """
 
     values: frozenset[int]
+    others: Choice
     fixed: Choice
     variables: Choice
+    written: dict[tuple[str, ...] | str, _Line]
     lines: dict[tuple[object, object], _Line]
 
     def key(self, numbers: Sequence[str]) -> tuple[object, object]:
@@ -103,13 +108,15 @@ class Patterns:
         if pattern is None:
             return None
         numbers = NUMBER.findall(text)
-        line = pattern.lines.get(pattern.key(numbers))
+        others = pattern.others(numbers)
+        line = pattern.written.get(others)
         if line is None:
-            return None
-        values = [
-            reading(digits) for reading, digits in zip(line.readings, line.chosen(numbers), strict=True)
-        ]
-        return line.step.with_numbers(tuple(values))
+            line = pattern.lines.get(pattern.key(numbers))
+            if line is None:
+                return None
+            self._make_room()
+            pattern.written[others] = line
+        return line.step.with_numbers(tuple(map(call, line.readings, line.chosen(numbers))))
 
     def learn(
         self, text: str, step: Repeatable, spots: Sequence[Spot | None], unimportant: Collection[int]
@@ -133,9 +140,7 @@ class Patterns:
             [place[begin] for begin in unimportant]
             + [place[spot.begin] for spot in known if not spot.is_variable]
         )
-        if self._count >= self._most:
-            self._patterns.clear()
-            self._count = 0
+        self._make_room()
         pattern = self._patterns.setdefault(
             text.translate(_WITHOUT_DIGITS), _pattern(text, [match.start() for match in matches], values)
         )
@@ -143,14 +148,21 @@ class Patterns:
             key = pattern.key([match.group() for match in matches])
             chosen = _choice([place[spot.begin] for spot in known])
             pattern.lines[key] = _Line(step, chosen, tuple(spot.reading for spot in known))
-            self._count += 1
+
+    def _make_room(self) -> None:
+        """One line more is going to be kept."""
+        if self._count >= self._most:
+            self._patterns.clear()
+            self._count = 0
+        self._count += 1
 
 
 def _pattern(text: str, begins: Sequence[int], values: frozenset[int]) -> _Pattern:
     """The pattern of a line whose numbers begin at some columns."""
     others = [i for i in range(len(begins)) if i not in values]
     variables = [i for i in others if text[: begins[i]].rstrip().endswith("#")]
-    return _Pattern(values, _choice([i for i in others if i not in variables]), _choice(variables), {})
+    fixed = [i for i in others if i not in variables]
+    return _Pattern(values, _choice(others), _choice(fixed), _choice(variables), {}, {})
 
 
 def _choice(places: Sequence[int]) -> Choice:

@@ -9,7 +9,7 @@ modal state; later blocks of the same shape only bring new numbers.
 from __future__ import annotations
 
 from copy import copy
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.channel.intervention import NOTHING_BACK, TakesBack
 from polycnc.control.word_address.block.codes import GCode, MCode, Order, Step
@@ -83,15 +83,29 @@ class Footing:
         return footing
 
 
+class Arguments(NamedTuple):
+    """Which words of a block set which local variables of a macro.
+
+    Attributes:
+        typed: Variable, place of the value, and what converts it.
+        fixed: Variable and value, of codes.
+    """
+
+    typed: tuple[tuple[int, int, Convert | None], ...]
+    fixed: tuple[tuple[int, float], ...]
+
+
 class Plan:
     """What the blocks of one shape do in one modal state.
 
-    `program_name` is what `<NAME>` in them calls, `rest` the words that go to the machine with a code of its builder.
+    `order` are its codes and addresses in the order typed, `keys` the same as a set. `program_name` is what `<NAME>` in
+    them calls, `rest` the words that go to the machine with a code of its builder, `arguments` how a macro call takes
+    the words.
     """
 
     __slots__ = (
-        "axis_words", "control", "inch", "m_codes", "m_words", "mode", "order", "program_name", "rest", "rules",
-        "slots", "steps", "takes_back", "typed",
+        "arguments", "axis_words", "control", "inch", "keys", "m_codes", "m_words", "mode", "order", "program_name",
+        "rest", "rules", "slots", "steps", "takes_back", "typed",
     )  # fmt: skip
 
     def __init__(self, builder: Builder) -> None:
@@ -100,6 +114,7 @@ class Plan:
         self.slots = builder.slots
         self.typed = builder.typed
         self.order = builder.order
+        self.keys = frozenset(builder.order)
         self.m_codes, self.m_words = builder.m_codes, builder.m_words
         self.program_name = builder.program_name
         self.rest: tuple[str, ...] = ()
@@ -108,10 +123,12 @@ class Plan:
         self.axis_words: tuple[AxisWord, ...] = ()
         self.steps: tuple[Step, ...] = ()
         self.takes_back = NOTHING_BACK
+        self.arguments: dict[tuple[str, int | None], Arguments] = {}
 
     def without(self, addresses: Collection[str]) -> Plan:
         """The same plan for a code to which some words of the block do not belong."""
         plan = copy(self)
+        plan.arguments = {}
         plan.slots = {address: slot for address, slot in self.slots.items() if address not in addresses}
         plan.typed = [word for word in self.typed if word[0] not in addresses]
         plan.axis_words = tuple(word for word in self.axis_words if word.address not in addresses)

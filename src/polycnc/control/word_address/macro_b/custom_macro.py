@@ -47,8 +47,10 @@ class CustomMacroControl(WordAddressControl):
         EXTENDED_WORK_SYSTEMS: How many G54.1 P systems there are.
         CALL_LEVELS: Levels of macros, of subprograms, and together (FANUC macro B reference §5.1).
         PLANE_HELD_BY_ROTATION: Another plane within a rotation is refused where it is chosen.
+        JOINING_HINT: What to do where AND, OR, XOR join conditions that may not be joined.
     """
 
+    JOINING_HINT: ClassVar[str] = "hint.joined-conditions"
     m_rows: ClassVar[tuple[MRow, ...]] = (code_calls.m_row, code_calls.registered_row)
     halts_behind: ClassVar[tuple[Halts, ...]] = single_block.HALTS
     context_steps: ClassVar[tuple[ContextStep, ...]] = (overrides.overridden,)
@@ -144,7 +146,9 @@ class CustomMacroControl(WordAddressControl):
 
     def check_nesting(self, channel: Channel, kind: LevelKind) -> None:
         """Alarm for one level of calls too many."""
-        macros = sum(1 for level in channel.stack if level.kind in _MACRO_KINDS)
+        macros = 0
+        for level in channel.stack:
+            macros += level.kind in _MACRO_KINDS
         others = len(channel.stack) - 1 - macros
         most_macros, most_others, most = self.CALL_LEVELS
         if kind in _MACRO_KINDS and macros >= most_macros:
@@ -174,7 +178,8 @@ class CustomMacroControl(WordAddressControl):
         """End of a subprogram or macro: the caller's local variables return; `jumps` for M99 P."""
         ended = channel.pop()
         channel.memory.locals = locals_of(channel.level)
-        macro_calls.note_level(channel)
+        if ended.kind.code_letter:
+            macro_calls.note_level(channel)
         if ended.kind is LevelKind.INTERRUPT:
             interruption.finish(channel, jumps=jumps)
 

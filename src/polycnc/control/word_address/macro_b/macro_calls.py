@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from polycnc.channel.stack import LevelKind
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.block.numbers import length_converter
+from polycnc.control.word_address.block.plan import Arguments
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.macro_b import subprograms
@@ -16,8 +17,11 @@ from polycnc.deferred.records import dataclass
 from polycnc.geometry.units import INCH_MM
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.codes import Step
+    from polycnc.control.word_address.block.numbers import Convert
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.family import MacroChannel
     from polycnc.program import Program
@@ -59,7 +63,27 @@ def arguments_of(words: Words, skip: str = "", *, without_m: int | None = None) 
     closes when a letter comes that is not behind the last one. Of two words for one variable the later one
     counts.
     """
+    plan = words.plan
+    arguments = plan.arguments.get((skip, without_m))
+    if arguments is None:
+        fixed = [
+            (ARGUMENTS["M"], word)
+            for code, word in zip(plan.m_codes, plan.m_words, strict=True)
+            if code != without_m
+        ]
+        arguments = Arguments(tuple(_typed_arguments(words, skip)), tuple(fixed))
+        plan.arguments[skip, without_m] = arguments
     local: list[float | None] = [None] * LOCALS
+    values = words.values
+    for variable, slot, convert in arguments.typed:
+        local[variable] = values[slot] if convert is None else convert(values[slot])
+    for variable, value in arguments.fixed:
+        local[variable] = value
+    return local
+
+
+def _typed_arguments(words: Words, skip: str) -> Iterator[tuple[int, int, Convert | None]]:
+    """The words that are arguments, as `Arguments` has them."""
     number, last = 0, ""
     for address, slot, form in words.plan.typed:
         if address in skip or address not in ARGUMENTS:
@@ -75,16 +99,16 @@ def arguments_of(words: Words, skip: str = "", *, without_m: int | None = None) 
             variable = 4 + 3 * number + "IJK".index(address)
         else:
             variable = ARGUMENTS[address]
-        value = words.values[slot]
-        if address in _LENGTHS:
-            convert = length_converter(form, words.plan.rules, inch=words.plan.inch)
-            if form == "" and convert is not None:
-                value = convert(value) / (INCH_MM if words.plan.inch else 1.0)
-        local[variable] = value
-    for code, word in zip(words.plan.m_codes, words.plan.m_words, strict=True):
-        if code != without_m:
-            local[ARGUMENTS["M"]] = word
-    return local
+        yield variable, slot, _argument_converter(words.plan, form) if address in _LENGTHS else None
+
+
+def _argument_converter(plan: Plan, form: str) -> Convert | None:
+    """What makes the argument of a length in the program's units; None where it is what is typed."""
+    convert = length_converter(form, plan.rules, inch=plan.inch)
+    if form or convert is None:
+        return None
+    unit = INCH_MM if plan.inch else 1.0
+    return lambda value: convert(value) / unit
 
 
 def call_macro(channel: MacroChannel, words: Words) -> None:
@@ -115,8 +139,9 @@ def start_modal(
 def refuse_g_behind(words: Words, call: str) -> None:
     """Alarm for a G code behind the code that calls: it cannot be an argument."""
     order = words.plan.order
-    if any(key[0] == "G" for key in order[order.index(call) + 1 :]):
-        raise words.fail("g_as_argument", call)
+    for key in order[order.index(call) + 1 :]:
+        if key[0] == "G":
+            raise words.fail("g_as_argument", call)
 
 
 def end_modal_call(channel: MacroChannel, words: Words) -> None:

@@ -22,7 +22,7 @@ def note_call(channel: WordAddressChannel, words: Words, code: str) -> None:
 
     Such a block is prepared like a macro statement: it is none of the path (FANUC macro B reference 7).
     """
-    channel.off_path = all(key == code or key in _OF_CALLS for key in words.plan.order)
+    channel.off_path = words.plan.keys - _OF_CALLS <= {code}
 
 
 def call_subprogram(channel: MacroChannel, words: Words, *, begins_at: str = "Q") -> None:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.tools.radius import active_compensation
+from polycnc.language.bulk import declare, declared
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.block.codes import Step
@@ -49,7 +50,8 @@ def plan_travel(builder: Builder, plan: Plan, step: Step | None) -> Step | None:
         if channel.coordinates.position == before:
             end_square(channel)
 
-    return run
+    # A block without a way is none that the scanner hands to compensation, so a run of blocks does as `step` says.
+    return declare(run, declared(step))
 
 
 #: M codes behind which nothing is read.

@@ -1,0 +1,101 @@
+"""Moves that are scanned for radius compensation are compensated as those of the interpreter."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tests.language.bulk.both_ways import differences, run, scanned
+from tests.language.bulk.programs import arc
+
+CONTROLS = ("fanuc-m", "meldas-m", "syntec-mill")
+SETUP = {
+    "work_offsets": {"G54": {"X": 10, "Y": -3.3}},
+    "tools": {1: {"length": 50, "radius": 3}, 2: {"length": 30, "radius": 0.5}},
+    "start": {"X": -20, "Y": -20, "Z": 100},
+}
+#: What stands between the moves of a contour, and may end a run of them.
+BETWEEN = (
+    "", "", "", "(COMMENT)", ";", "N7", "F800.", "S1200", "M8", "G4 X0.1", "#1=#1+1", "G90", "G91", "G1", "G0", "D2",
+    "D1", "Z-2.", "G1 X0 Y0", "G91 X0 Y0", "G41", "G42 D1", "G40 X0 Y0", "G17", "G68 X0 Y0 R10.", "G69", "G39", "M1",
+    "G38 X1. Y1.", "G64", "G61", "X5. Y5. S900", "G90 G1 X99999. F100", "G2 X10. Y0 R20.", "G3 X3. Y3. I5. J5.",
+    "X1. Y#1", "X5. ,R1.", "M99",
+)  # fmt: skip
+
+
+@st.composite
+def contour(draw: st.DrawFn) -> str:
+    """Many short moves, now and then something else."""
+    size = draw(st.sampled_from((0.4, 3.0, 40.0)))
+    lines = [
+        "O0001",
+        "G21 G90 G54 G0 X-10. Y-10. Z5.",
+        draw(st.sampled_from(("G41", "G42"))) + " D1 G1 X0 Y0 F500.",
+    ]
+    for _ in range(draw(st.integers(2, 12))):
+        for _ in range(draw(st.integers(1, 6))):
+            words = [
+                f"{axis}{draw(st.floats(-size, size)):.{draw(st.sampled_from((1, 3, 4)))}f}"
+                for axis in draw(st.sampled_from(("XY", "X", "Y", "XYZ")))
+            ]
+            lines.append("".join(words) + draw(st.sampled_from(("", "", "", " F300.", "(C)", ";"))))
+        lines.append(draw(st.sampled_from(BETWEEN)))
+        if draw(st.integers(0, 2)) == 0:
+            lines += [f"G91 {draw(arc(('(C)',)))}", draw(st.sampled_from(("", "G90")))]
+    return "\n".join([*lines, "G90 G40 G1 X-20. Y-20.", "M30", ""])
+
+
+@settings(max_examples=150, deadline=None)
+@given(contour(), st.sampled_from(CONTROLS), st.sampled_from((30.0, 400.0)))
+def test_contours_give_the_same_both_ways(text: str, control_id: str, travel: float) -> None:
+    assert differences(text, control_id, SETUP, travel=travel, block_limit=500) == []
+
+
+@settings(max_examples=40, deadline=None)
+@given(contour(), st.integers(3, 60))
+def test_a_limit_of_blocks_is_exact_within_a_run(text: str, limit: int) -> None:
+    assert differences(text, "fanuc-m", SETUP, block_limit=limit) == []
+
+
+@pytest.mark.parametrize("control_id", CONTROLS)
+def test_a_contour_is_scanned(control_id: str) -> None:
+    points = "\n".join(f"X{10 + i % 7}.{i % 10} Y{i}.5" for i in range(40))
+    text = f"O0001\nG90 G54 G0 X-10. Y-10. Z5.\nG42 D1 G1 X0 Y0 F500.\n{points}\nG40 X-20.\nM30\n"
+    assert scanned(text, control_id, SETUP) >= 35
+    assert differences(text, control_id, SETUP) == []
+
+
+@st.composite
+def turned(draw: st.DrawFn) -> str:
+    """A contour of a lathe under nose radius compensation."""
+    size = draw(st.sampled_from((0.4, 3.0, 40.0)))
+    side = draw(st.sampled_from(("G41", "G42")))
+    lines = ["O0001", "G21 G18 G98 T0101", "G0 X60. Z5.", f"{side} G1 X50. Z0 F500."]
+    for _ in range(draw(st.integers(2, 10))):
+        for _ in range(draw(st.integers(1, 6))):
+            words = [
+                f"{axis}{draw(st.floats(-size, size)):.{draw(st.sampled_from((1, 3)))}f}"
+                for axis in draw(st.sampled_from(("UW", "XZ", "U", "W", "XW")))
+            ]
+            lines.append("".join(words) + draw(st.sampled_from(("", "", "", " F300.", "(C)"))))
+        between = ("", "G1", "U0 W0", "G3 U2. W-1. R1.", "S900", "G42", "T0202", "G40 U0", "M8", "F200.", ";")
+        lines.append(draw(st.sampled_from(between)))
+    return "\n".join([*lines, "G40 G1 X80. Z10.", "M30", ""])
+
+
+@settings(max_examples=80, deadline=None)
+@given(turned())
+def test_turned_contours_give_the_same_both_ways(text: str) -> None:
+    tools = {n: {"x": 5, "z": 3, "radius": 0.8 / n, "tip": 3} for n in (1, 2)}
+    assert differences(text, "fanuc-0i-tf", {"tools": tools}, block_limit=500) == []
+
+
+def test_an_alarm_within_a_run_stops_at_its_block() -> None:
+    """The tool is far larger than the notch that the contour runs into."""
+    text = (
+        "O0001\nG90 G54 G0 X-10. Y-10. Z5.\nG41 D1 G1 X0 Y0 F500.\nX10.\nX20.\nX20.5 Y-8.\nX21. Y-8.\nX21.5 Y0\n"
+        "X30.\nX40.\nX50. F600.\nX60.\nG40 X-20.\nM30\n"
+    )
+    assert run(text, "fanuc-m", SETUP).alarms
+    assert differences(text, "fanuc-m", SETUP) == []
