@@ -7,6 +7,7 @@ import sys
 
 from benchmarks import (
     bulk,
+    five_axes,
     interpreter,
     mainrun,
     page,
@@ -28,6 +29,7 @@ BENCHMARKS = (
     interpreter.memory,
     bulk.scanner,
     bulk.streaming,
+    five_axes.tip_control,
     startup.small_run,
     sinumerik.loop,
     sinumerik.blocks,

@@ -112,6 +112,7 @@ def test_lines_are_found_page_by_page(tmp_path: Path, lines: list[str], data: st
         text = long(tmp_path / "part.nc", lines, patch)
         first = data.draw(st.integers(0, len(text) - 1))
         part = text[first : data.draw(st.integers(first + 1, len(text)))]
+        assert isinstance(part, LongText)
         if data.draw(st.booleans()):
             part = part.with_first("$9")
         read = list(part)

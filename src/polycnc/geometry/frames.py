@@ -105,9 +105,10 @@ def about(center: Vector, frame: Frame) -> Frame:
 def cos_sin_deg(angle_deg: float) -> tuple[float, float]:
     """Cosine and sine of an angle in degrees, exact at multiples of 90."""
     if angle_deg % 90.0 == 0.0:
-        return _QUARTERS[int(angle_deg % 360.0 / 90.0)]
+        return QUARTERS[int(angle_deg % 360.0 / 90.0)]
     angle = radians(angle_deg % 360.0)
     return cos(angle), sin(angle)
 
 
-_QUARTERS = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))
+#: Cosine and sine of 0, 90, 180 and 270 degrees.
+QUARTERS = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))

@@ -19,10 +19,23 @@ point next to the centre of polar interpolation.
 from __future__ import annotations
 
 from array import array
+from itertools import pairwise, zip_longest
 from math import hypot, inf, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
-from polycnc.motion.frames import carried, machine_of, path_of, real_of, real_rows, work_of
+from polycnc.motion.demand import (
+    BEND,
+    LOOKS,
+    NOTHING,
+    PATH_STEP,
+    TURN,
+    TWIST,
+    UNEVEN,
+    Demand,
+    Straights,
+    even,
+)  # fmt: skip
+from polycnc.motion.frames import carried, machine_of, path_of, real_of, real_rows, returned_rows, work_of
 from polycnc.motion.kernels.columns import AT_END, AT_START, SHARES, Limits, Rows
 from polycnc.motion.limits import averages, axis_limits, channel_axes, rotary_weight
 from polycnc.motion.pace import Travel, pace_of
@@ -45,18 +58,8 @@ if TYPE_CHECKING:
 
 #: Kinds of rows in which no axis moves.
 _STANDING = bytes((Kind.DWELL, Kind.EVENT))
-#: Part of the acceleration that is for the bend of the real axes' way; the rest is for changes of speed.
-BEND = 0.5
-#: Parts of the jerk: for the third derivative of the way; for bend and acceleration together.
-TWIST, TURN = 0.2, 0.3
-#: Derivatives along the path are differences over so many mm or degrees at most.
-PATH_STEP = 5e-3
 #: Derivatives by time are differences over so many seconds.
 SHORT_S = 1e-4
-#: Derivatives below this count as none.
-NOTHING = 1e-9
-#: Places at which a row is looked at first; a change of the demand by more than UNEVEN is worth shares.
-LOOKS, UNEVEN = 4, 1.3
 #: Shares become shorter by this factor towards the worst place, or by a smaller one; steps of the search for it.
 SHORTER, SEARCH = 0.5, 40
 #: Parts of the share around the worst place that are looked at.
@@ -69,6 +72,10 @@ FREE_SHARE = (1.0, inf, 1.0)
 LEGGED = frozenset((Kind.RAPID, Kind.FEED, *ARC_KINDS))
 #: Nothing within a leg lets the axes stand.
 NO_STOPS = array("B")
+#: Kinds of rows of which many are looked at together; how many are worth that, and how many are at most.
+STRAIGHT, FEWEST, TOGETHER = frozenset((Kind.RAPID, Kind.FEED)), 64, 4096
+#: Shorter rows are looked at one by one: their shares of the way would be no numbers.
+SHORT = 1e-9
 #: An axis along which an arc's unit normal has more than this does not take part in the arc.
 ACROSS = 0.999
 
@@ -137,25 +144,6 @@ def _last_move(chunk: Chunk) -> list[int]:
     return [behind - 1] if behind else []
 
 
-class Demand(NamedTuple):
-    """What the real axes allow at a place.
-
-    Attributes:
-        top: Highest speed along the path by velocity and third derivative.
-        bend: Part of an acceleration for each unit of v².
-        pull: Part of an acceleration that the columns can ask for; `jerk` likewise.
-        turn: Part of a jerk for each unit of speed, at what the columns can accelerate.
-        along: What they can accelerate along the path.
-    """
-
-    top: float
-    bend: float
-    pull: float
-    jerk: float
-    turn: float
-    along: float
-
-
 class RealAxes:
     """Follows the real axes of a channel through the rows of a toolpath.
 
@@ -207,11 +195,17 @@ class RealAxes:
         else:
             moves = [row for row, kind in enumerate(chunk.kind) if kind < Kind.DWELL]
             for column, free in zip(bounds.shares, FREE_SHARE, strict=True):
-                column.extend([free] * SHARES * len(chunk))
-            bounds.feed.extend([1.0] * len(chunk))
-        for row in moves:
+                column.extend(array("d", (free,)) * (SHARES * len(chunk)))
+            bounds.feed.extend(array("d", (1.0,)) * len(chunk))
+        done = self._even(chunk, moves, contexts, bounds.shares) if transformed else frozenset[int]()
+        for row, following in zip_longest(moves, moves[1:]):
+            if row in done and following in done:
+                continue
             context = contexts[chunk.context[row]]
             end = list(chunk.end[row * n : (row + 1) * n])
+            if row in done:
+                self._on_path = machine_of(end, context, self._geometry)
+                continue
             if context.transformation is not self._context.transformation:
                 self._on_path = self._carried(context)
                 bounds.enters[row] = self._on_path
@@ -230,6 +224,56 @@ class RealAxes:
                 self._pace(chunk, row, goal, context, bounds)
             self._on_path, self._context = goal, context
         return bounds
+
+    def _even(
+        self, chunk: Chunk, moves: Sequence[int], contexts: Sequence[Context], shares: Shares
+    ) -> frozenset[int]:
+        """Set the shares of straight rows along which the demand hardly changes, where there are many; gives them."""
+        followers: dict[int, list[tuple[int, int]]] = {}
+        for before, row in pairwise(moves):
+            number = chunk.context[row]
+            if chunk.kind[row] in STRAIGHT and chunk.context[before] == number:
+                followers.setdefault(number, []).append((before, row))
+        found: list[int] = []
+        for number, pairs in followers.items():
+            context = contexts[number]
+            made = context.transformation
+            if len(pairs) >= FEWEST and made is not None and made.pole is None and context.pace is None:
+                for first in range(0, len(pairs), TOGETHER):
+                    found += self._set_even(chunk, pairs[first : first + TOGETHER], context, made, shares)
+        return frozenset(found)
+
+    def _set_even(
+        self,
+        chunk: Chunk,
+        pairs: Sequence[tuple[int, int]],
+        context: Context,
+        transformation: Transformation,
+        shares: Shares,
+    ) -> list[int]:
+        """The same for rows of one context, each with the row before it."""
+        import numpy as np
+
+        columns, (before, rows) = chunk.numpy(), np.array(pairs).T
+        start, end = returned_rows(columns.end[before], context, self._geometry), columns.end[rows]
+        weight = rotary_weight(context, self._settings)
+        turned = [
+            weight if self._rotary(i) and i not in transformation.geometry else 1.0 for i in range(chunk.axes)
+        ]
+        length = np.array(list(map(hypot, *((end - start) * turned).T.tolist())))
+        moves = length > SHORT
+        rows = rows[moves]
+        straights = Straights(
+            transformation, list(start[moves].T), list(end[moves].T), length[moves],
+            columns.kind[rows] == Kind.RAPID, self._axes, self.limits(transformation), self._is_soft(context),
+        )  # fmt: skip
+        is_even, top, ease = even(straights)
+        first = SHARES * rows[is_even]
+        np.frombuffer(shares.top)[first] = top[is_even]
+        for place in (0, AT_START, AT_END):
+            np.frombuffer(shares.ease)[first + place] = ease[is_even]
+        found: list[int] = rows[is_even].tolist()
+        return found
 
     def _pace(self, chunk: Chunk, row: int, goal: list[float], context: Context, bounds: Bounds) -> None:
         """What the program says about the speed of a row beside its feed is added to its bounds."""
@@ -546,4 +590,7 @@ def _set_shares(columns: Shares, first: int, found: RowShares) -> None:
 
 def _sum(slopes: list[float], limits: Sequence[float], columns: list[int]) -> float:
     """How much of an axis the columns can ask for together."""
-    return sum(abs(slope) * limits[j] for slope, j in zip(slopes, columns, strict=True))
+    total = 0.0
+    for slope, j in zip(slopes, columns, strict=True):
+        total += abs(slope) * limits[j]
+    return total

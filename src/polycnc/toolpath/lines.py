@@ -106,7 +106,7 @@ class Lines:
 
     def _by_kernel(
         self, write: Fill, made: Sequence[_Form], rows: _Rows
-    ) -> Iterator[tuple[bytes | memoryview, int | None]]:
+    ) -> Iterator[tuple[bytes, int | None]]:
         """Lines, and the row behind them that is written alone."""
         text, begin = array("B"), array("q")
         for form in made:
@@ -122,7 +122,7 @@ class Lines:
         chosen.frombytes(rows.forms.tobytes())
         while row < len(chosen):
             row = write(forms, chosen, numbers, row, room, self._text, self._used)
-            done = memoryview(self._text)[: self._used[0]]
+            done = bytes(memoryview(self._text)[: self._used[0]])
             if row == len(chosen) or self._used[0]:
                 yield done, None
             elif chosen[row] == ALONE:

@@ -7,9 +7,10 @@ so those of a column are taken one by one from `math`. Nothing here loads NumPy 
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import TYPE_CHECKING, TypeVar
 
-from polycnc.geometry.frames import cos_sin_deg
+from polycnc.geometry.frames import QUARTERS, cos_sin_deg
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -23,6 +24,8 @@ if TYPE_CHECKING:
 N = TypeVar("N", float, "Column")
 #: What is one number; a tuple, since a union is built anew at every look.
 NUMBER = (float, int)
+#: Columns of angles whose cosines and sines are at hand.
+LAST_ANGLES = 16
 #: Radians of a degree, and degrees of a radian.
 RADIAN, DEGREE = math.pi / 180.0, 180.0 / math.pi
 
@@ -45,10 +48,21 @@ def cosine_and_sine_deg(angle: N) -> tuple[N, N]:
     """Of an angle in degrees, exact at multiples of 90."""
     if isinstance(angle, NUMBER):
         return cos_sin_deg(angle)
+    return _cosines_and_sines(angle.tobytes())
+
+
+@lru_cache(LAST_ANGLES)
+def _cosines_and_sines(angles: bytes) -> tuple[Column, Column]:
+    """Of a column of angles: whoever asks for derivatives behind places asks for the same ones once more."""
     import numpy as np
 
-    pairs = np.array([cos_sin_deg(one) for one in angle.tolist()]).reshape(-1, 2)
-    return pairs[:, 0], pairs[:, 1]
+    angle = np.frombuffer(angles)
+    turned = angle % 360.0
+    pairs = np.stack([_each(math.cos, turned * RADIAN), _each(math.sin, turned * RADIAN)])
+    quarters = angle % 90.0 == 0.0
+    pairs[:, quarters] = np.array(QUARTERS).T[:, (turned[quarters] / 90.0).astype(int)]
+    pairs.flags.writeable = False
+    return pairs[0], pairs[1]
 
 
 def angle_deg(y: N, x: N) -> N:

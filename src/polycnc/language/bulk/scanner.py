@@ -28,8 +28,8 @@ if TYPE_CHECKING:
 
 #: A run of so many blocks is worth its beginning.
 WORTHWHILE = 16
-#: Notes that one call of the kernel may give.
-MOST_NOTES = 4096
+#: Rows, and notes, that one call of the kernel may give.
+ROOMS, MOST_NOTES = 4096, 4096
 #: Programs shorter than this are left to the interpreter.
 FEWEST_LINES = 1_000
 
@@ -48,7 +48,7 @@ class Bulk:
 
     fewest_lines: int = FEWEST_LINES
     scan: Callable[[Tables, State, Columns], int] | None = None
-    rooms: int = CHUNK_ROWS
+    rooms: int = ROOMS
     most_patience: int = 4096
 
     def pays(self, lines: int) -> bool:

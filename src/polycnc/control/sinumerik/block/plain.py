@@ -101,14 +101,17 @@ class SinumerikPlainBlocks:
         self._conditions = Conditions()
 
     def ready(self, channel: SinumerikChannel) -> bool:
-        """Nothing watches single blocks, bends arcs, holds moves back or follows a block; the program is open."""
+        """Nothing watches single blocks, bends arcs, holds moves back or follows a block; the program is open.
+
+        Under a transformation no axis has limits: they hold all along the curves that the axes then take.
+        """
         c = channel.coordinates
         return (
             channel.path.head is None
             and not channel.single_block
             and c.direct
             and is_even(c.zero)
-            and c.transformation is None
+            and (c.transformation is None or not channel.limits)
             and channel.memory.language.modal_call is None
             and channel.level.code.whole.is_open
         )

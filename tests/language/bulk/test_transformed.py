@@ -1,0 +1,107 @@
+# ruff: noqa: E501 - programs stand as they are written
+"""Plain blocks under an active transformation: both ways give the same."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tests.language.bulk.both_ways import differences, scanned
+from tests.language.bulk.programs import plain, program
+from tests.language.bulk.test_sinumerik import COMMENTS
+from tests.language.bulk.test_word_address import FANUC_COMMENTS
+
+HEAD, TABLES = "mill5-bc-head", "mill5-ac-table"
+TOOLS = {"tools": {1: {"length": 100, "radius": 3}}}
+
+#: What begins and ends a transformation, and codes that act on its blocks.
+FANUC = (
+    "G43.4 H1", "G49", "G43.4 H1 X5.", "G54", "G55", "G90", "G91", "M3 S1000", "G0 B90. C10.", "G68.2 X1. I30. J20. K0", "G69",
+    "G53.1", "G12.1", "G13.1", "G93 F5.", "G94 F900.",
+)  # fmt: skip
+SINUMERIK = (
+    "TRAORI", "TRAFOOF", "TRANS X10", "ROT Z30", "TRANS", "A3=1 B3=0 C3=1", "ORIVECT", "ORIAXES", "ORIWKS", "ORIMKS", "G54", "G55",
+    "G90", "G91", "T1 D1", "D0", "S900 M3", "G0 B40 C=DC(10)", "G93 F5", "G94 F900", 'CYCLE800(0,"",0,27,0,0,0,90,0,30,0,0,0,1)',
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(("machine", "letters"), [(HEAD, "XYZBC"), (TABLES, "XYZAC")])
+@settings(max_examples=25, deadline=None)
+@given(st.data())
+def test_tool_centre_point_control(machine: str, letters: str, data: st.DataObject) -> None:
+    start = f"O0001\nG90 G54 G1 F1000.\nG43.4 H1 Z20.\nG1 X1. {letters[3]}5."
+    blocks = program(
+        plain(letters, FANUC_COMMENTS), st.sampled_from(FANUC), st.just("G43.4 H99"), start, "M30"
+    )
+    text = data.draw(blocks)
+    assert differences(text, "fanuc-m", {"machine": machine, **TOOLS}) == []
+
+
+@pytest.mark.parametrize(("machine", "letters"), [(HEAD, "XYZBC"), (TABLES, "XYZAC")])
+@settings(max_examples=25, deadline=None)
+@given(st.data())
+def test_orientation_transformation(machine: str, letters: str, data: st.DataObject) -> None:
+    start = f"G90 G54 G1 F1000 T1 D1\nTRAORI\nG1 X1 {letters[3]}5"
+    blocks = program(
+        plain(letters, COMMENTS, equals=True),
+        st.sampled_from(SINUMERIK),
+        st.just("GOTOF NIRGENDS"),
+        start,
+        "M30",
+    )
+    text = data.draw(blocks)
+    assert differences(text, "sinumerik-840d", {"machine": machine, **TOOLS}) == []
+
+
+POLAR = (
+    "G12.1", "G13.1", "G0 X30.", "G7.1 C20.", "G7.1 C0", "G18", "G17", "G90", "G91", "M3 S100", "G54", "G40 X40.",
+)  # fmt: skip
+
+
+@settings(max_examples=25, deadline=None)
+@given(
+    program(
+        plain("XZC", FANUC_COMMENTS),
+        st.sampled_from(POLAR),
+        st.just("G12.1 X5."),
+        "O0001\nG90 G54 G0 X60.\nG12.1\nG1 F500.",
+        "M30",
+    )
+)
+def test_polar_and_cylindrical_interpolation(text: str) -> None:
+    assert differences(text, "fanuc-m", {"machine": "mill4-xyzc"}) == []
+
+
+FACE = ("TRANSMIT", "TRAFOOF", "TRACYL(40)", "G0 X30", "G17", "G19", "G90", "G91", "TRANS X1", "S100 M3")
+
+
+@settings(max_examples=25, deadline=None)
+@given(
+    program(
+        plain("XYZ", COMMENTS, equals=True), st.sampled_from(FACE), st.just("GOTOF NIRGENDS"),
+        "G90 G54 G0 X60 Z5\nTRANSMIT\nG17 G1 F500 X20 Y5", "M30",
+    )
+)  # fmt: skip
+def test_face_and_cylinder(text: str) -> None:
+    assert differences(text, "sinumerik-840d", {"machine": "lathe-c-transmit"}) == []
+
+
+BLOCKS = "".join(f"N{i} G1 X{i}. Y{2 * i}. Z-1. B{i * 0.1:.1f} C{i * 0.2:.1f}\n" for i in range(1, 41))
+
+
+@pytest.mark.parametrize(
+    ("control", "start"),
+    [("fanuc-m", "O1\nG90 G54 F1000.\nG43.4 H1\n"), ("sinumerik-840d", "G90 G54 F1000 T1 D1\nTRAORI\n")],
+)
+def test_blocks_of_five_axes_are_scanned(control: str, start: str) -> None:
+    assert scanned(f"{start}{BLOCKS}M30\n", control, {"machine": HEAD, **TOOLS}) >= 35
+
+
+@pytest.mark.parametrize(
+    ("control", "start"),
+    [("fanuc-m", "O1\nG90 G54 F1000.\nG43.4 H1\n"), ("sinumerik-840d", "G90 G54 F1000 T1 D1\nTRAORI\n")],
+)
+def test_where_axes_have_limits_the_interpreter_looks_along_the_way(control: str, start: str) -> None:
+    setup = {"machine": HEAD, **TOOLS}
+    assert differences(f"{start}{BLOCKS}M30\n", control, setup, travel=85.0) == []
