@@ -40,7 +40,9 @@ class PlainBlocks:
 
     def ready(self, channel: WordAddressChannel) -> bool:
         """Single blocks are watched; forbidden zones, unrolled surfaces and most held moves are not."""
-        if channel.single_block or channel.boundary is not None or not channel.path.takes_runs:
+        if channel.single_block or channel.boundary is not None:
+            return False
+        if not (channel.path.is_idle or channel.path.takes_runs):
             return False
         if channel.coordinates.transformation is not None or may_refuse_moves(channel):
             return False
