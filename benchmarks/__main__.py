@@ -10,6 +10,7 @@ from benchmarks import (
     interpreter,
     mainrun,
     page,
+    panel,
     planner,
     processes,
     sinumerik,
@@ -36,6 +37,9 @@ BENCHMARKS = (
     mainrun.real_time,
     mainrun.actions,
     snapshots.milling,
+    panel.long_program,
+    panel.processor,
+    panel.page,
 )
 
 

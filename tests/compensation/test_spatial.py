@@ -114,3 +114,14 @@ def test_a_path_that_turns_back_is_an_alarm() -> None:
     with pytest.raises(AlarmError) as alarm:
         led([*UP, [0.0, 0.0, 0.0, 0.0]])
     assert alarm.value.code == "1"
+
+
+def test_a_tool_that_turns_along_a_block_stays_as_far_beside_it() -> None:
+    moves = led([UP[0], [0.0, 0.0, 0.0, 0.0], [60.0, 0.0, 0.0, 70.0], [90.0, 0.0, 0.0, 70.0]])
+    along = [move for move in moves if move.end[0] > 0.0]
+    assert len(along) > 10
+    for move in along:
+        half = [0.5 * (a + b) for a, b in zip(move.start, move.end, strict=True)]
+        for _, y, z, a in (move.end, half):
+            beside = (10.0 * cos(radians(a)), 10.0 * sin(radians(a)))
+            assert (y, z) == pytest.approx(beside, abs=2e-3)

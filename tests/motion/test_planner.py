@@ -9,6 +9,8 @@ from math import cos, nan, sin
 from typing import TYPE_CHECKING
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from polycnc.motion import Plan, Settings
 from polycnc.motion import planner as planner_module
@@ -191,3 +193,31 @@ def test_a_small_buffer_gives_almost_the_same_time_with_limited_jerk(monkeypatch
     whole = varied(600).plan(MILL, settings=lead, compiled=False).total_s
     monkeypatch.setattr(planner_module, "FULL_ROOM", 256)
     assert varied(600).plan(MILL, settings=lead, compiled=False).total_s == pytest.approx(whole, rel=1e-9)
+
+
+ARC = st.tuples(
+    st.sampled_from([0.2, 1.0, 5.0, 40.0, 300.0]),
+    st.floats(0.02, 6.2),
+    st.floats(-3.1, 3.1),
+    st.sampled_from([0.0, 0.0, 3.0, 300.0]),
+    st.sampled_from([0.5, 20.0, 120.0, 400.0]),
+)
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.lists(ARC, min_size=1, max_size=8))
+def test_an_even_arc_takes_as_long_unseen(arcs: list[tuple[float, float, float, float, float]]) -> None:
+    """Where nobody asks for places, an arc of the same limits is laid in three pieces."""
+    build, x, y, z = Build(context=Context(tolerance_mm=0.02)), 0.0, 0.0, 0.0
+    for radius, sweep, heading, rise, feed in arcs:
+        u, v = x + radius * cos(heading), y + radius * sin(heading)
+        x, y, z = u - radius * cos(heading + sweep), v - radius * sin(heading + sweep), z + rise
+        kind = Kind.HELIX_CCW if rise else Kind.CCW
+        build.row(kind, x, y, z, feed=feed, curve=(u, v, 0.0, 0.0, 0.0, 1.0, 0.0))
+        build.feed(x + 0.5, y, z, feed=feed)
+        x += 0.5
+    lead = Settings(acceleration=AccelerationMode.JERK_LIMITED)
+    pieces: list[int] = []
+    seen = Planner(build.toolpath, MILL, settings=lead, on_pieces=lambda _, count: pieces.append(count))
+    unseen = build.plan(MILL, settings=lead)
+    assert unseen.row_s.tolist() == pytest.approx(seen.finish().row_s.tolist(), rel=1e-5, abs=1e-6)

@@ -95,3 +95,26 @@ def test_a_file_that_shrinks_is_no_traceback(tmp_path: Path, monkeypatch: pytest
 def test_the_first_line_that_is_too_long_is_told() -> None:
     with pytest.raises(ProgramFileError, match="line 2 is longer than 65536 characters"):
         split_lines("G0\n" + "X" * 70_000 + "\n" + "Y" * 80_000 + "\n", "long.nc")
+
+
+LINES = st.lists(
+    st.sampled_from(["", " ", "G1", " G1", ";", "$1", "X$2", "\t;", "\x7f;", "(程)"]), min_size=1, max_size=20
+)
+
+
+@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(LINES, st.data())
+def test_lines_are_found_page_by_page(tmp_path: Path, lines: list[str], data: st.DataObject) -> None:
+    def is_meant(line: str) -> bool:
+        return "G" in line
+
+    with pytest.MonkeyPatch.context() as patch:
+        text = long(tmp_path / "part.nc", lines, patch)
+        first = data.draw(st.integers(0, len(text) - 1))
+        part = text[first : data.draw(st.integers(first + 1, len(text)))]
+        if data.draw(st.booleans()):
+            part = part.with_first("$9")
+        read = list(part)
+        assert list(part.holding("$")) == [i for i, line in enumerate(read) if "$" in line]
+        blocks = [i for i, line in enumerate(read) if line[:1] not in " ;\t" or is_meant(line)]
+        assert [i for page in part.not_beginning(" ;\t", is_meant) for i in page] == blocks

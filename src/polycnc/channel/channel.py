@@ -76,7 +76,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         level: The running program level, `stack[-1]`.
         running: The run that was begun last; None before the first one.
         limits: Lowest and highest machine position of every axis; nothing where no axis has a limit.
-        start_position: Position at power-on, all axes.
+        stands_at: Machine position at the beginning of the run; of the running block, where somebody executes it.
         path: The stages that moves pass on their way to the toolpath.
         mark: Rows of the chunk when the running block began.
         control: The control. Handlers of a family know its class: `channel.family`.
@@ -145,7 +145,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         self.axis_data: tuple[Axis, ...] = tuple(machine.axis[name] for name in definition.axes)
         start = [setup.start.get(name, 0.0) for name in self.axes]
         self.coordinates = Coordinates(self.axes, machine.geometry_indices(number), start)
-        self.start_position = tuple(start)
+        self.stands_at = self.coordinates.machine
         self.toolpath = Toolpath(self.axes) if toolpath is None else toolpath
         self.modes = ModeTable()
         self.mode: Mode = self.modes.mode({})
@@ -328,6 +328,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
                 self.control.start(self)
             else:
                 self.control.begin(self)
+            self.stands_at = self.coordinates.machine
         except AlarmError as error:
             self.fail(error)
         except ArithmeticError as error:
@@ -352,8 +353,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
             take_back(self, found_ahead=bool(error.line))
             self.fail(error)
         except PreprocessingStop:
-            if self.path.head is None:
-                take_back(self)
+            self._take_back_block()
             self._level.index = self._level.current
             wait, self._wait = self._wait or PREPROCESSING, None
             return wait
@@ -371,7 +371,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         This loop is the hottest of the interpreter: whatever is rare (a call, a return, a wait, a stage in the path,
         the end) sets `attention`, and only that is asked after every block.
         """
-        burst = self._burst(level)
+        burst, is_executed = self._burst(level), self.main_run is not None
         steps, kinds, step = level.steps, self.toolpath.chunk.kind, None
         self.attention = self.path.head is not None or self.single_block
         for _ in burst:
@@ -389,11 +389,19 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
             level.current = index
             level.index = index + 1
             self.mark = len(kinds)
+            if is_executed:
+                self.stands_at = self.coordinates.machine
             step(self)
             self.blocks += 1
             if self.attention:
                 break
         return step
+
+    def _take_back_block(self) -> None:
+        """The running block waits for the main run and begins again then: what it has written so far vanishes."""
+        if self.path.head is None and len(self.toolpath.chunk) > self.mark:
+            self.toolpath.truncate(self.mark)
+            self.coordinates.arrive_machine(self.stands_at)
 
     def _look_up(self, level: Level, step: Step | None) -> None:
         """What must be seen to between bursts: stages that count blocks, single block, the block limit."""

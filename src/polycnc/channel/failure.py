@@ -34,9 +34,12 @@ def take_back(channel: Channel, *, found_ahead: bool = False) -> None:
 
 
 def stand_at_last_row(channel: Channel) -> None:
-    """The channel knows itself where its last row has led it."""
+    """The channel knows itself where its last row has led it, or else where the run began."""
     c, toolpath = channel.coordinates, channel.toolpath
-    context, end = toolpath.last_context(), toolpath.last_end() or list(channel.start_position)
+    context, end = toolpath.last_context(), toolpath.last_end()
+    if not end:
+        c.arrive_machine(channel.stands_at)
+        return
     if context is not None and (
         context.frame != c.zero
         or context.offsets != tuple(c.offsets)

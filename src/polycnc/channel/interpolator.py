@@ -77,6 +77,10 @@ class Watcher(Protocol):
         """Whether the end of the program has to wait."""
 
     @property
+    def goes_home(self) -> bool:
+        """Whether a reset has to wait for an axis that it leads to its place of rest."""
+
+    @property
     def is_quiet(self) -> bool:
         """Whether another look would find everything as it is, until a block begins or an axis comes to rest."""
 
@@ -159,6 +163,18 @@ class Interpolator(Protocol):
     def is_still(self) -> bool:
         """Whether no axis of the channel moves."""
 
+    @property
+    def spindle_rpm(self) -> float:
+        """Speed of the spindle in the block in execution, signed."""
+
+    @property
+    def is_held(self) -> bool:
+        """Whether the program is held, is being given up, or has ended in an alarm."""
+
+    @property
+    def has_power(self) -> bool:
+        """Whether the drives have power: no emergency stop is pressed."""
+
     def influence(self, influence: Influence) -> None:
         """Let these speeds hold until the next look."""
 
@@ -192,6 +208,9 @@ class Interpolator(Protocol):
 
     def shift_path(self, column: int, place: float) -> None:
         """The path has an axis elsewhere from now on; the axis stays, and nothing moves on the path."""
+
+    def stand_at(self, column: int, place: float) -> None:
+        """An axis, which stands, is called another position; nothing moves."""
 
     def position_beside(self, column: int, target: float, speed: float) -> None:
         """An axis goes to a target beside the path, which has it there from now on; nothing moves on the path."""

@@ -13,6 +13,7 @@ from enum import Enum
 from math import degrees, isnan, nan, radians
 from typing import TYPE_CHECKING
 
+from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import END_OF_BLOCK, EndOfBlock, Item, Move, PlacedEvent, Rank, Stage
 from polycnc.deferred.records import dataclass
 from polycnc.geometry import offset
@@ -282,24 +283,27 @@ class CornerStage(Stage):
 
     def _cut(self, held: _Held, move: Move, cuts: offset.Cuts, ccw: bool) -> Move:
         plane, first = self.plane, held.move
-        own_end = plane.at(_between(first, cuts.part_a), cuts.leaving)
-        leaving, entering = own_end, plane.at(_between(move, cuts.part_b), cuts.entering)
+        ways = MovePath(first, plane.columns), MovePath(move, plane.columns)
+        own_end = plane.at(_between(ways[0], cuts.part_a), cuts.leaving)
+        leaving, entering = own_end, plane.at(_between(ways[1], cuts.part_b), cuts.entering)
+        turned = ways[0].turned(0.0, cuts.part_a), ways[1].turned(cuts.part_b, 1.0)
         moved = any(isinstance(item, Move) and item.start != item.end for item in held.after)
         if moved:  # other axes have gone their own way between: the shape lies in the plane
             own_end = plane.at(first.end, cuts.leaving)
             level = move.start if self.policy.waits_at_shape else first.end
             leaving, entering = plane.at(level, cuts.leaving), plane.at(level, cuts.entering)
+            turned = first.turning, move.turning
         inserted = replace(
-            first, kind=Kind.FEED, start=leaving, end=entering, center=None, turns=0.0, parameters=(),
+            first, kind=Kind.FEED, start=leaving, end=entering, center=None, turns=0.0, parameters=(), turning=None,
             feed=first.feed if isnan(held.request.feed) else held.request.feed,
         )  # fmt: skip
         if cuts.center is not None:
             inserted.kind = plane.arc_kind(ccw, leaving, entering)
             inserted.center, inserted.normal = plane.lift(cuts.center, leaving), plane.normal
-        held.move = _rest(replace(first, end=own_end), cuts.part_a > 0.0)
+        held.move = _rest(replace(first, end=own_end, turning=turned[0]), cuts.part_a > 0.0)
         self._let_go(held, inserted)
         start = plane.at(move.start, cuts.entering) if moved else entering
-        return _rest(replace(move, start=start), cuts.part_b < 1.0)
+        return _rest(replace(move, start=start, turning=turned[1]), cuts.part_b < 1.0)
 
 
 def _cuts(shape: Shape, a: offset.Edge, b: offset.Edge, size: float) -> offset.Cuts | None:
@@ -326,5 +330,9 @@ def _rest(move: Move, is_left: bool) -> Move:
     return move if is_left else replace(move, center=None)
 
 
-def _between(move: Move, part: float) -> list[float]:
+def _between(way: MovePath, part: float) -> list[float]:
+    """Positions of the axes after a part of a move, the point of the plane apart."""
+    move = way.move
+    if move.turning is not None:
+        return way.at(part)
     return [s + part * (e - s) for s, e in zip(move.start, move.end, strict=True)]

@@ -101,7 +101,7 @@ class RowWriter:
             kind = Kind.SPLINE
         row = replace(
             template, kind=kind, start=template.end, end=end, center=center,
-            normal=plane.normal, turns=0.0, parameters=(),
+            normal=plane.normal, turns=0.0, parameters=(), turning=None,
         )  # fmt: skip
         u, v = plane.point(template.end)
         if hypot(target[0] - u, target[1] - v) > NO_WAY:
@@ -112,4 +112,4 @@ class RowWriter:
 def _straight(move: Move, start: list[float], end: list[float]) -> Move:
     """A straight row between two positions, otherwise as a move."""
     kind = Kind.RAPID if move.kind is Kind.RAPID else Kind.FEED
-    return replace(move, kind=kind, start=start, end=end, center=None, turns=0.0, parameters=())
+    return replace(move, kind=kind, start=start, end=end, center=None, turns=0.0, parameters=(), turning=None)

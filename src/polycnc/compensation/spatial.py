@@ -9,6 +9,8 @@ turns the tool at a corner (`Rules.turns`), it does that before the arc about it
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
+from itertools import pairwise
 from math import acos, degrees, sin, sqrt
 from typing import TYPE_CHECKING, Protocol
 
@@ -160,12 +162,7 @@ class SpatialStage(Stage):
         path = MovePath(move, self._geometry)
         error = CHORD_ERROR_MM * path.radius / (path.radius + abs(self.radius))
         points, before = list(path.chords(error)), move.start
-        places = [move.start[column] for column in move.turning.columns] if move.turning is not None else []
         for k, point in enumerate(points, 1):
-            if move.turning is not None:
-                turned = move.turning.at(places, k / len(points))
-                for column, place in zip(move.turning.columns, turned, strict=True):
-                    point[column] = place
             chord = replace(
                 move, kind=Kind.SPLINE, start=before, end=point, center=None, turns=0.0, turning=None
             )
@@ -226,7 +223,7 @@ class SpatialStage(Stage):
         outer = self._is_outer(held, second, turned, tangent)
         cosine = min(1.0, dot(first, second))
         if outer and held.corners.is_arc(180.0 - degrees(acos(max(-1.0, cosine)))):
-            self._emit(held.move, self._beside(first, held.tool))
+            self._emit_turning(held.move, held.tangent, self._beside(first, held.tool))
             self._round(held, second, turned)
             return
         factor = 1.0 / (1.0 + cosine)
@@ -234,7 +231,7 @@ class SpatialStage(Stage):
         shift = self._beside((x, y, z), held.tool)
         if (held.move.is_arc or following.is_arc) and cosine < 1.0 - PARALLEL * PARALLEL:
             shift = self._meeting(held, following)
-        self._emit(held.move, shift)
+        self._emit_turning(held.move, held.tangent, shift)
         self._run_queue()
 
     def _meeting(self, held: _Held, following: Move) -> Vector:
@@ -277,7 +274,8 @@ class SpatialStage(Stage):
                 continue
             tool = self._posture.tool_at(item.end)
             normal = self._normal(tool, held.tangent)
-            self._emit(item, self._shift if normal is None else self._beside(normal, tool))
+            shift = self._shift if normal is None else self._beside(normal, tool)
+            self._emit_turning(item, held.tangent, shift)
             held.move = item
         self._around(held.move, second, turned)
 
@@ -336,6 +334,46 @@ class SpatialStage(Stage):
         self._at = end
         self.after.move(moved)
 
+    def _emit_turning(self, move: Move, tangent: Vector, shift: Vector) -> None:
+        """Pass a block on; where the tool turns along a straight one, in chords that keep as far beside it.
+
+        `tangent` is the direction of the path, of a block that only turns the tool that of the one before.
+        """
+        before, path = self._shift, MovePath(move, self._geometry)
+        tools = self._posture.tool_at(move.start), self._posture.tool_at(move.end)
+        first, last = (self._normal(tool, tangent) for tool in tools)
+        count = 1 if self._at is None or move.is_arc else self._chords(path, tangent)
+        if first is None or last is None or count == 1:
+            self._emit(move, shift)
+            return
+        start, end = self._beside(first, tools[0]), self._beside(last, tools[1])
+        for k in range(1, count + 1):
+            part, place = k / count, path.at(k / count)
+            tool = self._posture.tool_at(place)
+            normal = self._normal(tool, tangent) or last
+            # What corners ask for at both ends fades along the block.
+            rests = (
+                (1.0 - part) * (a - b) + part * (c - d)
+                for a, b, c, d in zip(before, start, shift, end, strict=True)
+            )
+            x, y, z = (a + b for a, b in zip(self._beside(normal, tool), rests, strict=True))
+            piece = path.between((k - 1) / count, part)
+            if k < count:
+                piece.kind, piece.context = Kind.SPLINE, self._within(move.context)
+            self._emit(piece, (x, y, z))
+
+    def _chords(self, path: MovePath, tangent: Vector) -> int:
+        """In how many chords the tip goes round where the tool, and what is square on it, turn along a move."""
+        turning = path.move.turning
+        parts = (0.0, 1.0) if turning is None else (0.0, *turning.shares)
+        tools = [self._posture.tool_at(path.at(part)) for part in parts]
+        normals = [self._normal(tool, tangent) or tool for tool in tools]
+        counts = (
+            parts_for_chord_error(max(abs(reach), PARALLEL), _turned(directions), CHORD_ERROR_MM)
+            for reach, directions in ((self.radius, normals), (self._depth, tools))
+        )
+        return max(counts)
+
     def _centre(self, move: Move, center: Vector) -> Vector:
         """The centre of the parallel arc, as far down the tool as its ends."""
         tool = self._posture.tool_at(move.end)
@@ -365,7 +403,8 @@ class SpatialStage(Stage):
         held, self._held = self._held, None
         if held is not None:
             self._depth = held.depth + held.deeper
-            self._emit(held.move, self._beside(held.normal, held.tool))
+            emit = self._emit if held.starts else partial(self._emit_turning, tangent=held.tangent)
+            emit(held.move, shift=self._beside(held.normal, held.tool))
         self._run_queue()
 
     def change(self, side: int, radius: float) -> None:
@@ -393,6 +432,11 @@ class SpatialStage(Stage):
 def _unit(v: Vector) -> Vector | None:
     size = sqrt(dot(v, v))
     return None if size < PARALLEL else (v[0] / size, v[1] / size, v[2] / size)
+
+
+def _turned(directions: Sequence[Vector]) -> float:
+    """How far a direction turns, radians."""
+    return sum(acos(max(-1.0, min(1.0, dot(a, b)))) for a, b in pairwise(directions))
 
 
 def _near(a: Vector, b: Vector) -> bool:

@@ -57,6 +57,9 @@ class Control(ChannelControl, Protocol):
     def clocked(self, channel: Channel) -> None:
         """A main run executes the channel's rows from here on."""
 
+    def moved_together(self, channel: Channel, axis: int) -> tuple[int, ...]:
+        """Columns of the axes that go together when one of them is moved by hand."""
+
     def handwheel_offset_speed(self, channel: Channel, axis: int) -> float:
         """How fast a handwheel shifts an axis beside its program, mm/s or degrees/s; 0 where the control has none."""
 

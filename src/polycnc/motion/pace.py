@@ -106,6 +106,8 @@ def _top(
         if pace.velocity:
             factor = pace.velocity[i] * (pace.rapid if rapid else 1.0)
             top = min(top, tops[i] * factor / share)
+        if pace.reach:
+            top = min(top, pace.reach[i] * (pace.rapid if rapid else 1.0) / share)
         if pace.top and not rapid:
             top = min(top, pace.top[i] / share)
         if pace.acceleration and i in way.plane:

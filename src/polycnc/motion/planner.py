@@ -134,6 +134,7 @@ class Planner:
         if len(chunk) == 0:
             return True
         self._add_contexts()
+        self._state.run.unseen = 1.0 if self.on_pieces is None else 0.0
         self._rows.frombytes(bytes(16 * len(chunk)))
         self._next_row = chunk.first + len(chunk)
         self._waits.take(chunk, self.facing)

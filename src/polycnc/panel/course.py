@@ -6,16 +6,17 @@ from time import monotonic
 from typing import TYPE_CHECKING
 
 from polycnc.mainrun import CommandRefused, State
+from polycnc.toolpath.events import Circle, Pen
 from polycnc.view.bodies import MachineBodies, Pose
 from polycnc.view.lines import FEED, RAPID, Lines
-from polycnc.view.rows import RowLine
+from polycnc.view.rows import RowLine, draw_circle
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from polycnc.mainrun import VirtualControl
     from polycnc.mainrun.reading.forecast import Forecast
-    from polycnc.mainrun.reading.snapshot import Snapshot
+    from polycnc.mainrun.reading.snapshot import Record, Snapshot
 
 #: How long the path of a program is calculated at a time, s.
 SPELL_S = 0.004
@@ -41,6 +42,8 @@ class Course:
         self._forecast: Forecast | None = None
         self._program: tuple[str, Sequence[str]] = ("", ())
         self._state = State.READY
+        self._pen, self._cut = "", False
+        control.listeners.append(self._hear)
 
     @property
     def pose(self) -> Pose:
@@ -48,19 +51,34 @@ class Course:
         control = self._control
         return self.bodies.pose(control.snapshot.channels[1].point, control.machine_position)
 
+    def _hear(self, record: Record) -> None:
+        """A run begins, or the program draws: the trail begins anew, has another colour, or a circle."""
+        data, trail = record.data, self.lines["trail"]
+        if record.what == "state":
+            before, self._state = self._state, State(str(data["state"]))
+            if self._state is State.RUNNING and before in (State.READY, State.ALARM):
+                trail.clear()
+                self._pen = ""
+        if record.what != "event":
+            return
+        if data.get("type") == Pen.type:
+            self._pen = str(data["colour"])
+        elif data.get("type") == Circle.type:
+            snapshot = self._control.snapshot
+            self.note(snapshot)
+            circle = Circle(float(str(data["radius"])), bool(data["filled"]))
+            draw_circle(trail, circle, snapshot.modal.get("plane", "G17"), trail.colour(self._pen))
+
     def note(self, snapshot: Snapshot) -> None:
         """The tool is somewhere: the trail leads there."""
-        started = snapshot.state is State.RUNNING and self._state in (State.READY, State.ALARM)
-        self._state = snapshot.state
         trail, point = self.lines["trail"], snapshot.channels[1].point
-        if started:
-            trail.clear()
+        now = snapshot.channels[1].runs and snapshot.modal.get("motion") not in _RAPID
+        cuts, self._cut = self._cut or now, now
         last = trail.last()
         if last and all(abs(a - b) < 1e-4 for a, b in zip(last, point, strict=True)):
             return
-        is_rapid = snapshot.modal.get("motion") in _RAPID or not snapshot.channels[1].runs
-        tool = snapshot.tool.name or f"T{snapshot.tool.tool}"
-        trail.add(point, snapshot.feed, RAPID if is_rapid else FEED, trail.colour(tool))
+        tool = self._pen or snapshot.tool.name or f"T{snapshot.tool.tool}"
+        trail.add(point, snapshot.feed, FEED if cuts else RAPID, trail.colour(tool))
 
     def go_on(self) -> None:
         """Calculate the path of the program a little further; it begins anew where another one is loaded."""

@@ -25,7 +25,7 @@ from polycnc.program.errors import ProgramFileError
 from polycnc.program.text import MAX_LINE, TAPE_CONTROLS, refuse_long_line
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
 #: Smaller files are read as a whole.
 LONG_FILE_BYTES = 8 * 1024 * 1024
@@ -166,6 +166,40 @@ class LongText(Sequence[str]):
             if found[i] >= self._lines.stop:
                 return
             yield found[i] - first
+
+    def holding(self, sign: str) -> Iterator[int]:
+        """The lines that hold a sign of ASCII; a page without it is not taken apart."""
+        for lines, text in self._pages():
+            if sign.encode() in text:
+                yield from (
+                    i for i, line in zip(lines, self[lines.start : lines.stop], strict=True) if sign in line
+                )
+
+    def not_beginning(self, signs: str, is_meant: Callable[[str], bool]) -> Iterator[Sequence[int]]:
+        """Page by page the lines that are not empty and begin with none of some signs of ASCII, and others meant."""
+        alike = bytes.maketrans(signs.encode(), b" " * len(signs))
+        for lines, text in self._pages():
+            begin = b"\n" + text.translate(alike, _CONTROLS)
+            if b"\n " in begin or b"\n\n" in begin:
+                read = self[lines.start : lines.stop]
+                yield [
+                    i for i, line in zip(lines, read, strict=True) if line[:1] not in signs or is_meant(line)
+                ]
+            else:
+                yield lines
+
+    def _pages(self) -> Iterator[tuple[range, bytes]]:
+        """The lines of each page, and its text, which may hold more than them."""
+        at = 0
+        while at < len(self._lines):
+            page = self.file.page_of(self._lines[at])
+            end = min(self.file.numbers[page + 1] - self._lines.start, len(self._lines))
+            own = self._first_line if at == 0 else None
+            yield (
+                range(at, end),
+                self.file.text(page) if own is None else f"{own}\n".encode() + self.file.text(page),
+            )
+            at = end
 
     def bytes_from(self, line: int) -> bytes:
         """The lines from one on to the end of its page, in UTF-8, each with its line feed."""

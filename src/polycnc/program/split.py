@@ -91,18 +91,20 @@ def split_channels(program: Program) -> dict[int, Program]:
     Every channel keeps all line numbers: the lines of the others are blank in it. What stands before the
     first section belongs to channel 1.
     """
+    lines = program.lines
+    possible = lines.holding("$") if isinstance(lines, LongText) else range(len(lines))
     sections = [
         (index, int(m[1]))
-        for index, line in enumerate(program.lines)
-        if "$" in line and (m := _CHANNEL.match(line))
+        for index in possible
+        if "$" in lines[index] and (m := _CHANNEL.match(lines[index]))
     ]
     if not sections:
         return {}
-    bounds = [(-1, 1), *sections, (len(program.lines), 0)]
+    bounds = [(-1, 1), *sections, (len(lines), 0)]
     lines_of: dict[int, list[str]] = {}
     for (start, channel), (end, _) in pairwise(bounds):
-        lines = lines_of.setdefault(channel, [""] * len(program.lines))
-        lines[start + 1 : end] = program.lines[start + 1 : end]
+        own = lines_of.setdefault(channel, [""] * len(lines))
+        own[start + 1 : end] = lines[start + 1 : end]
     named = sorted({channel for _, channel in sections})
     return {channel: replace(program, lines=lines_of[channel]) for channel in named}
 

@@ -32,6 +32,8 @@ class Pace:
         weights: Millimetres that a millimetre or degree of each column counts in the length that F is for (`FGROUP`,
             `FGREF`), 0 for a synchronous axis; empty for the control's own rule.
         top: Highest velocity in cuts, mm/s or degrees/s (`FL`); infinite for none. Empty for no such limits.
+        reach: Highest velocity in all moves, mm/s or degrees/s (MD32000 where it is named); infinite for that of the
+            machine. Empty for no such limits.
         velocity: Factors on the highest velocity (`VELOLIM`); `acceleration` (`ACC`) and `jerk` (`JERKLIM`) likewise.
             Empty for none.
     """
@@ -41,6 +43,7 @@ class Pace:
     edge: str = "never"
     weights: tuple[float, ...] = ()
     top: tuple[float, ...] = ()
+    reach: tuple[float, ...] = ()
     velocity: tuple[float, ...] = ()
     acceleration: tuple[float, ...] = ()
     jerk: tuple[float, ...] = ()

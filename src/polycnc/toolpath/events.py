@@ -114,6 +114,23 @@ class Message(Event):
 
 
 @dataclass(frozen=True, slots=True)
+class Pen(Event):
+    """The colour of the path in pictures from here on, `#rrggbb` (SYNTEC SETDRAW)."""
+
+    type: ClassVar[str] = "pen"
+    colour: str
+
+
+@dataclass(frozen=True, slots=True)
+class Circle(Event):
+    """A circle in pictures about the present point, in the working plane, mm (SYNTEC DRAWHOLE)."""
+
+    type: ClassVar[str] = "circle"
+    radius: float
+    filled: bool
+
+
+@dataclass(frozen=True, slots=True)
 class Print(Event):
     """A line that the program sends out (DPRNT, PRINT)."""
 

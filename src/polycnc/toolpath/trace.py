@@ -145,10 +145,18 @@ class Display:
         yield from self._motions(self.toolpath.rows())
 
     def _motions(self, rows: Iterable[Row]) -> Iterator[Record]:
-        """A motion of several rows is shown by its last one."""
+        """A motion of several rows is shown by its last one, where something has broken it off too."""
+        held: Row | None = None
         for row in rows:
-            if not row.context.knot or row.event is not None:
+            if held is not None and (
+                row.event is not None or (row.program, row.line) != (held.program, held.line)
+            ):
+                yield self.record(held)
+            held = row if row.context.knot and row.event is None else None
+            if held is None:
                 yield self.record(row)
+        if held is not None:
+            yield self.record(held)
 
     def records_of(self, chunk: Chunk) -> Iterator[Record]:
         """The records of one chunk. Long chunks go by whole columns, which gives the same values."""

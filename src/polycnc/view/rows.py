@@ -6,9 +6,10 @@ Plain runs go column by column, for a long program has a million of them; arcs a
 from __future__ import annotations
 
 from itertools import groupby
-from math import isnan
+from math import cos, isnan, sin, tau
 from typing import TYPE_CHECKING
 
+from polycnc.toolpath.events import Circle, Pen
 from polycnc.toolpath.kinds import ARC_KINDS, RAPID_KINDS, Kind
 from polycnc.toolpath.modes import FeedMode
 from polycnc.toolpath.strokes import point_of, points_behind, start_of, tool_label
@@ -24,6 +25,9 @@ if TYPE_CHECKING:
 #: How far a chord may lie from its arc, mm.
 CHORD_ERROR = 0.02
 _MIN = 60.0
+#: Chords of a circle that a program draws, and the axes of the working planes.
+CHORDS = 36
+_PLANES = {"G17": (0, 1), "G18": (2, 0), "G19": (1, 2)}
 #: Kinds whose row is more than a straight way to its end.
 _CURVED = frozenset((*ARC_KINDS, Kind.THREAD))
 _KIND = [RAPID if kind in RAPID_KINDS else FEED for kind in Kind]
@@ -42,6 +46,7 @@ class RowLine:
         self.lines = lines
         self._toolpath, self._geometry = toolpath, geometry
         self._before: Row | None = None
+        self._pen = ""
 
     def add(self, chunk: Chunk) -> None:
         """Add the rows of the next chunk, in order."""
@@ -53,8 +58,28 @@ class RowLine:
                 for i in range(first, end):
                     self._add_curved(self._toolpath.row_of(chunk, i))
             else:
-                self._add_straight(chunk, first, end)
+                self._add_drawn(chunk, first, end)
             first = end
+
+    def _add_drawn(self, chunk: Chunk, first: int, end: int) -> None:
+        """Straight rows, among which the program may draw."""
+        for i in range(first, end) if any(isinstance(each, Pen | Circle) for each in chunk.events) else ():
+            event = chunk.events[chunk.curve[i]] if chunk.kind[i] == Kind.EVENT else None
+            if not isinstance(event, Pen | Circle):
+                continue
+            self._add_straight(chunk, first, i + 1)
+            first = i + 1
+            if isinstance(event, Pen):
+                self._pen = event.colour
+            else:
+                context = self._toolpath.contexts[chunk.context[i]]
+                draw_circle(self.lines, event, context.plane, self._colour(context))
+        if first < end:
+            self._add_straight(chunk, first, end)
+
+    def _colour(self, context: Context) -> int:
+        """The colour of a tool, or of the pen where the program has taken one."""
+        return self.lines.colour(self._pen or tool_label(context))
 
     def _add_straight(self, chunk: Chunk, first: int, end: int) -> None:
         """Rows of one context that lead straight to their ends; those that only stand repeat a point."""
@@ -66,7 +91,7 @@ class RowLine:
         if not context.part.is_identity:
             places = zip(*(column or [0.0] * (end - first) for column in columns), strict=True)
             columns = list(zip(*(context.part.apply(*place) for place in places), strict=True))
-        tool = KINDS * self.lines.colour(tool_label(context))
+        tool = KINDS * self._colour(context)
         what = [_KIND[kind] + tool for kind in chunk.kind[first:end]]
         scale = _scale(context)
         self.lines.extend(
@@ -76,7 +101,7 @@ class RowLine:
 
     def _add_curved(self, row: Row) -> None:
         start = self._begin(row)
-        colour, feed = self.lines.colour(tool_label(row.context)), row.feed * _scale(row.context)
+        colour, feed = self._colour(row.context), row.feed * _scale(row.context)
         for point in points_behind(row, start, point_of(row.end, self._geometry), CHORD_ERROR):
             self.lines.add(
                 row.context.part.apply(*point), 0.0 if isnan(feed) else feed, _KIND[row.kind], colour
@@ -89,8 +114,25 @@ class RowLine:
         place = row.context.part.apply(*start)
         last = self.lines.last()
         if not last or max(abs(a - b) for a, b in zip(place, last, strict=True)) > CHORD_ERROR:
-            self.lines.add(place, 0.0, GAP, self.lines.colour(tool_label(row.context)))
+            self.lines.add(place, 0.0, GAP, self._colour(row.context))
         return start
+
+
+def draw_circle(lines: Lines, circle: Circle, plane: str, colour: int) -> None:
+    """Draw a circle about the last point, in a working plane; a filled one has spokes."""
+    center = lines.last()
+    if not center or not circle.radius:
+        return
+    across, up = _PLANES[plane]
+    for k in range(CHORDS + 1):
+        point = list(center)
+        point[across] += circle.radius * cos(tau * k / CHORDS)
+        point[up] += circle.radius * sin(tau * k / CHORDS)
+        lines.add(point, 0.0, FEED if k else GAP, colour)
+        if circle.filled:
+            lines.add(center, 0.0, FEED, colour)
+            lines.add(point, 0.0, FEED, colour)
+    lines.add(center, 0.0, GAP, colour)
 
 
 def _scale(context: Context) -> float:

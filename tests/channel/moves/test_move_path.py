@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move
 from polycnc.toolpath import Kind
+from polycnc.transformation.orientation.turning import Turning
 
 GEOMETRY = (0, 1, 2)
 coordinate = st.floats(-100.0, 100.0)
@@ -87,3 +88,16 @@ def test_every_point_of_an_arc_keeps_its_distance(radius: float, angle: float, a
     way = arc(Kind.CCW if ccw else Kind.CW, [radius, 0.0, 0.0], end)
     x, y, _ = way.at(at)
     assert hypot(x, y) == pytest.approx(radius)
+
+
+def test_a_piece_turns_the_tool_by_its_own_part() -> None:
+    turning = Turning((3,), (0.5, 1.0), ((10.0,), (40.0,)))
+    move = Move(Kind.FEED, [0.0, 0.0, 0.0, 0.0], [20.0, 0.0, 0.0, 40.0], turning=turning)
+    path = MovePath(move, GEOMETRY)
+    assert path.at(0.75) == pytest.approx([15.0, 0.0, 0.0, 25.0])
+    first, rest = path.until(0.75), path.beyond(0.75)
+    assert first.end == rest.start == pytest.approx([15.0, 0.0, 0.0, 25.0])
+    assert first.turning is not None
+    assert first.turning.shares == pytest.approx((2.0 / 3.0, 1.0))
+    assert first.turning.places == ((10.0,), (25.0,))
+    assert rest.turning == Turning((3,), (1.0,), ((40.0,),))

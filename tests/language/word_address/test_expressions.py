@@ -23,6 +23,7 @@ class Memory:
 
     angle_range_signed = 0
     joined_conditions = 0
+    joining_hint = "hint.joined-conditions"
     increment = 0.001
 
     def __init__(self, **values: float) -> None:

@@ -47,7 +47,8 @@ class Browser:
         answer = await self.ask(
             "Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True
         )
-        assert "exceptionDetails" not in answer, answer["exceptionDetails"]
+        assert "exceptionDetails" not in answer, answer
+        assert "result" in answer, answer
         return answer["result"].get("value")
 
     async def until(self, condition: str) -> None:
@@ -102,6 +103,7 @@ async def browser(url: str, profile: Path, port: int) -> AsyncIterator[Browser]:
         async with connect(await _page(port), max_size=None) as wire:
             opened = Browser(wire)
             await opened.sized(1280, 800)
+            await opened.until("window.did_handshake === true")  # on a busy machine a page may come twice
             yield opened
     finally:
         process.terminate()

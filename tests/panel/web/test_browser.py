@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 import asyncio
-from typing import TYPE_CHECKING
+import os
+from pathlib import Path
 
 import pytest
 
 from tests.panel.web.browser import CHROMIUM, browser
 from tests.panel.web.test_server import address, free_port
 
-if TYPE_CHECKING:
-    from pathlib import Path
-
 pytest.importorskip("nicegui")
 pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="no Chromium is installed")
 __all__ = ["address"]
+#: The npm package axe-core, in the folder that AXE names or in that of the project; None where it is in neither.
+_PLACES = (Path(os.environ.get("AXE", ".")), Path(__file__).parents[3])
+AXE = next(
+    (file for place in _PLACES if (file := place / "node_modules" / "axe-core" / "axe.min.js").is_file()),
+    None,
+)
 #: Texts of keys that do not fit into them.
 _CUT = """[...document.querySelectorAll('button.k')]
   .filter(key => key.scrollWidth > key.clientWidth + 1 || key.scrollHeight > key.clientHeight + 1)
@@ -59,5 +63,43 @@ def test_the_picture_has_the_path_and_the_trail(address: str, tmp_path: Path) ->
                 assert await page.evaluate(f"{shown}.clientWidth > 300 && {shown}.clientHeight > 150")
             await page.press("POS")
             await page.until("getComputedStyle(document.querySelector('.picture')).display === 'none'")
+
+    asyncio.run(journey())
+
+
+@pytest.mark.parametrize(("width", "height"), [(1280, 800), (1920, 1080), (1024, 768), (768, 1024)])
+def test_the_page_fits_into_screens_and_tablets(
+    address: str, tmp_path: Path, width: int, height: int
+) -> None:
+    async def journey() -> None:
+        async with browser(f"http://{address}/", tmp_path / "profile", free_port()) as page:
+            await page.sized(width, height)
+            await page.until("!!document.querySelector('.crt-body td')")
+            wide = "document.documentElement.scrollWidth <= innerWidth"
+            assert await page.evaluate(_FITS if width >= 1280 else wide)
+            assert await page.evaluate("document.querySelector('.crt').getBoundingClientRect().height >= 400")
+            heights = "[...document.querySelectorAll('button.k')].map(key => key.offsetHeight)"
+            assert min(filter(None, await page.evaluate(heights))) >= 36
+
+    asyncio.run(journey())
+
+
+@pytest.mark.skipif(AXE is None, reason="axe-core is not installed")
+def test_axe_finds_nothing_serious(address: str, tmp_path: Path) -> None:
+    assert AXE is not None
+    rules = "{runOnly: ['wcag2a', 'wcag2aa', 'best-practice']}"
+    found = f"""axe.run(document, {rules}).then(result => result.violations
+      .filter(each => ['serious', 'critical'].includes(each.impact)).map(each => each.id + ' ' + each.nodes[0].html))"""
+
+    async def journey() -> None:
+        async with browser(f"http://{address}/", tmp_path / "profile", free_port()) as page:
+            await page.until("!!document.querySelector('.crt-body td')")
+            await page.evaluate(AXE.read_text(encoding="utf-8") + ";0")
+            assert await page.evaluate(found) == []
+            for key in ("☀", "CSTM/GR", "中", "☑"):
+                await page.press(key)
+                await asyncio.sleep(1.0)
+                wrong = await page.evaluate(found)
+                assert wrong == [], f"{key}: {wrong}"
 
     asyncio.run(journey())

@@ -14,7 +14,7 @@ from polycnc.panel.screens.view import Cell, View, Window
 from polycnc.panel.web.desk import Desk
 from polycnc.panel.web.guard import COOKIE, Guard, is_own_origin
 from polycnc.panel.web.markup import of_view
-from polycnc.panel.web.messages import COMMANDS, answer
+from polycnc.panel.web.messages import COMMANDS, LONGEST, READS, answer
 
 
 @pytest.fixture
@@ -120,12 +120,8 @@ def test_ten_thousand_random_messages_end_in_answers(desk: Desk) -> None:
     random = Random(3)
     names: list[Any] = [
         *COMMANDS,
-        "snapshot",
-        "press",
-        "turn",
-        "wheel",
-        "type",
-        "soft_key",
+        *READS,
+        *desk.actions,
         "nothing",
         "",
         5,
@@ -162,6 +158,33 @@ def test_ten_thousand_random_messages_end_in_answers(desk: Desk) -> None:
         found = json.loads(answer(desk, message))
         assert found.keys() in ({"ok"}, {"refused"})
     assert desk.control.state in State
+
+
+@pytest.mark.parametrize(
+    "message",
+    [
+        "[" * 100_000,
+        '{"do":' * 50_000,
+        "1" * 5_000,
+        " " * LONGEST + "1",
+        '{"do": "load", "with": 5}',
+        "\ud800",
+    ],
+)
+def test_what_is_no_message_is_refused(desk: Desk, message: str) -> None:
+    assert json.loads(answer(desk, message)).keys() == {"refused"}
+
+
+def test_a_fault_and_a_signal_come_over_the_wire(desk: Desk) -> None:
+    assert asked(desk, "fault", name="air") == {"ok": None}
+    assert desk.control.signals["AIR_LOW"] == 1.0
+    assert asked(desk, "fault", name="air", pressed=False) == {"ok": None}
+    assert asked(desk, "signal", name="SKIP", value=1) == {"ok": None}
+    assert desk.control.signals["SKIP"] == 1.0
+    assert "refused" in asked(desk, "fault", name="nothing")
+    assert "refused" in asked(desk, "signal", name="SKIP", value="x")
+    done = asked(desk, "recording")["ok"]
+    assert [act["do"] for act in done] == ["fault", "fault", "signal", "fault", "signal"]
 
 
 # ---- who may come in ---------------------------------------------------------------------------------------

@@ -98,3 +98,12 @@ def test_a_course_at_both_ends_rests_between() -> None:
     paced = turning.paced([0.0], 20.0)
     assert paced.shares == (0.125, 0.25, 0.75, 1.0)
     assert paced.places == ((10.0,), (20.0,), (20.0,), (40.0,))
+
+
+def test_a_part_of_a_turn_begins_and_ends_where_it_is_cut() -> None:
+    turning = Turning((3,), (0.25, 0.75, 1.0), ((10.0,), (40.0,), (80.0,)))
+    part = turning.part([0.0], 0.125, 0.5)
+    assert part.shares == pytest.approx((1.0 / 3.0, 1.0))
+    assert part.places == ((10.0,), (25.0,))
+    assert turning.at([0.0], 0.125) == (5.0,)
+    assert turning.part([0.0], 0.0, 1.0) == turning

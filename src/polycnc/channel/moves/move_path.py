@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
     from polycnc.channel.moves.path import Move
     from polycnc.geometry.frames import Vector
+    from polycnc.transformation.orientation.turning import Turning
 
 #: Positions that differ by less (mm, degrees) are the same.
 SAME = 1e-6
@@ -40,6 +41,11 @@ class MovePath:
         self._sweep = 0.0
         if move.center is not None:
             self._lay_out()
+        self._places: tuple[float, ...] = ()
+        self._turning = move.turning
+        if move.turning is not None:
+            self._places = tuple(move.start[column] for column in move.turning.columns)
+            self._turning = move.turning.paced(self._places, self.length)
 
     def _lay_out(self) -> None:
         """An arc as start direction, direction of travel, angle, radii and rise along its normal."""
@@ -71,6 +77,11 @@ class MovePath:
         if part >= 1.0:
             return move.end.copy()
         point = [a + (b - a) * part for a, b in zip(move.start, move.end, strict=True)]
+        if self._turning is not None:
+            for column, place in zip(
+                self._turning.columns, self._turning.at(self._places, part), strict=True
+            ):
+                point[column] = place
         if move.center is None:
             return point
         angle, radius = self._sweep * part, self._radius + self._growth * part
@@ -206,19 +217,26 @@ class MovePath:
 
     def until(self, part: float) -> Move:
         """The move as far as a part of its way."""
-        return self._piece(self.move.start, self.at(part), part)
+        return self._piece(self.move.start, self.at(part), 0.0, part)
 
     def between(self, first: float, last: float) -> Move:
         """The piece between two parts of the way."""
-        return self._piece(self.at(first), self.at(last), last - first)
+        return self._piece(self.at(first), self.at(last), first, last)
 
     def beyond(self, part: float, start: list[float] | None = None) -> Move:
         """The rest of the move from a part of its way on; `start` where axes beside its way stand elsewhere."""
-        return self._piece(self.at(part) if start is None else start, self.move.end, 1.0 - part)
+        return self._piece(self.at(part) if start is None else start, self.move.end, part, 1.0)
 
-    def _piece(self, start: list[float], end: list[float], share: float) -> Move:
+    def _piece(self, start: list[float], end: list[float], first: float, last: float) -> Move:
+        share = last - first
         turns = max(int(abs(self._sweep) * share / (2.0 * pi) - 1e-12), 0) if self.move.turns else 0
-        return replace(self.move, start=start, end=end, turns=float(turns))
+        turning = self.turned(first, last)
+        return replace(self.move, start=start, end=end, turns=float(turns), turning=turning)
+
+    def turned(self, first: float, last: float) -> Turning | None:
+        """How the rotary axes turn between two parts of the way."""
+        turning = self._turning
+        return None if turning is None or last <= first else turning.part(self._places, first, last)
 
 
 def _unit(vector: list[float]) -> Vector:

@@ -65,6 +65,8 @@ class Rank(IntEnum):
     AXES = auto()
     #: Slave axes, which only their master moves.
     SLAVES = auto()
+    #: Following axes of a gantry, which no program moves.
+    GANTRY = auto()
     #: Axes that wait for their leading axes: they see where those are.
     COUPLINGS = auto()
     #: Protection zones: they see where the machine would go.
@@ -120,7 +122,7 @@ class Move:
         """The same move between two other positions."""
         return Move(
             self.kind, start, end, self.feed, self.program, self.line, self.context,
-            self.center, self.normal, self.turns, self.parameters,
+            self.center, self.normal, self.turns, self.parameters, self.turning,
         )  # fmt: skip
 
 

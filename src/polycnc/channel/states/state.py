@@ -23,6 +23,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import MISSING, field, fields, is_dataclass
 from enum import IntEnum
+from functools import cache
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar, overload
 
 from polycnc.deferred.records import dataclass
@@ -157,11 +158,13 @@ class States(dict[type[State], State]):
                     setattr(state, each.name, getattr(fresh, each.name))
 
 
+@cache
 def lifetimes(cls: type[State]) -> dict[str, Lifetime]:
     """The lifetime of every field of a class."""
     return {each.name: each.metadata.get(_LIFETIME, cls.lifetime) for each in fields(cls)}  # type: ignore[arg-type]
 
 
+@cache
 def tables(cls: type[State]) -> dict[str, Table]:
     """Which table every retained field of a class is."""
     named = {each.name: each.metadata.get(_TABLE) for each in fields(cls)}  # type: ignore[arg-type]

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import sys
 from contextlib import ExitStack, nullcontext
 from enum import StrEnum
 from functools import partial
+from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -99,18 +101,18 @@ def _shared(
     run: Callable[[tuple[str, str]], _Checked], files: list[tuple[str, str]], workers: ExitStack
 ) -> Iterable[_Checked]:
     """The same on all cores, in the order of the files."""
-    import polycnc.session  # noqa: F401 - what all workers need is loaded once
-
     count = min(_cores(), len(files) // SHARED)
     if count == 1:
         return map(run, files)
     from concurrent.futures import ProcessPoolExecutor
     from multiprocessing import get_context
 
+    first = run(files[0])  # with it everything is loaded that the workers need
+    gc.freeze()  # so that no worker looks through it again
     context = get_context("fork" if sys.platform == "linux" else "spawn")
     pool = ProcessPoolExecutor(count, mp_context=context, initializer=set_language, initargs=(language(),))
     workers.enter_context(pool)
-    return pool.map(run, files, chunksize=SHARED)
+    return chain((first,), pool.map(run, files[1:], chunksize=SHARED))
 
 
 def _cores() -> int:

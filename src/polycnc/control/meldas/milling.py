@@ -49,6 +49,7 @@ class MeldasMilling(MillingControl):
     alarms: ClassVar[Mapping[str, str]] = ALARMS
     drilling: ClassVar[Drilling] = DRILLING
     PLANE_HELD_BY_ROTATION: ClassVar[bool] = True
+    JOINING_HINT: ClassVar[str] = "hint.single-conditions"
     #: M700 programming manual: DO1 to DO127, 27 deep; four levels of macros, eight of subprograms.
     LOOPS: ClassVar[tuple[int, int]] = (127, 27)
     CALL_LEVELS: ClassVar[tuple[int, int, int]] = (4, 8, 12)

@@ -15,8 +15,9 @@ from polycnc.control.sinumerik.actions.user_data import user_data
 from polycnc.control.sinumerik.block import positions, procedures, single_block
 from polycnc.control.sinumerik.block.plain import SinumerikPlainBlocks
 from polycnc.control.sinumerik.block.plan import ExactStop, make_plan
-from polycnc.control.sinumerik.channels import axis_exchange, coordination
+from polycnc.control.sinumerik.channels import axis_containers, axis_exchange, coordination
 from polycnc.control.sinumerik.contours import preparation
+from polycnc.control.sinumerik.couplings import gantry
 from polycnc.control.sinumerik.couplings.links import Couplings
 from polycnc.control.sinumerik.couplings.spindle_pairs import SpindlePairs, turns
 from polycnc.control.sinumerik.curve_tables import definition as curve_definition
@@ -145,6 +146,7 @@ class Sinumerik:
         PathFeed.of(channel).mode = tables.feed_type(channel.mode).mode
         memory.frames.select(gcodes.number_of(channel.mode["wcs"]) - 1)
         memory.tools.stand_in(channel.setup.tool_at_start(channel.number))
+        gantry.close(channel)
         frames.apply(channel)
         working_area.refresh(channel)
         if channel.group is None or channel is channel.group.first:
@@ -162,6 +164,7 @@ class Sinumerik:
 
     def begin(self, channel: SinumerikChannel) -> None:
         """A main program begins in the state that the channel is in."""
+        init_programs.call(channel)
         run_times.begin(channel)
 
     def clocked(self, channel: SinumerikChannel) -> None:
@@ -187,6 +190,10 @@ class Sinumerik:
         """The drives are off."""
         channel.memory.spindles.stop()
 
+    def moved_together(self, channel: SinumerikChannel, axis: int) -> tuple[int, ...]:
+        """The axes of a gantry."""
+        return gantry.moved_together(channel, axis)
+
     def handwheel_offset_speed(self, channel: SinumerikChannel, axis: int) -> float:
         """DRF: MD32020 by MD32090."""
         return overlay.handwheel_speed(channel, axis)
@@ -202,7 +209,7 @@ class Sinumerik:
             user_variables=retained.table(USER_VARIABLES, channel.number),
             nck_user_variables=retained.table(USER_VARIABLES),
             r=filled(parameters, "R", [0.0] * count),
-            axes=axis_names.identifiers(channel),
+            axes={**axis_names.identifiers(channel), **axis_containers.identifiers(channel)},
             default_axis=Axis(str(data.read("$MC_AXCONF_CHANAX_DEFAULT_NAME")).upper()),
             exact_order=bool(data.integer("$MN_PROG_FUNCTION_MASK") & 1),
             main_variables_everywhere=bool(data.integer("$MN_LUD_EXTENDED_SCOPE")),

@@ -287,8 +287,9 @@ class SyntecMill(WordAddressControl):
     def axis_of_address(
         self, channel: SyntecChannel, address: str, builder: Builder
     ) -> tuple[int, bool] | None:
-        """U, V, W are increments of X, Y, Z only with Pr3809 = 1."""
-        if address in self.INCREMENTAL_ADDRESSES and channel.memory.parameters.uvw_increments == 1:
+        """U, V, W are increments of X, Y, Z only with Pr3809 = 1, and not for G53 (2.37.3)."""
+        increments = channel.memory.parameters.uvw_increments == 1 and address in self.INCREMENTAL_ADDRESSES
+        if increments and not any(row.code == "G53" for row in builder.codes):
             index = channel.axis_index.get(self.INCREMENTAL_ADDRESSES[address])
             return None if index is None else (index, True)
         index = channel.axis_index.get(address)

@@ -13,6 +13,8 @@ from polycnc.channel.states.state import Lifetime, State
 from polycnc.deferred.records import dataclass
 from polycnc.language.bulk import Note, declare
 from polycnc.toolpath.events import SpindleSpeed
+from polycnc.transformation.couplings.coupled import Coupled
+from polycnc.transformation.couplings.laws import Ratio
 
 if TYPE_CHECKING:
     from polycnc.control.syntec.family import SyntecChannel
@@ -27,6 +29,8 @@ AXIS_LETTERS = "XYZABCUVW"
 #: R register with the number of the active spindle.
 ACTIVE_SPINDLE = 791
 SPINDLES = range(1, 7)
+#: Those that S1= to S10= name; spindles have no places that are X, Y or Z.
+NAMED_SPINDLES, NO_GEOMETRY = range(1, 11), (-1, -1, -1)
 #: Pr of base and sync spindle of each group K.
 PAIRS = (1, 2, 3)
 LARGEST_RATIO = 999
@@ -94,11 +98,14 @@ def command_speed(channel: SyntecChannel, spindle: int, speed: float, *, active:
 def speed_of(memory: SyntecMemory, spindle: int) -> float:
     """The speed at which a spindle turns: its own, or what its pair makes of the base spindle's."""
     state = SpindleState.of(memory.channel)
-    own = state.speeds.get(spindle, 0.0)
+    if not state.pairs:
+        return state.speeds.get(spindle, 0.0)
+    own = [state.speeds.get(number, 0.0) for number in NAMED_SPINDLES]
     for pair in state.pairs.values():
-        if pair.sync == spindle:
-            return speed_of(memory, pair.base) * pair.ratio + (own if pair.adds else 0.0)
-    return own
+        if not pair.adds:
+            own[pair.sync - 1] = 0.0
+    laws = {pair.sync - 1: (Ratio(pair.base - 1, pair.ratio),) for pair in state.pairs.values()}
+    return Coupled.of(laws, NO_GEOMETRY).to_machine(own)[spindle - 1]
 
 
 def _report(channel: SyntecChannel, spindle: int) -> None:
@@ -118,7 +125,7 @@ def _report(channel: SyntecChannel, spindle: int) -> None:
 
 @dataclass(frozen=True, slots=True)
 class SpindlePair:
-    """Two spindles in step: the sync spindle turns at the base's speed times `ratio`, plus its own if it `adds`."""
+    """Two spindles in step: the base leads the sync spindle by `ratio`, to whose own speed that `adds`."""
 
     base: int
     sync: int

@@ -270,6 +270,10 @@ class WordAddressControl:
     def clocked(self, channel: Channel) -> None:
         """Nothing of these controls counts with the clock."""
 
+    def moved_together(self, _channel: Channel, axis: int) -> tuple[int, ...]:
+        """Each axis goes by itself."""
+        return (axis,)
+
     def handwheel_offset_speed(self, _channel: Channel, _axis: int) -> float:
         """No handwheel shifts an axis beside its program."""
         return 0.0

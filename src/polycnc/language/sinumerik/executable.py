@@ -30,9 +30,12 @@ from polycnc.language.sinumerik.statements.definitions import NO_HEADER, Header,
 from polycnc.language.sinumerik.statements.labels import Labels
 from polycnc.language.sinumerik.statements.structures import Structure, structures_of
 from polycnc.messages import AlarmError
+from polycnc.program.long_text import LongText
 from polycnc.program.names import DEF_DIR
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from polycnc.channel.channel import Channel
     from polycnc.channel.steps import Step
     from polycnc.language.sinumerik.interface import LanguageControl, LanguageMemory, NcChannel
@@ -67,9 +70,8 @@ class SinumerikProgram:
         self.control = control
         self.is_definition_file = program.directory == DEF_DIR
         self.declared: dict[str, int] = {}
-        lines = enumerate(program.lines)
-        self._lines = array("I", (i for i, line in lines if line[:1] not in _BLANK or not _EMPTY.match(line)))
-        numbers = array("I", (program.first_line + i for i in self._lines))
+        self._lines = _blocks(program.lines)
+        numbers = array("I", map(program.first_line.__add__, self._lines))
         numbers.append(numbers[-1] if numbers else program.first_line)
         #: The line in the file of a step. Asked for every row, so it is the array's own method.
         self.line = numbers.__getitem__
@@ -351,6 +353,20 @@ class SinumerikProgram:
         if structure.error:
             raise NcSyntaxError(structure.error, token.column, token.text)
         return structure
+
+
+def _blocks(lines: Sequence[str]) -> array[int]:
+    """The lines that are blocks: neither empty nor a comment alone."""
+    if not isinstance(lines, LongText):
+        return array("I", (i for i, line in enumerate(lines) if line[:1] not in _BLANK or _is_block(line)))
+    found = array("I")
+    for blocks in lines.not_beginning(_BLANK, _is_block):
+        found.extend(blocks)
+    return found
+
+
+def _is_block(line: str) -> bool:
+    return _EMPTY.match(line) is None
 
 
 def _skipped(channel: Channel) -> None:

@@ -185,6 +185,8 @@ PROCEDURES: dict[str, str] = {
     "GETSELT": "Vi",
     "GETEXET": "Vi",
     "GETACTT": "VS",
+    "MVTOOL": "VIIII",
+    "RESETMON": "VIii",
     "SETDNO": "III",
 }
 

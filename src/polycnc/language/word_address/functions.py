@@ -174,7 +174,7 @@ def ne_(a: float | None, b: float | None) -> bool:
 def joined_(m: Any, left: bool, operator: str, right: bool) -> bool:
     """Conditions joined by AND, OR, XOR, where the control allows it."""
     if not m.joined_conditions:
-        raise m.fail("condition", hint="hint.joined-conditions")
+        raise m.fail("condition", hint=m.joining_hint)
     return {"and": left and right, "or": left or right, "xor": left is not right}[operator]
 
 

@@ -3,21 +3,32 @@
 from __future__ import annotations
 
 from math import inf
+from typing import TYPE_CHECKING
+
+from polycnc.mainrun.motion.axis_move import axis_move
+
+if TYPE_CHECKING:
+    from polycnc.mainrun.motion.axis_move import AxisMove
+
+#: Of an axis about whose acceleration the machine says nothing, mm/s² or degrees/s².
+FREE = 1e9
 
 
 class Overlay:
-    """A source of an axis, at a constant speed to its value."""
+    """A source of an axis, which goes to its value and rests there.
 
-    def __init__(self) -> None:
-        self._from = self._to = 0.0
-        self._since = self._until = 0.0
+    Args:
+        acceleration: That of the axis, mm/s² or degrees/s²; 0 for one without limit.
+    """
+
+    def __init__(self, acceleration: float = 0.0) -> None:
+        self._acceleration = acceleration or FREE
+        self._to = self._place = 0.0
+        self._lead: AxisMove | None = None
 
     def at(self, time: float) -> float:
         """Its share of the setpoint."""
-        if time >= self._until:
-            return self._to
-        share = (time - self._since) / (self._until - self._since)
-        return self._from + (self._to - self._from) * max(share, 0.0)
+        return self._place if self._lead is None else self._lead.after(time)[0]
 
     @property
     def target(self) -> float:
@@ -27,17 +38,17 @@ class Overlay:
     @property
     def due(self) -> float:
         """When it has reached its value; inf where it does not move."""
-        return self._until if self._from != self._to else inf
+        return self._lead.end if self._lead is not None else inf
 
     def arrive(self, time: float) -> None:
         """What has reached its value moves no more."""
-        if time >= self._until:
-            self._from = self._to
+        if self._lead is not None and time >= self._lead.end:
+            self._place, self._lead = self._to, None
 
     def go(self, value: float, speed: float, time: float) -> None:
         """Go to a value, mm/s or degrees/s at most."""
         if value == self._to:
             return
-        here = self.at(time)
-        self._from, self._to, self._since = here, value, time
-        self._until = time + abs(value - here) / speed
+        here, velocity = (self._place, 0.0) if self._lead is None else self._lead.after(time)
+        self._to = value
+        self._lead = axis_move(here, velocity, value, speed, self._acceleration, time)

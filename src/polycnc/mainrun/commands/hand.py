@@ -9,6 +9,7 @@ from polycnc.mainrun.errors import CommandRefused
 from polycnc.messages.catalogue import listed
 
 if TYPE_CHECKING:
+    from polycnc.mainrun.axes.hand import Hand
     from polycnc.mainrun.commands.permission import Permission
     from polycnc.mainrun.execution.channel_run import ChannelRun
     from polycnc.mainrun.execution.operation import Operation
@@ -34,9 +35,10 @@ class HandCommands:
         self._permission.ask(Command.JOG)
         run, i = self._axis(axis, channel)
         self._permission.ask_machine(*_move_words(run, i))
-        here, data, hand = self._take_in_hand(run)[i], run.channel.axis_data[i], run.axes[i].hand
+        here, data = self._take_in_hand(run), run.channel.axis_data[i]
         speed = self._switches.rapid_speed(data) if rapid else self._switches.jog_speed(data)
-        hand.towards(hand.end_of_travel(direction, here), speed, self._clock.time)
+        for axis_, hand in _hands(run, i):
+            hand.towards(hand.end_of_travel(direction, here[axis_]), speed, self._clock.time)
 
     def stop_jog(self, axis: str | None, *, channel: int) -> None:
         """Let a jog key go; all of them where no axis is named."""
@@ -44,7 +46,8 @@ class HandCommands:
             self._runs.brake_hands()
         else:
             run, i = self._axis(axis, channel)
-            run.axes[i].hand.brake(self._clock.time)
+            for _, hand in _hands(run, i):
+                hand.brake(self._clock.time)
 
     def increment(self, axis: str, way: float, *, channel: int) -> None:
         """Move by a way, as the machine display counts."""
@@ -77,7 +80,8 @@ class HandCommands:
         named = range(len(run.channel.axes)) if axis is None else (self._axis(axis, channel)[1],)
         self._permission.ask_machine(*(f"HOME_{run.channel.axes[i]}" for i in named))
         self._take_in_hand(run)
-        for i in named:
+        together = run.channel.control.moved_together
+        for i in sorted({column for each in named for column in together(run.channel, each)}):
             data = run.channel.axis_data[i]
             run.axes.forget_shift(i)
             speed = self._switches.rapid_speed(data)
@@ -85,9 +89,10 @@ class HandCommands:
 
     def _shift(self, run: ChannelRun, axis: int, shown: float, speed: float) -> None:
         self._permission.ask_machine(*_move_words(run, axis))
-        here, hand = self._take_in_hand(run)[axis], run.axes[axis].hand
+        here = self._take_in_hand(run)
         factor = run.display.machine_factor(axis, run.execution.context)
-        hand.towards(hand.goal(here) + shown / factor, speed, self._clock.time)
+        for i, hand in _hands(run, axis):
+            hand.towards(hand.goal(here[i]) + shown / factor, speed, self._clock.time)
 
     def _take_in_hand(self, run: ChannelRun) -> list[float]:
         """Machine position from which axes of a channel are moved by hand."""
@@ -105,6 +110,11 @@ class HandCommands:
         if owner not in (0, channel):
             raise CommandRefused("mainrun.value", name="channel", allowed=str(owner), value=channel)
         return run, index
+
+
+def _hands(run: ChannelRun, axis: int) -> list[tuple[int, Hand]]:
+    """What moves an axis, and those that go with it, by hand."""
+    return [(i, run.axes[i].hand) for i in run.channel.control.moved_together(run.channel, axis)]
 
 
 def _move_words(run: ChannelRun, axis: int) -> list[str]:

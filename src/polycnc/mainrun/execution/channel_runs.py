@@ -153,6 +153,11 @@ class ChannelRuns:
         return any(run.axes.move_by_hand for run in self._runs.values())
 
     @property
+    def go_home(self) -> bool:
+        """Whether an axis that moves beside its program is led to its place of rest."""
+        return any(run.interpolator.goes_home for run in self._runs.values())
+
+    @property
     def move_beside_path(self) -> bool:
         """Whether something else than a program moves an axis."""
         return any(run.axes.due < inf for run in self._runs.values())

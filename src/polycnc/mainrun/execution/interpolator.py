@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from polycnc.mainrun.motion.geometry import Segment
     from polycnc.mainrun.preparation.items import Block
     from polycnc.messages import AlarmError
-    from polycnc.toolpath import Event
+    from polycnc.toolpath import Context, Event
     from polycnc.transformation.couplings.laws import Law as CouplingLaw
 
 
@@ -45,6 +45,9 @@ class Led(Protocol):
     @property
     def machine_position(self) -> list[float]:
         """Their setpoints."""
+
+    def spindle_rpm(self, context: Context) -> float:
+        """Speed of the spindle where a context holds, 1/min."""
 
 
 class ChannelInterpolator:
@@ -130,11 +133,34 @@ class ChannelInterpolator:
     def hold(self) -> None:
         """Feed hold has come, or gone: axes that are not moved by static actions wait."""
         self._set_overrides()
+        self.wake()
 
     def stop_axes(self) -> None:
         """An alarm stops motions: those of actions too."""
         for axis in self._commanded.values():
             axis.stop()
+
+    @property
+    def spindle_rpm(self) -> float:
+        """Speed of the spindle in the block in execution, signed."""
+        context = self._run.execution.context
+        return context.spindle_direction * self._run.spindle_rpm(context)
+
+    @property
+    def goes_home(self) -> bool:
+        """Whether a reset has to wait for an axis that is led to its place of rest."""
+        return any(watcher.goes_home for watcher in self._watchers)
+
+    @property
+    def is_held(self) -> bool:
+        """Whether the program is held, is being given up, or has ended in an alarm."""
+        rates = self._run.execution.rates
+        return rates.hold or rates.gives_up or self._run.execution.halt == "alarm"
+
+    @property
+    def has_power(self) -> bool:
+        """Whether the drives have power: no emergency stop is pressed."""
+        return not self._run.execution.rates.operator.drives_off
 
     def _lingers(self) -> bool:
         return any(watcher.lingers for watcher in tuple(self._watchers))
@@ -319,6 +345,14 @@ class ChannelInterpolator:
         self._run.execution.lead_axis(column, place)
         axis.base = place
 
+    def stand_at(self, column: int, place: float) -> None:
+        """An axis, which stands, is called another position; nothing moves."""
+        axis = self._commanded.get(column)
+        if axis is not None:
+            axis.stand(place, place)
+        self._seen = (-1.0, [])
+        self._run.execution.lead_axis(column, place)
+
     def take_back(self, column: int) -> float:
         """The program has a commanded axis again, which stands: gives its machine position."""
         axis = self._commanded.get(column)
@@ -334,8 +368,9 @@ class ChannelInterpolator:
         """Shift an axis beside everything else, no faster than a speed; `name` says which of its shifts is meant."""
         found = self._overlays.get((name, column))
         if found is None:
-            found = self._overlays[name, column] = Overlay()
-            self._run.axes[column].add(found)
+            axis = self._run.axes[column]
+            found = self._overlays[name, column] = Overlay(axis.data.acceleration)
+            axis.add(found)
         found.go(value, speed, self._clock.time)
         self._narrow_travel()
 

@@ -14,7 +14,7 @@ from polycnc.mainrun.execution.channel_runs import ChannelRuns
 from polycnc.mainrun.execution.machinery import SKIP_SIGNAL
 from polycnc.mainrun.signals.machine_states import axis_names, machine_states, turn_magazine
 from polycnc.mainrun.signals.program_signals import give
-from polycnc.mainrun.status import PARTS
+from polycnc.mainrun.status import LOCKED_STATES, PARTS
 from polycnc.messages import Alarm, AlarmError
 from polycnc.toolpath.events import Auxiliary
 
@@ -155,7 +155,7 @@ class Operation:
         if self.runs.move_by_hand:
             return
         goals = self.runs.shall_move_by_hand
-        if self._giving_up and not self.runs.move:
+        if self._giving_up and not (self.runs.move or self.runs.go_home):
             self.give_up()
         elif self._returning and not goals:
             self.resume()
@@ -230,6 +230,7 @@ class Operation:
     def brake(self, state: State) -> None:
         """The axes come to rest, and the program is given up then."""
         self.switches.rates.gives_up = self._giving_up = True
+        self.switches.rates.drives_off = state in LOCKED_STATES
         self._bring_to_rest()
         self.status.become(state)
         self.follow_up()

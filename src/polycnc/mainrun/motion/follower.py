@@ -47,26 +47,31 @@ class Follower:
         self._alone: list[tuple[Law, float]] = []
         self._ways: list[float] = []
         self._pieces: list[tuple[float, Piece]] = []
+        #: The machine position that was asked for last, and when: displays ask for that of one moment again and again.
+        self._known: tuple[float, list[float]] | None = None
 
     def begin(self, time: float, ramp: float, blend: float) -> None:
         """The axes stand, and a run begins whose averages are over these times."""
         self._ramp, self._blend, self.window = ramp, blend, window_s(ramp, blend)
         self._law, self._alone, self._ways, self._pieces = Law(time, 0.0), [], [], []
+        self._known = None
         if self._before is not None:
             self._before.let_rest(time)
 
     def let_rest(self, time: float) -> None:
         """Forget the run before, if it has come to rest."""
         if time >= self._rest:
-            self._before = None
+            self._before = self._known = None
 
     def enter(self, piece: Piece, length: float, behind: float) -> None:
         """The interpolator comes to a piece of a length; `behind` is how much of the one before it has run."""
+        self._known = None
         self._ways.append(self._ways[-1] + behind if self._ways else 0.0)
         self._pieces.append((length, piece))
 
     def exchange(self, piece: Piece, length: float, behind: float) -> None:
         """Another piece takes the place of the last one; it begins `behind` mm after its beginning, or before it."""
+        self._known = None
         begins = self._ways[-1] + behind
         while self._ways and self._ways[-1] >= begins:
             self._ways.pop()
@@ -76,6 +81,7 @@ class Follower:
 
     def follow(self, time: float, done: float, phases: Sequence[Phase]) -> None:
         """From a time on the interpolator runs these phases, `done` mm behind the start of the last piece."""
+        self._known = None
         self._law.run(time, self._ways[-1] + done, phases)
         if self._law.phases > KEPT:
             before = time - self.window - self._ramp
@@ -85,6 +91,7 @@ class Follower:
 
     def follow_alone(self, time: float, moves: Sequence[tuple[float, Sequence[Phase], float]]) -> None:
         """From a time on every axis runs phases of its own, from a position, and is averaged over a time of its own."""
+        self._known = None
         if not self._alone:
             self._alone = [(Law(time, position), ramp) for position, _, ramp in moves]
         for (law, _), (position, phases, _) in zip(self._alone, moves, strict=True):
@@ -92,11 +99,13 @@ class Follower:
 
     def machine(self, time: float) -> list[float]:
         """Machine position of the axes."""
-        own = self._machine(time)
-        if self._before is None or time >= self._rest:
-            return own
-        last = self._before.machine(time)
-        return [a + b - c for a, b, c in zip(own, last, self._rest_place, strict=True)]
+        if self._known is None or self._known[0] != time:
+            own = self._machine(time)
+            if self._before is not None and time < self._rest:
+                last = self._before.machine(time)
+                own = [a + b - c for a, b, c in zip(own, last, self._rest_place, strict=True)]
+            self._known = time, own
+        return list(self._known[1])
 
     def _machine(self, time: float) -> list[float]:
         if self._alone:

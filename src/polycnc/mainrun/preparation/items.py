@@ -168,6 +168,7 @@ class Rates:
         hold: Feed hold: the axes come to rest.
         feed_cancelled: The feed override is switched off.
         gives_up: Reset or emergency stop: so they do in threads and taps.
+        drives_off: Emergency stop, or the power goes off.
     """
 
     feed: float = 1.0
@@ -177,6 +178,7 @@ class Rates:
     hold: bool = False
     feed_cancelled: bool = False
     gives_up: bool = False
+    drives_off: bool = False
 
     def rapid_on(self, move: Row) -> float:
         """Rapid override that acts on a move."""

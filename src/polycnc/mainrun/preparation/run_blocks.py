@@ -13,7 +13,7 @@ from polycnc.mainrun.preparation.items import Block, BlockEnd
 from polycnc.motion.kernels.columns import LARGEST_OVERRIDE
 from polycnc.motion.waits import ORIENT
 from polycnc.toolpath import Kind
-from polycnc.toolpath.events import Deed, SignalWrite
+from polycnc.toolpath.events import Circle, Deed, Pen, SignalWrite
 from polycnc.toolpath.table import CURVE_WIDTH
 
 if TYPE_CHECKING:
@@ -80,8 +80,8 @@ class RunBlocks:
 
 
 def is_silent(event: Event | None) -> bool:
-    """Whether a row only begins or ends an action, or writes a variable."""
-    return isinstance(event, SignalWrite) or (isinstance(event, Deed) and event.is_silent)
+    """Whether a row only begins or ends an action, writes a variable, or draws."""
+    return isinstance(event, SignalWrite | Pen | Circle) or (isinstance(event, Deed) and event.is_silent)
 
 
 def acts_on_machine(chunk: Chunk, *, waits: bool) -> bool:

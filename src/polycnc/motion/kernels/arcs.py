@@ -36,6 +36,8 @@ from polycnc.motion.kernels.feeds import (
 from polycnc.motion.kernels.jerk import arc_hold
 
 SAME2 = SAME_POINT_MM * SAME_POINT_MM
+#: A radius that grows by less of itself is one.
+SAME_RADIUS = 1e-6
 #: Parts of an arc are not shorter than this, radians.
 NO_PART = 1e-12
 
@@ -160,6 +162,8 @@ def lay_arc(
 ) -> bool:
     """An arc, helix or spiral in pieces of equal angle; false when the room ends.
 
+    Where the same limits hold all along it, nobody sees a difference if all but the first and the last are one piece.
+
     Over a piece of angle d the acceleration of an axis, `f(φ)`, has `|f''| <= 5·a`, so that it exceeds the
     larger of its end values by at most `5·d²/8` of the limit; tangents and curvature are stored larger by
     that much. A spiral turns its direction by more than its angle.
@@ -186,10 +190,12 @@ def lay_arc(
         settle_alone(pieces, n, limits, state)
     state.run.alone = 0.0
     state.joint.pull = min(state.joint.pull, pull)
+    even = parts > 2 and is_even(contexts, record, n, limits, state, speed * margin)
     part, last = 0, 0.0
     while part < parts:
-        is_first, first, last = last == 0.0, last, edge_of_arc(last, (part + 1) * step, state)
-        part += 1 if last == (part + 1) * step else 0
+        goal = parts - 1 if even and part == 1 else part + 1
+        is_first, first, last = last == 0.0, last, edge_of_arc(last, goal * step, state)
+        part = goal if last == goal * step else part
         own = share_of_arc(0.5 * (first + last) / sweep, state)
         if follows_radius(contexts, record):
             radius = facing_radius(0.5 * (first + last), limits, state)
@@ -230,6 +236,25 @@ def lay_arc(
     state.run.exit_pull = pull
     state.run.exit2, state.run.length, state.run.metric, state.run.smooth = entry2, length, weight, 0.0
     return True
+
+
+def is_even(contexts: Floats, record: int, n: int, limits: Limits, state: State, speed: float) -> bool:
+    """Whether one speed and one acceleration along the path hold all along the arc at hand, and its places are unseen.
+
+    That is so with limited jerk, where an arc has those that hold in its worst direction, unless an axis has to go
+    slower than `speed`, or something changes along the arc.
+    """
+    if state.run.unseen == 0.0 or state.row.shares > 0 or state.row.ease < 1.0:
+        return False
+    if contexts[record + ContextRecord.RAMP_S] == 0.0 or contexts[record + ContextRecord.DRIVE_SPEED] < 1.0:
+        return False
+    if abs(state.arc.growth) > SAME_RADIUS * state.arc.radius:
+        return False
+    for i in range(n):
+        along = i in (limits.geometry[0], limits.geometry[1], limits.geometry[2])
+        if limits.top_feed[i] < speed if along else state.delta[i] != 0.0:
+            return False
+    return not follows_radius(contexts, record)
 
 
 def turns_faster(state: State) -> float:

@@ -228,6 +228,7 @@ class RunState(Structure):
         ease: Factor on the limits at the end of the row before; `corner_ease` for its corner.
         overlap: OVERLAP of the row before; `rapid_overlap` likewise, 0 behind a cut.
         is_bent: The row before is bent already for the corner to the row at hand (1): the latter is laid out again.
+        unseen: Nobody asks where the axes are within a piece (1).
     """
 
     stop: float
@@ -255,6 +256,7 @@ class RunState(Structure):
     overlap: float
     rapid_overlap: float
     is_bent: float
+    unseen: float
 
 
 @record

@@ -16,8 +16,9 @@ from math import inf, sqrt
 from polycnc.kernels.layout import Floats
 from polycnc.motion.kernels.columns import PLACES, SPLINE, Form, PieceRecord, State, piece_width
 
-#: A line is cut if what is left of it is at least this part of it.
-WORTH_CUTTING = 0.1
+#: A line is cut if what is left of it is at least this part of it; a part of a curve if that is so many mm, so that it
+#: makes no difference in how many parts it was laid.
+WORTH_CUTTING, WORTH_CUTTING_MM = 0.1, 1e-3
 #: Ways shorter than this (mm) count as none.
 SLIVER_MM = 1e-6
 
@@ -126,7 +127,9 @@ def hold_ahead(pieces: Floats, p: int, n: int, state: State) -> None:
 def worth_cutting(pieces: Floats, at: int, edge: float) -> bool:
     """Whether a bound that holds over `edge` mm of a piece leaves much of it free."""
     length = pieces[at + PieceRecord.LENGTH]
-    return pieces[at + PieceRecord.FORM] <= Form.BENT and edge < (1.0 - WORTH_CUTTING) * length
+    if pieces[at + PieceRecord.FORM] == Form.BENT:
+        return edge < length - min(WORTH_CUTTING * length, WORTH_CUTTING_MM)
+    return pieces[at + PieceRecord.FORM] == Form.STRAIGHT and edge < (1.0 - WORTH_CUTTING) * length
 
 
 def cut(pieces: Floats, p: int, n: int, state: State, first: float) -> bool:

@@ -48,7 +48,7 @@ def answer(desk: Desk, message: str) -> str:
     """Do what a message says, and answer it."""
     try:
         asked = json.loads(message) if len(message) <= LONGEST else None
-    except ValueError:
+    except (ValueError, RecursionError):
         asked = None
     if not isinstance(asked, dict) or not isinstance(asked.get("do"), str):
         return _refused(text("panel.message-form"))

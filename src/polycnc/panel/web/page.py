@@ -6,6 +6,7 @@ What stands on it comes from the family's data and the panel's description. What
 from __future__ import annotations
 
 from functools import partial
+from html import escape
 from typing import TYPE_CHECKING
 
 from nicegui import ui
@@ -61,7 +62,7 @@ class Page:
         self._refreshers: list[Callable[[], None]] = []
         self._held: set[str] = set()
         self._editor = Editor(desk, self._lang)
-        self._body = ui.element("main").classes("desk")
+        self._body = ui.element("div").classes("desk")
         self._build()
         ui.keyboard(on_key=self._typed, ignore=["input", "select", "textarea"])
         ui.timer(REFRESH_S, self._refresh)
@@ -76,6 +77,7 @@ class Page:
                 self._keyboard()
             with ui.element("div").classes("half"):
                 self._machine_panel()
+        self._body.client.run_javascript(f"document.documentElement.lang = '{self._lang}'")
         self._refresh()
 
     def _refresh(self) -> None:
@@ -185,7 +187,10 @@ class Page:
     def _machine_panel(self) -> None:
         desk, description = self._desk, self._desk.panel.description
         with ui.element("div").classes("bar"):
-            ui.label(f"polycnc · {desk.control.control.id} · {desk.control.machine.id}")
+            ui.html(
+                f"<h1>polycnc · {desk.control.control.id} · {escape(desk.control.machine.id)}</h1>",
+                sanitize=False,
+            )
             tools = ui.label("").classes("tools").props('role="status"')
             with ui.element("div").classes("flow"):
                 if len(description.mdi_units) > 1:
@@ -233,7 +238,7 @@ class Page:
     def _group(self, title: str) -> ui.element:
         group = ui.element("section").classes("group")
         with group:
-            ui.html(f"<h3>{text(title, self._lang)}</h3>", sanitize=False)
+            ui.html(f"<h2>{text(title, self._lang)}</h2>", sanitize=False)
         return group
 
     def _machine_key(self, name: str, label: str) -> ui.element:
@@ -353,8 +358,9 @@ class Page:
 
     def _help(self) -> None:
         """The sheet of keys."""
-        with ui.dialog() as dialog, ui.card():
-            ui.label(text("panel.help", self._lang))
+        title = text("panel.help", self._lang)
+        with ui.dialog().props(f'aria-label="{_quoted(title)}"') as dialog, ui.card().classes("teacher"):
+            ui.label(title)
             for key, meaning in (
                 *TYPED.items(),
                 *OPERATED.items(),

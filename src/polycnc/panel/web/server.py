@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
     from polycnc.panel.web.desk import Desk
 
+#: A browser that a busy computer keeps away for so long, s, goes on with the same page.
+RECONNECT_S = 30.0
 #: How often the time of the controls goes on, s.
 TICK_S = 0.02
 
@@ -42,8 +44,9 @@ def build(desks: Mapping[str, Desk], lang: str, token: str = "") -> None:
 
     def index() -> None:
         ui.add_css(style)
-        with ui.element("main").classes("half"):
-            ui.label(text("panel.index", lang))
+        ui.run_javascript(f"document.documentElement.lang = '{lang}'")
+        with ui.element("div").classes("half index"):
+            ui.html(f"<h1>{text('panel.index', lang)}</h1>", sanitize=False)
             for name, desk in desks.items():
                 ui.link(f"{name}: {desk.control.control.id}", f"/{name}")
 
@@ -85,5 +88,5 @@ def serve(*, host: str, port: int, opens: bool) -> None:
     """Run the server until it is interrupted."""
     ui.run(
         host=host, port=port, show=opens, reload=False, title="polycnc", favicon="⚙", show_welcome_message=False,
-        binding_refresh_interval=None,
+        binding_refresh_interval=None, reconnect_timeout=RECONNECT_S,
     )  # fmt: skip

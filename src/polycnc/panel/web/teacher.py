@@ -34,7 +34,10 @@ class Teacher:
 
     def open(self) -> None:
         """Show it."""
-        with ui.dialog() as dialog, ui.card().classes("teacher").props(f'aria-label="{self._says("title")}"'):
+        with (
+            ui.dialog().props(f'aria-label="{self._says("title")}"') as dialog,
+            ui.card().classes("teacher"),
+        ):
             self._task = ui.element("div").classes("task")
             ui.label(self._says("faults")).classes("head")
             with ui.element("div").classes("flow"):

@@ -97,6 +97,13 @@ class Turning:
             before, places = after, ahead
         return places
 
+    def part(self, start: Sequence[float], first: float, last: float) -> Turning:
+        """The turn on a part of the move, once it has no course; `start` are the positions in front of the move."""
+        width = last - first
+        inner = [(s, p) for s, p in zip(self.shares, self.places, strict=True) if first < s < last]
+        shares = (*((share - first) / width for share, _ in inner), 1.0)
+        return Turning(self.columns, shares, (*(places for _, places in inner), self.at(start, last)))
+
 
 @dataclass(frozen=True, slots=True)
 class Knot:

@@ -29,6 +29,9 @@ void main() { if (colour.a < 0.5) discard; shown = vec4(colour.rgb, 1.0); }`;
 // A colour as it is written: the shader puts it out as it is.
 const plain = (name) => new THREE.Color().setStyle(name, THREE.LinearSRGBColorSpace);
 
+// The colour of a tool by its number; a program may name one itself.
+const colourOf = (tools, i) => (/^#[0-9a-f]{6}$/.test(tools[i] || "") ? tools[i] : COLOURS[i % COLOURS.length]);
+
 class Line {
   constructor(address, pale, mode) {
     this.address = address;
@@ -104,6 +107,7 @@ class Line {
           this.material.uniforms.largest.value = 1;
         }
         this.tools = told.tools;
+        this.material.uniforms.colours.value = COLOURS.map((_, i) => plain(colourOf(told.tools, i)));
         this.add(told.first, points);
         if (points.length === 0) break;
       } while (this.count < told.count);
@@ -116,8 +120,8 @@ class Line {
 
 export default {
   template: `
-    <div class="picture" role="img" :aria-label="words.name" :data-points="points">
-      <canvas></canvas>
+    <div class="picture" :data-points="points">
+      <canvas role="img" :aria-label="words.name"></canvas>
       <p v-if="!works">{{ words["no-webgl"] }}</p>
       <div class="picture-keys">
         <button v-for="name in names" :key="name" type="button" class="k" @click="press(name)"
@@ -173,7 +177,7 @@ export default {
     this.renderer?.dispose();
   },
   methods: {
-    colourOf(i) { return COLOURS[i % COLOURS.length]; },
+    colourOf(i) { return colourOf(this.tools, i); },
     isChosen(name) { return name === this.by || (name === "machine" && this.hasMachine); },
     press(name) {
       if (name === "tool" || name === "feed") {

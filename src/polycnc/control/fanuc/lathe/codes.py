@@ -17,7 +17,7 @@ from polycnc.control.fanuc.lathe.cycles import grinding as turning_grinding
 from polycnc.control.fanuc.lathe.cycles import repetitive, single
 from polycnc.control.fanuc.lathe.cycles.drilling import NORMAL_CYCLES, SERIES_15_CYCLES
 from polycnc.control.fanuc.lathe.cycles.tapping import RIGID, RIGID_OFF, rigid_tapping
-from polycnc.control.fanuc.lathe.motion import threads
+from polycnc.control.fanuc.lathe.motion import beside, threads
 from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.fanuc.lathe.tools import data_input, measuring, nose_radius, offsets
 from polycnc.control.word_address.auxiliary import functions
@@ -125,7 +125,11 @@ ROWS: tuple[Row, ...] = (
     *by_system("G50.3", "G92.1", "G92.1", _point("G50.3", systems.preset_system)),
     *same(GCode("G50.1", "mirror", frames.end_mirror, axis_words=True)),
     *same(GCode("G51.1", "mirror", frames.mirror, axis_words=True)),
-    *same(GCode("G50.2", "polygon"), "G250"),
+    *same(GCode("G50.2", beside.POLYGON, beside.end_polygon, order=Order.MOTION), "G250"),
+    *same(GCode("G51.2", beside.POLYGON, beside.start_polygon, takes="P Q R", order=Order.MOTION), "G251"),
+    *same(_point("G81.1", beside.start_oscillation, "Q R")),
+    *same(GCode("G81.4", handler=beside.start_gear, takes="T L Q P", reals="PQ", order=Order.MOTION)),
+    *same(GCode("G80.4", handler=beside.end_gear, order=Order.MOTION)),
     *same(_point("G50.9", turning_auxiliary.output_while_moving)),
     *same(_point("G52", systems.set_local_system)),
     *same(_point("G53", systems.move_in_machine_system, "P")),
@@ -148,7 +152,7 @@ ROWS: tuple[Row, ...] = (
     *by_system("G74", "G74", "G76", _cycle("G74", repetitive.peck_facing)),
     *by_system("G75", "G75", "G77", _cycle("G75", repetitive.groove)),
     *by_system("G76", "G76", "G78", _cycle("G76", repetitive.thread)),
-    *same(GCode("G80", "cycle")),
+    *same(GCode("G80", "cycle", beside.end_gear, order=Order.MOTION)),
     *by_system("G90", "G77", "G20", _motion("G90", single.plan_single_cycle)),
     *by_system("G92", "G78", "G21", _motion("G92", single.plan_single_cycle)),
     *by_system("G94", "G79", "G24", _motion("G94", single.plan_single_cycle)),
@@ -162,9 +166,8 @@ ROWS: tuple[Row, ...] = (
     *by_system("", "G98", "G98", GCode("G98", "return")),
     *by_system("", "G99", "G99", GCode("G99", "return")),
     *not_yet(
-        "G31.8", "G50.4", "G50.5", "G50.6",
-        "G51.2", "G251", "G51.4", "G51.5", "G51.6", "G53.1", "G53.6", "G68.2", "G68.3", "G68.4", "G80.4", "G80.5",
-        "G81.1", "G81.4", "G81.5", "G96.1", "G96.2", "G96.3", "G96.4",
+        "G31.8", "G50.4", "G50.5", "G50.6", "G51.4", "G51.5", "G51.6", "G53.1", "G53.6", "G68.2", "G68.3", "G68.4",
+        "G80.5", "G81.5", "G96.1", "G96.2", "G96.3", "G96.4",
     ),
 )  # fmt: skip
 
@@ -195,6 +198,10 @@ GRINDING = tuple(
 )
 
 
+#: 7710 names an axis: G81 closes the electronic gear box.
+GEAR = same(GCode("G81", handler=beside.start_gear, takes="T L Q P", reals="PQ", order=Order.MOTION))
+
+
 #: Functions that a machine may lack: the bit, its value that says so, and the codes it takes away.
 FUNCTIONS = (
     (LatheParameters.SSC, False, frozenset({"G96"})),
@@ -217,6 +224,7 @@ def g_table(
     grinding: bool,
     series_15: bool,
     balance: bool,
+    gear: bool = False,
     missing: frozenset[str] = frozenset(),
 ) -> Mapping[str, GCode]:
     """The G table of a system as programs write it, with what the machine's parameters choose."""
@@ -228,6 +236,7 @@ def g_table(
         *(GRINDING if grinding else ()),
         *(BALANCE if balance else MIRROR),
         *(row for code in drilling for row in same(GCode(code, "cycle"))),
+        *(GEAR if gear else ()),
     )
     return {
         row.codes[column]: row.code for row in chosen if row.codes[column] and row.code.code not in missing
@@ -237,7 +246,7 @@ def g_table(
 #: All codes, as any system writes them.
 WRITTEN = frozenset(
     code
-    for row in (*ROWS, *MEASURING_37, *MEASURING_36, *GRINDING, *BALANCE, *MIRROR)
+    for row in (*ROWS, *MEASURING_37, *MEASURING_36, *GRINDING, *BALANCE, *MIRROR, *GEAR)
     for code in row.codes
     if code
 ) | {*NORMAL_CYCLES, *SERIES_15_CYCLES}

@@ -31,7 +31,7 @@ from polycnc.control.fanuc.lathe.cycles import (
     tapping,
 )
 from polycnc.control.fanuc.lathe.memory import TurningMemory
-from polycnc.control.fanuc.lathe.motion import drawing, threads
+from polycnc.control.fanuc.lathe.motion import beside, drawing, threads
 from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.fanuc.lathe.tools import data_input, files, nose_radius, offsets
 from polycnc.control.fanuc.lathe.variables import TURNING_VARIABLES
@@ -127,6 +127,7 @@ class FanucTurning(CustomMacroControl):
     )
     rules: ClassVar[tuple[Rule, ...]] = (
         intervention.RULE,
+        beside.RULE,
         ROTATION_RULE,
         normal_line.RULE,
         data_input.RULE,
@@ -169,6 +170,7 @@ class FanucTurning(CustomMacroControl):
             grinding=parameters.GFX,
             series_15=drilling.drills_in_series_15(channel),
             balance=balance.is_available(channel),
+            gear=parameters.gear_axis > 0,
             missing=missing_codes(channel.memory.parameters),
         )
         return self.with_calls(channel, self.with_machine_codes(channel, table))

@@ -337,6 +337,10 @@ class LatheParameters(FanucParameters["LatheAxisParameters"]):
     RIN = Bit(5400, 0, delivered=False)
     #: 5450#0: X of polar interpolation is a radius (0) or a diameter (1).
     PDI = Bit(5450, 0, delivered=False)
+    #: 7610: Tool axis of polygon turning (G51.2): number of a rotary axis, 0 for none.
+    polygon_axis = Whole(7610, delivered=0)
+    #: 7710: Workpiece axis of the electronic gear box (G81): number of a rotary axis, 0 for none.
+    gear_axis = Whole(7710, delivered=0)
     #: 8103#1: P of waiting and balance cutting is a binary sum (0) or path numbers (1).
     MWP = Bit(8103, 1, delivered=False)
     #: 8132#1: the Y offset is there.

@@ -10,6 +10,7 @@ from polycnc.deferred.records import dataclass
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.actions.cycles import RunningCycle
+    from polycnc.control.sinumerik.block.arguments import Arguments
     from polycnc.language.sinumerik.actions.code import Acting, ActionCode, Frozen
 
 _NOTHING: list[Any] = []
@@ -28,6 +29,7 @@ class Action:
         is_locked: LOCK.
         cycles: Technology cycles that it runs now, the first one in front.
         axes: Columns of axes that it has commanded; `endless` those that it has sent off without end.
+        offsets: What it has brought into wear so far (FTOC), mm, by length, channel and spindle.
     """
 
     code: ActionCode
@@ -39,6 +41,7 @@ class Action:
     cycles: list[RunningCycle] = field(default_factory=list)
     axes: set[int] = field(default_factory=set)
     endless: set[int] = field(default_factory=set)
+    offsets: dict[Arguments, float] = field(default_factory=dict)
 
     @property
     def is_static(self) -> bool:

@@ -192,6 +192,11 @@ class SynchronisedActions(State, lifetime=Lifetime.POWER):
         self.run.clocked.fail(error, program=action.code.program, line=action.code.line)
 
     @property
+    def goes_home(self) -> bool:
+        """A reset waits for nothing here."""
+        return False
+
+    @property
     def is_quiet(self) -> bool:
         """Whether another look would find everything as it is, until a block begins or an axis comes to rest."""
         if self.run.changed:

@@ -178,6 +178,22 @@ def await_rest(channel: SinumerikChannel, columns: Iterable[int], leading: int |
     channel.event(Deed("WAITP", None, _nothing, is_silent=False, awaits=moves))
 
 
+def call(channel: SinumerikChannel, name: str, places: dict[int, float]) -> None:
+    """Axes, which stand, are at other machine positions from here on, by column; nothing moves (PRESETON, AXCTSWE)."""
+    machine, clocked = channel.coordinates.machine, channel.actual.clocked
+    for column, place in places.items():
+        machine[column] = place
+    channel.coordinates.arrive_machine(machine)
+    if clocked is None:
+        return
+
+    def do() -> None:
+        for column, place in places.items():
+            clocked.stand_at(column, place)
+
+    channel.event(Deed(name, None, do, places=tuple(places.items())))
+
+
 def _nothing() -> None:
     """Nothing but waiting."""
 

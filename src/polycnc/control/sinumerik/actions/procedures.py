@@ -5,10 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.actions import axes as action_axes
-from polycnc.control.sinumerik.actions import couplings
+from polycnc.control.sinumerik.actions import couplings, polynomials
 from polycnc.control.sinumerik.actions.run import Deleted
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.channels.coordination import group_of
+from polycnc.control.sinumerik.tools import online
 from polycnc.messages import Alarm, AlarmError
 
 if TYPE_CHECKING:
@@ -125,6 +126,22 @@ def preset(run: Running, args: Arguments) -> None:
     run.changed = True
 
 
+def fine_offset(run: Running, args: Arguments) -> None:
+    """FTOC(function,reference,length[,channel[,spindle]]): the wear of a wheel follows a function of a value (10.4.9).
+
+    What the function gives is added to the wear that was there when the action acted first.
+    """
+    if not 3 <= len(args) <= 5 or None in args[:3]:
+        raise AlarmError("14020", text="FTOC")
+    value = polynomials.value(run.channel, arguments.whole(args[0]), arguments.real(args[1]))
+    where = args[2:]
+    way = value - run.action.offsets.get(where, 0.0)
+    if way:
+        online.put_fine(run.channel, (way, *where))
+        run.action.offsets[where] = value
+        run.changed = True
+
+
 PROCEDURES: dict[str, Callable[[Running, Arguments], None]] = {
     "RDISABLE": hold_next,
     "STOPREOF": release_preparation,
@@ -138,6 +155,7 @@ PROCEDURES: dict[str, Callable[[Running, Arguments], None]] = {
     "RELEASE": release_axes,
     "GET": get_axes,
     "PRESETON": preset,
+    "FTOC": fine_offset,
     "ICYCOF": lines_at_once,
     "ICYCON": line_by_line,
     **couplings.PROCEDURES,

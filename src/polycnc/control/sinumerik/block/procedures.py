@@ -13,7 +13,7 @@ from polycnc.control.sinumerik.axes import geometry
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.arguments import Arguments
 from polycnc.control.sinumerik.block.positions import DIAMETER_OF_AXIS, diameter_of_channel
-from polycnc.control.sinumerik.channels import axis_exchange, coordination
+from polycnc.control.sinumerik.channels import axis_containers, axis_exchange, coordination
 from polycnc.control.sinumerik.contours import preparation, use
 from polycnc.control.sinumerik.couplings import gears, leading, masters, synchronous, trailing
 from polycnc.control.sinumerik.curve_tables import administration, definition
@@ -26,11 +26,12 @@ from polycnc.control.sinumerik.punching import block as punching
 from polycnc.control.sinumerik.signals import interrupts, retraction, sections
 from polycnc.control.sinumerik.tangential import definitions as tangential
 from polycnc.control.sinumerik.tools import d_numbers, online
+from polycnc.control.sinumerik.tools.management import lists, magazines, monitoring
 from polycnc.control.sinumerik.transformations import seat, selection, start
 from polycnc.control.sinumerik.variables.stored import Stored
 from polycnc.language.sinumerik.names.initialisation import NEW_CONFIGURATION, initialise
 from polycnc.messages import Alarm, AlarmError
-from polycnc.toolpath.events import Message, Raised
+from polycnc.toolpath.events import Message, Print, Raised
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -71,6 +72,13 @@ def preprocessing_stop(channel: SinumerikChannel, _args: Arguments) -> None:
     definition.refuse(channel, "STOPRE")
     channel.flush()
     channel.synchronise()
+
+
+def log(channel: SinumerikChannel, args: Arguments) -> None:
+    """WRTPR(text[, n]): a line for the log, written along with the path, which goes on without a stop."""
+    if not 1 <= len(args) <= 2 or not isinstance(args[0], str):
+        raise AlarmError("14020", text="WRTPR")
+    channel.event(Print(args[0]))
 
 
 def set_alarm(channel: SinumerikChannel, args: Arguments) -> None:
@@ -134,11 +142,12 @@ def preset(channel: SinumerikChannel, args: Arguments) -> None:
     if not args or len(args) % 2:
         raise AlarmError("14020", text="PRESETON")
     seat.refuse_transformed(channel, [arguments.column(channel, axis) for axis in args[::2]], "17600")
-    coordinates = channel.coordinates
-    machine = coordinates.machine
-    for axis, value in zip(args[::2], args[1::2], strict=True):
-        machine[arguments.column(channel, axis)] = arguments.real(value)
-    coordinates.arrive_machine(machine)
+    values = zip(args[::2], args[1::2], strict=True)
+    action_axes.call(
+        channel,
+        "PRESETON",
+        {arguments.column(channel, axis): arguments.real(value) for axis, value in values},
+    )
 
 
 def dynamics(name: str) -> Callable[[SinumerikChannel, Arguments], None]:
@@ -175,6 +184,7 @@ def new_configuration(channel: SinumerikChannel, _args: Arguments) -> None:
     memory = channel.memory
     working_area.refresh(channel)
     masters.reconfigure(channel)
+    channel.context_changed()
     initialise(channel, NEW_CONFIGURATION, keep_values=memory.data.keeps_first_values)
 
 
@@ -203,6 +213,7 @@ def editor_mark(_channel: SinumerikChannel, _args: Arguments) -> None:
 
 PROCEDURES: dict[str, Callable[[SinumerikChannel, Arguments], None]] = {
     "MSG": message,
+    "WRTPR": log,
     "STOPRE": preprocessing_stop,
     "SETAL": set_alarm,
     "SETMS": set_master_spindle,
@@ -243,6 +254,7 @@ PROCEDURES: dict[str, Callable[[SinumerikChannel, Arguments], None]] = {
     **interrupts.PROCEDURES,
     **coordination.PROCEDURES,
     **axis_exchange.PROCEDURES,
+    **axis_containers.PROCEDURES,
     **retraction.PROCEDURES,
     **splines.PROCEDURES,
     **polynomial_groups.PROCEDURES,
@@ -253,6 +265,9 @@ PROCEDURES: dict[str, Callable[[SinumerikChannel, Arguments], None]] = {
     **selection.PROCEDURES,
     **start.PROCEDURES,
     **online.PROCEDURES,
+    **lists.PROCEDURES,
+    **magazines.PROCEDURES,
+    **monitoring.PROCEDURES,
     **punching.PROCEDURES,
     **geometry.PROCEDURES,
     **tangential.PROCEDURES,

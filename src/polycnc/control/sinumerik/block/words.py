@@ -36,6 +36,7 @@ from polycnc.control.sinumerik.punching import block as punching
 from polycnc.control.sinumerik.signals import fixed_stop, retraction
 from polycnc.control.sinumerik.tables import length_factor
 from polycnc.control.sinumerik.tools import stages
+from polycnc.control.sinumerik.tools.management import lists
 from polycnc.control.sinumerik.transformations.posture import Orienting
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.bulk import Note, declare
@@ -243,7 +244,7 @@ def tool(draft: Draft, position: int, shape: WordShape) -> Step:
         if replaced.takes(channel, [values[place] for place in places], beside_tool=True):
             replaced.hand(channel, "T", wanted if isinstance(wanted, str) else int(wanted))
             return
-        selected = 0 if wanted == 0 else memory.tools.find(wanted).number
+        selected = 0 if wanted == 0 else lists.chosen(channel, wanted).number
         channel.event(ToolSelection(wanted if isinstance(wanted, str) else int(wanted)))
         memory.tools.selected = selected
         if memory.data.integer("$MC_TOOL_CHANGE_MODE") == 0:

@@ -1,1 +1,4 @@
-"""Several channels: `coordination` (INIT, WAITM …), `axis_exchange` (GET, RELEASE), `link_memory` (`$A_DLB`)."""
+"""Several channels: `coordination` (INIT, WAITM …), `axis_exchange` (GET, RELEASE), `link_memory` (`$A_DLB`).
+
+`axis_containers` lets channel axes mean other machine axes (AXCTSWE).
+"""

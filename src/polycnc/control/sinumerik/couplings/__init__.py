@@ -10,5 +10,6 @@ approach   a following axis goes to its synchronous place first
 spindle_pairs  what spindles that follow others turn with, and where they stand
 synchronous    COUPDEF, COUPON, COUPOF …, WAITC
 masters        MASLDEF, MASLON, MASLOF, MASLOFS, MASLDEL
-variables  `$AA_COUP_ACT`, `$AA_LEAD_P`, `$AA_LEAD_V`
+gantry         pairs that are coupled from power-on (MD37100)
+variables  `$AA_COUP_ACT`, `$AA_LEAD_P`, `$AA_LEAD_V`, `$AA_EG_…`
 """

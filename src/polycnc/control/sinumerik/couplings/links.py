@@ -33,6 +33,8 @@ class Kind(IntEnum):
 
     SLAVE = 0
     """Of a master (MASLON), which it does not tell."""
+    GANTRY = -1
+    """Of a gantry, which it does not tell either."""
     TRAIL = 8
     LEAD = 16
     GEAR = 32
@@ -92,6 +94,7 @@ class Couplings(State, lifetime=Lifetime.POWER):
         kept = {kind for kind, bit in KEPT_BY_MASK.items() if mask & 1 and mask >> bit & 1} | {
             Kind.GEAR,
             Kind.SLAVE,
+            Kind.GANTRY,
         }
         for column in list(self.links):
             stay = [link for link in self.links[column] if link.kind in kept and lifetime < Lifetime.POWER]

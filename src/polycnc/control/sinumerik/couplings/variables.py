@@ -38,7 +38,7 @@ def _acts(channel: SinumerikChannel, indices: Indices) -> int:
     clocked = channel.actual.clocked
     if clocked is not None:
         kinds |= {Kind.LEAD if isinstance(law, ByCurve) else Kind.TRAIL for law in clocked.led_by(column)}
-    return sum(kinds) + coupling_state(channel, column)
+    return sum(max(kind, 0) for kind in kinds) + coupling_state(channel, column)
 
 
 def _master_place(channel: SinumerikChannel, indices: Indices) -> float:

@@ -11,6 +11,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.channel.stack import LevelKind
+from polycnc.channel.states.state import Lifetime, State
+from polycnc.deferred.records import dataclass
 from polycnc.language.sinumerik.names.frame import NEUTRAL
 from polycnc.program.names import WORKING_MEMORY, WORKPIECE
 
@@ -25,19 +27,42 @@ INITIAL = "_N_INITIAL_INI"
 TYPES = ("INI", "SEA", "GUD", "RPA", "UFR", "TOA")
 
 
+@dataclass(slots=True)
+class InitialisedState(State, lifetime=Lifetime.POWER):
+    """What init programs have run for.
+
+    Attributes:
+        memory: The working memory has taken in its files.
+        main: Directory and name of the main program that those of its workpiece have run for.
+    """
+
+    memory: bool = False
+    main: tuple[str, str] | None = None
+
+
 def call(channel: SinumerikChannel) -> None:
-    """Let the init programs run in front of the main program, those of the working memory first."""
-    programs = [*channel.store.programs_in(WORKING_MEMORY), *_of_workpiece(channel)]
+    """Let the init programs run in front of the main program, those of the working memory first.
+
+    Each runs once: in front of the first program, and at the first start of another program of a workpiece. What is
+    typed in is no such program.
+    """
+    state, main = InitialisedState.of(channel), channel.stack[0].code.program
+    if not main.directory:
+        return
+    programs: list[Program] = []
+    if not state.memory:
+        programs += channel.store.programs_in(WORKING_MEMORY)
+        state.memory = bool(programs)
+    if main.directory.endswith(WORKPIECE) and state.main != (main.directory, main.name):
+        state.main = (main.directory, main.name)
+        programs += _of_workpiece(channel, main)
     if any(program.name == INITIAL for program in programs):
         _standard_values(channel)
     for program in reversed(programs):
         channel.push(program, kind=LevelKind.SUBPROGRAM, local=[])
 
 
-def _of_workpiece(channel: SinumerikChannel) -> Iterator[Program]:
-    main = channel.stack[0].code.program
-    if not main.directory.endswith(WORKPIECE):
-        return
+def _of_workpiece(channel: SinumerikChannel, main: Program) -> Iterator[Program]:
     memory = channel.memory
     if memory.data.integer("$MN_WPD_INI_MODE"):
         names = [f"{main.name.rpartition('_')[0]}_{type_}" for type_ in TYPES]

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik import gcodes, tables
+from polycnc.control.sinumerik.tables import MINUTE
 from polycnc.deferred.records import dataclass
 from polycnc.toolpath.context import Pace
 
@@ -22,6 +23,7 @@ EDGES = {"CFC": "always", "CFIN": "inside", "CFTCP": "never"}
 #: FGREF that nobody has named: the radius at which a degree is 1 mm.
 DEGREE_MM = 180.0 / pi
 NOTHING = Pace()
+_HIGHEST = "$MA_MAX_AX_VELO"
 
 
 @dataclass(slots=True)
@@ -50,6 +52,7 @@ def pace(channel: SinumerikChannel, side: int) -> Pace | None:
         edge=EDGES[channel.mode["curve_feed"]] if side else "never",
         weights=_weights(channel),
         top=_tops(channel),
+        reach=_reach(channel),
         velocity=_factors(channel, "VELOLIM"),
         acceleration=_with_technology(channel, "ACC", "$MA_MAX_AX_ACCEL", "acceleration"),
         jerk=_with_technology(channel, "JERKLIM", "$MA_MAX_AX_JERK", "jerk")
@@ -81,6 +84,16 @@ def _tops(channel: SinumerikChannel) -> tuple[float, ...]:
         for column in range(len(channel.axes))
     ]
     return tuple(tops) if min(tops, default=inf) < inf else ()
+
+
+def _reach(channel: SinumerikChannel) -> tuple[float, ...]:
+    """MD32000 where it is set: no axis is faster, and VELOLIM is a part of it; the machine file holds in any case."""
+    data, factors = channel.memory.data, _factors(channel, "VELOLIM") or (1.0,) * len(channel.axes)
+    reach = [
+        data.number(_HIGHEST, axis) / MINUTE * factor if data.is_set(_HIGHEST, axis) else inf
+        for axis, factor in zip(channel.axes, factors, strict=True)
+    ]
+    return tuple(reach) if min(reach, default=inf) < inf else ()
 
 
 def _factors(channel: SinumerikChannel, address: str) -> tuple[float, ...]:

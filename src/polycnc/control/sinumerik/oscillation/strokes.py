@@ -179,6 +179,11 @@ class Oscillations(State, lifetime=Lifetime.POWER):
         self.infeeds = [infeed for infeed in self.infeeds if not infeed.is_done(clocked)]
 
     @property
+    def goes_home(self) -> bool:
+        """A reset waits for nothing here."""
+        return False
+
+    @property
     def is_quiet(self) -> bool:
         """Whether another look would find everything as it is, until an axis comes to rest."""
         if self.axes and self.channel.coordinates.transformation is not None:

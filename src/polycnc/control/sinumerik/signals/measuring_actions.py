@@ -120,6 +120,11 @@ class ActionProbes(State, lifetime=Lifetime.RESET):
         return False
 
     @property
+    def goes_home(self) -> bool:
+        """A reset waits for nothing here."""
+        return False
+
+    @property
     def is_quiet(self) -> bool:
         """Nothing is measured."""
         return not self.jobs

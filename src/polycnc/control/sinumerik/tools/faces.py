@@ -20,6 +20,7 @@ from polycnc.compensation.spatial import CHORD_ERROR_MM, Directions
 from polycnc.control.sinumerik.tools.edges import DP_CORNER_RADIUS, DP_RADIUS, DP_SIDE_ANGLE
 from polycnc.control.sinumerik.tools.spatial import ToolOnWork
 from polycnc.control.sinumerik.transformations import seat
+from polycnc.control.sinumerik.transformations.directions import SQUARE
 from polycnc.control.sinumerik.transformations.posture import Orienting
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.arcs import parts_for_chord_error
@@ -149,6 +150,8 @@ class FaceStage(Stage):
         path = MovePath(move, self._geometry)
         first, last = self._normal(self._surface.first_normal), self._normal(self._surface.normal)
         self._surface.first_normal = self._surface.normal
+        if self._at is not None:
+            self._check_square(path, first, last)
         if self._at is None:
             self._emit(move, move.end, last)
             return
@@ -164,16 +167,13 @@ class FaceStage(Stage):
                 piece = replace(move, kind=Kind.SPLINE, center=None, turns=0.0, turning=None)
             if k < count:  # displays show one motion
                 piece.context = knot_context(self._channel, move.context)
-            self._emit(piece, self._place(move, path, k / count), unit(_between(first, last, k / count)))
+            self._emit(piece, path.at(k / count), unit(_between(first, last, k / count)))
 
-    def _place(self, move: Move, path: MovePath, part: float) -> list[float]:
-        """The programmed position after a part of a move."""
-        place, turning = path.at(part), move.turning
-        if turning is not None:
-            start = [move.start[column] for column in turning.columns]
-            for column, angle in zip(turning.columns, turning.at(start, part), strict=True):
-                place[column] = angle
-        return place
+    def _check_square(self, path: MovePath, first: Vector, last: Vector) -> None:
+        """10769 for a normal that lies along the path, at its start or end (6.2.5)."""
+        along = max(abs(dot(first, path.direction(0.0))), abs(dot(last, path.direction(1.0))))
+        if along > SQUARE:
+            raise AlarmError("10769")
 
     def _pieces(self, move: Move, first: Vector, last: Vector) -> int:
         """Chords that keep to the way of the tip."""

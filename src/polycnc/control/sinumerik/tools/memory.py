@@ -77,6 +77,7 @@ class Tools(State, lifetime=Lifetime.POWER):
         carrier: How an orientable tool carrier or head turns and shifts the lengths; None where there is none.
         cut_turns: Edge position and its companions turn with the carrier (CUTMOD).
         overlay: Online offsets along X, Y, Z, as the tool is turned, mm.
+        used: Numbers of the tools that came into the spindle since pieces were counted last (SETPIECE).
     """
 
     tools: dict[int, Tool] = retained(TOOLS)
@@ -94,6 +95,7 @@ class Tools(State, lifetime=Lifetime.POWER):
     carrier: Frame | None = None
     cut_turns: bool = False
     overlay: Vector = (0.0, 0.0, 0.0)
+    used: set[int] = field(default_factory=set)
 
     @classmethod
     def first(cls, channel: Channel) -> Self:
@@ -170,6 +172,8 @@ class Tools(State, lifetime=Lifetime.POWER):
         """Put a tool into the spindle; MD20270 says which edge then holds."""
         default = data.integer("$MC_CUTTING_EDGE_DEFAULT")
         self.active = number
+        if number:
+            self.used.add(number)
         self._forget_additions()
         if self.is_flat:
             self.next_edge = None

@@ -96,6 +96,8 @@ def target_of(
         normal = _normals(posture, state, words, values)(1.0)
         if tangent is None:
             return None
+        if abs(dot(normal, tangent)) > SQUARE:
+            raise AlarmError("14115")
         return leaned(tangent, normal, state.lead, state.tilt, about_normal=_tilts_about_normal(posture))
     if words.columns:
         return posture.direction(posture.angles(path.at(1.0)))

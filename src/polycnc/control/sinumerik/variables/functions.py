@@ -16,6 +16,7 @@ from polycnc.control.sinumerik.frames import adding, codes
 from polycnc.control.sinumerik.frames.variables import frame_axis
 from polycnc.control.sinumerik.limits import calcposi
 from polycnc.control.sinumerik.tools import d_numbers
+from polycnc.control.sinumerik.tools.management import lists, magazines
 from polycnc.geometry import fit
 from polycnc.language.sinumerik.formatting import formatted
 from polycnc.language.sinumerik.keywords import CONTROL_FUNCTIONS
@@ -156,6 +157,8 @@ FUNCTIONS: dict[str, Callable[[SinumerikChannel, Arguments], Any]] = {
     "GETDNO": d_numbers.get_number,
     "SETDNO": d_numbers.set_number,
     "GETACTTD": d_numbers.tool_of_number,
+    **lists.FUNCTIONS,
+    **magazines.FUNCTIONS,
     **administration.FUNCTIONS,
     **reading.FUNCTIONS,
 }

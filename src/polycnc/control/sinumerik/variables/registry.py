@@ -18,6 +18,7 @@ from polycnc.control.sinumerik.axes.geometry import GEOMETRY_VARIABLES
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.positions import shown
 from polycnc.control.sinumerik.channels import link_memory
+from polycnc.control.sinumerik.channels.axis_containers import CONTAINER_VARIABLES
 from polycnc.control.sinumerik.couplings import links
 from polycnc.control.sinumerik.couplings.spindle_pairs import SpindlePairs, turns
 from polycnc.control.sinumerik.couplings.variables import COUPLING_VARIABLES
@@ -36,6 +37,9 @@ from polycnc.control.sinumerik.replaced import REPLACED_VARIABLES
 from polycnc.control.sinumerik.signals.measuring import MEASURE_VARIABLES
 from polycnc.control.sinumerik.signals.sections import SECTION_VARIABLES
 from polycnc.control.sinumerik.tables import MINUTE
+from polycnc.control.sinumerik.tools.management.lists import LIST_VARIABLES
+from polycnc.control.sinumerik.tools.management.magazines import MAGAZINE_VARIABLES
+from polycnc.control.sinumerik.tools.management.monitoring import MONITORING_VARIABLES
 from polycnc.control.sinumerik.tools.online import OVERLAY_VARIABLES
 from polycnc.control.sinumerik.tools.sides import Contour
 from polycnc.control.sinumerik.tools.variables import IN_MAIN_RUN, TOOL_VARIABLES
@@ -392,6 +396,10 @@ VARIABLES: dict[str, SystemVariable] = {
     **{name: SystemVariable(name, *row) for name, row in GEOMETRY_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in FRAME_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in TOOL_VARIABLES.items()},
+    **{
+        name: SystemVariable(name, *row)
+        for name, row in {**LIST_VARIABLES, **MAGAZINE_VARIABLES, **MONITORING_VARIABLES}.items()
+    },
     **{name: SystemVariable(name, *TOOL_VARIABLES[of], stop=True) for name, of in IN_MAIN_RUN.items()},
     **{name: SystemVariable(name, *row) for name, row in OVERLAY_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in working_area.AREA_VARIABLES.items()},
@@ -399,6 +407,7 @@ VARIABLES: dict[str, SystemVariable] = {
     **{name: SystemVariable(name, *row) for name, row in AXIS_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in TOLERANCE_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in COUPLING_VARIABLES.items()},
+    **{name: SystemVariable(name, *row) for name, row in CONTAINER_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in INDEX_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in REPOS_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in MEASURE_VARIABLES.items()},

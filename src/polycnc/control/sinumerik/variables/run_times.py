@@ -163,6 +163,11 @@ class RunTimes(State, lifetime=Lifetime.POWER):
         return False
 
     @property
+    def goes_home(self) -> bool:
+        """A reset waits for nothing here."""
+        return False
+
+    @property
     def is_quiet(self) -> bool:
         """Nothing is looked at."""
         return True

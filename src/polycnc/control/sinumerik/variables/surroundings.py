@@ -15,7 +15,7 @@ from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.family import SinumerikChannel
-    from polycnc.control.sinumerik.variables.row import Indices, Row, RowWithStop, Writer
+    from polycnc.control.sinumerik.variables.row import Indices, Reader, Row, RowWithStop, Writer
 
 #: Of the software that the manuals describe (4.5); `$AN_NCK_VERSION` among the parameters of the setup overrides it.
 _NCK_VERSION = 92.0
@@ -38,12 +38,13 @@ def _kept(name: str, type_: Type, *kinds: type) -> Row:
     def place(channel: SinumerikChannel, indices: Indices) -> tuple[Any, ...]:
         if len(indices) != len(kinds) or any(map(_is_other, indices, kinds)):
             raise AlarmError("12400", text=name)
-        for index in indices:
-            if isinstance(index, Axis):
-                channel.memory.column(index.name)
-            elif index < 0:
-                raise AlarmError("17020", text=name, index=index)
-        return tuple(indices)
+        if any(not isinstance(index, Axis) and index < 0 for index in indices):
+            raise AlarmError("17020", text=name, index=min(i for i in indices if not isinstance(i, Axis)))
+        # X, X1 and AX1 are the same axis.
+        return tuple(
+            channel.axes[channel.memory.column(index.name)] if isinstance(index, Axis) else index
+            for index in indices
+        )
 
     def read(channel: SinumerikChannel, indices: Indices) -> Any:
         return Stored.of(channel).nck.get((name, place(channel, indices)), empty)
@@ -71,6 +72,26 @@ _ENCODER_ERRORS: dict[str, Row] = {
         )
     },
 }
+#: Quadrant errors: `[0, point, axis]`, `[0, axis]`.
+_QUADRANT_ERRORS: dict[str, Row] = {
+    "$AA_QEC": _kept("$AA_QEC", Type.REAL, int, int, Axis),
+    **{
+        name: _kept(name, type_, int, Axis)
+        for name, type_ in (
+            ("$AA_QEC_COARSE_STEPS", Type.INT),
+            ("$AA_QEC_FINE_STEPS", Type.INT),
+            ("$AA_QEC_ACCEL_1", Type.REAL),
+            ("$AA_QEC_ACCEL_2", Type.REAL),
+            ("$AA_QEC_ACCEL_3", Type.REAL),
+            ("$AA_QEC_MEAS_TIME_1", Type.REAL),
+            ("$AA_QEC_MEAS_TIME_2", Type.REAL),
+            ("$AA_QEC_MEAS_TIME_3", Type.REAL),
+            ("$AA_QEC_TIME_1", Type.REAL),
+            ("$AA_QEC_LEARNING_RATE", Type.REAL),
+            ("$AA_QEC_DIRECTIONAL", Type.BOOL),
+        )
+    },
+}
 #: Sag: `[table, point]`, `[table]`.
 _SAG: dict[str, Row] = {
     "$AN_CEC": _kept("$AN_CEC", Type.REAL, int, int),
@@ -91,10 +112,22 @@ _SAG: dict[str, Row] = {
         )
     },
 }
-_TABLES: dict[str, Row] = {**_ENCODER_ERRORS, **_SAG}
+_TABLES: dict[str, Row] = {**_ENCODER_ERRORS, **_QUADRANT_ERRORS, **_SAG}
 _NOT_WRITTEN: Writer | None = None
+#: What the cycles of interpolation and control cost, ms or per cent (10.4.30). The clock of the main run is simulated:
+#: computing takes none of its time, and nothing is ever overloaded.
+_LOADS = (
+    *(f"$AN_IPO_{of}" for of in ("ACT_LOAD", "MAX_LOAD", "MIN_LOAD", "LOAD_PERCENT")),
+    *(f"$AN_SERVO_{of}_LOAD" for of in ("ACT", "MAX", "MIN")),
+    *("$AN_SYNC_ACT_LOAD", "$AN_SYNC_MAX_LOAD", "$AN_SYNC_TO_IPO"),
+    *(f"$AC_SYNC_{of}_LOAD" for of in ("ACT", "MAX", "AVERAGE")),
+)
+_NO_TIME: Reader = lambda _channel, _indices: 0.0  # noqa: E731 - a row of the table
+_NO_OVERLOAD: Reader = lambda _channel, _indices: False  # noqa: E731
 SURROUNDINGS: dict[str, RowWithStop] = {
     "$AN_NCK_VERSION": (Type.REAL, _version, _NOT_WRITTEN, False),
     "$P_MC": (Type.BOOL, _modal_call, _NOT_WRITTEN, False),
     **{name: (*row, False) for name, row in _TABLES.items()},
+    **dict.fromkeys(_LOADS, (Type.REAL, _NO_TIME, _NOT_WRITTEN, True)),
+    "$AN_IPO_LOAD_LIMIT": (Type.BOOL, _NO_OVERLOAD, _NOT_WRITTEN, True),
 }

@@ -9,7 +9,9 @@ from polycnc.channel.states.state import Lifetime, State, lasting
 from polycnc.control.syntec.axis_groups.names import map_virtual_axis
 from polycnc.control.syntec.five_axes.spatial import choose_corners
 from polycnc.control.syntec.units import least_unit
+from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.coordinates import frames as base_frames
+from polycnc.control.word_address.coordinates import systems as base_systems
 from polycnc.control.word_address.coordinates.stroke_check import StrokeZone
 from polycnc.control.word_address.coordinates.systems import ZeroState, go_to_reference, refresh_zero
 from polycnc.control.word_address.memory import EXTERNAL
@@ -24,7 +26,6 @@ from polycnc.machine.kinematics import turn_about
 if TYPE_CHECKING:
     from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.syntec.memory import SyntecMemory
-    from polycnc.control.word_address.block.words import Words
     from polycnc.geometry.frames import Frame, Vector
 
 #: Names of the work coordinate systems G54 P1 … P100 in the memory of offsets.
@@ -34,6 +35,8 @@ WORK_SYSTEMS = (
     *(f"G54 P{number}" for number in range(16, 101)),
 )
 REFERENCE_POINTS = (1, 2, 3, 4)
+#: Axes that G28, G29 and G30 move.
+REFERABLE_AXES = frozenset({*"XYZUVWABC", "X1", "Y1", "Z1", "X2", "Y2", "Z2"})
 MACHINING_CONDITIONS = frozenset({*range(10), 21, 22, 23})
 WORK_OFFSET, SPATIAL_CORNERS, VIRTUAL_AXIS, REGISTER_INPUT = 2, 450, 801, 1000
 LAST_REGISTER = 65535
@@ -151,11 +154,32 @@ def renew_preset_frame(memory: SyntecMemory) -> None:
     x, y, z = state.axis
     turns = state.angle != 0.0 and x * x + y * y + z * z != 0.0
     turn = turn_about((x, y, z), state.angle) if turns else IDENTITY
-    frame = turn @ state.table @ state.tilt
-    ZeroState.of(memory.channel).frame = IDENTITY if frame.is_identity else frame
+    zero = ZeroState.of(memory.channel)
+    zero.frame, zero.table, zero.plane = turn, state.table, state.tilt
 
 
 # ---- reference points, stroke limits ---------------------------------------------------------------------
+
+
+def _referable(channel: SyntecChannel, words: Words) -> Words | None:
+    """The words of G28, G29 and G30 without axes that these codes do not move (2.19.4); None where no axis is left."""
+    named = words.plan.axis_words
+    others = [word.address for word in named if channel.axes[word.axis] not in REFERABLE_AXES]
+    if not others:
+        return words
+    return Words(words.plan.without(others), words.values) if len(others) < len(named) else None
+
+
+def return_to_reference(channel: SyntecChannel, words: Words) -> None:
+    """G28: over the intermediate point to the first reference point (2.19)."""
+    if (own := _referable(channel, words)) is not None:
+        go_to_reference(channel, own, 1)
+
+
+def return_from_reference(channel: SyntecChannel, words: Words) -> None:
+    """G29: over the intermediate point of the last G28 or G30 to the target (2.20)."""
+    if (own := _referable(channel, words)) is not None:
+        base_systems.return_from_reference(channel, own)
 
 
 def return_to_further_reference(channel: SyntecChannel, words: Words) -> None:
@@ -164,7 +188,8 @@ def return_to_further_reference(channel: SyntecChannel, words: Words) -> None:
     number = 2 if number is None else number
     if number not in REFERENCE_POINTS:
         raise words.fail("number", "P")
-    go_to_reference(channel, words, int(number))
+    if (own := _referable(channel, words)) is not None:
+        go_to_reference(channel, own, int(number))
 
 
 def stroke_limit_on(channel: SyntecChannel, words: Words) -> None:
@@ -241,10 +266,13 @@ def rotate(channel: SyntecChannel, words: Words) -> None:
     base_frames.end_rotation(channel, words)
     u, v, _ = PLANES[channel.mode["plane"]]
     point = [c.programmed[axis] if axis >= 0 else 0.0 for axis in c.geometry]
-    for axis, value, _ in words.axes():
+    named = words.axes()
+    for axis, value, _ in named:
         for i in (u, v):
             if c.geometry[i] == axis:
                 point[i] = value
+    if named and not any(axis in (c.geometry[u], c.geometry[v]) for axis, _, _ in named):
+        return  # a centre beside the plane: the rotation does not act (2.43.3)
     frames.rotation = base_frames.rotation_frame(channel, point, angle)
     c.set_programming(frames.product())
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.coordinates.systems import TurnState, renew_preset_frame
 from polycnc.control.syntec.units import least_unit
-from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
+from polycnc.control.word_address.coordinates.systems import refresh_zero
 from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.tools import length
 from polycnc.control.word_address.tools.length import LengthState
@@ -96,8 +96,7 @@ def _stand_on_plane(channel: SyntecChannel, angles: Angles) -> None:
     memory = channel.memory
     kinematics = Kinematics.of(channel.machine)
     c = channel.coordinates
-    zero = [c.offsets[axis] - ZeroState.of(channel).length[axis] if axis >= 0 else 0.0 for axis in c.geometry]
-    TurnState.of(channel).table = table_turn(kinematics, angles, zero)
+    TurnState.of(channel).table = table_turn(kinematics, angles, (0.0, 0.0, 0.0))
     renew_preset_frame(memory)
     LengthState.of(channel).direction = kinematics.tool_on_machine(angles)
     length.renew_direction(channel)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
+from polycnc.channel.moves.knots import knot_context
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.compensation.spatial import ARC_FIRST, INTERSECTION, Corners, Rules, SpatialStage
 from polycnc.control.syntec.five_axes.tip_control import PostureState
@@ -70,7 +72,8 @@ def start(channel: SyntecChannel, words: Words) -> None:
     c = channel.coordinates
     posture = Posture(Kinematics.of(channel.machine), channel.axes, tuple(c.offsets))
     channel.flush()
-    channel.path.put(SpatialStage(c.geometry, posture, radius, SIDES[code], _corners(channel), RULES))
+    within = partial(knot_context, channel)
+    channel.path.put(SpatialStage(c.geometry, posture, radius, SIDES[code], _corners(channel), RULES, within))
 
 
 def _check_start(channel: SyntecChannel, words: Words, code: str) -> None:

@@ -97,6 +97,7 @@ def set_tilt(channel: SyntecChannel, tilt: Frame) -> None:
         raise channel.control.not_yet("G68.2 G12.1")
     turn_state.tilt, turn_state.table = tilt, IDENTITY
     renew_preset_frame(memory)
+    refresh_zero(channel)  # a change of the plane is not travelled, one of the length is
     if length_state.direction is not None:
         length_state.direction = None
         length.renew_direction(channel)

@@ -14,7 +14,7 @@ from polycnc.control.syntec.macros.variables import BitState, FunctionState
 from polycnc.deferred.regexes import regex
 from polycnc.language.syntec.values import VACANT, Text, Vacant, Value, number, whole
 from polycnc.messages import AlarmError
-from polycnc.toolpath.events import Message, Print
+from polycnc.toolpath.events import Circle, Message, Pen, Print
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -259,15 +259,20 @@ def stored_text(memory: SyntecMemory, index: Value) -> Value:
 # ---- picture and checks ----------------------------------------------------------------------------------
 
 
-def set_colour(memory: SyntecMemory, colour: Value, _fill: Value = 0, _radius: Value = 0) -> Value:
-    """SETDRAW(c): colour of the simulated path, which has no part in the motion; gives the previous one."""
+def set_colour(memory: SyntecMemory, colour: Value, fill: Value = 0, radius: Value = 0) -> Value:
+    """SETDRAW(c, fill, r): colour (BGR) of the simulated path, and what DRAWHOLE draws; gives the previous colour."""
     state = FunctionState.of(memory.channel)
     previous, state.colour = state.colour, whole(colour, WRONG_TYPE)
+    state.filled, state.radius = bool(whole(fill, WRONG_TYPE)), abs(number(radius))
+    red, green, blue = (state.colour >> shift & 0xFF for shift in (0, 8, 16))
+    memory.channel.event(Pen(f"#{red:02x}{green:02x}{blue:02x}"))
     return previous
 
 
-def draw_hole(_memory: SyntecMemory) -> Value:
-    """DRAWHOLE(): a circle in the simulated picture."""
+def draw_hole(memory: SyntecMemory) -> Value:
+    """DRAWHOLE(): a circle in the simulated picture about the present point."""
+    state = FunctionState.of(memory.channel)
+    memory.channel.event(Circle(state.radius, state.filled))
     return VACANT
 
 

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.stack import LevelKind
 from polycnc.channel.states.state import Lifetime, State
+from polycnc.control.syntec.motion.polar import POLAR
+from polycnc.control.syntec.motion.smoothing import SmoothingState
 from polycnc.control.syntec.spindles import SpindleState
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion import path, skip
@@ -27,8 +29,8 @@ if TYPE_CHECKING:
 
 GROUP, ON, OFF = "interrupt", "M96", "M97"
 LAST_PROGRAM, LAST_BIT, LAST_REGISTER, REGISTER_BITS = 9999, 511, 65535, 16
-#: Modal states in which the signal has no effect: group and the code that is none of them.
-DEAF = {"polar": "G15", "compensation": "G40", "scaling": "G50", "mirror": "G50.1"}
+#: Modal states in which the signal has no effect: group and the code that is none of them (3.2.3, 10).
+DEAF = {POLAR: "G13.1", "polar": "G15", "compensation": "G40", "scaling": "G50", "mirror": "G50.1"}
 STRAIGHT = {"G0": Kind.RAPID, "G1": Kind.FEED}
 
 
@@ -104,7 +106,7 @@ def _with_interrupt(builder: Builder, plan: Plan, step: Step | None) -> Step | N
     def move(channel: SyntecChannel, values: list[float]) -> None:
         interrupt = InterruptState.of(channel).prepared
         at = channel.setup.switches.signals_at.get(interrupt.signal) if interrupt else None
-        if interrupt is None or not interrupt.armed or not at or SpindleState.of(channel).pairs:
+        if interrupt is None or not interrupt.armed or not at or _is_deaf(channel):
             step(channel, values)
             return
         if kind is None:
@@ -120,6 +122,11 @@ def _with_interrupt(builder: Builder, plan: Plan, step: Step | None) -> Step | N
         _call(channel, interrupt.program)
 
     return move
+
+
+def _is_deaf(channel: SyntecChannel) -> bool:
+    """Whether spindles are in step, or G05 or G05.1 bends the path: the signal has no effect then."""
+    return bool(SpindleState.of(channel).pairs) or SmoothingState.of(channel).tolerance > 0.0
 
 
 def _call(channel: SyntecChannel, program: Program) -> None:

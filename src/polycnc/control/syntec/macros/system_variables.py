@@ -135,11 +135,21 @@ def _machine(memory: SyntecMemory) -> list[float]:
 
 
 def _skip(memory: SyntecMemory) -> list[float]:
-    return LastSkip.here(memory.channel)
+    return LastSkip.of(memory.channel).position or []
 
 
 def _machine_skip(memory: SyntecMemory) -> list[float]:
-    return SkipState.of(memory.channel).machine or memory.channel.coordinates.machine
+    at = LastSkip.of(memory.channel).position
+    return (
+        []
+        if at is None
+        else SkipState.of(memory.channel).machine or memory.channel.coordinates.to_machine(at)
+    )
+
+
+def _skip_flags(memory: SyntecMemory, _offset: int) -> Value:
+    """#1608; where an input of the main run has cut the move, G31 has."""
+    return SkipState.of(memory.channel).flags or int(LastSkip.of(memory.channel).position is not None)
 
 
 def _length(memory: SyntecMemory) -> list[float]:
@@ -322,7 +332,7 @@ SYSTEM_VARIABLES = Registry(
         Space(1602, 1602, lambda memory, _offset: memory.least_angle),
         Space(1604, 1604, lambda memory, _offset: memory.parameters.uvw_increments),
         Space(1606, 1606, lambda memory, _offset: len(FunctionState.of(memory.channel).stack)),
-        Space(1608, 1608, lambda memory, _offset: SkipState.of(memory.channel).flags),
+        Space(1608, 1608, _skip_flags),
         Space(1616, 1616, _constant(0)),
         Space(1618, 1618, _constant(0)),
         Space(1620, 1620, _sequence),

@@ -134,6 +134,8 @@ class FunctionState(State, lifetime=Lifetime.POWER):
     stack: list[Value] = lasting(Lifetime.RESET, factory=list)
     random: Random = field(default_factory=lambda: Random(0))
     colour: int = 0
+    filled: bool = False
+    radius: float = 0.0
 
 
 @dataclass(slots=True)

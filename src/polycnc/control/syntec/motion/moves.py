@@ -37,6 +37,7 @@ from polycnc.toolpath.modes import FeedMode
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from polycnc.channel.channel import Channel
     from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.codes import Handler, Step
     from polycnc.control.word_address.block.plan import Builder, Plan
@@ -79,6 +80,9 @@ def recorded(channel: SyntecChannel, context: Context) -> Context:
     rapid = state.rapid_overlap if overlap == NO_OVERLAP else 0.0
     if rapid is None:
         rapid = channel.memory.parameters.rapid_overlap * least_unit(channel.memory.parameters)
+    as_it_is = (context.feed_mode, context.rapid_speed, context.overlap, context.rapid_overlap)
+    if (mode, state.rapid_speed, overlap, rapid) == as_it_is:
+        return context
     return replace(
         context, feed_mode=mode, rapid_speed=state.rapid_speed, overlap=overlap, rapid_overlap=rapid
     )
@@ -90,14 +94,33 @@ class SkipState(State, lifetime=Lifetime.POWER):
 
     Attributes:
         flags: #1608.
-        machine: Machine position of the last skip.
+        machine: Machine position where the last skip move was cut (#1441 on); None where none was. `LastSkip` has the
+            same as the absolute display shows it (#1361 on).
         groups: Groups of G31.10 that G31.11 will move; `groups_end` is the step behind the last one.
     """
 
-    flags: int = 0
-    machine: list[float] | None = None
+    flags: int = lasting(Lifetime.RESET, 0)
+    machine: list[float] | None = lasting(Lifetime.RESET, None)
     groups: list[SkipGroup] = lasting(Lifetime.RESET, factory=list)
     groups_end: int = 0
+
+    def forget(self, channel: SyntecChannel) -> None:
+        """Another skip move begins (2.77.3)."""
+        self.flags, self.machine = 0, None
+        LastSkip.of(channel).position = None
+
+    def note(self, channel: SyntecChannel, flags: int) -> None:
+        """A skip move is over: its signal has cut it where flags are set."""
+        self.flags = flags
+        if flags:
+            self.machine = channel.coordinates.machine
+            LastSkip.of(channel).position = list(channel.coordinates.position)
+
+    def end(self, channel: Channel, lifetime: Lifetime) -> None:
+        """A reset forgets where a skip move was cut."""
+        super().end(channel, lifetime)
+        if lifetime >= Lifetime.RESET:
+            LastSkip.of(channel).position = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -300,10 +323,9 @@ def skip_move(channel: SyntecChannel, words: Words) -> None:
     c = channel.coordinates
     end = c.to_position(path.reach(channel, words.plan.axis_words, words.values))
     stopped = skip.signal_position(channel, c.position, end, skip_source(channel, words))
-    state.flags = int(stopped is not None)
+    state.forget(channel)
     skip.move_to_signal(channel, end, stopped)
-    LastSkip.of(channel).position = list(c.position)
-    state.machine = c.machine
+    state.note(channel, int(stopped is not None))
 
 
 def skip_source(channel: SyntecChannel, words: Words) -> object:

@@ -1,21 +1,22 @@
 """Oscillation of an axis beside the program: G81.1 until G80, G81.2 until G80.2 (manual 2.51, 2.78, 2.79).
 
-The way to the R point is part of the path. The strokes themselves run beside it, so the toolpath does not show them; on
-the path the axis stands at its R point, and at the end it stands where the end says.
+The way to the R point is part of the path. The strokes run beside it (`word_address/motion/oscillation.py`), so the
+toolpath does not show them; on the path the axis stands at its R point, and behind the end where that has led it.
 """
 
 from __future__ import annotations
 
+from functools import partial
 from math import nan
 from typing import TYPE_CHECKING
 
-from polycnc.channel.states.state import Lifetime, State
+from polycnc.channel.states.state import Lifetime, State, lasting
 from polycnc.control.syntec.axis_groups.names import CODES, axis_of_code
 from polycnc.control.syntec.units import least_unit
 from polycnc.control.word_address.block.rules import Rule
+from polycnc.control.word_address.motion.oscillation import Fixed, Oscillator, Read, Strokes
 from polycnc.control.word_address.transformations.normal_stage import NormalStage
 from polycnc.deferred.records import dataclass
-from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     from polycnc.control.syntec.memory import SyntecMemory
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.block.words import Words
+    from polycnc.control.word_address.motion.oscillation import Source
 
 OSCILLATION, OFF, SIMPLE, PRECISE = "oscillation", "G80.2", "G81.1", "G81.2"
 #: What changes the coordinates of an axis that oscillates.
@@ -45,23 +47,21 @@ class Oscillation:
 
     Attributes:
         axis: Its column.
-        vertices: Between which it moves.
+        source: The data of its strokes.
         home: The R point.
-        speed: Of the strokes, mm/s.
     """
 
     axis: int
-    vertices: tuple[float, float]
+    source: Source
     home: float
-    speed: float
 
 
 @dataclass(slots=True)
 class OscillationState(State, lifetime=Lifetime.POWER):
     """The axis that oscillates; `precise` by G81.2, `was_precise` that there was one, on `precise_axis`."""
 
-    running: Oscillation | None = None
-    precise: bool = False
+    running: Oscillation | None = lasting(Lifetime.RESET, None)
+    precise: bool = lasting(Lifetime.RESET, default=False)
     was_precise: bool = False
     precise_axis: int = 0
 
@@ -76,18 +76,20 @@ def start(channel: SyntecChannel, words: Words) -> None:
     if len(named) != 1 or stroke is None or home is None:
         raise words.fail("argument", SIMPLE)
     axis, upper, _ = named[0]
-    _begin(channel, Oscillation(axis, (upper, upper + stroke), upper + home, channel.feed))
+    strokes = Strokes((upper, upper + stroke), channel.feed)
+    _begin(channel, Oscillation(axis, Fixed(strokes), upper + home))
 
 
 def end(channel: SyntecChannel, _words: Words) -> None:
     """G80: a drilling cycle ends, and with it G81.1; its axis goes back to R."""
     state = OscillationState.of(channel)
-    if state.running is None:
+    running: Oscillation | None = state.running
+    if running is None:
         return
     if state.precise:
         channel.mode = channel.mode.with_code(OSCILLATION, PRECISE)
         return
-    _stop(channel, state.running.home)
+    _stop(channel, running.home)
 
 
 def start_precise(channel: SyntecChannel, words: Words) -> None:
@@ -103,9 +105,6 @@ def start_precise(channel: SyntecChannel, words: Words) -> None:
     running: Oscillation | None = state.running
     if running is not None and not (state.precise and running.axis == axis):
         raise words.fail("oscillation_repeated", PRECISE)
-    unit = least_unit(memory.parameters)
-    registers = memory.globals.registers
-    vertices = (registers.get(places, 0) * unit, registers.get(places + 1, 0) * unit)
     told = words.length("R")
     home = (
         told
@@ -114,12 +113,19 @@ def start_precise(channel: SyntecChannel, words: Words) -> None:
         if running is not None
         else channel.coordinates.machine[axis]
     )
-    new = Oscillation(axis, vertices, home, registers.get(speed, 0) / 60.0)
+    new = Oscillation(axis, Read(partial(_in_registers, memory, places, speed)), home)
     if running is not None:
         state.running = new
+        Oscillator.of(channel).change(new.source, _place_of_hold(channel, new, precise=True))
         return
-    state.precise = state.was_precise = True
-    _begin(channel, new)
+    _begin(channel, new, precise=True)
+
+
+def _in_registers(memory: SyntecMemory, places: int, speed: int) -> Strokes:
+    """Vertices in two registers, least units, and the speed in another one."""
+    unit, registers = least_unit(memory.parameters), memory.globals.registers
+    vertices = (registers.get(places, 0) * unit, registers.get(places + 1, 0) * unit)
+    return Strokes(vertices, registers.get(speed, 0) / 60.0)
 
 
 def end_precise(channel: SyntecChannel, words: Words) -> None:
@@ -136,12 +142,10 @@ def end_precise(channel: SyntecChannel, words: Words) -> None:
         elif place is not None:
             _arrive(channel, state.precise_axis, place)
         return
-    if place is None and memory.parameters.oscillation_stop == 1:
-        # Where the axis is at that moment is known to the main run alone.
-        raise AlarmError("PC0001", hint="hint.not-supported", address=OFF, code="G80.2 Pr3957=1")
-    state.precise = False
-    state.precise_axis = running.axis
-    _stop(channel, running.home if place is None else place)
+    if place is None and memory.parameters.oscillation_stop != 1:
+        place = running.home
+    _stop(channel, place)
+    state.precise, state.precise_axis = False, running.axis
 
 
 def _check_block(builder: Builder) -> None:
@@ -184,23 +188,34 @@ def _axis(channel: SyntecChannel, words: Words) -> int:
     raise words.fail("oscillation_axis", "P" if told is not None else PRECISE)
 
 
-def _begin(channel: SyntecChannel, oscillation: Oscillation) -> None:
+def _begin(channel: SyntecChannel, oscillation: Oscillation, *, precise: bool = False) -> None:
+    """To R at rapid; the strokes begin there."""
+    channel.on_clock()
     channel.flush()
-    OscillationState.of(channel).running = oscillation
+    state = OscillationState.of(channel)
+    state.running = oscillation
+    state.precise = precise
+    state.was_precise = state.was_precise or precise
     channel.modes.forget_plans()
     c = channel.coordinates
     machine = c.machine
     machine[oscillation.axis] = oscillation.home
     channel.straight(Kind.RAPID, c.from_machine(machine), nan)
+    hold = _place_of_hold(channel, oscillation, precise=precise)
+    Oscillator.of(channel).begin(oscillation.axis, oscillation.source, hold)
 
 
-def _stop(channel: SyntecChannel, place: float) -> None:
-    channel.flush()
-    state = OscillationState.of(channel)
-    running, state.running = state.running, None
+def _place_of_hold(channel: SyntecChannel, oscillation: Oscillation, *, precise: bool) -> float | None:
+    """Where a hold and a reset lead the axis: to R; G81.2 lets it stop where it is with Pr3957 = 1."""
+    at_once = precise and channel.memory.parameters.oscillation_stop == 1
+    return None if at_once else oscillation.home
+
+
+def _stop(channel: SyntecChannel, place: float | None) -> None:
+    """The strokes end at a place, None for where the axis can stop; it belongs to the path again."""
+    Oscillator.of(channel).finish(place)
+    OscillationState.of(channel).running = None
     channel.modes.forget_plans()
-    if running is not None:
-        _arrive(channel, running.axis, place)
 
 
 def _arrive(channel: SyntecChannel, axis: int, place: float) -> None:

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.motion.moves import SkipGroup, SkipState, skip_source
 from polycnc.control.word_address.motion import path, skip
-from polycnc.control.word_address.motion.skip import LastSkip
 from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath import Kind
 
@@ -53,7 +52,8 @@ def move_groups(channel: SyntecChannel, words: Words) -> None:
         raise words.fail("skip_groups", "G31.11")
     c = channel.coordinates
     end = c.position[:]
-    state.flags = 0
+    state.forget(channel)
+    flags = 0
     for group in groups:
         own = c.programmed[:]
         for axis, value in group.ends.items():
@@ -62,10 +62,9 @@ def move_groups(channel: SyntecChannel, words: Words) -> None:
         stopped = skip.signal_position(channel, c.position, target, group.signal)
         for axis in group.ends:
             end[axis] = target[axis] if stopped is None else stopped[axis]
-            state.flags |= 0 if stopped is None else 1 << (axis + 1)
+            flags |= 0 if stopped is None else 1 << (axis + 1)
     channel.straight(Kind.SKIP, end, channel.feed)
-    LastSkip.of(channel).position = list(c.position)
-    state.machine = c.machine
+    state.note(channel, flags)
 
 
 def position_at_sensor(channel: SyntecChannel, words: Words) -> None:
@@ -79,7 +78,7 @@ def position_at_sensor(channel: SyntecChannel, words: Words) -> None:
     first = path.reach(channel, (word,), words.values)
     stroke = words.length("Q")
     stroke = first[axis] - begin if stroke is None else stroke
-    SkipState.of(channel).flags = 0
+    SkipState.of(channel).forget(channel)
     channel.straight(Kind.FEED, c.to_position(first), _speed(channel, words, "F1"), first)
     second = first[:]
     second[axis] += stroke

@@ -43,9 +43,13 @@ DEFAULT_MM = 0.01
 
 @dataclass(slots=True)
 class SmoothingState(State, lifetime=Lifetime.RESET):
-    """How far the path may be bent where blocks meet, mm; 0 where no mode does that. Arcs keep their shape."""
+    """How far the path may be bent where blocks meet, mm; 0 where no mode does that. Arcs keep their shape.
+
+    `fits`: by G05, under which G09 has no effect (2.10.3).
+    """
 
     tolerance: float = 0.0
+    fits: bool = False
 
     @classmethod
     def first(cls, channel: Channel) -> Self:
@@ -60,10 +64,11 @@ def _corner_tolerance(parameters: SyntecParameters) -> float:
 
 def smoothed(channel: SyntecChannel, context: Context) -> Context:
     """A context under G05 or G05.1: corners are rounded within the tolerance, but under G61, G63 and tip control."""
-    tolerance = SmoothingState.of(channel).tolerance
+    state = SmoothingState.of(channel)
+    tolerance = state.tolerance
     if not tolerance or tip_control.is_on(channel) or channel.mode["path"] in STOPPING_MODES:
         return context
-    if context.corner_mode is not CornerMode.CONTINUOUS:
+    if context.corner_mode is not CornerMode.CONTINUOUS and not state.fits:
         return context
     return replace(context, corner_mode=CornerMode.ROUNDED, tolerance_mm=tolerance)
 
@@ -86,7 +91,7 @@ def smooth_path(channel: SyntecChannel, words: Words) -> None:
             if value is not None and not low <= value <= high:
                 raise words.fail("smoothing_format", address)
     unit = INCH_MM if words.plan.inch else 1.0
-    if kind == 0:
+    if kind == 0 or (kind in FILTERS and channel.memory.parameters.uvw_increments == 1):
         tolerance = 0.0
     elif error is None:
         tolerance = _corner_tolerance(channel.memory.parameters)
@@ -95,9 +100,10 @@ def smooth_path(channel: SyntecChannel, words: Words) -> None:
     _switch(channel, tolerance, "G5.1")
 
 
-def _switch(channel: SyntecChannel, tolerance: float, code: str) -> None:
+def _switch(channel: SyntecChannel, tolerance: float, code: str, *, fits: bool = False) -> None:
     """Another tolerance holds from here on; the axes come to rest in between."""
-    SmoothingState.of(channel).tolerance = tolerance
+    state = SmoothingState.of(channel)
+    state.tolerance, state.fits = tolerance, fits
     PathModeState.of(channel).contour_control = tolerance > 0.0
     channel.event(Deed(code, None, _nothing, is_silent=False))
     channel.context_changed()
@@ -128,7 +134,13 @@ def high_precision(channel: SyntecChannel, words: Words) -> None:
         tolerance = error * (INCH_MM if words.plan.inch else 1.0)
     elif switch == ON:
         tolerance = channel.memory.parameters.fit_tolerance / 1000.0 or DEFAULT_MM
-    _switch(channel, tolerance, "G5")
+    _switch(channel, 0.0 if _cannot_fit(channel) else tolerance, "G5", fits=True)
+
+
+def _cannot_fit(channel: SyntecChannel) -> bool:
+    """Whether U, V, W are increments, or an axis of the geometry is a diameter: G05 has no effect then (2.10.3)."""
+    axes = (axis for axis in channel.coordinates.geometry if axis >= 0)
+    return channel.memory.parameters.uvw_increments == 1 or any(map(channel.memory.is_diameter, axes))
 
 
 def _check_axes(channel: SyntecChannel, words: Words) -> None:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address.coordinates.systems import ZeroState, zero_offsets
+from polycnc.control.word_address.coordinates.systems import ZeroState, work_frame, zero_offsets
 from polycnc.control.word_address.macro_b.macro_calls import ModalCallState
 from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.tools.radius import RadiusState, active_compensation
@@ -39,7 +39,7 @@ def work_offset(channel: WordAddressChannel) -> bool:
     """G54 to G59: the offsets in force are still those of the table."""
     state = ZeroState.of(channel)
     c = channel.coordinates
-    unchanged = c.zero == state.frame and c.offsets == zero_offsets(channel)
+    unchanged = c.zero == work_frame(channel, c.offsets) and c.offsets == zero_offsets(channel)
     return c.direct and unchanged and bool(state.system == channel.mode["wcs"])
 
 
@@ -58,7 +58,7 @@ def length(channel: WordAddressChannel) -> bool:
     state = ZeroState.of(channel)
     c = channel.coordinates
     none = LengthState.of(channel).number == 0 and not any(state.length) and not c.owes
-    unchanged = c.zero == state.frame and c.offsets == zero_offsets(channel)
+    unchanged = c.zero == work_frame(channel, c.offsets) and c.offsets == zero_offsets(channel)
     return c.direct and c.transformation is None and c.geometry[2] >= 0 and none and unchanged
 
 

@@ -103,16 +103,21 @@ class Rule:
         return self.where is not None and self.where(builder)
 
     def _concerns_mode(self, builder: Builder) -> bool:
-        for codes in {id(mode): mode.codes for mode in (builder.before, builder.mode)}.values():
-            if any(codes.get(group) in chosen for group, chosen in self.modes.items()):
-                return True
-            if any(codes.get(group, rests) != rests for group, rests in self.unless.items()):
-                return True
+        if not self.modes and not self.unless:
+            return False
+        before, after = builder.before.codes, builder.mode.codes
+        for codes in (before,) if after is before else (before, after):
+            for group, chosen in self.modes.items():
+                if codes.get(group) in chosen:
+                    return True
+            for group, rests in self.unless.items():
+                if codes.get(group, rests) != rests:
+                    return True
         return False
 
     def _concerns_words(self, builder: Builder) -> bool:
-        return (
-            (self.m_codes and bool(builder.m_codes))
-            or any(row.code in self.codes or row.group in self.groups for row in builder.codes)
-            or any(address in builder.slots for address in self.words)
-        )
+        if self.codes or self.groups:
+            for row in builder.codes:
+                if row.code in self.codes or row.group in self.groups:
+                    return True
+        return (self.m_codes and bool(builder.m_codes)) or not builder.slots.keys().isdisjoint(self.words)

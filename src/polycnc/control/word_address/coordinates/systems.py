@@ -13,7 +13,7 @@ from polycnc.control.word_address.coordinates import tip
 from polycnc.control.word_address.memory import EXTERNAL
 from polycnc.control.word_address.tools.radius import suspended
 from polycnc.deferred.records import dataclass
-from polycnc.geometry.frames import IDENTITY, Frame
+from polycnc.geometry.frames import IDENTITY, Frame, translation
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
@@ -34,6 +34,8 @@ class ZeroState(State, lifetime=Lifetime.POWER):
         preset: G92.
         length: The active tool length.
         frame: Turn of the work coordinate system; identity on most controls.
+        table: How the table has turned since the tilted plane was told, machine coordinates.
+        plane: The tilted plane within the work.
     """
 
     system: str = lasting(Lifetime.RESET, "G54")
@@ -41,6 +43,8 @@ class ZeroState(State, lifetime=Lifetime.POWER):
     preset: list[float] = field(default_factory=list)
     length: list[float] = lasting(Lifetime.RESET, factory=list)
     frame: Frame = lasting(Lifetime.RESET, IDENTITY)
+    table: Frame = lasting(Lifetime.RESET, IDENTITY)
+    plane: Frame = lasting(Lifetime.RESET, IDENTITY)
 
     @classmethod
     def first(cls, channel: Channel) -> Self:
@@ -51,12 +55,30 @@ class ZeroState(State, lifetime=Lifetime.POWER):
 
 def refresh_zero(channel: WordAddressChannel, *, travelled: bool = False) -> None:
     """Work out the shift from display to machine anew: external + work + local + G92 offset + tool length."""
-    frame, offsets, leading = ZeroState.of(channel).frame, zero_offsets(channel), tip.TipState.of(channel)
+    offsets, leading = zero_offsets(channel), tip.TipState.of(channel)
+    frame = work_frame(channel, offsets)
     if leading.active is not None and leading.is_leading(channel):
         tip.lead(channel, leading.active, frame, offsets)
     else:
         channel.coordinates.set_zero(frame, offsets, travelled=travelled)
     channel.context_changed()
+
+
+def work_frame(channel: WordAddressChannel, offsets: list[float]) -> Frame:
+    """From the display to axes counted from a work zero: turn of the work, table and tilted plane.
+
+    The table turns about axes of the machine, so a plane goes another way with it where the work zero lies elsewhere.
+    """
+    zero = ZeroState.of(channel)
+    inner = zero.plane
+    if not zero.table.is_identity:
+        place = [
+            offsets[axis] - zero.length[axis] if axis >= 0 else 0.0 for axis in channel.coordinates.geometry
+        ]
+        shift = translation(place[0], place[1], place[2])
+        inner = shift.inverse() @ zero.table @ shift @ inner
+    frame = zero.frame @ inner
+    return IDENTITY if frame.is_identity else frame
 
 
 def zero_offsets(channel: WordAddressChannel) -> list[float]:

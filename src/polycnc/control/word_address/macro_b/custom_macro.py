@@ -47,8 +47,10 @@ class CustomMacroControl(WordAddressControl):
         EXTENDED_WORK_SYSTEMS: How many G54.1 P systems there are.
         CALL_LEVELS: Levels of macros, of subprograms, and together (FANUC macro B reference §5.1).
         PLANE_HELD_BY_ROTATION: Another plane within a rotation is refused where it is chosen.
+        JOINING_HINT: What to do where AND, OR, XOR join conditions that may not be joined.
     """
 
+    JOINING_HINT: ClassVar[str] = "hint.joined-conditions"
     m_rows: ClassVar[tuple[MRow, ...]] = (code_calls.m_row, code_calls.registered_row)
     halts_behind: ClassVar[tuple[Halts, ...]] = single_block.HALTS
     context_steps: ClassVar[tuple[ContextStep, ...]] = (overrides.overridden,)

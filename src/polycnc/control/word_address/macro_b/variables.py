@@ -172,6 +172,11 @@ class MacroMemory(Memory):
         """AND, OR and XOR may join conditions."""
         return self.parameters.MLG
 
+    @property
+    def joining_hint(self) -> str:
+        """What to do where conditions are joined that may not be."""
+        return str(self.channel.control.JOINING_HINT)
+
     def fail(self, mistake: str, hint: str = "") -> AlarmError:
         """The control's alarm for a mistake in an expression."""
         control = self.channel.control

@@ -41,6 +41,7 @@ EULER, ROLL_PITCH_YAW, POINTS, VECTORS, PROJECTION = 0, 1, 2, 3, 4
 #: Blocks of the ways that need several, by Q.
 BLOCKS = {POINTS: 3, VECTORS: 2}
 ORDERS = {123, 132, 213, 231, 312, 321}
+MACHINE_ZERO = (0.0, 0.0, 0.0)
 
 
 @dataclass(slots=True)
@@ -82,14 +83,16 @@ def tilt_by_tool(channel: WordAddressChannel, words: Words) -> None:
     angles = dict(zip(channel.axes, c.machine, strict=True))
     tool, zero = kinematics.tool_on_machine(angles), _work_zero(channel)
     turn = square_on(tool) @ rotation(2, words.angle("R") or 0.0)
-    table = table_turn(kinematics, angles, zero)
+    table, turned = table_turn(kinematics, angles, zero), table_turn(kinematics, angles, MACHINE_ZERO)
     place = table.apply(*named_point(channel, words, "tilt_format"))
-    _renew(channel, translation(*place) @ turn, tool)
+    plane = table.inverse() @ translation(*place) @ turn
+    _renew(channel, turned, plane, tool)
     if not given:
         here = tuple(c.position[axis] if axis >= 0 else 0.0 for axis in c.geometry)
         place = (translation(*place) @ turn).apply(here[0], here[1], here[2])
-        _renew(channel, translation(*place) @ turn, tool)
-    TiltState.of(channel).plane = table.inverse() @ translation(*place) @ turn
+        plane = table.inverse() @ translation(*place) @ turn
+        _renew(channel, turned, plane, tool)
+    TiltState.of(channel).plane = plane
 
 
 def _check_tip(channel: WordAddressChannel, words: Words, code: str) -> None:
@@ -120,7 +123,7 @@ def _told(channel: WordAddressChannel, words: Words) -> Frame | None:
 def _tilt(channel: WordAddressChannel, plane: Frame) -> None:
     """A plane of the work, with which the tool is not aligned yet."""
     TiltState.of(channel).plane = plane
-    _renew(channel, plane, None)
+    _renew(channel, IDENTITY, plane, None)
 
 
 def _told_in_several(channel: WordAddressChannel, words: Words, way: int) -> Frame | None:
@@ -186,11 +189,11 @@ def _align(channel: WordAddressChannel, words: Words, code: str, *, holds_tip: b
     angles = angles_for(kinematics, wanted, near)
     if angles is None or not set(angles) <= set(channel.axes):
         raise words.fail("tilt_unreachable", code)
-    zero = _work_zero(channel)
     tip, end = c.position, c.machine
     for name, angle in angles.items():
         end[channel.axis_index[name]] = angle
-    _renew(channel, table_turn(kinematics, angles, zero) @ plane, kinematics.tool_on_machine(angles))
+    table = table_turn(kinematics, angles, MACHINE_ZERO)
+    _renew(channel, table, plane, kinematics.tool_on_machine(angles))
     goal = c.from_machine(end)
     if holds_tip:
         for axis in c.geometry:
@@ -212,12 +215,14 @@ def end_tilt(channel: WordAddressChannel, words: Words) -> None:
     state = TiltState.of(channel)
     if state.plane is not None:
         state.plane = None
-        _renew(channel, IDENTITY, None)
+        _renew(channel, IDENTITY, IDENTITY, None)
 
 
-def _renew(channel: WordAddressChannel, frame: Frame, tool: Vector | None) -> None:
-    """Another frame of the work system, and the direction in which the tool's length counts; the machine stays."""
-    ZeroState.of(channel).frame = frame
+def _renew(channel: WordAddressChannel, table: Frame, plane: Frame, tool: Vector | None) -> None:
+    """Another plane of the work, which the table may have turned, and the direction of the tool; the machine stays."""
+    state = ZeroState.of(channel)
+    state.table, state.plane = table, plane
+    refresh_zero(channel)  # a change of the plane is not travelled, one of the length is
     LengthState.of(channel).direction = tool
     length.renew_direction(channel)
     refresh_zero(channel)

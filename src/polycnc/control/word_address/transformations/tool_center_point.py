@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.coordinates import tip
-from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
+from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero, work_frame
 from polycnc.control.word_address.motion.path import reach
 from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.tools.radius import RadiusState
@@ -44,7 +44,7 @@ def start_following(channel: WordAddressChannel, words: Words) -> None:
     ZeroState.of(channel).length = [0.0] * len(channel.axes)
     refresh_zero(channel)
     following = ToolCentrePoint(kinematics, channel.axes, c.geometry, tuple(c.offsets), (0.0, 0.0, -value))
-    tip.lead(channel, following, ZeroState.of(channel).frame, c.offsets)
+    tip.lead(channel, following, work_frame(channel, c.offsets), c.offsets)
     channel.context_changed()
 
 

@@ -112,6 +112,7 @@ def _rules(choice: _Choice) -> Drilling:
         axis=_axis,
         relief=_relief,
         largest_override=tapping.largest_override,
+        check=tapping.ask_for_gear,
         turn=_turn,
         dress=_dress,
         halts=_halts,

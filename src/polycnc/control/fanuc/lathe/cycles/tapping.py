@@ -119,6 +119,12 @@ def gear_limit(channel: LatheChannel) -> float:
     return parameters.value(_GEAR_LIMITS[gear])
 
 
+def ask_for_gear(channel: LatheChannel, code: str) -> None:
+    """A block that taps waits here for the signals of the gear, before it has done anything."""
+    if code in TAPS:
+        gear_limit(channel)
+
+
 def largest_override(channel: LatheChannel) -> float:
     """The feed override (5203#4) may not lead the spindle above its gear's highest speed; 0 for any (II.4.5.4.2)."""
     speed = channel.memory.spindle.speed

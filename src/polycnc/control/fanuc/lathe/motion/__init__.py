@@ -1,1 +1,4 @@
-"""Motion of the lathe: `threads` (G32 to G36), `corners` (chamfer, R), `drawing` (direct drawing dimensions)."""
+"""Motion of the lathe: `threads` (G32 to G36), `corners` (chamfer, R), `drawing` (direct drawing dimensions).
+
+`beside`: polygon turning, gear box, oscillation.
+"""

@@ -1,0 +1,168 @@
+"""Axes that move beside the program on the lathe: G51.2 polygon turning, G81 electronic gear box, G81.1 oscillation."""
+
+from __future__ import annotations
+
+from math import nan, pi, radians, sin
+from typing import TYPE_CHECKING
+
+from polycnc.channel.states.state import Lifetime, State
+from polycnc.control.word_address.block.rules import Rule
+from polycnc.control.word_address.motion.oscillation import Fixed, Oscillator, Strokes
+from polycnc.control.word_address.motion.spindle_led import Lead, SpindleLed
+from polycnc.deferred.records import dataclass
+from polycnc.messages import AlarmError
+from polycnc.toolpath import Kind
+from polycnc.transformation.couplings.laws import Ratio
+
+if TYPE_CHECKING:
+    from polycnc.control.fanuc.lathe.family import LatheChannel
+    from polycnc.control.word_address.block.plan import Builder
+    from polycnc.control.word_address.block.words import Words
+    from polycnc.transformation.couplings.laws import Law
+
+POLYGON, POLYGON_OFF = "polygon", "G50.2"
+LARGEST_RATIO = 999
+TURN = 360.0
+
+
+@dataclass(slots=True)
+class BesideState(State, lifetime=Lifetime.RESET):
+    """Axes that move beside the program, by their columns; -1 for none."""
+
+    polygon: int = -1
+    gear: int = -1
+    oscillating: int = -1
+
+
+def _took(channel: LatheChannel, **columns: int) -> None:
+    """Note which axes move beside the program from here on."""
+    state = BesideState.of(channel)
+    for name, column in columns.items():
+        setattr(state, name, column)
+    channel.modes.forget_plans()
+
+
+def _rotary_axis(channel: LatheChannel, number: int) -> int:
+    """Column of an axis by its number from 1; -1 where it is no rotary axis of the channel."""
+    known = 1 <= number <= len(channel.axes) and channel.axis_data[number - 1].rotary
+    return number - 1 if known else -1
+
+
+# ---- polygon turning ---------------------------------------------------------------------------------------------
+
+
+def start_polygon(channel: LatheChannel, words: Words) -> None:
+    """G51.2 P Q: the tool axis turns Q times while the spindle turns P times, against it for Q below 0."""
+    if BesideState.of(channel).polygon >= 0:
+        raise words.fail("polygon_twice", "G51.2")
+    if any(key not in ("G51.2", "G251", "P", "Q", "R") for key in words.plan.order):
+        raise words.fail("polygon_company", "G51.2")
+    spindle, tool = words.integer("P"), words.integer("Q")
+    if (
+        spindle is None
+        or tool is None
+        or not 1 <= spindle <= LARGEST_RATIO
+        or not 1 <= abs(tool) <= LARGEST_RATIO
+    ):
+        raise words.fail("polygon_ratio", "G51.2")
+    if "R" in words:
+        raise AlarmError("PC0001", hint="hint.not-supported", address="R", code="G51.2 R")
+    column = _rotary_axis(channel, channel.memory.parameters.polygon_axis)
+    if column < 0:
+        raise words.fail("polygon_axis", "G51.2")
+    SpindleLed.of(channel).begin(column, Lead(tool / spindle))
+    _took(channel, polygon=column)
+
+
+def end_polygon(channel: LatheChannel, _words: Words) -> None:
+    """G50.2: the tool axis comes to rest."""
+    column = BesideState.of(channel).polygon
+    if column >= 0:
+        SpindleLed.of(channel).release(column)
+        _took(channel, polygon=-1)
+
+
+# ---- electronic gear box -----------------------------------------------------------------------------------------
+
+
+def start_gear(channel: LatheChannel, words: Words) -> None:
+    """G81 T L Q P, G81.4: the workpiece axis turns L/T times with the hob; along Z by the helix P of module Q."""
+    column = _rotary_axis(channel, channel.memory.parameters.gear_axis)
+    if column < 0:
+        raise words.fail("gear_axis", "G81")
+    if BesideState.of(channel).gear >= 0:
+        raise words.fail("gear_mode", "G81")
+    teeth, starts = words.integer("T"), words.integer("L") if "L" in words else 1
+    module, helix = words.length("Q"), words.angle("P")
+    if not teeth or not starts or (helix and not module):
+        raise words.fail("gear_format", "G81")
+    laws: tuple[Law, ...] = ()
+    if helix and module:
+        z = channel.coordinates.geometry[2]
+        factor = TURN * sin(radians(helix)) / (pi * teeth * module)
+        laws = (Ratio(z, factor, channel.coordinates.machine[z]),)
+    SpindleLed.of(channel).begin(column, Lead(starts / teeth, laws))
+    _took(channel, gear=column)
+
+
+def end_gear(channel: LatheChannel, _words: Words) -> None:
+    """G80, G80.4: the gear opens, the workpiece axis comes to rest; an axis that oscillates goes to its R."""
+    state = BesideState.of(channel)
+    if state.gear >= 0:
+        SpindleLed.of(channel).release(state.gear)
+        _took(channel, gear=-1)
+    if state.oscillating >= 0:
+        oscillator = Oscillator.of(channel)
+        oscillator.finish(oscillator.home)
+        _took(channel, oscillating=-1)
+
+
+# ---- oscillation -------------------------------------------------------------------------------------------------
+
+
+def start_oscillation(channel: LatheChannel, words: Words) -> None:
+    """G81.1 Z Q R F: to R at rapid, then between the upper dead point and the lower one, Q from it, until G80."""
+    named = words.axes()
+    stroke, home = words.length("Q"), words.length("R")
+    if BesideState.of(channel).oscillating >= 0 or len(named) != 1 or not stroke or home is None:
+        raise words.fail("oscillation_command", "G81.1")
+    if not channel.feed > 0.0:
+        raise words.fail("no_feed")
+    channel.on_clock()
+    axis, upper, _ = named[0]
+    c = channel.coordinates
+    place = list(c.programmed)
+    place[axis] = upper
+    top = c.to_machine(c.to_position(place))[axis]
+    machine = c.machine
+    machine[axis] = top + home
+    channel.flush()
+    channel.straight(Kind.RAPID, c.from_machine(machine), nan)
+    strokes = Strokes((top, top + stroke), channel.feed)
+    Oscillator.of(channel).begin(axis, Fixed(strokes), top + home)
+    _took(channel, oscillating=axis)
+
+
+def _check_block(builder: Builder) -> None:
+    """Refuse words of an axis that moves beside the program."""
+    state = BesideState.of(builder.channel)
+    mistakes = {
+        state.polygon: "polygon_move",
+        state.gear: "gear_mode",
+        state.oscillating: "oscillation_command",
+    }
+    if any(row.code == "G4" for row in builder.codes):
+        return
+    for address in builder.slots:
+        target = builder.control.axis_of_address(builder.channel, address, builder)
+        if target is not None and target[0] in mistakes:
+            raise builder.control.fail(mistakes[target[0]], address=address)
+
+
+def _moves_any(builder: Builder) -> bool:
+    state = BesideState.of(builder.channel)
+    return max(state.polygon, state.gear, state.oscillating) >= 0
+
+
+#: Axes that move beside the program belong to none of its blocks.
+RULE = Rule("axes beside the program", where=_moves_any, check=_check_block)

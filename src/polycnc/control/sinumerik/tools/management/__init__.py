@@ -1,0 +1,6 @@
+"""Tool management: what the manual names (job planning 16.1) and the Function Manual Tool Management explains.
+
+lists       NEWT, GETT, GETSELT, GETEXET, GETACTT, TCA, and which of several tools of a name T means
+monitoring  $TC_MOP, SETPIECE, RESETMON
+magazines   $TC_MAP, $TC_MPP, GETFREELOC, MVTOOL, CHKDM
+"""
