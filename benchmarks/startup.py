@@ -10,7 +10,7 @@ from pathlib import Path
 from benchmarks.interpreter import program
 from benchmarks.measure import Figure, process_time
 
-LIMIT_S = 0.5
+LIMIT_S = 0.15
 
 
 def small_run() -> Iterator[Figure]:

@@ -91,6 +91,47 @@ def test_turned_contours_give_the_same_both_ways(text: str) -> None:
     assert differences(text, "fanuc-0i-tf", {"tools": tools}, block_limit=500) == []
 
 
+SINUMERIK_BETWEEN = (
+    "", "", "; COMMENT", "N7", "F800", "S1200", "M8", "G4 F0.1", "R1=R1+1", "G90", "G91", "G0", "Z-2", "G1 X0 Y0",
+    "G41", "G42", "G40 X0 Y0", "ROT RPL=10", "ROT", "NORM", "KONT", "G450", "G451", "M1", "G64", "G60", "X5 Y5 S900",
+    "CUTCONON", "CUTCONOF", "X=R1 Y3", "RND=1 X5", "STOPRE", "CDON", "CDOF", "DISC=50", "OFFN=0.5", "TRANS X1",
+    "RNDM=1", "G2 X10 Y0 CR=20", "G3 X3 Y3 I5 J5", 'MSG("A")', "FB=300 X3", "G461", "REPEAT A B P1", "M17",
+)  # fmt: skip
+
+
+@st.composite
+def sinumerik_contour(draw: st.DrawFn) -> str:
+    """A contour of SINUMERIK with what acts on its compensation in between."""
+    corner = draw(st.sampled_from(("G450", "G451", "NORM", "KONT", "CDON")))
+    side = draw(st.sampled_from(("G41", "G42")))
+    lines = ["G71 G90 G54 T1 D1", "G0 X-10 Y-10 Z5", corner, f"{side} G1 X0 Y0 F500"]
+    for _ in range(draw(st.integers(2, 10))):
+        for _ in range(draw(st.integers(1, 6))):
+            words = [
+                f"{axis}{draw(st.floats(-30.0, 30.0)):.{draw(st.sampled_from((1, 3)))}f}"
+                for axis in draw(st.sampled_from(("XY", "X", "Y", "XYZ")))
+            ]
+            lines.append(" ".join(words) + draw(st.sampled_from(("", "", " F300", " ;C"))))
+        lines.append(draw(st.sampled_from(SINUMERIK_BETWEEN)))
+        if draw(st.integers(0, 2)) == 0:
+            size = draw(st.integers(1, 20))
+            lines += [f"G91 G{draw(st.integers(2, 3))} X{size} Y{size} CR={size + 9}", "G1 G90"]
+    return "\n".join([*lines, "G90 G40 G1 X-20 Y-20", "M30", ""])
+
+
+@settings(max_examples=80, deadline=None)
+@given(sinumerik_contour(), st.sampled_from((0.3, 3.0)))
+def test_sinumerik_contours_give_the_same_both_ways(text: str, radius: float) -> None:
+    setup = {**SETUP, "tools": {1: {"length": 50, "radius": radius}}}
+    assert differences(text, "sinumerik-840d", setup, block_limit=500) == []
+
+
+def test_a_contour_of_sinumerik_is_scanned() -> None:
+    points = "\n".join(f"X{10 + i % 7}.{i % 10} Y{i}.5" for i in range(40))
+    text = f"T1 D1\nG90 G54 G0 X-10 Y-10 Z5\nG42 G1 X0 Y0 F500\n{points}\nG40 X-20\nM30\n"
+    assert scanned(text, "sinumerik-840d", SETUP) >= 35
+
+
 def test_an_alarm_within_a_run_stops_at_its_block() -> None:
     """The tool is far larger than the notch that the contour runs into."""
     text = (

@@ -298,8 +298,8 @@ class Path:
 
     @property
     def takes_runs(self) -> bool:
-        """Whether runs of plain blocks may be scanned: stages are idle, or take such runs."""
-        return all(stage.takes_runs or not stage.active for stage in self._stages)
+        """Whether all stages look at nothing but moves and ends of blocks."""
+        return all(stage.takes_runs for stage in self._stages)
 
     @property
     def leads_axes(self) -> bool:

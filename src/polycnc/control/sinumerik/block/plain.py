@@ -101,13 +101,13 @@ class SinumerikPlainBlocks:
         self._conditions = Conditions()
 
     def ready(self, channel: SinumerikChannel) -> bool:
-        """Nothing watches single blocks, bends arcs, holds moves back or follows a block; the program is open.
+        """Nothing watches blocks, bends arcs or follows a block, and only runs are held back; the program is open.
 
         Under a transformation no axis has limits: they hold all along the curves that the axes then take.
         """
         c = channel.coordinates
         return (
-            channel.path.head is None
+            channel.path.takes_runs
             and not channel.single_block
             and c.direct
             and is_even(c.zero)

@@ -39,11 +39,13 @@ class PlainBlocks:
         self._conditions = Conditions()
 
     def ready(self, channel: WordAddressChannel) -> bool:
-        """Single blocks are watched; forbidden zones and most held moves are not.
+        """Single blocks are watched; forbidden zones, unrolled surfaces and most held moves are not.
 
         Nor are limits under a transformation, for they hold all along the curves that the axes then take.
         """
-        if channel.single_block or channel.boundary is not None or not channel.path.takes_runs:
+        if channel.single_block or channel.boundary is not None:
+            return False
+        if not (channel.path.is_idle or channel.path.takes_runs):
             return False
         if channel.coordinates.transformation is not None and (channel.limits or not channel.path.is_idle):
             return False
