@@ -418,7 +418,8 @@ def lay_chord(
     size, mean = norm(bend, n, limits, weight), 0.5 * (length + state.run.length)
     cap2, turn2 = pieces[at + PieceRecord.ENTRY2], 0.0
     for i in range(n):
-        turn2 += (unit[i] - tangent[i]) ** 2
+        turn = (unit[i] - tangent[i]) * (weight if limits.rotary[i] != 0.0 else 1.0)
+        turn2 += turn * turn
         direction, curvature = bend[i] / size, (unit[i] - tangent[i]) / mean
         pieces[before + n + i] = pieces[here + i] = direction
         pieces[before + 3 * n + i] = pieces[here + 2 * n + i] = curvature
@@ -430,7 +431,8 @@ def lay_chord(
     # In the middle of its chord the curve is longer than the chord by `turn²/16` at most (a cubic, `run.py`).
     for chord in (at - piece_width(n), at):
         top2 = chord_top2(pieces, chord, n, limits)
-        pieces[chord + PieceRecord.CAP2] = min(pieces[chord + PieceRecord.CAP2] * (1.0 - 0.125 * turn2), top2)
+        longer = 1.0 - 0.125 * min(turn2, 4.0)
+        pieces[chord + PieceRecord.CAP2] = min(pieces[chord + PieceRecord.CAP2] * longer, top2)
         pieces[chord + PieceRecord.ENTRY2] = min(
             pieces[chord + PieceRecord.ENTRY2], pieces[chord + PieceRecord.CAP2]
         )

@@ -100,3 +100,19 @@ def test_near_the_pole_no_axis_exceeds_its_limits(name: str, miss: float) -> Non
 
 def test_the_axes_of_a_head_count_from_the_base() -> None:
     assert in_order(Kinematics.of(load_machine("mill6-cac-head"))) == ("C", "A", "B")
+
+
+def test_a_spline_whose_rotary_axes_turn_far_on_a_short_way_has_a_time() -> None:
+    """Its chords bend by more than any path can: the tip stands nearly still while the axes turn."""
+    text = (
+        "T1 D1 F1000\nTRAORI\nD0\nTOFFL=0.1\nCSPLINE X-30 Y-1 A3=0.3 C3=1\n"
+        "X-22 A4=0 B4=0.1 C4=1 A5=0.7 B5=0 C5=1\nLEAD=39 TILT=32 A5=0 B5=-0.2 C5=1\nM30\n"
+    )
+    result = polycnc.run(
+        text,
+        control="sinumerik-840d",
+        machine="mill5-ac-table",
+        setup={"tools": {1: {"length": 100, "radius": 3}}},
+    )
+    samples = samples_of(result, load_machine("mill5-ac-table"))
+    assert np.isfinite(samples.position).all()
