@@ -159,10 +159,10 @@ def _check_block(builder: Builder) -> None:
             raise builder.control.fail(mistakes[target[0]], address=address)
 
 
-def _moves_any(builder: Builder) -> bool:
-    state = BesideState.of(builder.channel)
-    return max(state.polygon, state.gear, state.oscillating) >= 0
+def _none_moves(channel: LatheChannel) -> bool:
+    state = BesideState.of(channel)
+    return max(state.polygon, state.gear, state.oscillating) < 0
 
 
 #: Axes that move beside the program belong to none of its blocks.
-RULE = Rule("axes beside the program", where=_moves_any, check=_check_block)
+RULE = Rule("axes beside the program", rests=_none_moves, check=_check_block)
