@@ -177,7 +177,9 @@ class _Rows:
             key = key << 1 | ~np.isnan(number)
         knots = np.array([each.knot for each in self._display.toolpath.contexts], bool)
         alone = (kind == Kind.EVENT) | ((curve >= 0) & ~np.isin(kind, tuple(ARC_KINDS)))
-        left_out = knots[context] & (kind != Kind.EVENT)
+        place = shown.columns.program.astype(np.int64) << 32 | shown.columns.line
+        goes_on = np.append((kind[1:] != Kind.EVENT) & (place[1:] == place[:-1]), [False])
+        left_out = knots[context] & (kind != Kind.EVENT) & goes_on
         forms = np.full(len(key), LEFT_OUT, np.int32)
         forms[alone & ~left_out] = ALONE
         common = np.flatnonzero(~alone & ~left_out)
