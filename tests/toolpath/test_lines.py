@@ -74,6 +74,7 @@ def test_long_chunks_are_written_as_short_ones_are(
         curve = {Kind.DWELL: (1.5, 0.0)}.get(kind, (x, 0.25, y, *Z_UP, turns))
         is_straight = kind in (Kind.RAPID, Kind.FEED)
         draft.move(kind, x, y, 5.0, x + y, feed=feed, curve=() if is_straight else curve)
+        draft.line -= context.knot and turns > 0.0  # a motion of several rows, or one that is broken off
 
     def written() -> bytes:
         stream = io.BytesIO()
