@@ -275,9 +275,5 @@ def _drill(channel: SyntecChannel, points: Iterator[Point]) -> None:
 RULE = Rule("words of drilling cycles", unless={"cycle": "G80"}, wrap=_with_cycle_words)
 
 
-def _drills_plainly(builder: Builder) -> bool:
-    return bool(builder.mode["cycle"] == "G81")
-
-
 #: In G81 D is the overlap of the positioning axis, and chooses no radius (2.52).
-OVERLAP_RULE = Rule("overlap of holes", where=_drills_plainly, addresses={"D": None})
+OVERLAP_RULE = Rule("overlap of holes", within={"cycle": ("G81",)}, addresses={"D": None})

@@ -152,7 +152,7 @@ ROWS: tuple[Row, ...] = (
     *by_system("G74", "G74", "G76", _cycle("G74", repetitive.peck_facing)),
     *by_system("G75", "G75", "G77", _cycle("G75", repetitive.groove)),
     *by_system("G76", "G76", "G78", _cycle("G76", repetitive.thread)),
-    *same(GCode("G80", "cycle", beside.end_gear, order=Order.MOTION)),
+    *same(GCode("G80", "cycle")),  # what moves beside the program ends by a rule
     *by_system("G90", "G77", "G20", _motion("G90", single.plan_single_cycle)),
     *by_system("G92", "G78", "G21", _motion("G92", single.plan_single_cycle)),
     *by_system("G94", "G79", "G24", _motion("G94", single.plan_single_cycle)),

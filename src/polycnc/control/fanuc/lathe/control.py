@@ -128,6 +128,7 @@ class FanucTurning(CustomMacroControl):
     rules: ClassVar[tuple[Rule, ...]] = (
         intervention.RULE,
         beside.RULE,
+        beside.END_RULE,
         ROTATION_RULE,
         normal_line.RULE,
         data_input.RULE,

@@ -40,6 +40,7 @@ class Rule:
 
     Attributes:
         modes: Modal groups, each with codes of which one holds in front of the block or in it.
+        within: The same, of which one holds in the block.
         unless: Modal groups, each with the code at which the rule rests.
         codes: G codes of the block.
         groups: Groups of its G codes.
@@ -73,6 +74,7 @@ class Rule:
 
     name: str
     modes: Mapping[str, Collection[str]] = field(default_factory=dict)
+    within: Mapping[str, Collection[str]] = field(default_factory=dict)
     unless: Mapping[str, str] = field(default_factory=dict)
     codes: Collection[str] = ()
     groups: Collection[str] = ()
@@ -97,15 +99,26 @@ class Rule:
         """Whether the rule is asked of a block."""
         if not self.in_cycles and builder.mode.codes.get(CYCLE, NO_CYCLE) != NO_CYCLE:
             return False
-        named = (self.modes, self.unless, self.codes, self.groups, self.words, self.m_codes, self.where)
+        named = (
+            self.modes,
+            self.within,
+            self.unless,
+            self.codes,
+            self.groups,
+            self.words,
+            self.m_codes,
+            self.where,
+        )
         if not any(named) or self._concerns_mode(builder) or self._concerns_words(builder):
             return True
         return self.where is not None and self.where(builder)
 
     def _concerns_mode(self, builder: Builder) -> bool:
-        if not self.modes and not self.unless:
+        if not self.modes and not self.within and not self.unless:
             return False
         before, after = builder.before.codes, builder.mode.codes
+        if any(after.get(group) in chosen for group, chosen in self.within.items()):
+            return True
         for codes in (before,) if after is before else (before, after):
             for group, chosen in self.modes.items():
                 if codes.get(group) in chosen:

@@ -16,7 +16,8 @@ from polycnc.transformation.couplings.laws import Ratio
 
 if TYPE_CHECKING:
     from polycnc.control.fanuc.lathe.family import LatheChannel
-    from polycnc.control.word_address.block.plan import Builder
+    from polycnc.control.word_address.block.codes import Step
+    from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.words import Words
     from polycnc.transformation.couplings.laws import Law
 
@@ -105,8 +106,8 @@ def start_gear(channel: LatheChannel, words: Words) -> None:
     _took(channel, gear=column)
 
 
-def end_gear(channel: LatheChannel, _words: Words) -> None:
-    """G80, G80.4: the gear opens, the workpiece axis comes to rest; an axis that oscillates goes to its R."""
+def end_gear(channel: LatheChannel, _words: object) -> None:
+    """G80.4, G80: the gear opens, the workpiece axis comes to rest; an axis that oscillates goes to its R."""
     state = BesideState.of(channel)
     if state.gear >= 0:
         SpindleLed.of(channel).release(state.gear)
@@ -159,6 +160,10 @@ def _check_block(builder: Builder) -> None:
             raise builder.control.fail(mistakes[target[0]], address=address)
 
 
+def _end_by_drilling_code(_builder: Builder, _plan: Plan) -> Step:
+    return end_gear
+
+
 def _none_moves(channel: LatheChannel) -> bool:
     state = BesideState.of(channel)
     return max(state.polygon, state.gear, state.oscillating) < 0
@@ -166,3 +171,7 @@ def _none_moves(channel: LatheChannel) -> bool:
 
 #: Axes that move beside the program belong to none of its blocks.
 RULE = Rule("axes beside the program", rests=_none_moves, check=_check_block)
+#: G80 ends them beside the drilling cycle: a rule, so that it does nothing where none moves.
+END_RULE = Rule(
+    "end of axes beside the program", codes=("G80",), rests=_none_moves, before=_end_by_drilling_code
+)
