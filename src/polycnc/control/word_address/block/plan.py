@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.rules import Rule
     from polycnc.control.word_address.control import WordAddressControl
     from polycnc.control.word_address.cycles.drilling import Drilling
+    from polycnc.language.bulk import Condition
 
 #: The alarm of a code that a control knows and polycnc does not execute yet, on every control.
 NOT_YET = "PC0001"
@@ -303,7 +304,7 @@ class Builder:
         if handler in control.only_context:
             return declare(step, Note())
         if self._in_force(row) and row.code in control.repeated_codes:
-            return declare(step, Idle(control.repeated_codes[row.code]))
+            return _unless_repeated(step, control.repeated_codes[row.code])
         return step
 
     def axis_words(self) -> tuple[AxisWord, ...]:
@@ -457,6 +458,16 @@ def _m_step(row: MCode, builder: Builder, plan: Plan) -> Step:
 
 def _nothing(_channel: Channel, _values: list[float]) -> None:
     """An M code that only exists."""
+
+
+def _unless_repeated(step: Step, changes_nothing: Condition) -> Step:
+    """The step of a code in force already, which rests where it would change nothing: for the scanner as here."""
+
+    def act(channel: Channel, values: list[float]) -> None:
+        if not changes_nothing(channel):
+            step(channel, values)
+
+    return declare(act, Idle(changes_nothing))
 
 
 def sent_words(plan: Plan, addresses: Iterable[str], values: list[float]) -> dict[str, float]:

@@ -1,8 +1,8 @@
 """Codes that are in force already: when writing them once more changes nothing, so that their blocks stay plain.
 
-Posts write `G17`, `G54`, `G40` again and again. The interpreter executes every one of them; the scanner passes over
-those whose condition here holds (`WordAddressControl.repeated_codes`, by code). A condition may rest on what blocks
-change that are not plain, never on where the axes stand.
+Posts write `G17`, `G54`, `G40` again and again. Interpreter and scanner pass over those whose
+condition here holds (`WordAddressControl.repeated_codes`, by code). A condition may rest on what blocks change that are
+not plain, never on where the axes stand.
 """
 
 from __future__ import annotations

@@ -58,7 +58,10 @@ def refresh_zero(channel: WordAddressChannel, *, travelled: bool = False) -> Non
     offsets, leading = zero_offsets(channel), tip.TipState.of(channel)
     frame = work_frame(channel, offsets)
     if leading.active is not None and leading.is_leading(channel):
-        tip.lead(channel, leading.active, frame, offsets)
+        if not leading.lies_at(
+            frame, offsets
+        ):  # or the way to the machine and back would leave rounding noise
+            tip.lead(channel, leading.active, frame, offsets)
     else:
         channel.coordinates.set_zero(frame, offsets, travelled=travelled)
     channel.context_changed()

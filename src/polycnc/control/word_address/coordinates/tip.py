@@ -31,6 +31,11 @@ class TipState(State, lifetime=Lifetime.RESET):
         """Whether words name the tip now."""
         return self.active is not None and channel.coordinates.transformation is self.seated
 
+    def lies_at(self, frame: Frame, offsets: list[float]) -> bool:
+        """Whether the work system is turned and shifted so already."""
+        turned = self.seated.frame if isinstance(self.seated, Seated) else IDENTITY
+        return self.active is not None and self.active.zero == tuple(offsets) and turned == frame
+
 
 def lead(channel: WordAddressChannel, active: ToolCentrePoint, frame: Frame, offsets: list[float]) -> None:
     """Let words name the tip, in a work system that is turned by a frame and shifted by offsets; the machine stays."""
