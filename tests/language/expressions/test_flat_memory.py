@@ -109,7 +109,7 @@ def with_few_shapes(control_id: str) -> tuple[Control, Shapes]:
         shapes = vars(chosen)["shapes"] = Shapes(chosen.shapes.names, SHAPES)
     else:
         shapes = Shapes(chosen.grammar.shapes.names, SHAPES)
-        vars(chosen)["grammar"] = replace(chosen.grammar, shapes=shapes, patterns=Patterns(SHAPES))
+        vars(chosen)["grammar"] = replace(chosen.grammar, shapes=shapes, patterns=Patterns(SHAPES), plain={})
     return chosen, shapes
 
 

@@ -15,7 +15,7 @@ from polycnc.language.expressions.code import listed
 from polycnc.language.expressions.joined import MAX_JOINED, led_by
 from polycnc.language.word_address.joining import JOINABLE, join, join_loop
 from polycnc.language.word_address.macro_b import Lifting, Reader, macro_shapes
-from polycnc.language.word_address.patterns import MOST_LINES, Patterns, Spot, negative
+from polycnc.language.word_address.patterns import Patterns, Spot, negative
 from polycnc.language.word_address.statements import KEYWORD, Assignment, LoopEnd, parse_statement
 from polycnc.language.word_address.words import ExpressionBlock, WordBlock, code_key, is_fixed_code, word_key
 from polycnc.messages import AlarmError
@@ -262,7 +262,7 @@ class WordAddressProgram:
             return known
         text = line.strip()
         if _PLAIN.fullmatch(text) and text[0] != "O":
-            if len(plain) >= MOST_LINES:
+            if len(plain) >= self.grammar.patterns.most:
                 plain.clear()
             plain[line] = block = self._plain(text)
             return block

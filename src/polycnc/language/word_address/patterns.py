@@ -98,7 +98,7 @@ class Patterns:
     """
 
     def __init__(self, most: int = MOST_LINES) -> None:
-        self._most = most
+        self.most = most
         self._patterns: dict[str, _Pattern] = {}
         self._count = 0
 
@@ -151,7 +151,7 @@ class Patterns:
 
     def _make_room(self) -> None:
         """One line more is going to be kept."""
-        if self._count >= self._most:
+        if self._count >= self.most:
             self._patterns.clear()
             self._count = 0
         self._count += 1
