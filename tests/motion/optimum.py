@@ -135,7 +135,7 @@ def _optimum(path: _Path, cap2: Numbers, pulls: Numbers, jerks: Numbers) -> floa
     step, count = path.step, len(path.step)
     here = np.arange(count)
 
-    def rows(columns: Sequence[tuple[Numbers, Numbers]], number: int) -> coo_matrix:
+    def rows(columns: Sequence[tuple[NDArray[np.intp], Numbers]], number: int) -> coo_matrix:
         row = np.concatenate([np.arange(number) for _ in columns])
         return coo_matrix(
             (np.concatenate([value for _, value in columns]), (row, np.concatenate([c for c, _ in columns]))),

@@ -234,7 +234,9 @@ def test_a_tap_knows_no_override_and_no_hold() -> None:
     disturbed.override(feed=0.1)
     disturbed.feed_hold()
     disturbed.run()
-    assert disturbed.machine_position[2] == pytest.approx(0.0, abs=1e-6)  # the end of the cycle: its initial level
+    assert disturbed.machine_position[2] == pytest.approx(
+        0.0, abs=1e-6
+    )  # the end of the cycle: its initial level
     disturbed.override(feed=1.0)
     disturbed.cycle_start()
     assert disturbed.run() is State.READY
