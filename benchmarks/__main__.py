@@ -8,6 +8,7 @@ import sys
 from benchmarks import (
     bulk,
     five_axes,
+    installation,
     interpreter,
     mainrun,
     page,
@@ -29,6 +30,9 @@ BENCHMARKS = (
     interpreter.memory,
     bulk.scanner,
     bulk.streaming,
+    bulk.gigabyte,
+    installation.first_run,
+    installation.size,
     five_axes.tip_control,
     startup.small_run,
     sinumerik.loop,

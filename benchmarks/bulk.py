@@ -9,8 +9,8 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from benchmarks.measure import Figure, rate, skipped
-from benchmarks.programs import lines
+from benchmarks.measure import Figure, process_time, rate, skipped
+from benchmarks.programs import FOOT, HEAD, cut
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -20,13 +20,21 @@ TURNS = 3
 SCANNED_PER_SECOND = 2_000_000
 #: Resident memory that a program may take, however long it is.
 MEMORY_LIMIT_MB = 1_500
+#: Processor time and resident memory of a program of a gigabyte with cycle time.
+GIGABYTE_LIMIT_S, GIGABYTE_LIMIT_MB = 60.0, 300.0
+#: So many contours of `BLOCKS` blocks are more than a gigabyte.
+GIGABYTE_REPEATS = 36
 
 
-def write_program(folder: Path, blocks: int = BLOCKS) -> Path:
-    """A contour of a CAM system, 30 bytes a block."""
-    work = lines(blocks)
+def write_program(folder: Path, blocks: int = BLOCKS, repeats: int = 1) -> Path:
+    """A contour of a CAM system, 30 bytes a block, cut so many times."""
+    contour = "\n".join([*cut(blocks), ""])
     file = folder / "cam.nc"
-    file.write_text("\n".join(["%", "O0001", *work.ours, "%", ""]), encoding="ascii")
+    with file.open("w", encoding="ascii") as out:
+        out.write("\n".join(["%", "O0001", *HEAD, ""]))
+        for _ in range(repeats):
+            out.write(contour)
+        out.write("\n".join([*FOOT, "%", ""]))
     return file
 
 
@@ -67,7 +75,7 @@ def scanner() -> Iterator[Figure]:
 _MEMORY = """
 import re, sys
 from polycnc.cli.app import main
-sys.argv = ["polycnc", "run", sys.argv[1], "--control", "fanuc-m", "--trace", sys.argv[2]]
+sys.argv = ["polycnc", "run", *sys.argv[1:], "--control", "fanuc-m"]
 try:
     main()
 finally:
@@ -81,8 +89,25 @@ def streaming() -> Iterator[Figure]:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         ours = write_program(folder, 3 * BLOCKS)
-        run = [sys.executable, "-c", _MEMORY, str(ours), str(folder / "out.parquet")]
-        out = subprocess.run(run, check=True, capture_output=True, text=True).stdout
-        used, size = float(out.split()[-1]), ours.stat().st_size / 1e6
+        used, size = _memory(ours, "--trace", folder / "out.parquet"), ours.stat().st_size / 1e6
     said = f"{used:.0f} MB for a program of {size:.0f} MB with trace, limit {MEMORY_LIMIT_MB}"
     yield Figure("memory of a long run", said, MEMORY_LIMIT_MB / used)
+
+
+def _memory(*arguments: str | Path) -> float:
+    """Peak of resident memory of `polycnc run`, megabytes."""
+    run = [sys.executable, "-c", _MEMORY, *map(str, arguments)]
+    return float(subprocess.run(run, check=True, capture_output=True, text=True).stdout.split()[-1])
+
+
+def gigabyte() -> Iterator[Figure]:
+    """A program of a gigabyte with cycle time: one contour of a CAM system, again and again."""
+    with tempfile.TemporaryDirectory() as name:
+        ours = write_program(Path(name), repeats=GIGABYTE_REPEATS)
+        size = ours.stat().st_size / 1e6
+        run = [sys.executable, "-m", "polycnc", "run", str(ours), "--control", "fanuc-m"]
+        took, used = process_time(run, 1), _memory(ours)
+    said = f"{took:.0f} s for {size:.0f} MB, limit {GIGABYTE_LIMIT_S:g}"
+    yield Figure("a gigabyte of G1 with cycle time", said, GIGABYTE_LIMIT_S / took)
+    said = f"{used:.0f} MB, limit {GIGABYTE_LIMIT_MB:g}"
+    yield Figure("memory of a gigabyte with cycle time", said, GIGABYTE_LIMIT_MB / used)

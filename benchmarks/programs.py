@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-_HEAD = ["G21 G17 G90 G94", "G54 G0 X0 Y0 Z10.", "M3 S8000", "G1 Z-1. F1000."]
-_FOOT = ["M5", "M30"]
+HEAD = ["G21 G17 G90 G94", "G54 G0 X0 Y0 Z10.", "M3 S8000", "G1 Z-1. F1000."]
+FOOT = ["M5", "M30"]
 _HOLES = [f"X{i % 100}. Y{i // 100}." for i in range(10_000)]
 
 
@@ -31,20 +31,24 @@ class Work:
 
 def both(name: str, blocks: list[str], goals: dict[tuple[str, ...], float]) -> Work:
     """Work whose blocks are the same for both."""
-    return Work(name, [*_HEAD, *blocks, *_FOOT], [*_HEAD, *blocks, *_FOOT], goals)
+    return Work(name, [*HEAD, *blocks, *FOOT], [*HEAD, *blocks, *FOOT], goals)
 
 
 NO_TIME, TIMED = ("--no-time",), ()
 
 
-def lines(count: int = 1_000_000) -> Work:
-    """A contour of a CAM system."""
-    blocks = [
+def cut(count: int) -> list[str]:
+    """Blocks of a contour of a CAM system."""
+    return [
         f"N{i} G1 X{50 * math.cos(i / 900) + i * 1e-5:.3f} Y{50 * math.sin(i / 900):.3f}"
         + (f" Z{-1 - 2 * math.sin(i / 70):.3f}" if i % 3 == 0 else "")
         + (f" F{900 + i // 1000 % 7 * 50}." if i % 1000 == 0 else "")
         for i in range(1, count + 1)
     ]
+
+
+def lines(count: int = 1_000_000) -> Work:
+    """A contour of a CAM system."""
     trace = ("--no-time", "--trace")
     goals = {
         NO_TIME: 20.0,
@@ -53,7 +57,7 @@ def lines(count: int = 1_000_000) -> Work:
         (*trace, "out.csv"): 3.0,
         (*trace, "out.jsonl"): 3.0,
     }
-    return both(f"{count:,} G1", blocks, goals)
+    return both(f"{count:,} G1", cut(count), goals)
 
 
 def arcs() -> Work:
@@ -69,8 +73,8 @@ def arcs() -> Work:
 def loop() -> Work:
     """A hot loop."""
     body = ["G1 X[#1*0.001] Y[SIN[#1]*10.]", "#1=[#1+1]"]
-    ours = [*_HEAD, "#1=0", "WHILE[#1LT300000]DO1", *body, "END1", *_FOOT]
-    peer = [*_HEAD, "#1=0", "o100 while [#1 LT 300000]", *body, "o100 endwhile", *_FOOT]
+    ours = [*HEAD, "#1=0", "WHILE[#1LT300000]DO1", *body, "END1", *FOOT]
+    peer = [*HEAD, "#1=0", "o100 while [#1 LT 300000]", *body, "o100 endwhile", *FOOT]
     return Work("300,000 passes of a macro loop", ours, peer, {NO_TIME: 8.0})
 
 
@@ -83,8 +87,8 @@ def expressions() -> Work:
 def subprograms() -> Work:
     """Calls of a short subprogram."""
     calls = 100_000
-    ours = [*_HEAD, *["M98 P1000"] * calls, *_FOOT, "O1000", "G91 G1 X0.1", "G90", "M99"]
-    peer = ["o1000 sub", "G91 G1 X0.1", "G90", "o1000 endsub", *_HEAD, *["o1000 call"] * calls, *_FOOT]
+    ours = [*HEAD, *["M98 P1000"] * calls, *FOOT, "O1000", "G91 G1 X0.1", "G90", "M99"]
+    peer = ["o1000 sub", "G91 G1 X0.1", "G90", "o1000 endsub", *HEAD, *["o1000 call"] * calls, *FOOT]
     return Work("100,000 M98", ours, peer, {NO_TIME: 2.0})
 
 
@@ -95,8 +99,8 @@ def macros() -> Work:
     body = "G1 X[#1+#2] Y#3"
     return Work(
         "100,000 G65",
-        [*_HEAD, *ours, *_FOOT, "O1000", body, "M99"],
-        ["o1000 sub", body, "o1000 endsub", *_HEAD, *peer, *_FOOT],
+        [*HEAD, *ours, *FOOT, "O1000", body, "M99"],
+        ["o1000 sub", body, "o1000 endsub", *HEAD, *peer, *FOOT],
         {NO_TIME: 2.0},
     )
 
@@ -113,13 +117,13 @@ def compensated() -> Work:
         f"X{50 * math.cos(i / 300) * (1 + i * 1e-5):.3f} Y{50 * math.sin(i / 300) * (1 + i * 1e-5):.3f}"
         for i in range(200_000)
     ]
-    start, end = "X50. Y0. F1000.", ["G40 G1 X0 Y0", *_FOOT]
+    start, end = "X50. Y0. F1000.", ["G40 G1 X0 Y0", *FOOT]
     ours, peer = f"G42 D1 G1 {start}", f"G42.1 D2 G1 {start}"
     setup = "tools:\n  1: {length: 0, radius: 1}\n"
     return Work(
         "G42 over 200,000 blocks",
-        [*_HEAD, ours, *blocks, *end],
-        [*_HEAD, peer, *blocks, *end],
+        [*HEAD, ours, *blocks, *end],
+        [*HEAD, peer, *blocks, *end],
         {NO_TIME: 2.0},
         setup,
     )
