@@ -135,6 +135,10 @@ class Planner:
         soft = averages(context, self._machine, self._settings)[0] > 0.0
         return axis_rapids(ways, context, self._real.limits(None, self._use_of_rapids), soft=soft)
 
+    def use_of(self, kind: int, context: Context) -> Use:
+        """What a row of a kind runs by."""
+        return use_of(kind, context, self._uses)
+
     @property
     def _use_of_rapids(self) -> Use:
         return Use.RAPID if self._uses.rapid else Use.CUT

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from polycnc.machine import Machine, Spindle
+    from polycnc.motion.standing.beside import Work
     from polycnc.toolpath import Context, Event
     from polycnc.toolpath.motion_settings import SpindleWaitFor
     from polycnc.toolpath.table import Chunk
@@ -88,7 +89,7 @@ class Waits:
     ) -> None:
         self.machine = machine
         self.contexts = contexts
-        self.wait = wait
+        self._say, self._waited = wait, (-1, 0.0)
         self.parallel: list[Parallel] = []
         self.step: Callable[[Begins | Awaits], None] = _nobody
         self.spindle_wait: SpindleWaitFor | Literal[""] = ""
@@ -105,6 +106,11 @@ class Waits:
         self._windows = {"fine": machine.settle_fine_s, "coarse": machine.settle_coarse_s}
         self._settling: tuple[str, int, float] | None = None
         self._place: tuple[int, list[float]] = (-1, [])
+
+    def wait(self, row: int, share: str, number: int, seconds: float) -> None:
+        """A row waits; how long it has so far is kept."""
+        self._waited = row, seconds + (self._waited[1] if row == self._waited[0] else 0.0)
+        self._say(row, share, number, seconds)
 
     def stand_in(self, tool: int | str) -> None:
         """Say which tool is in the spindle, by its number or name; 0 for none."""
@@ -175,9 +181,8 @@ class Waits:
         if self._at_start and self._at_start in (tool[0], tool[1].upper()):
             self._tool = tool  # contexts know number and name, the start knows one of them
         self._at_start = 0
-        changing_s = 0.0
         if tool != self._tool and (any(tool) or any(self._tool)):
-            changing_s = self._change(row, number, self._tool[0], tool[0])
+            self._change(row, number, self._tool[0], tool[0])
         self._tool = tool
         spindle = self.spindle(context)
         if spindle is not None:
@@ -191,17 +196,21 @@ class Waits:
                 else:
                     follows = last is not None and last.surface_speed
                     since = self._rpm.get(spindle.number, 0.0) if follows else None
-                    self._run_up(row, spindle, target, changing_s, since)
+                    self._run_up(row, spindle, target, since)
             self._rpm[spindle.number] = target
 
-    def _run_up(self, row: int, spindle: Spindle, target: float, after_s: float, since: float | None) -> None:
+    def _run_up(self, row: int, spindle: Spindle, target: float, since: float | None) -> None:
         """A spindle goes to a speed beside the axes; the next cut waits for it, unless nothing does."""
         turning = self._turning.get(spindle.number)
         if turning is None:
             turning = self._turning[spindle.number] = Turning(spindle.acceleration_rpm_s)
-        self.step(Begins(row, turning, target, after_s, since))
+        self._begin(row, turning, target, since)
         cuts_wait = target != 0.0 and (self.spindle_wait or spindle.speed_wait) == "cut"
         self._open = turning if cuts_wait else None
+
+    def _begin(self, row: int, work: Work, aim: float, since: float | None = None) -> None:
+        """Some work begins, behind what the row has waited for already."""
+        self.step(Begins(row, work, aim, self._waited[1] if row == self._waited[0] else 0.0, since))
 
     def _cuts(self, chunk: Chunk, kinds: bytes, before: int) -> None:
         """Rows up to one: the first cut waits for the spindle."""
@@ -215,8 +224,8 @@ class Waits:
                 break
         self._looked = before
 
-    def _change(self, row: int, number: int, before: int, after: int) -> float:
-        """The tool is changed. Seconds that this takes without what goes on beside it.
+    def _change(self, row: int, number: int, before: int, after: int) -> None:
+        """The tool is changed.
 
         Without an arm the magazine first takes the old tool back to its place. With one it has turned to the new tool
         since its T; the old tool gets the place of the new one.
@@ -240,7 +249,6 @@ class Waits:
                 self._pockets[before] = place or before
             self._pockets[after] = 0
         self.wait(row, "tool_change_s", number, seconds)
-        return seconds
 
     def _select(self, row: int, tool: str | float) -> None:
         """T: a magazine with an arm turns to the tool beside what comes."""
@@ -251,7 +259,7 @@ class Waits:
     def _turn_to(self, row: int, place: int) -> None:
         """The magazine turns to a place, 0 for one that is not known, unless it goes there already."""
         if place and place != self._aim:
-            self.step(Begins(row, self._search, place))
+            self._begin(row, self._search, place)
             self._aim = place
 
     def _place_of(self, tool: int) -> int:
