@@ -91,8 +91,8 @@ def _lines(result: Result, happenings: Happenings, file: str, usage: Usage | Non
         yield from _used(result, usage)
 
 
-def explained(parts: Mapping[Cause, Part], times: Times) -> str:
-    """Where the cycle time goes: by the limit that held, and by what the axes waited for."""
+def explained(parts: Mapping[Cause, Part], times: Times, hidden_s: Mapping[str, float]) -> str:
+    """Where the cycle time goes: by the limit that held, by what the axes waited for; what went on beside them."""
     total, whole = times.total_s or 1.0, sum(part.way for part in parts.values()) or 1.0
     lines = [text("run.explained")]
     for cause, part in parts.items():
@@ -106,6 +106,9 @@ def explained(parts: Mapping[Cause, Part], times: Times) -> str:
             lines.append(
                 text("run.explained.wait", time=clock(seconds), share=share, what=text(f"run.{name}"))
             )
+    for name, seconds in hidden_s.items():
+        if seconds > 0.0:
+            lines.append(text("run.explained.hidden", time=clock(seconds), what=text(f"run.{name}")))
     return "\n".join(lines)
 
 

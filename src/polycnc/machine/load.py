@@ -58,8 +58,9 @@ if TYPE_CHECKING:
     )
 
     DynamicsKey = Literal[
-        "rapid", "max_feed", "acceleration", "jerk", "in_position_fine", "in_position_coarse"
-    ]
+        "rapid", "max_feed", "acceleration", "jerk", "in_position_fine", "in_position_coarse",
+        "rapid_time_s", "rapid_bell_s", "cutting_time_s", "cutting_bell_s", "after_interpolation_s",
+    ]  # fmt: skip
 
 T = TypeVar("T")
 BUILTIN = Path(__file__).with_name("builtin")
@@ -339,7 +340,7 @@ def _axis(name: str, table: AxisData, defaults: DefaultsData, names: tuple[str, 
     values: DynamicsData = {**_DYNAMICS[kind], **defaults.get(kind, {})}
 
     def value(key: DynamicsKey) -> float:
-        return float(table.get(key, values[key]))
+        return float(table.get(key, values.get(key, 0.0)))
 
     points = [float(point) for point in table.get("reference_points", (0.0,))]
     points += points[-1:] * (_REFERENCE_POINTS - len(points))
@@ -358,6 +359,11 @@ def _axis(name: str, table: AxisData, defaults: DefaultsData, names: tuple[str, 
         max_feed=value("max_feed") / _PER_MINUTE,
         acceleration=value("acceleration"),
         jerk=value("jerk"),
+        rapid_time_s=value("rapid_time_s"),
+        rapid_bell_s=value("rapid_bell_s"),
+        cutting_time_s=value("cutting_time_s"),
+        cutting_bell_s=value("cutting_bell_s"),
+        after_interpolation_s=value("after_interpolation_s"),
         reference_points=cast("tuple[float, float, float, float]", tuple(points)),
         in_position_fine=value("in_position_fine"),
         in_position_coarse=value("in_position_coarse"),
@@ -385,6 +391,7 @@ def _spindle(number: int, table: SpindleData) -> Spindle:
         carries=table.get("carries", "tool"),
         axis=table.get("axis", ""),
         gears=tuple(Gear(float(gear["min_rpm"]), float(gear["max_rpm"])) for gear in table.get("gears", ())),
+        speed_wait=table.get("speed_wait", "block"),
     )
 
 
@@ -397,6 +404,8 @@ def _magazine(table: MagazineData) -> Magazine:
         change_at={} if at == "anywhere" else {name: tuple(points) for name, points in at.items()},
         retracts=table.get("retracts", False),
         place_time_s=float(table.get("place_time_s", 0.0)),
+        pockets=table.get("pockets", "random"),
+        turns=table.get("turns", "shortest"),
     )
 
 

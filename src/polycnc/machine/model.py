@@ -27,6 +27,10 @@ if TYPE_CHECKING:
 
 Carries = Literal["tool", "work"]
 Timing = Literal["before", "with", "after"]
+#: What waits until a spindle has its speed: the block that asks for it, the first cut behind it, or nothing.
+SpeedWait = Literal["block", "cut", "never"]
+Pockets = Literal["random", "fixed"]
+Turns = Literal["shortest", "forward"]
 #: What an M function does in the control beside what the machine does.
 Act = Literal[
     "spindle_clockwise", "spindle_counter_clockwise", "spindle_stop", "tool_change",
@@ -53,6 +57,11 @@ class Axis:
         max_feed: Fastest feed.
         acceleration: Largest acceleration.
         jerk: Largest jerk.
+        rapid_time_s: Rapids take so long from rest to `rapid`, and `rapid_bell_s` is how long the acceleration takes to
+            build up (FANUC T1 and T2); 0: `acceleration` and `jerk` hold. `cutting_time_s` and `cutting_bell_s` are
+            the same of cuts that the control plans ahead, from rest to `max_feed`.
+        after_interpolation_s: Behind the interpolator cuts take so long from rest to any speed; 0: all are planned
+            ahead.
         reference_points: Machine positions of the first to fourth reference point.
         in_position_fine: Window of the fine exact stop.
         in_position_coarse: Window of the coarse exact stop.
@@ -71,6 +80,11 @@ class Axis:
     max_feed: float = 0.0
     acceleration: float = 0.0
     jerk: float = 0.0
+    rapid_time_s: float = 0.0
+    rapid_bell_s: float = 0.0
+    cutting_time_s: float = 0.0
+    cutting_bell_s: float = 0.0
+    after_interpolation_s: float = 0.0
     reference_points: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
     in_position_fine: float = 0.0
     in_position_coarse: float = 0.0
@@ -113,7 +127,10 @@ class Gear:
 
 @dataclass(frozen=True, slots=True)
 class Spindle:
-    """A spindle; `axis` names the rotary axis that it becomes when it is positioned as one, or is empty."""
+    """A spindle; `axis` names the rotary axis that it becomes when it is positioned as one, or is empty.
+
+    `speed_wait` says what waits until it has its speed.
+    """
 
     number: int
     name: str
@@ -124,6 +141,7 @@ class Spindle:
     carries: Carries
     axis: str = ""
     gears: tuple[Gear, ...] = ()
+    speed_wait: SpeedWait = "block"
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,7 +150,10 @@ class Magazine:
 
     `change_at`: at which of its reference points (1 to 4) an axis stands for a change; empty: anywhere. The change
     itself brings the axes there, in this order and each to its first point, where it `retracts`; else controls refuse
-    a change elsewhere (`control/tool_change.py`). `place_time_s` is the time in which a turret turns by one place.
+    a change elsewhere (`control/tool_change.py`). `place_time_s` is the time in which it turns by one place, the
+    shorter way round or only `forward`. A magazine of `random` pockets has an arm: it turns to the tool of a T beside
+    everything else, and the old tool gets the pocket of the new one. With `fixed` ones it has none: the change takes
+    the old tool back to its own pocket, and turns to the new one then.
     """
 
     kind: Literal["magazine", "turret"]
@@ -141,17 +162,23 @@ class Magazine:
     change_at: Mapping[str, tuple[int, ...]]
     retracts: bool = False
     place_time_s: float = 0.0
+    pockets: Pockets = "random"
+    turns: Turns = "shortest"
+
+    def turn_s(self, before: int, after: int) -> float:
+        """Seconds in which it turns from one place to another."""
+        way = (after - before) % self.places
+        return (way if self.turns == "forward" else min(way, self.places - way)) * self.place_time_s
 
     def index_s(self, before: int, after: int) -> float:
-        """Seconds in which a turret turns from the place of one tool to that of another, the shorter way round.
+        """Seconds in which a turret turns from the place of one tool to that of another.
 
         A tool without a place of its own (number 0, above `places`, or called by name) is not turned to.
         """
         known = all(0 < tool <= self.places for tool in (before, after))
         if self.kind != "turret" or not known:
             return 0.0
-        way = abs(after - before)
-        return min(way, self.places - way) * self.place_time_s
+        return self.turn_s(before, after)
 
 
 def program_called(calls: str) -> int | str:

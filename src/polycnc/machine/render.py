@@ -32,6 +32,8 @@ _SECONDS_PER_MINUTE = 60.0
 _COMMENT_COLUMN = 48
 _Keys = list[tuple[str, object]]
 #: Tables that few machines have, and how the header of an example looks.
+#: Times of an axis that most machines do not have.
+_TIMES = ("rapid_time_s", "rapid_bell_s", "cutting_time_s", "cutting_bell_s", "after_interpolation_s")
 _EXAMPLES = {"g_function": '[g_function."100"]', "alarm": "[[alarm]]", "message": "[[message]]"}
 
 
@@ -141,6 +143,7 @@ def _axis(axis: Axis) -> _Keys:
         ("max_feed", axis.max_feed * _SECONDS_PER_MINUTE),
         ("acceleration", axis.acceleration),
         ("jerk", axis.jerk),
+        *((key, getattr(axis, key) or None) for key in _TIMES),
         ("reference_points", axis.reference_points),
         ("in_position_fine", axis.in_position_fine),
         ("in_position_coarse", axis.in_position_coarse),
@@ -158,6 +161,7 @@ def _spindle(spindle: Spindle) -> _Keys:
         ("carries", spindle.carries),
         ("axis", spindle.axis or None),
         ("gears", gears or None),
+        ("speed_wait", spindle.speed_wait),
     ]
 
 
@@ -167,6 +171,8 @@ def _magazine(magazine: Magazine) -> _Keys:
         ("places", magazine.places),
         ("change_time_s", magazine.change_time_s),
         ("place_time_s", magazine.place_time_s),
+        ("pockets", magazine.pockets),
+        ("turns", magazine.turns),
         ("change_at", magazine.change_at or "anywhere"),
         ("retracts", magazine.retracts),
     ]

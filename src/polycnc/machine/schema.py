@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, StringConstraints, ValidationError
 
 from polycnc.machine.errors import nearest
-from polycnc.machine.model import Act
+from polycnc.machine.model import Act, Pockets, SpeedWait, Turns
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -57,6 +57,11 @@ class Dynamics(_Table):
     max_feed: Positive | None = None
     acceleration: Positive | None = None
     jerk: Positive | None = None
+    rapid_time_s: NotNegative | None = None
+    rapid_bell_s: NotNegative | None = None
+    cutting_time_s: NotNegative | None = None
+    cutting_bell_s: NotNegative | None = None
+    after_interpolation_s: NotNegative | None = None
     in_position_fine: Positive | None = None
     in_position_coarse: Positive | None = None
 
@@ -110,6 +115,7 @@ class SpindleTable(_Table):
     carries: Literal["tool", "work"] | None = None
     axis: Name | None = None
     gears: list[GearTable] | None = None
+    speed_wait: SpeedWait | None = None
 
 
 def _nowhere(value: object) -> object:
@@ -128,6 +134,8 @@ class MagazineTable(_Table):
     places: Annotated[int, Field(ge=1)] | None = None
     change_time_s: NotNegative | None = None
     place_time_s: NotNegative | None = None
+    pockets: Pockets | None = None
+    turns: Turns | None = None
     change_at: ChangeAt | None = None
     retracts: bool | None = None
 

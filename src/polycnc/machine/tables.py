@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Literal, NotRequired, TypeAlias, TypedDict
 
-from polycnc.machine.model import Act, Carries, Timing
+from polycnc.machine.model import Act, Carries, Pockets, SpeedWait, Timing, Turns
 from polycnc.machine.rules import Latch
 
 AxisKind = Literal["linear", "rotary"]
@@ -23,6 +23,11 @@ class DynamicsData(TypedDict, total=False):
     max_feed: float
     acceleration: float
     jerk: float
+    rapid_time_s: float
+    rapid_bell_s: float
+    cutting_time_s: float
+    cutting_bell_s: float
+    after_interpolation_s: float
     in_position_fine: float
     in_position_coarse: float
 
@@ -76,6 +81,7 @@ class SpindleData(TypedDict, total=False):
     carries: Carries
     axis: str
     gears: list[GearData]
+    speed_wait: SpeedWait
 
 
 class MagazineData(TypedDict, total=False):
@@ -85,6 +91,8 @@ class MagazineData(TypedDict, total=False):
     places: int
     change_time_s: float
     place_time_s: float
+    pockets: Pockets
+    turns: Turns
     change_at: dict[str, list[int]] | Literal["anywhere"]
     retracts: bool
 

@@ -6,7 +6,9 @@ same chunk by chunk while the toolpath grows.
     columns     limits (machine and settings as the kernels read them), pace (what a program says beside F), settings
     the path    row_path, frames, transformed (the real axes under a transformation; demand: many
                 rows at once), pole (through that of G12.1)
-    planning    planner over `kernels/`, compiled or as they are (`compiled`), waits (tool changes, dwells), plan, times
+    planning    planner over `kernels/`, compiled or as they are (`compiled`), time_constants (what rapids and cuts run
+                by), plan, times
+    standing/   tool changes, spindle ramps, dwells
     time        explain (which limit held, for how long)
     motion      law (phases of constant acceleration over time), averaging (limited jerk: from there to the axes)
     sampling/   where the axes are at even times

@@ -12,13 +12,14 @@ from math import inf, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.motion.kernels.columns import PLACES, Form, PieceRecord, piece_width
+from polycnc.motion.time_constants import Use
 from polycnc.toolpath import Kind
 from polycnc.toolpath.modes import FeedMode
 from polycnc.toolpath.table import CURVE_WIDTH
 
 if TYPE_CHECKING:
     from array import array
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from polycnc.motion.planner import Planner
     from polycnc.toolpath import Context, Toolpath
@@ -38,6 +39,7 @@ class Cause(StrEnum):
     CORNERS = "corners"
     ACCELERATION = "acceleration"
     JERK = "jerk"
+    TIME_CONSTANT = "time-constant"
 
 
 class Part(NamedTuple):
@@ -62,6 +64,7 @@ class TimeAccount:
         self._toolpath, self._planner, self._tops = toolpath, planner, tops
         self._n = len(toolpath.axes)
         self._asked: dict[int, tuple[float, bool]] = {}
+        self._after: set[int] = set()
         self._contexts: dict[int, Context] = {}
         self._seconds = dict.fromkeys(Cause, 0.0)
         self._ways = dict.fromkeys(Cause, 0.0)
@@ -73,6 +76,11 @@ class TimeAccount:
         """Seconds and way by cause: together the time and the way of the motion."""
         return {cause: Part(self._seconds[cause], self._ways[cause]) for cause in Cause}
 
+    @property
+    def hidden_s(self) -> Mapping[str, float]:
+        """Seconds of spindle ramps and of a magazine that turns beside motion, by the field of `Times`."""
+        return self._planner.hidden_s
+
     def take(self, chunk: Chunk) -> None:
         """Note what the program asks for in a chunk's rows; comes before the planner takes the chunk."""
         for row in range(len(chunk)):
@@ -80,6 +88,8 @@ class TimeAccount:
             if kind not in (Kind.EVENT, Kind.DWELL):
                 context = self._toolpath.contexts[chunk.context[row]]
                 self._asked[chunk.first + row] = self._asked_speed(chunk, row, context), kind == Kind.RAPID
+                if self._planner.use_of(kind, context) is Use.AFTER:
+                    self._after.add(chunk.first + row)
                 if kind == Kind.RAPID:
                     self._contexts[chunk.first + row] = context
 
@@ -106,6 +116,7 @@ class TimeAccount:
         for rows in (self._asked, self._contexts):
             for row in [row for row in rows if row < done]:
                 del rows[row]
+        self._after = {row for row in self._after if row >= done}
         if self._next is not None:
             self._next(records, count)
 
@@ -114,7 +125,8 @@ class TimeAccount:
         pause = records[at + PieceRecord.PAUSE] - min(
             records[at + PieceRecord.EARLY], records[at + PieceRecord.PAUSE]
         )
-        self._count(Cause.JERK, pause, 0.0)
+        row = int(records[at + PieceRecord.ROW])
+        self._count(Cause.TIME_CONSTANT if row in self._after else Cause.JERK, pause, 0.0)
         seconds, length = records[at + PieceRecord.TIME], records[at + PieceRecord.LENGTH]
         if records[at + PieceRecord.FORM] == Form.TIMED:
             level = min(self._level_of_rapid(records, at), seconds)

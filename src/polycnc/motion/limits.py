@@ -11,6 +11,7 @@ from polycnc.motion.kernels.alone import alone_pull, alone_top, best_ramp
 from polycnc.motion.kernels.columns import Limits, PathLimits
 from polycnc.motion.kernels.jerk import DEVIATION_CORNER, JERK_CORNER
 from polycnc.motion.settings import Settings
+from polycnc.motion.time_constants import ANY_MM, NO_LAG_S, Use, averages_after, dynamics, is_after
 from polycnc.toolpath.modes import AccelerationMode, CornerMode, FeedMode
 
 if TYPE_CHECKING:
@@ -39,6 +40,7 @@ def axis_limits(
     names: tuple[str, ...],
     settings: Settings,
     made: Geometry | None = None,
+    use: Use = Use.CUT,
 ) -> Limits:
     """The kernels' `limits` for the columns of a toolpath; `made` are X, Y and Z of a transformation that acts.
 
@@ -55,6 +57,13 @@ def axis_limits(
         slowest = min(_limit(axis, field) for axis in linear)
         return [slowest if axis is None else _limit(axis, field) for axis in axes]
 
+    # What a transformation makes moves by what the axes can do; time constants are for axes that programs name.
+    slowest = [min(_limit(axis, field) for axis in linear) for field in ("acceleration", "jerk")]
+    able = [
+        slowest if axis is None else [number or 1e9 for number in dynamics(axis, name, settings, use)]
+        for axis, name in zip(axes, names, strict=True)
+    ]
+
     built = next((c for c in machine.channels if c.number == channel), machine.channels[0])
     geometry = [
         next(
@@ -68,7 +77,7 @@ def axis_limits(
             geometry[i] = names.index(name)
     if made is not None:
         geometry = list(made)
-    acceleration = numbers("acceleration")
+    acceleration = [pull for pull, _ in able]
     step = settings.overload * machine.interpolation_cycle_s
     rapid, feed = (
         array("d", [min(top, caps.get(name, inf)) for top, name in zip(numbers(field), names, strict=True)])
@@ -80,7 +89,7 @@ def axis_limits(
         acceleration=array("d", acceleration),
         jump=array("d", [a * step for a in acceleration]),
         rotary=array("d", [axis is not None and axis.rotary for axis in axes]),
-        jerk=array("d", numbers("jerk")),
+        jerk=array("d", [jerk for _, jerk in able]),
         geometry=array("q", geometry),
         path=PathLimits(
             settings.rapid_stops,
@@ -103,10 +112,13 @@ def context_fields(
     station: int,
     settings: Settings,
     averages: tuple[float, float] = (0.0, 0.0),
+    *,
+    after: bool = False,
 ) -> list[float]:
     """One row of the kernels' table of contexts, in the order of the constants in `kernels/columns.py`.
 
-    `averages` is what `averages` gave for the context; without them the jerk has no limit.
+    `averages` is what `averages` gave for the context; without them the jerk has no limit. `after`: of rows that are
+    accelerated after the interpolation, where neither corners nor rests change what the axes follow.
     """
     highest = spindle.max_rpm if spindle else inf
     if context.spindle_limit_rpm > 0.0:
@@ -121,7 +133,7 @@ def context_fields(
         highest,
         spindle.acceleration_rpm_s / 60.0 if spindle else inf,
         context.corner_mode is CornerMode.EXACT_STOP,
-        _kept_tolerance(context, settings) if averages[0] > 0.0 else _tolerance(context, settings),
+        ANY_MM if after else (_kept_tolerance if averages[0] > 0.0 else _tolerance)(context, settings),
         rotary_weight(context, settings),
         station,
         not context.frame.is_identity,
@@ -135,8 +147,8 @@ def context_fields(
         context.rapid_speed,
         context.overlap,
         context.rapid_overlap,
-        context.lag_s,
-        context.lag_from,
+        NO_LAG_S if after else context.lag_s,
+        inf if after else context.lag_from,
         context.pace.rapid if context.pace is not None else 1.0,
         context.tolerance_mm or inf if context.corner_mode is CornerMode.ROUNDED_FROM else inf,
         context.turn_tolerance_deg,
@@ -154,14 +166,55 @@ def averages(context: Context, machine: Machine, settings: Settings) -> tuple[fl
     delays, and long ones, which need acceleration. Lines from rest to rest choose theirs (`kernels/alone.py`).
     BLEND_S lets a corner use up its parts of the tolerance and of the jerk alike (`kernels/jerk.py`).
     """
-    axes = [axis for axis in machine.axes if axis.jerk > 0.0 and axis.acceleration > 0.0]
+    able = [(axis.rotary, *dynamics(axis, axis.name, settings, Use.CUT)) for axis in machine.axes]
+    axes = [own for own in able if own[1] > 0.0 and own[2] > 0.0]
     if (context.acceleration or settings.acceleration) is not AccelerationMode.JERK_LIMITED or not axes:
         return 0.0, 0.0
-    ramp = RAMPS * max(axis.acceleration / axis.jerk for axis in axes)
+    ramp = RAMPS * max(pull / jerk for _, pull, jerk in axes)
     tolerance = _kept_tolerance(context, settings)
-    jerk = min((axis.jerk for axis in axes if not axis.rotary), default=axes[0].jerk)
+    jerk = min((jerk for rotary, _, jerk in axes if not rotary), default=axes[0][2])
     blend = (6.0 * DEVIATION_CORNER * tolerance / (JERK_CORNER * jerk)) ** (1.0 / 3.0)
     return ramp, min(blend, ramp)
+
+
+class ContextTables:
+    """The kernels' tables of contexts: one for cuts and rapids, and one for cuts after the interpolation.
+
+    Attributes:
+        plain: For rows of the uses CUT and RAPID.
+        after: For rows of the use AFTER; the same table where no cut has that use.
+    """
+
+    def __init__(self, seconds: float) -> None:
+        self._seconds = seconds
+        self.plain = array("d")
+        self.after = array("d") if seconds > 0.0 else self.plain
+
+    def of(self, use: Use) -> array[float]:
+        """The table of a use."""
+        return self.after if use is Use.AFTER else self.plain
+
+    def smoothing(self, context: Context, machine: Machine, settings: Settings) -> tuple[float, ...]:
+        """What rows of a context are averaged over, in cuts and on rapids."""
+        own = averages(context, machine, settings)
+        return (*own, *averages_after(self._seconds)) if is_after(context, self._seconds) else own
+
+    def add(
+        self,
+        context: Context,
+        axes: int,
+        spindle: Spindle | None,
+        station: int,
+        settings: Settings,
+        smoothing: tuple[float, ...],
+    ) -> None:
+        """Take a context in, with what `smoothing` gave for it."""
+        own = smoothing[0], smoothing[1]
+        self.plain.extend(context_fields(context, axes, spindle, station, settings, own))
+        if self.after is not self.plain:
+            after = len(smoothing) > len(own)
+            times = (smoothing[2], smoothing[3]) if after else own
+            self.after.extend(context_fields(context, axes, spindle, station, settings, times, after=after))
 
 
 class AxisRapid(NamedTuple):

@@ -16,19 +16,22 @@ from typing import TYPE_CHECKING
 from polycnc.motion.compiled import PLAIN, kernels
 from polycnc.motion.kernels.alone import settle_alone
 from polycnc.motion.kernels.columns import PLACES, PieceRecord, Rows, new_state, piece_width
-from polycnc.motion.limits import averages, axis_rapids, context_fields
+from polycnc.motion.limits import ContextTables, averages, axis_rapids
 from polycnc.motion.settings import DEFAULT, Settings
+from polycnc.motion.standing.beside import Awaits, Beside
+from polycnc.motion.standing.waits import Waits
+from polycnc.motion.time_constants import Use, use_of, uses_of
 from polycnc.motion.times import Plan, Times, ToolTimes
 from polycnc.motion.transformed import RealAxes
-from polycnc.motion.waits import Waits
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from polycnc.machine import Machine
     from polycnc.motion.limits import AxisRapid
     from polycnc.motion.pole import Turn
+    from polycnc.motion.standing.beside import Begins
     from polycnc.motion.transformed import PathLeg
     from polycnc.toolpath import Context, Toolpath
     from polycnc.toolpath.table import Chunk
@@ -89,7 +92,8 @@ class Planner:
         self._limits = self._real.limits(None)
         self._pieces = array("d", bytes(8 * self._width * FIRST_ROOM))
         self._room = FULL_ROOM
-        self._contexts = array("d")
+        self._uses, self._use = uses_of(machine, channel, settings), Use.CUT
+        self._tables = ContextTables(self._uses.after_s)
         self._slots = array("d")
         self._stations: dict[tuple[object, ...], int] = {}
         self._waited: dict[int, dict[str, float]] = {}
@@ -98,7 +102,9 @@ class Planner:
         self._first_row = 0
         self._next_row = 0
         self._waits = Waits(machine, toolpath.contexts, tool, self._wait)
-        self._waits.rapid_stops = settings.rapid_stops
+        self._waits.rapid_stops, self._waits.spindle_wait = settings.rapid_stops, settings.spindle_wait
+        self._waits.step, self._beside = self._step, Beside()
+        self._rests: set[int] = set()
 
     @property
     def facing(self) -> int:
@@ -127,7 +133,15 @@ class Planner:
     def rapids(self, ways: Sequence[float], context: Context) -> list[AxisRapid]:
         """How each axis runs a rapid by itself: none does under a transformation."""
         soft = averages(context, self._machine, self._settings)[0] > 0.0
-        return axis_rapids(ways, context, self._real.limits(None), soft=soft)
+        return axis_rapids(ways, context, self._real.limits(None, self._use_of_rapids), soft=soft)
+
+    def use_of(self, kind: int, context: Context) -> Use:
+        """What a row of a kind runs by."""
+        return use_of(kind, context, self._uses)
+
+    @property
+    def _use_of_rapids(self) -> Use:
+        return Use.RAPID if self._uses.rapid else Use.CUT
 
     def take(self, chunk: Chunk) -> bool:
         """Plan a chunk; true, for it is no longer needed."""
@@ -143,10 +157,18 @@ class Planner:
         bounds = self._real.bounds(chunk, self._toolpath.contexts)
         feed = bounds.paced(feed)
         others = chunk.context, feed, chunk.end, chunk.curve, stops, *bounds.shares
+        switches = self._switches(chunk) if self._uses.differ else {}
+        rests = {number - chunk.first for number in self._rests}
+        self._rests.clear()
         row = 0
-        for edge in (*sorted({*bounds.enters, *bounds.legs}), len(chunk)):
+        for edge in (*sorted({*bounds.enters, *bounds.legs, *switches, *rests}), len(chunk)):
             self._lay(Rows(chunk.kind[:edge], *others), row, chunk.curves, chunk.first)
             row = edge
+            if edge in rests:
+                settle_alone(self._pieces, self._axes, self._limits, self._state)
+                self._state.run.stop = 1.0
+            if edge in switches:
+                self._switch(switches[edge], self._toolpath.contexts[chunk.context[edge]])
             if edge in bounds.enters:
                 context = self._toolpath.contexts[chunk.context[edge]]
                 self._enter(context, bounds.enters[edge], chunk.first + edge)
@@ -155,11 +177,44 @@ class Planner:
                 row = edge + 1
         return True
 
+    def _step(self, step: Begins | Awaits) -> None:
+        """Something begins beside the axes, or a row waits for it."""
+        self._beside.note(step)
+        if isinstance(step, Awaits) and step.rests:
+            self._rests.add(step.row)
+
+    @property
+    def hidden_s(self) -> Mapping[str, float]:
+        """Seconds of spindle ramps and of the magazine that nothing waits for, by the field of `Times`."""
+        return self._beside.hidden_s
+
+    def _seconds(self, first: int, last: int) -> float:
+        """Seconds of the rows from one to before another one."""
+        return sum(self._rows[2 * (first - self._first_row) : 2 * (last - self._first_row) : 2])
+
+    def _switches(self, chunk: Chunk) -> dict[int, Use]:
+        """The rows from which on another use holds."""
+        use, found = self._use, {}
+        for row, (kind, number) in enumerate(zip(chunk.kind, chunk.context, strict=True)):
+            if (
+                kind < Kind.DWELL
+                and (own := use_of(kind, self._toolpath.contexts[number], self._uses)) != use
+            ):
+                use = found[row] = own
+        return found
+
+    def _switch(self, use: Use, context: Context) -> None:
+        """Before a row that another use holds for the axes rest."""
+        settle_alone(self._pieces, self._axes, self._limits, self._state)
+        self._use, self._limits = use, self._real.limits(context.transformation, use)
+        self._state.run.stop = 1.0
+
     def _lay(self, rows: Rows, row: int, curves: array[float], number: int) -> None:
         """Lay rows out from one on."""
+        contexts = self._tables.of(self._use)
         while row < len(rows.kind):
             row = self._kernels.lay(
-                rows, row, curves, number, self._contexts, self._limits, self._pieces, self._state
+                rows, row, curves, number, contexts, self._limits, self._pieces, self._state
             )
             if row < len(rows.kind):
                 self._make_room()
@@ -196,7 +251,7 @@ class Planner:
         """Before a row a transformation begins or ends: at rest the path goes on from where the real axes are."""
         settle_alone(self._pieces, self._axes, self._limits, self._state)
         self._look_ahead(row)
-        self._limits = self._real.limits(context.transformation)
+        self._limits = self._real.limits(context.transformation, self._use)
         self._state.run.stop = 1.0
         self._state.position[:] = array("d", position)
 
@@ -208,6 +263,7 @@ class Planner:
         self._waits.settle(self._next_row)
         settle_alone(self._pieces, self._axes, self._limits, self._state)
         self._look_ahead(self._next_row)
+        self._beside.settle(self._next_row, self._seconds, self._wait)
         self._settle_parallel(self._next_row)
         return self._plan()
 
@@ -253,6 +309,8 @@ class Planner:
             self._rows,
             self._first_row,
         )
+        last_row = int(pieces[(final - 1) * width + PieceRecord.ROW]) if end is None else end
+        self._beside.settle(last_row, self._seconds, self._wait)
         if self.on_pieces is not None:
             self.on_pieces(pieces, final)
         end2 = pieces[(final - 1) * width + PieceRecord.END2]
@@ -262,8 +320,10 @@ class Planner:
         planned_rows = int(rest[PieceRecord.ROW]) if end is None else end
         self._settle_parallel(planned_rows)
         if not self._keep_rows:
-            del self._rows[: 2 * (planned_rows - self._first_row)]
-            self._first_row = planned_rows
+            self._beside.settle(planned_rows, self._seconds, self._wait)
+            needed = min([planned_rows, *(entry.row for entry in self._waits.parallel)])
+            del self._rows[: 2 * (needed - self._first_row)]
+            self._first_row = needed
 
     def _settled(self, count: int) -> int:
         """The number of pieces in the buffer that no row to come can change."""
@@ -283,12 +343,10 @@ class Planner:
 
     def _add_contexts(self) -> None:
         for context in self._toolpath.contexts[len(self._slots) // 4 :]:
-            smoothing = averages(context, self._machine, self._settings)
+            smoothing = self._tables.smoothing(context, self._machine, self._settings)
             station = self._stations.setdefault((*_station(context), smoothing), len(self._stations))
             spindle = self._waits.spindle(context)
-            self._contexts.extend(
-                context_fields(context, self._axes, spindle, station, self._settings, smoothing)
-            )
+            self._tables.add(context, self._axes, spindle, station, self._settings, smoothing)
             self._slots.extend((0.0, 0.0, 0.0, 0.0))
 
     def _wait(self, row: int, share: str, context: int, seconds: float) -> None:
@@ -309,9 +367,7 @@ class Planner:
             if entry.last >= planned_rows:
                 open_yet.append(entry)
                 continue
-            motion = sum(
-                self._rows[2 * (entry.row - self._first_row) : 2 * (entry.last + 1 - self._first_row) : 2]
-            )
+            motion = self._seconds(entry.row, entry.last + 1)
             if entry.seconds > motion:
                 self._wait(entry.row, "auxiliary_s", entry.context, entry.seconds - motion)
         self._waits.parallel[:] = open_yet

@@ -41,6 +41,7 @@ from polycnc.motion.limits import averages, axis_limits, channel_axes, rotary_we
 from polycnc.motion.pace import Travel, pace_of
 from polycnc.motion.pole import RING_MM, Turn, is_at, legs_of, turn_records
 from polycnc.motion.row_path import arc_path, line_path
+from polycnc.motion.time_constants import Use
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS, RAPID_KINDS
 from polycnc.toolpath.modes import AccelerationMode, FeedMode
@@ -167,14 +168,14 @@ class RealAxes:
         self._axes = channel_axes(machine, channel, names)
         self._geometry = machine.geometry_indices(channel)
         self._on_path, self._context = list(start) or [0.0] * len(names), Context()
-        self._limits: dict[Geometry | None, Limits] = {}
+        self._limits: dict[tuple[Geometry | None, Use], Limits] = {}
 
-    def limits(self, transformation: Transformation | None) -> Limits:
-        """The kernels' `limits` while a transformation acts."""
-        made = None if transformation is None else transformation.geometry
-        if made not in self._limits:
-            self._limits[made] = axis_limits(self._machine, self._channel, self._names, self._settings, made)
-        return self._limits[made]
+    def limits(self, transformation: Transformation | None, use: Use = Use.CUT) -> Limits:
+        """The kernels' `limits` while a transformation acts, which knows no time constants of rapids, or none."""
+        key = (None, use) if transformation is None else (transformation.geometry, Use.CUT)
+        if key not in self._limits:
+            self._limits[key] = axis_limits(self._machine, self._channel, self._names, self._settings, *key)
+        return self._limits[key]
 
     def stand(self, on_path: Sequence[float]) -> None:
         """The axes stand elsewhere, without a transformation."""

@@ -5,13 +5,17 @@ from __future__ import annotations
 from dataclasses import field
 from enum import StrEnum
 from math import inf
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from polycnc.deferred.records import dataclass
 from polycnc.toolpath.modes import AccelerationMode
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+
+
+#: What waits until a spindle has its speed: the block that asks for it, the first cut behind it, or nothing.
+SpindleWaitFor = Literal["block", "cut", "never"]
 
 
 class DryFeed(StrEnum):
@@ -47,6 +51,21 @@ class DryRun:
 
 
 @dataclass(frozen=True, slots=True)
+class Ramp:
+    """How an axis takes up speed, as parameters of a control give it; nothing said is what the machine file says.
+
+    Attributes:
+        seconds: Time from rest to the axis's highest speed; None: not given.
+        bell_s: Time over which the acceleration builds up and fades (FANUC T2); None: not given.
+        acceleration: In place of `seconds`, mm/s² or degrees/s²; None: not given.
+    """
+
+    seconds: float | None = None
+    bell_s: float | None = None
+    acceleration: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class MotionSettings:
     """What the planner asks of a control's parameters.
 
@@ -67,6 +86,13 @@ class MotionSettings:
         rapid_caps: Highest rapid traverse of axes by their name in programs, mm/s or degrees/s, where it is below that
             of the machine (SYNTEC Pr461 on).
         feed_caps: The same for cutting (SYNTEC Pr621 on).
+        rapid_ramps: How axes take up speed on rapids, by their name in programs, where parameters say it (FANUC 1620,
+            1621, SYNTEC Pr441); `cut_ramps` likewise in cuts (FANUC 1660, 1772, SYNTEC Pr541, Pr641).
+        after_interpolation: Cuts whose context does not ask for something else are accelerated behind the
+            interpolator, over a time that does not depend on their speed, where machine or parameters give one.
+        after_times: That time of axes by their name in programs, seconds, where parameters give it (FANUC 1622).
+        spindle_wait: What waits until a spindle has its speed, where parameters say it (FANUC 3708#0, SINUMERIK
+            MD35500): the first cut, or nothing; empty for what the machine file says.
         acceleration: How the axes take up speed where the context does not say.
         drive_speed: Reduced at speed (`DRIVE`): from this part of its velocity on an axis accelerates less (MD35220).
         drive_reduction: The same: by this part of its acceleration (MD35230).
@@ -88,6 +114,11 @@ class MotionSettings:
     path_feed: float = inf
     rapid_caps: Mapping[str, float] = field(default_factory=dict)
     feed_caps: Mapping[str, float] = field(default_factory=dict)
+    rapid_ramps: Mapping[str, Ramp] = field(default_factory=dict)
+    cut_ramps: Mapping[str, Ramp] = field(default_factory=dict)
+    after_interpolation: bool = False
+    after_times: Mapping[str, float] = field(default_factory=dict)
+    spindle_wait: SpindleWaitFor | Literal[""] = ""
     acceleration: AccelerationMode = AccelerationMode.CONSTANT
     drive_speed: float = 1.0
     drive_reduction: float = 0.0

@@ -109,7 +109,7 @@ def _say_more(account: TimeAccount | None, result: Result) -> None:
     from polycnc.cli.report import explained
 
     if account is not None:
-        show(explained(account.parts, result.plan.times))
+        show(explained(account.parts, result.plan.times, account.hidden_s))
     _say_if_slow(len(result.toolpath))
 
 

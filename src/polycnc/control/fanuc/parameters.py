@@ -19,6 +19,20 @@ class FanucAxisParameters(MacroAxisParameters):
     reference_point_3 = Number(1242, delivered=None)
     #: 1243: Fourth reference point, machine coordinates [mm].
     reference_point_4 = Number(1243, delivered=None)
+    #: 1610#0: linear acceleration after interpolation (1).
+    CTL = Bit(1610, 0, delivered=False)
+    #: 1610#1: bell-shaped acceleration after interpolation (1).
+    CTB = Bit(1610, 1, delivered=False)
+    #: 1620: Rapids: time constant T (linear) or T1 (bell-shaped) of the acceleration, from rest to rapid
+    #: traverse [ms].
+    rapid_time = Number(1620, delivered=None)
+    #: 1621: Rapids: time constant T2 of the bell-shaped acceleration; 0 for the linear one [ms].
+    rapid_bell_time = Number(1621, delivered=None)
+    #: 1622: Cuts without look-ahead: time constant of the acceleration after interpolation [ms].
+    cutting_time = Number(1622, delivered=None)
+    #: 1660: Cuts with look-ahead: largest acceleration before interpolation; 0 for that of the machine
+    #: [mm/s²].
+    cutting_acceleration = Number(1660, delivered=None)
     #: 6241: Speed of automatic tool offset [mm/min].
     measuring_feed = Number(6241, delivered=0.0)
     #: 6251: Automatic tool offset: deceleration distance [mm].
@@ -46,6 +60,8 @@ class FanucParameters(MacroParameters[A_co]):
     dry_run_speed = Number(1410, delivered=0.0)
     #: 1421: Speed of the rapid override's position F0 [mm/min].
     rapid_f0 = Number(1421, delivered=400.0)
+    #: 1772: Cuts with look-ahead: time constant T2 of the bell-shaped acceleration before interpolation [ms].
+    cutting_bell_time = Number(1772, delivered=None)
     #: 3401#0: words without a point are least increments (0) or millimetres, inches, seconds (1).
     DPI = Bit(3401, 0, delivered=False)
     #: 3403#5: an arc without R and centre is a line (0) or the alarm PS0022 (1).
@@ -59,6 +75,8 @@ class FanucParameters(MacroParameters[A_co]):
     unbuffered_m_codes = WholeRun(3411, 10, delivered=0)
     #: 3421: Ranges of M codes behind which no block is read: lower and upper end in turn.
     unbuffered_m_ranges = WholeRun(3421, 12, delivered=0)
+    #: 3708#0: the first cut does not wait (0) or waits (1) until the spindle has its speed.
+    SAR = Bit(3708, 0, delivered=None)
     #: 5003#0: start-up and cancel of compensation, type A (0) or B (1).
     SUP = Bit(5003, 0, delivered=False)
     #: 5003#1: start-up and cancel of compensation, type C.

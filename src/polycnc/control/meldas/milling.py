@@ -16,6 +16,7 @@ from polycnc.control.word_address.block.whole_numbers import DecimalPoint
 from polycnc.control.word_address.machining_centre import HARTFORD, MillingControl
 from polycnc.control.word_address.macro_b.variables import MacroMemory
 from polycnc.control.word_address.tools import length
+from polycnc.toolpath.motion_settings import Ramp
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -71,9 +72,22 @@ class MeldasMilling(MillingControl):
         return FIVE_READ
 
     def motion_settings(self, channel: Channel) -> MotionSettings:
-        """#1086 G0Intp = 0: rapids run on a line; delivered, every axis by itself."""
-        by_axis = MeldasParameters.naming(channel.setup.parameters).rapids_by_axis != 0
-        return replace(super().motion_settings(channel), rapid_by_axis=by_axis, returns_to_path=False)
+        """#1086 G0Intp = 0: rapids run on a line; delivered, every axis by itself.
+
+        #2004 G0tL and #2007 G1tL: time constants of rapids and of cuts that are not planned ahead, milliseconds.
+        """
+        given = MeldasParameters.naming(channel.setup.parameters)
+        axes = [(name, given.of(name)) for name in channel.axes]
+        return replace(
+            super().motion_settings(channel),
+            rapid_by_axis=given.rapids_by_axis != 0,
+            returns_to_path=False,
+            rapid_ramps={
+                name: Ramp(of.rapid_time / 1000.0) for name, of in axes if of.rapid_time is not None
+            },
+            after_interpolation=True,
+            after_times={name: of.cutting_time / 1000.0 for name, of in axes if of.cutting_time is not None},
+        )
 
     def rotation_adds(self, channel: Channel) -> bool:
         """Under G91 R of G68 is an increment."""

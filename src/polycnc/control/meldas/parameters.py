@@ -9,6 +9,10 @@ from polycnc.control.word_address.parameters import MacroAxisParameters, MacroPa
 class MeldasAxisParameters(MacroAxisParameters):
     """The parameters that every axis has."""
 
+    #: 2004: G0tL: time constant of rapids (linear), from rest to rapid traverse [ms].
+    rapid_time = Number(2004, delivered=None)
+    #: 2007: G1tL: time constant of cuts (linear) without high-accuracy control, whatever the feed [ms].
+    cutting_time = Number(2007, delivered=None)
     #: 2037: G53ofs: first reference point, machine coordinates [mm].
     reference_point_1 = Number(2037, delivered=None)
     #: 2038: #2_rfp: second reference point, machine coordinates [mm].

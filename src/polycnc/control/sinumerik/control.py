@@ -419,15 +419,17 @@ class Sinumerik:
     def motion_settings(self, channel: SinumerikChannel) -> MotionSettings:
         """How the control leads the axes: rapids stop only where an exact stop does; feeds count linear axes.
 
-        DRIVE: MD35220 and MD35230 of the axis that asks for most caution.
+        DRIVE: MD35220 and MD35230 of the axis that asks for most caution. MD35500: what waits for a spindle.
         """
         data = MachineData.of(channel)
+        waits = data.said("$MA_SPIND_ON_SPEED_AT_IPO_START")
         return MotionSettings(
             rapid_stops=False,
             rotary_in_feed=False,
             drive_speed=min(data.number("$MA_ACCEL_REDUCTION_SPEED_POINT", name) for name in channel.axes),
             drive_reduction=max(data.number("$MA_ACCEL_REDUCTION_FACTOR", name) for name in channel.axes),
             dry_run=dry_run(data),
+            spindle_wait="" if waits is None else "cut" if waits else "never",
         )
 
     # ---- variables by name

@@ -40,6 +40,7 @@ from polycnc.messages import AlarmError
 from polycnc.program import Form
 from polycnc.program.split import split_channels
 from polycnc.toolpath.modes import FeedMode
+from polycnc.toolpath.motion_settings import Ramp
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -156,7 +157,10 @@ class SyntecMill(WordAddressControl):
     # ---- states ------------------------------------------------------------------------------------------
 
     def motion_settings(self, channel: SyntecChannel) -> MotionSettings:
-        """Pr411: each axis runs a rapid by itself; Pr405, Pr406, Pr461 on, Pr621 on: speeds in mm/min, 0 for none."""
+        """Pr411: each axis runs a rapid by itself; Pr405, Pr406, Pr461 on, Pr621 on: speeds in mm/min, 0 for none.
+
+        Pr441 on, Pr541 on: milliseconds from rest to these speeds; Pr641 on: in which the acceleration builds up.
+        """
         given = SyntecParameters.naming(channel.setup.parameters)
 
         def caps(speeds: tuple[int, ...]) -> dict[str, float]:
@@ -164,8 +168,16 @@ class SyntecMill(WordAddressControl):
             numbers = zip(channel.axes, speeds, strict=False)
             return {name: number / 60.0 for name, number in numbers if number > 0}
 
+        def ramps(times: tuple[int, ...], bells: tuple[int, ...]) -> dict[str, Ramp]:
+            """Ramps of the axes that have time constants, by their names."""
+            numbers = zip(channel.axes, times, bells, strict=False)
+            found = {name: Ramp(time / 1000.0 or None, bell / 1000.0 or None) for name, time, bell in numbers}
+            return {name: ramp for name, ramp in found.items() if ramp != Ramp()}
+
         return replace(
             super().motion_settings(channel),
+            rapid_ramps=ramps(given.rapid_times, given.cutting_bell_times),
+            cut_ramps=ramps(given.cutting_times, given.cutting_bell_times),
             rapid_by_axis=given.rapids_by_axis == 1,
             path_feed=(given.path_feed or inf) / 60.0,
             corner_speed=(given.corner_feed or inf) / 60.0,

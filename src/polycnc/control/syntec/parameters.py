@@ -32,10 +32,18 @@ class SyntecParameters(ControlParameters["SyntecAxisParameters"]):
     rapids_by_axis = Whole(411, delivered=0)
     #: 413: A reset takes the turn of G92.1 back (0) or keeps it (1, 2).
     keeps_preset_turn = Whole(413, delivered=0)
+    #: 441: Time of each axis from rest to its highest speed at rapid traverse; 0 for the machine's
+    #: acceleration [ms].
+    rapid_times = WholeRun(441, 20, delivered=0)
     #: 461: Highest speed of each axis at rapid traverse; 0 for that of the machine [mm/min].
     rapid_speeds = WholeRun(461, 20, delivered=0)
+    #: 541: Time of each axis from rest to its highest speed in cuts; 0 for the machine's acceleration [ms].
+    cutting_times = WholeRun(541, 20, delivered=0)
     #: 621: Highest speed of each axis in cuts; 0 for that of the machine [mm/min].
     cutting_speeds = WholeRun(621, 20, delivered=0)
+    #: 641: Time in which the acceleration of each axis builds up; 0 where Pr441 or Pr541 is given: at once,
+    #: else by the machine [ms].
+    cutting_bell_times = WholeRun(641, 20, delivered=0)
     #: 701: Groups that each axis belongs to, a bit each.
     axis_groups = WholeRun(701, 20, delivered=0)
     #: 731: Number of axis groups of the CNC's main system; 0 for all.

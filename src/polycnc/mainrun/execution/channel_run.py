@@ -12,7 +12,7 @@ from polycnc.mainrun.commands.programs import text_of
 from polycnc.mainrun.execution.interpolator import ChannelInterpolator
 from polycnc.mainrun.reading.snapshot import ActiveBlock, ChannelSnapshot, Positions, SpindleState, ToolState
 from polycnc.motion.frames import carried, without_transformation
-from polycnc.motion.waits import rpm_at
+from polycnc.motion.standing.waits import rpm_at
 from polycnc.toolpath import Context
 
 if TYPE_CHECKING:

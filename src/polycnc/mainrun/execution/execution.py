@@ -385,7 +385,7 @@ class Execution:
         elif isinstance(item, Standing):
             self.context = item.context
             self.rates.enter(item.context)
-            self._until = self.clock.time + item.seconds
+            self._until = self.clock.time + item.wait_s(self.clock.time)
             self._dwell_signal = item.context.dwell_signal
         else:
             self.context = item.context
@@ -439,7 +439,7 @@ class Execution:
         follower.enter(piece, record[PieceRecord.LENGTH], self._behind)
         if piece.by_axis:
             self.motion = AxesMotion(
-                piece, preprocessing.limits, self.clock.time, self.rates, record[PieceRecord.RAMP]
+                piece, preprocessing.rapid_limits, self.clock.time, self.rates, record[PieceRecord.RAMP]
             )
         else:
             self.motion = PathMotion(

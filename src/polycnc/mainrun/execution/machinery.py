@@ -6,7 +6,7 @@ from math import inf
 from typing import TYPE_CHECKING, Protocol
 
 from polycnc.mainrun.signals.interlocks import word_of
-from polycnc.motion.waits import ORIENT
+from polycnc.motion.standing.waits import ORIENT
 from polycnc.toolpath.events import (
     Auxiliary,
     BuilderCode,

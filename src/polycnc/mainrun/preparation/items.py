@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from polycnc.channel.intervention import TakesBack
     from polycnc.mainrun.motion.geometry import Cubic, Segment
     from polycnc.mainrun.preparation.layout import PreparedRow
+    from polycnc.motion.standing.beside import Work
     from polycnc.toolpath import Context, Event
     from polycnc.toolpath.motion_settings import DryRun
 
@@ -62,6 +63,52 @@ class Standing:
     why: str
     seconds: float
     context: Context
+
+    def wait_s(self, _time: float) -> float:
+        """Seconds that they stand from a time on."""
+        return self.seconds
+
+
+class WorkClock:
+    """Work beside the axes on the clock of the main run.
+
+    Args:
+        work: The work.
+    """
+
+    def __init__(self, work: Work) -> None:
+        self.work, self._time = work, 0.0
+
+    def at(self, time: float) -> Work:
+        """The work as it is at a time."""
+        self.work.left_s = max(self.work.left_s - max(time - self._time, 0.0), 0.0)
+        self._time = time
+        return self.work
+
+
+@dataclass(frozen=True, slots=True)
+class WorkBegins(Standing):
+    """Some work begins beside the axes, which goes to `aim`, from `since` where that is known."""
+
+    clock: WorkClock
+    aim: float
+    since: float | None
+
+    def wait_s(self, time: float) -> float:
+        """The axes do not stand for it."""
+        self.clock.at(time).begin(self.aim, self.since)
+        return 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class WorkAwaited(Standing):
+    """The axes stand until some work beside them is done."""
+
+    clock: WorkClock
+
+    def wait_s(self, time: float) -> float:
+        """What is left of it."""
+        return self.clock.at(time).left_s
 
 
 @dataclass(slots=True, eq=False)

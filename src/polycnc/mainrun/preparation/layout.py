@@ -14,6 +14,7 @@ from polycnc.channel.states.snapshot import unchanging
 from polycnc.deferred.records import dataclass
 from polycnc.kernels.layout import contents_of, put_back
 from polycnc.motion.kernels.columns import MAIN_RUN, RAPID, TAP, THREAD
+from polycnc.motion.time_constants import Use
 
 if TYPE_CHECKING:
     from collections.abc import MutableSequence
@@ -94,6 +95,7 @@ class PreparedRow:
         rests: The axes rest before it, for what is no row.
         before: What the kernels carried into it.
         records: The pieces of a turn at the pole.
+        use: What it runs by; where that has changed, `led` are the limits of the row before.
     """
 
     rows: Rows | None
@@ -107,6 +109,8 @@ class PreparedRow:
     rests: bool
     before: Before
     records: array[float] | None = None
+    use: Use = Use.CUT
+    led: Limits | None = None
 
     def factor(self, layout: Layout) -> float:
         """Of overrides on its feed."""

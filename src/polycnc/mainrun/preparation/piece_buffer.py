@@ -15,6 +15,8 @@ from polycnc.motion.frames import with_axis
 from polycnc.motion.kernels.alone import settle_alone
 from polycnc.motion.kernels.columns import MAIN_RUN, TAP, Form, Limits, PieceRecord, new_state, piece_width
 from polycnc.motion.kernels.jerk import window_s
+from polycnc.motion.limits import ContextTables
+from polycnc.motion.time_constants import Use
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -35,7 +37,8 @@ class PieceBuffer:
 
     Attributes:
         state: What the kernels carry from row to row.
-        contexts: Table of contexts.
+        tables: Tables of contexts.
+        led: What the last row has been laid out for; None before the first. `use` is what it runs by.
         limits: The machine, as the kernels take it.
     """
 
@@ -45,9 +48,10 @@ class PieceBuffer:
         self.state = new_state(axes)
         self.state.run.free, self.state.run.stop = MAIN_RUN, 0.0
         self._rested = False  # before the next row, for what is none
-        self.contexts = array("d")
+        self.tables = ContextTables(0.0)
         self.limits: Limits
-        self._led: Limits | None = None  # what the last row has been laid out for
+        self.led: Limits | None = None
+        self.use = Use.CUT
         self._axes = axes
         self._width = piece_width(axes)
         self._records = array("d", bytes(8 * self._width * ROOM))
@@ -87,7 +91,7 @@ class PieceBuffer:
     def end_in_rest(self) -> None:
         """The axes come to rest behind the last row."""
         self.state.run.stop, self._rested = 1.0, True
-        settle_alone(self._records, self._axes, self._led or self.limits, self.state)
+        settle_alone(self._records, self._axes, self.led or self.limits, self.state)
 
     def note_rest(self) -> bool:
         """Whether the axes rest before the next row for what is none, such as an auxiliary function; asked once."""
@@ -100,11 +104,15 @@ class PieceBuffer:
             self._add(prepared.records)
             return []
         rows, number, called, state = prepared.rows_for(layout), prepared.number, prepared.called, self.state
-        self._led = prepared.limits
+        if prepared.led is not None:  # the axes rest where the use changes
+            settle_alone(self._records, self._axes, prepared.led, state)
+            state.run.stop = 1.0
+        self.led, self.use = prepared.limits, prepared.use
+        contexts = self.tables.of(prepared.use)
         # What a tap may do at an override, others decide (`Rates`).
         state.run.free = 1.0 if rows.kind[0] == TAP and layout.free <= 0.0 else layout.free
         while not self._kernels.lay(
-            rows, 0, prepared.curves, number, self.contexts, prepared.limits, self._records, state
+            rows, 0, prepared.curves, number, contexts, prepared.limits, self._records, state
         ):
             self._make_room()
         width, records = self._width, self._records
@@ -278,9 +286,14 @@ class PieceBuffer:
             self._rests += records[at + PieceRecord.PAUSE] > 0.0
             self._way += records[at + PieceRecord.LENGTH]
 
-    def context_fields(self, number: int, size: int) -> array[float]:
-        """What the kernels know of a context."""
-        return self.contexts[number * size : (number + 1) * size]
+    @property
+    def contexts(self) -> array[float]:
+        """What the kernels know of the contexts of cuts and rapids."""
+        return self.tables.plain
+
+    def context_fields(self, number: int, size: int, use: Use) -> array[float]:
+        """What the kernels know of a context in rows of a use."""
+        return self.tables.of(use)[number * size : (number + 1) * size]
 
     # ---- speeds --------------------------------------------------------------------------------------------
 

@@ -23,12 +23,16 @@ from polycnc.mainrun.preparation.items import (
     Move,
     Piece,
     Standing,
+    WorkAwaited,
+    WorkBegins,
+    WorkClock,
 )
 from polycnc.mainrun.preparation.piece_buffer import PieceBuffer
 from polycnc.mainrun.preparation.queue import Queue
 from polycnc.mainrun.preparation.reapproach import line_from
 from polycnc.mainrun.preparation.rows import RowLayer
 from polycnc.mainrun.preparation.run_blocks import (
+    Delay,
     RunBlocks,
     acts_on_machine,
     is_silent,
@@ -40,9 +44,11 @@ from polycnc.motion.kernels.columns import (
     Limits,
     PieceRecord,
 )
-from polycnc.motion.limits import averages, context_fields
+from polycnc.motion.limits import ContextTables
+from polycnc.motion.standing.beside import Awaits, Begins
+from polycnc.motion.standing.waits import Waits
+from polycnc.motion.time_constants import uses_of
 from polycnc.motion.transformed import RealAxes
-from polycnc.motion.waits import Waits
 from polycnc.toolpath import Context, Kind, Toolpath
 from polycnc.toolpath.events import Auxiliary, BuilderCode, Deed, Stop
 
@@ -53,6 +59,7 @@ if TYPE_CHECKING:
     from polycnc.machine.model import Machine
     from polycnc.mainrun.axes.machine_axes import MachineAxes
     from polycnc.messages import AlarmError
+    from polycnc.motion.standing.beside import Work
     from polycnc.program import Program
     from polycnc.toolpath import Event
     from polycnc.toolpath.motion_settings import MotionSettings
@@ -114,8 +121,10 @@ class Preprocessing:
         self._machine, self._number = machine, number
         self._stations: dict[tuple[object, ...], int] = {}
         self._known_contexts = 0
-        self._delays: dict[int, list[tuple[str, float]]] = {}
+        self._delays: dict[int, list[Delay]] = {}
+        self._works: dict[Work, WorkClock] = {}
         self._waits = Waits(machine, self.toolpath.contexts, 0, self._delay)
+        self._waits.step = self._note_step
         self._blocks = RunBlocks(self.items, self.toolpath.programs)
         self._stopped = False
         self._geometry = machine.geometry_indices(number)
@@ -126,11 +135,13 @@ class Preprocessing:
     def use(self, channel: Channel, settings: MotionSettings) -> None:
         """Say whose channel it is, and how the control leads the axes."""
         self.channel, self._settings = channel, settings
-        self._waits.rapid_stops = settings.rapid_stops
+        self._waits.rapid_stops, self._waits.spindle_wait = settings.rapid_stops, settings.spindle_wait
         self._waits.stand_in(channel.setup.tool_at_start(channel.number))
         channel.main_run = self
         real = RealAxes(self._machine, self._number, self.toolpath.axes, settings, ())
-        self._rows.use(real, settings)
+        uses = uses_of(self._machine, self._number, settings)
+        self._buffer.tables = ContextTables(uses.after_s)
+        self._rows.use(real, settings, uses)
 
     def start(self, program: Program, position: Sequence[float]) -> None:
         """Begin with a program; the axes stand at a machine position."""
@@ -342,7 +353,7 @@ class Preprocessing:
             self._blocks.enter((chunk.program[row], chunk.line[row]), is_silent=is_silent(event))
             if isinstance(event, Auxiliary | BuilderCode):
                 delays = without_function(delays, event)
-            self.items.extend(Standing(why, seconds, context) for why, seconds in delays)
+            self.items.extend(self._standing(delay, context) for delay in delays)
             if event is not None:
                 stands = self._waits.stands_for(event)
                 self.items.append(Happening(event, context, stands))
@@ -367,22 +378,34 @@ class Preprocessing:
         self._delays.clear()
         self._waits.settle(0)
         context = self._rows.context
-        self.items.extend(Standing(why, seconds, context) for why, seconds in self._delays.get(0, []))
+        self.items.extend(self._standing(delay, context) for delay in self._delays.get(0, []))
 
     def _delay(self, row: int, why: str, _context: int, seconds: float) -> None:
         if seconds > 0.0:
             self._delays.setdefault(row, []).append((why, seconds))
 
+    def _note_step(self, step: Begins | Awaits) -> None:
+        self._delays.setdefault(step.row, []).append(step)
+
+    def _standing(self, delay: Delay, context: Context) -> Standing:
+        """What the axes stand for, or what begins beside them."""
+        if not isinstance(delay, Begins | Awaits):
+            return Standing(*delay, context)
+        clock = self._works.setdefault(delay.work, WorkClock(delay.work))
+        if isinstance(delay, Begins):
+            return WorkBegins(delay.work.share, 0.0, context, clock, delay.aim, delay.since)
+        if delay.rests:
+            self.end_in_rest()
+        return WorkAwaited(delay.work.share, 0.0, context, clock)
+
     def _add_contexts(self) -> None:
         for context in self.toolpath.contexts[self._known_contexts :]:
             spindle = self._waits.spindle(context)
             turning = (context.spindle, context.spindle_rpm, context.spindle_direction, context.surface_speed)
-            smoothing = averages(context, self._machine, self._settings)
+            smoothing = self._buffer.tables.smoothing(context, self._machine, self._settings)
             key = (context.tool, context.tool_name, *turning, smoothing)
             station = self._stations.setdefault(key, len(self._stations))
-            self._buffer.contexts.extend(
-                context_fields(context, self._axes, spindle, station, self._settings, smoothing)
-            )
+            self._buffer.tables.add(context, self._axes, spindle, station, self._settings, smoothing)
             self._known_contexts += 1
 
     # ---- speeds --------------------------------------------------------------------------------------------
@@ -450,6 +473,11 @@ class Preprocessing:
         """The machine, as the planner's kernels take it."""
         return self._buffer.limits
 
+    @property
+    def rapid_limits(self) -> Limits:
+        """The same on rapids on which every axis runs alone."""
+        return self._rows.real.limits(None, self._rows.use_of_rapids)
+
     def front_cap2(self, rates: ChannelRates) -> float:
         """Largest squared speed on the piece in front."""
         move = self.items[0]
@@ -462,10 +490,9 @@ class Preprocessing:
         while self.items and isinstance(self.items[0], Move) and self.items[0].row == move.row:
             self.queue.pop_piece()
         self.queue.keep_to_corner()
-        fields = self._buffer.context_fields(
-            self.toolpath.context_number(move.context), ContextRecord.OFFSETS + self._axes
-        )
-        records, moves = line_from(move, start, fields, self._buffer.limits)
+        use, size = self._rows.use_of(move.kind, move.context), ContextRecord.OFFSETS + self._axes
+        fields = self._buffer.context_fields(self.toolpath.context_number(move.context), size, use)
+        records, moves = line_from(move, start, fields, self._rows.real.limits(None, use))
         self._buffer.put_in_front(records)
         self.items.extendleft(moves)
 

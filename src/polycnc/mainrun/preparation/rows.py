@@ -13,6 +13,7 @@ from polycnc.mainrun.preparation.run_blocks import largest_override
 from polycnc.motion.kernels.arcs import facing_radius
 from polycnc.motion.kernels.columns import SHARES, ContextRecord, Form, PieceRecord, Rows, piece_width
 from polycnc.motion.kernels.feeds import asked_speed, faster, follows_radius, is_rapid
+from polycnc.motion.time_constants import Use, use_of
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.kinds import ARC_KINDS
 from polycnc.toolpath.table import CURVE_WIDTH
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     from polycnc.mainrun.preparation.piece_buffer import PieceBuffer
     from polycnc.mainrun.preparation.queue import Queue
     from polycnc.motion.pole import Turn
+    from polycnc.motion.time_constants import Uses
     from polycnc.motion.transformed import Bounds, RealAxes
     from polycnc.toolpath import Toolpath
     from polycnc.toolpath.motion_settings import MotionSettings
@@ -55,15 +57,25 @@ class RowLayer:
         self._axes = len(toolpath.axes)
         self._settings: MotionSettings
         self.real: RealAxes
+        self._uses: Uses
         self.facing = -1
         self.context = Context()
         self.skips = False
 
-    def use(self, real: RealAxes, settings: MotionSettings) -> None:
+    def use(self, real: RealAxes, settings: MotionSettings, uses: Uses) -> None:
         """Say what leads the axes, and how the control does it."""
-        self.real, self._settings = real, settings
+        self.real, self._settings, self._uses = real, settings, uses
         limits = self._buffer.limits = real.limits(None)
         self.facing = limits.geometry[0]
+
+    def use_of(self, kind: int, context: Context) -> Use:
+        """What a row of a kind runs by."""
+        return use_of(kind, context, self._uses)
+
+    @property
+    def use_of_rapids(self) -> Use:
+        """What rapids run by."""
+        return Use.RAPID if self._uses.rapid else Use.CUT
 
     def lay(self, chunk: Chunk, row: int, bounds: Bounds) -> None:
         """Lay a move out; one through the pole of a transformation in legs, the rotary axis turning between them."""
@@ -117,7 +129,8 @@ class RowLayer:
         """Lay a row or a leg of it out as pieces."""
         n, buffer, kind = self._axes, self._buffer, chunk.kind[row]
         context = self._toolpath.contexts[chunk.context[row]]
-        start, limits = tuple(buffer.position), self.real.limits(context.transformation)
+        use = self.use_of(kind, context)
+        start, limits = tuple(buffer.position), self.real.limits(context.transformation, use)
         record = chunk.context[row] * (ContextRecord.OFFSETS + n)
         per_revolution = buffer.contexts[record + ContextRecord.PER_REVOLUTION] != 0.0
         before, rests = Before.of(buffer.state), buffer.note_rest()
@@ -132,6 +145,8 @@ class RowLayer:
             per_revolution,
             rests,
             before,
+            use=use,
+            led=buffer.led if use is not buffer.use else None,
         )
         found = buffer.lay(prepared, self._queue.layout)
         if not found:

@@ -7,11 +7,11 @@ from __future__ import annotations
 
 from collections import deque
 from math import inf
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from polycnc.mainrun.preparation.items import Block, BlockEnd
 from polycnc.motion.kernels.columns import LARGEST_OVERRIDE
-from polycnc.motion.waits import ORIENT
+from polycnc.motion.standing.waits import ORIENT
 from polycnc.toolpath import Kind
 from polycnc.toolpath.events import Circle, Deed, Pen, SignalWrite
 from polycnc.toolpath.table import CURVE_WIDTH
@@ -21,12 +21,15 @@ if TYPE_CHECKING:
 
     from polycnc.channel.intervention import TakesBack
     from polycnc.mainrun.preparation.items import Item
+    from polycnc.motion.standing.beside import Awaits, Begins
     from polycnc.toolpath import Event
     from polycnc.toolpath.events import Auxiliary, BuilderCode
     from polycnc.toolpath.table import Chunk
 
 #: Program and line.
 Key = tuple[int, int]
+#: What a row waits for, a share of the time and seconds; or what begins beside the axes, and is waited for.
+Delay: TypeAlias = "tuple[str, float] | Begins | Awaits"
 
 
 class RunBlocks:
@@ -91,9 +94,7 @@ def acts_on_machine(chunk: Chunk, *, waits: bool) -> bool:
     return any(kind != Kind.EVENT for kind in chunk.kind) or not all(map(is_silent, chunk.events))
 
 
-def without_function(
-    delays: list[tuple[str, float]], event: Auxiliary | BuilderCode
-) -> list[tuple[str, float]]:
+def without_function(delays: list[Delay], event: Auxiliary | BuilderCode) -> list[Delay]:
     """Delays of a row without what its function takes: that is up to the machine's own controller."""
     kept = [delay for delay in delays if delay[0] != "auxiliary_s"]
     return kept[:-1] if event.code == ORIENT and kept else kept

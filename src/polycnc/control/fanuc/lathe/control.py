@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.channel.stack import LevelKind
+from polycnc.control.fanuc.acceleration import accelerated
 from polycnc.control.fanuc.alarm_codes import ALARMS, HINTED_WORDS
 from polycnc.control.fanuc.code_calls import registered_codes
 from polycnc.control.fanuc.lathe import auxiliary, balance
@@ -201,7 +202,7 @@ class FanucTurning(CustomMacroControl):
         """
         parameters = LatheParameters.naming(channel.setup.parameters)
         return replace(
-            super().motion_settings(channel),
+            accelerated(super().motion_settings(channel), parameters, channel.axes),
             rapid_by_axis=not parameters.LRP,
             taps_overridden=parameters.OVS,
             taps_held=parameters.FHD,

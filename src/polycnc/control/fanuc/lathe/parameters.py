@@ -29,10 +29,6 @@ class LatheAxisParameters(FanucAxisParameters):
     zone_3_lower = Number(1325, delivered=0.0)
     #: 1430: Largest cutting feed of the axis [mm/min].
     largest_feed = Number(1430, delivered=0.0)
-    #: 1610#0: linear acceleration after interpolation (1).
-    CTL = Bit(1610, 0, delivered=False)
-    #: 1610#1: bell-shaped acceleration after interpolation (1).
-    CTB = Bit(1610, 1, delivered=False)
     #: 1610#5: threads of cycles accelerate exponentially (0) or as cuts by CTL and CTB (1).
     THL = Bit(1610, 5, delivered=False)
     #: 1626: Time constant of the acceleration in thread cycles; 0 for what the axes can do [ms].

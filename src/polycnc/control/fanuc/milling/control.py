@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.compensation.policy import Approach, Policy
+from polycnc.control.fanuc.acceleration import accelerated
 from polycnc.control.fanuc.alarm_codes import ALARMS
 from polycnc.control.fanuc.code_calls import registered_codes
 from polycnc.control.fanuc.milling.codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
@@ -123,7 +124,7 @@ class FanucMilling(MillingControl):
         """1401#1 LRP: rapids on a line, else every axis by itself; 7001#0 MIT: manual intervention and return."""
         parameters = _given(channel)
         return replace(
-            super().motion_settings(channel),
+            accelerated(super().motion_settings(channel), parameters, channel.axes),
             rapid_by_axis=not parameters.LRP,
             returns_to_path=parameters.MIT,
             dry_run=dry_run(parameters),

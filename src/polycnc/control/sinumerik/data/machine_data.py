@@ -123,6 +123,10 @@ class MachineData(State, lifetime=Lifetime.POWER):
         text = str(value).upper()
         return int(text) if text.lstrip("-").isdigit() else self.axes.get(text, text)
 
+    def said(self, name: str) -> object:
+        """What the setup or a program says of a datum, of whatever index; None where neither does."""
+        return next((value for (known, _), value in self.values.items() if known == name), None)
+
     def knows(self, name: str) -> bool:
         """Whether a datum is known: delivered, or named by the setup or a program before."""
         return name in DELIVERED or any(known == name for known, _ in self.values)

@@ -11,6 +11,7 @@ from polycnc.control.word_address.block.numbers import NumberRules
 from polycnc.control.word_address.control import WordAddressControl
 from polycnc.control.word_address.macro_b import code_calls, interruption, macro_calls, single_block
 from polycnc.control.word_address.macro_b.variables import locals_of
+from polycnc.control.word_address.motion import path_modes
 from polycnc.messages import AlarmError
 from polycnc.program import ProgramFileError
 from polycnc.toolpath.modes import FeedMode
@@ -53,7 +54,7 @@ class CustomMacroControl(WordAddressControl):
     JOINING_HINT: ClassVar[str] = "hint.joined-conditions"
     m_rows: ClassVar[tuple[MRow, ...]] = (code_calls.m_row, code_calls.registered_row)
     halts_behind: ClassVar[tuple[Halts, ...]] = single_block.HALTS
-    context_steps: ClassVar[tuple[ContextStep, ...]] = (overrides.overridden,)
+    context_steps: ClassVar[tuple[ContextStep, ...]] = (overrides.overridden, path_modes.looks_ahead)
     acts: ClassVar[Mapping[str, Handler]] = {
         **WordAddressControl.acts,
         "feed_override_off": overrides.cancel_feed_override,

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, lasting
 from polycnc.deferred.records import dataclass
-from polycnc.toolpath.modes import CornerMode
+from polycnc.toolpath.modes import AccelerationMode, CornerMode
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import WordAddressChannel
+    from polycnc.toolpath import Context
 
 
 @dataclass(slots=True)
@@ -28,6 +30,7 @@ class PathModeState(State, lifetime=Lifetime.RESET):
 
 #: What the codes of group 15 make of corners; under all others the path is continuous.
 CORNER_MODES = {"G61": CornerMode.EXACT_STOP, "G61.1": CornerMode.EXACT_STOP}
+HIGH_ACCURACY = "G61.1"
 
 
 def corner_mode(channel: WordAddressChannel) -> CornerMode:
@@ -35,6 +38,13 @@ def corner_mode(channel: WordAddressChannel) -> CornerMode:
     if PathModeState.of(channel).exact_stop:
         return CornerMode.EXACT_STOP
     return CORNER_MODES.get(channel.mode.codes.get("path", ""), CornerMode.CONTINUOUS)
+
+
+def looks_ahead(channel: WordAddressChannel, context: Context) -> Context:
+    """G05, G05.1, G08 and G61.1: cuts are accelerated before the interpolation, which is planned ahead."""
+    if PathModeState.of(channel).contour_control or channel.mode.codes.get("path") == HIGH_ACCURACY:
+        return replace(context, acceleration=AccelerationMode.JERK_LIMITED)
+    return context
 
 
 def exact_stop_block(channel: WordAddressChannel, _words: Words) -> None:

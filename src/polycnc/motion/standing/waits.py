@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from itertools import groupby
 from math import pi
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
+from polycnc.motion.standing.beside import Awaits, Begins, Search, Turning
 from polycnc.toolpath import Kind
 from polycnc.toolpath.events import (
     Auxiliary,
@@ -27,12 +28,16 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from polycnc.machine import Machine, Spindle
+    from polycnc.motion.standing.beside import Work
     from polycnc.toolpath import Context, Event
+    from polycnc.toolpath.motion_settings import SpindleWaitFor
     from polycnc.toolpath.table import Chunk
 
 #: Events that the control puts out between two blocks and waits for: the axes stand still.
 STANDING = (Auxiliary, BuilderCode, SpindleSpeed, SpindleWait, ToolSelection, HFunction, Stop, Stroke, Raised)
 ORIENT = 19
+#: In the order of the steps of a chunk: an event, not the number of a context.
+EVENT = -1
 #: Moves that lead nowhere where they end at their start.
 STRAIGHT = frozenset((Kind.RAPID, Kind.FEED, Kind.REF))
 
@@ -71,6 +76,8 @@ class Waits:
 
     Attributes:
         rapid_stops: Rapids end with an exact stop.
+        spindle_wait: What waits for a spindle, where parameters of the control say it; empty for the machine file.
+        step: Called with what begins beside the axes, and what waits for it, in the order of the rows.
     """
 
     def __init__(
@@ -82,8 +89,14 @@ class Waits:
     ) -> None:
         self.machine = machine
         self.contexts = contexts
-        self.wait = wait
+        self._say, self._waited = wait, (-1, 0.0)
         self.parallel: list[Parallel] = []
+        self.step: Callable[[Begins | Awaits], None] = _nobody
+        self.spindle_wait: SpindleWaitFor | Literal[""] = ""
+        self._turning: dict[int, Turning] = {}
+        self._open: Turning | None = None  # the next cut waits for it
+        self._looked = 0
+        self._search, self._pockets = Search(machine.magazine), dict[int, int]()
         self.stand_in(tool)
         self._rpm: dict[int, float] = {}
         self._context = -1
@@ -94,9 +107,15 @@ class Waits:
         self._settling: tuple[str, int, float] | None = None
         self._place: tuple[int, list[float]] = (-1, [])
 
+    def wait(self, row: int, share: str, number: int, seconds: float) -> None:
+        """A row waits; how long it has so far is kept."""
+        self._waited = row, seconds + (self._waited[1] if row == self._waited[0] else 0.0)
+        self._say(row, share, number, seconds)
+
     def stand_in(self, tool: int | str) -> None:
         """Say which tool is in the spindle, by its number or name; 0 for none."""
         self._tool = (tool, "") if isinstance(tool, int) else (0, tool)
+        self._aim = self._search.place = self._place_of(self._tool[0]) or 1
         self._at_start = tool if isinstance(tool, int) else tool.upper()
 
     def spindle(self, context: Context) -> Spindle | None:
@@ -119,20 +138,26 @@ class Waits:
         def radius(row: int) -> float:
             return abs(chunk.end[row * chunk.axes + facing]) if facing >= 0 else 0.0
 
-        row = 0
+        kinds, row, self._looked = chunk.kind.tobytes(), 0, 0
+        changes: list[tuple[int, int]] = []
         for number, run in groupby(chunk.context):
-            if number != self._context:
-                here = radius(row - 1) if row else self._radius
-                here = radius(row) if here is None else here
-                ahead = radius(row) if chunk.kind[row] in RAPID_KINDS else here
-                self._new_context(chunk.first + row, number, here, ahead)
-                self._context = number
+            if number != self._context or row:
+                changes.append((row, number))
             row += len(list(run))
-        if row:
-            self._radius = radius(row - 1)
-        kinds = chunk.kind.tobytes()
-        for row in _places(kinds, Kind.EVENT):
-            self._event(chunk, row)
+        events = [(row, EVENT) for row in _places(kinds, Kind.EVENT)]
+        for row, number in sorted([*changes, *events], key=lambda step: (step[0], step[1] == EVENT)):
+            self._cuts(chunk, kinds, row)
+            if number == EVENT:
+                self._event(chunk, row)
+                continue
+            here = radius(row - 1) if row else self._radius
+            here = radius(row) if here is None else here
+            ahead = radius(row) if kinds[row] in RAPID_KINDS else here
+            self._new_context(chunk.first + row, number, here, ahead)
+            self._context = number
+        self._cuts(chunk, kinds, len(chunk))
+        if len(chunk):
+            self._radius = radius(len(chunk) - 1)
         for row in _places(kinds, Kind.DWELL):
             self._dwell(chunk, row, radius(row))
         self._threads(chunk, kinds, radius)
@@ -157,9 +182,7 @@ class Waits:
             self._tool = tool  # contexts know number and name, the start knows one of them
         self._at_start = 0
         if tool != self._tool and (any(tool) or any(self._tool)):
-            magazine = self.machine.magazine
-            turns = magazine.index_s(self._tool[0], tool[0])
-            self.wait(row, "tool_change_s", number, magazine.change_time_s + turns)
+            self._change(row, number, self._tool[0], tool[0])
         self._tool = tool
         spindle = self.spindle(context)
         if spindle is not None:
@@ -168,8 +191,81 @@ class Waits:
             target = context.spindle_direction * self.rpm(context, ahead)
             change = abs(target - self._rpm.get(spindle.number, 0.0))
             if change > 0.0 and spindle.acceleration_rpm_s > 0.0:
-                self.wait(row, "spindle_s", number, change / spindle.acceleration_rpm_s)
+                if (self.spindle_wait or spindle.speed_wait) == "block":
+                    self.wait(row, "spindle_s", number, change / spindle.acceleration_rpm_s)
+                else:
+                    follows = last is not None and last.surface_speed
+                    since = self._rpm.get(spindle.number, 0.0) if follows else None
+                    self._run_up(row, spindle, target, since)
             self._rpm[spindle.number] = target
+
+    def _run_up(self, row: int, spindle: Spindle, target: float, since: float | None) -> None:
+        """A spindle goes to a speed beside the axes; the next cut waits for it, unless nothing does."""
+        turning = self._turning.get(spindle.number)
+        if turning is None:
+            turning = self._turning[spindle.number] = Turning(spindle.acceleration_rpm_s)
+        self._begin(row, turning, target, since)
+        cuts_wait = target != 0.0 and (self.spindle_wait or spindle.speed_wait) == "cut"
+        self._open = turning if cuts_wait else None
+
+    def _begin(self, row: int, work: Work, aim: float, since: float | None = None) -> None:
+        """Some work begins, behind what the row has waited for already."""
+        self.step(Begins(row, work, aim, self._waited[1] if row == self._waited[0] else 0.0, since))
+
+    def _cuts(self, chunk: Chunk, kinds: bytes, before: int) -> None:
+        """Rows up to one: the first cut waits for the spindle."""
+        if self._open is None:
+            self._looked = before
+            return
+        for row in range(self._looked, before):
+            if kinds[row] < Kind.DWELL and kinds[row] not in RAPID_KINDS:
+                self.step(Awaits(chunk.first + row, self._open, chunk.context[row], rests=True))
+                self._open = None
+                break
+        self._looked = before
+
+    def _change(self, row: int, number: int, before: int, after: int) -> None:
+        """The tool is changed.
+
+        Without an arm the magazine first takes the old tool back to its place. With one it has turned to the new tool
+        since its T; the old tool gets the place of the new one.
+        """
+        for spindle, turning in self._turning.items():
+            if self._rpm[spindle] == 0.0:  # it comes to rest
+                self.step(Awaits(row, turning, number))
+        magazine, seconds = self.machine.magazine, self.machine.magazine.change_time_s
+        if magazine.kind == "turret":
+            seconds += magazine.index_s(before, after)
+        elif magazine.place_time_s > 0.0 and magazine.pockets == "fixed":
+            for place in (self._place_of(before), self._place_of(after)):
+                if place:
+                    seconds += magazine.turn_s(self._search.place, place)
+                    self._search.place = place
+        elif magazine.place_time_s > 0.0:
+            place = self._place_of(after)
+            self._turn_to(row, place)
+            self.step(Awaits(row, self._search, number))
+            if before > 0:
+                self._pockets[before] = place or before
+            self._pockets[after] = 0
+        self.wait(row, "tool_change_s", number, seconds)
+
+    def _select(self, row: int, tool: str | float) -> None:
+        """T: a magazine with an arm turns to the tool beside what comes."""
+        magazine = self.machine.magazine
+        if magazine.kind == "magazine" and magazine.place_time_s > 0.0 and magazine.pockets == "random":
+            self._turn_to(row, 0 if isinstance(tool, str) else self._place_of(int(tool)))
+
+    def _turn_to(self, row: int, place: int) -> None:
+        """The magazine turns to a place, 0 for one that is not known, unless it goes there already."""
+        if place and place != self._aim:
+            self._begin(row, self._search, place)
+            self._aim = place
+
+    def _place_of(self, tool: int) -> int:
+        """The place of a tool; 0 for one in the spindle, or without a place that its number says."""
+        own = tool if 0 < tool <= self.machine.magazine.places else 0
+        return self._pockets.get(tool, own)
 
     def rpm(self, context: Context, radius_mm: float) -> float:
         """Spindle speed of a context at a turning radius."""
@@ -177,6 +273,8 @@ class Waits:
 
     def _event(self, chunk: Chunk, row: int) -> None:
         event = chunk.events[chunk.curve[row]]
+        if isinstance(event, ToolSelection):
+            self._select(chunk.first + row, event.tool)
         if isinstance(event, BuilderCode):
             g_function = self.machine.g_functions.get(event.code)
             if g_function is not None and g_function.seconds > 0.0:
@@ -199,6 +297,8 @@ class Waits:
                 self.wait(chunk.first + row, "auxiliary_s", context, function.seconds)
         if code == ORIENT:
             spindle = self.spindle(self.contexts[context])
+            if spindle is not None and spindle.number in self._turning:
+                self.step(Awaits(chunk.first + row, self._turning[spindle.number], context))
             self.wait(chunk.first + row, "spindle_s", context, spindle.orient_s if spindle else 0.0)
 
     def _dwell(self, chunk: Chunk, row: int, radius_mm: float) -> None:
@@ -245,6 +345,10 @@ class Waits:
 
     def _exact(self, number: int) -> bool:
         return self.contexts[number].corner_mode is CornerMode.EXACT_STOP
+
+
+def _nobody(_step: Begins | Awaits) -> None:
+    """Nobody follows what goes on beside the axes."""
 
 
 def _places(kinds: bytes, kind: Kind) -> Iterator[int]:

@@ -9,7 +9,7 @@ import pytest
 from polycnc.machine import MFunction
 from polycnc.machine.text import Text
 from polycnc.motion import Settings
-from polycnc.motion.waits import rpm_at
+from polycnc.motion.standing.waits import rpm_at
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.events import Auxiliary, Message, ToolSelection
 from polycnc.toolpath.modes import CornerMode, FeedMode, StopWindow

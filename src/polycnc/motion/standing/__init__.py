@@ -1,0 +1,5 @@
+"""Time in which the axes stand.
+
+`waits` finds it in a toolpath: tool changes, spindle ramps, auxiliary functions, dwells, exact stops. `beside` follows
+what goes on beside the axes: spindles that run up, a magazine that turns.
+"""

@@ -1,0 +1,171 @@
+"""What goes on beside the axes: spindles run up, the magazine turns. What needs them waits for what is left.
+
+The plan and the main run ask the same objects: the plan lets the seconds of rows pass that it has planned, the main run
+those of its clock.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple, Protocol
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from polycnc.machine import Magazine
+
+
+class Work(Protocol):
+    """Something that a machine does beside the motion of its axes.
+
+    Attributes:
+        left_s: Seconds until it is done.
+        share: The field of `Times` that waiting for it counts for.
+    """
+
+    left_s: float
+    share: str
+
+    def begin(self, aim: float, since: float | None = None) -> None:
+        """It has to come to `aim`, from where it is now or from `since`."""
+
+
+class Turning:
+    """A spindle on its way to a speed.
+
+    Args:
+        acceleration: Its acceleration, rpm per second; 0 for at once.
+
+    Attributes:
+        rpm: Speed to which it goes, negative counter-clockwise.
+        left_s: Seconds until it has it.
+    """
+
+    share = "spindle_s"
+
+    def __init__(self, acceleration: float) -> None:
+        self._acceleration, self._sense = acceleration, 1.0
+        self.rpm, self.left_s = 0.0, 0.0
+
+    @property
+    def speed(self) -> float:
+        """Its speed now, rpm."""
+        return self.rpm - self._sense * self.left_s * self._acceleration
+
+    def begin(self, aim: float, since: float | None = None) -> None:
+        """It is told another speed."""
+        way = aim - (self.speed if since is None else since)
+        self.rpm, self._sense = aim, 1.0 if way >= 0.0 else -1.0
+        self.left_s = abs(way) / self._acceleration if self._acceleration > 0.0 else 0.0
+
+
+class Search:
+    """A magazine on its way to a place; a way that it has begun it goes to its end first.
+
+    Args:
+        magazine: Whose places it turns.
+
+    Attributes:
+        place: To which it turns.
+        left_s: Seconds until it stands there.
+    """
+
+    share = "tool_change_s"
+
+    def __init__(self, magazine: Magazine) -> None:
+        self._magazine = magazine
+        self.place, self.left_s = 1, 0.0
+
+    def begin(self, aim: float, since: float | None = None) -> None:
+        """Another tool is searched."""
+        if since is not None:
+            self.place, self.left_s = int(since), 0.0
+        self.left_s += self._magazine.turn_s(self.place, int(aim))
+        self.place = int(aim)
+
+
+class Begins(NamedTuple):
+    """At a row some work begins, `after_s` seconds later than the row, and at `since` where that is known."""
+
+    row: int
+    work: Work
+    aim: float
+    after_s: float = 0.0
+    since: float | None = None
+
+
+class Awaits(NamedTuple):
+    """A row waits for some work; `rests`: the axes rest before it for that reason."""
+
+    row: int
+    work: Work
+    context: int
+    rests: bool = False
+
+
+class Beside:
+    """Follows work beside the axes through the rows of a plan, in order.
+
+    Attributes:
+        hidden_s: Seconds of such work that nothing had to wait for, by the field of `Times`.
+    """
+
+    def __init__(self) -> None:
+        self._coming: list[Begins | Awaits] = []
+        self._works: dict[Work, float] = {}
+        self._row, self._waited = 0, 0.0
+        self.hidden_s: dict[str, float] = {}
+
+    def note(self, step: Begins | Awaits) -> None:
+        """A step of a row; steps come in the order of their rows."""
+        self._coming.append(step)
+
+    def settle(
+        self,
+        row: int,
+        seconds: Callable[[int, int], float],
+        wait: Callable[[int, str, int, float], None],
+    ) -> None:
+        """All rows before one are planned.
+
+        Args:
+            row: The row.
+            seconds: Gives the seconds of rows from one to before another one.
+            wait: Called with row, share, context and seconds where a row up to `row` waits.
+        """
+        done = 0
+        for step in self._coming:
+            if step.row > row:
+                break
+            done += 1
+            self._let_pass(step.row, seconds)
+            if isinstance(step, Begins):
+                step.work.begin(step.aim, step.since)
+                self._works[step.work] = self._waited + step.after_s
+            elif step.work.left_s > 0.0:
+                waits = step.work.left_s
+                wait(step.row, step.work.share, step.context, waits)
+                for work in self._works:
+                    self._hide(work, min(waits, work.left_s) if work is not step.work else 0.0)
+                    work.left_s = max(work.left_s - waits, 0.0)
+                    self._works[work] += waits
+                self._waited += waits
+        del self._coming[:done]
+        self._let_pass(row, seconds)
+
+    def _let_pass(self, row: int, seconds: Callable[[int, int], float]) -> None:
+        """Let the rows before one pass; what has gone on in the first of them already does not count again."""
+        if row <= self._row:
+            return
+        if any(work.left_s > 0.0 for work in self._works):
+            passed = seconds(self._row, row)
+            for work, before in self._works.items():
+                ran = min(max(passed - before, 0.0), work.left_s)
+                self._hide(work, ran)
+                work.left_s -= ran
+                self._works[work] = 0.0
+        else:
+            self._works.clear()
+        self._row, self._waited = row, 0.0
+
+    def _hide(self, work: Work, seconds: float) -> None:
+        self.hidden_s[work.share] = self.hidden_s.get(work.share, 0.0) + seconds
