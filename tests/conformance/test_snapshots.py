@@ -40,6 +40,7 @@ CHANGED_BY = {
     "BalanceState": "fanuc-0i-tf-balance-with-m",
     "BeforeBlock": "sin-smooth-approach-without-contour",
     "BitState": "syntec-lang-bits-io",
+    "BlockStart": "syn-polar-pair-of-a-diameter-axis",
     "ChosenContour": "sin-cyc-62",
     "ClampState": "fanuc-0i-tf-clamp-of-both-sets-the-same",
     "Clock": "sin-clock-is-read-only",
