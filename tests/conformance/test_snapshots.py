@@ -60,6 +60,7 @@ CHANGED_BY = {
     "DrawingState": "fanuc-0i-tf-drawing-next-block-incomplete",
     "Environments": "sin-tool-environment-is-noted",
     "FeedState": "syntec-move-inverse-time-missing",
+    "FollowingState": "syn-tip-control-limits-what-follows",
     "Frames": "sinumerik-value-proc-second-line",
     "FunctionState": "syntec-lang-stack-empty",
     "Gears": "sin-gear-cascade",

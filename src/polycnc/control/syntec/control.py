@@ -83,6 +83,7 @@ class SyntecMill(WordAddressControl):
         moves.recorded,
         dwell.ended_by_signal,
         smoothing.smoothed,
+        tip_control.following,
         tapping.finished,
     )
     addresses: ClassVar[Mapping[str, Planner]] = ADDRESSES

@@ -59,6 +59,9 @@ class SyntecParameters(ControlParameters["SyntecAxisParameters"]):
     keeps_tilt = Whole(3014, delivered=0)
     #: 3057: Directions of the tool count in the machine (0) or in the work system (1) under G43.4.
     posture_in_work = Whole(3057, delivered=0)
+    #: 3091: Highest speed with which linear axes follow the rotary ones under G43.4 and G43.5; 0 for no limit
+    #: [mm/min].
+    following_speed = Whole(3091, delivered=0)
     #: 3215: T is a plain code (0), calls T0000 as a subprogram (1), or as a macro (2).
     t_macro = Whole(3215, delivered=0)
     #: 3229: Work coordinate systems are on (0) or off (1).
