@@ -152,7 +152,8 @@ def averages(context: Context, machine: Machine, settings: Settings) -> tuple[fl
 
     RAMP_S is the time in which the slowest axis builds up its acceleration: a balance between short ways, which it
     delays, and long ones, which need acceleration. Lines from rest to rest choose theirs (`kernels/alone.py`).
-    BLEND_S lets a corner use up its parts of the tolerance and of the jerk alike (`kernels/jerk.py`).
+    BLEND_S lets a corner use up its parts of the tolerance and of the jerk alike (`kernels/jerk.py`). Where rotary axes
+    have a tolerance of their own it is no longer than they may, so that none of them leaves its way by more.
     """
     axes = [axis for axis in machine.axes if axis.jerk > 0.0 and axis.acceleration > 0.0]
     if (context.acceleration or settings.acceleration) is not AccelerationMode.JERK_LIMITED or not axes:
@@ -160,8 +161,15 @@ def averages(context: Context, machine: Machine, settings: Settings) -> tuple[fl
     ramp = RAMPS * max(axis.acceleration / axis.jerk for axis in axes)
     tolerance = _kept_tolerance(context, settings)
     jerk = min((axis.jerk for axis in axes if not axis.rotary), default=axes[0].jerk)
-    blend = (6.0 * DEVIATION_CORNER * tolerance / (JERK_CORNER * jerk)) ** (1.0 / 3.0)
-    return ramp, min(blend, ramp)
+    blends = [_blend(tolerance, jerk)]
+    if context.turn_tolerance_deg > 0.0:
+        blends += [_blend(context.turn_tolerance_deg, axis.jerk) for axis in axes if axis.rotary]
+    return ramp, min(*blends, ramp)
+
+
+def _blend(tolerance: float, jerk: float) -> float:
+    """BLEND_S at which a corner of the highest jerk that it may have deviates as far as it may."""
+    return float((6.0 * DEVIATION_CORNER * tolerance / (JERK_CORNER * jerk)) ** (1.0 / 3.0))
 
 
 class AxisRapid(NamedTuple):
