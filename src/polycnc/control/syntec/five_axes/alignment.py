@@ -10,6 +10,7 @@ from math import nan
 from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.coordinates.systems import TurnState, renew_preset_frame
+from polycnc.control.syntec.five_axes import mechanism
 from polycnc.control.syntec.units import least_unit
 from polycnc.control.word_address.coordinates.systems import refresh_zero
 from polycnc.control.word_address.coordinates.tip import TipState
@@ -111,6 +112,7 @@ def _stand_on_plane(channel: SyntecChannel, angles: Angles) -> None:
 
 def _angles(channel: SyntecChannel, words: Words, code: str) -> Angles:
     """Angles of the rotary axes that P chooses: with P0 the other solution where the first one is out of reach."""
+    mechanism.check(channel, words, code)
     state = TurnState.of(channel)
     c = channel.coordinates
     if channel.mode["rotation"] not in ("G68.2", "G68.3") and not state.by_table:

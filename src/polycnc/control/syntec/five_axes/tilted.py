@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.coordinates.systems import TurnState, renew_preset_frame
+from polycnc.control.syntec.five_axes import mechanism
 from polycnc.control.word_address.coordinates import frames as base_frames
 from polycnc.control.word_address.coordinates.systems import refresh_zero
 from polycnc.control.word_address.coordinates.tip import TipState
@@ -40,6 +41,7 @@ def tilt_by_tool(channel: SyntecChannel, words: Words) -> None:
     """
     if not channel.memory.parameters.option_tilted_plane:
         raise channel.control.fail("option", address="G68.3", code="G68.3")
+    mechanism.check(channel, words, "G68.3")
     if TurnState.of(channel).by_table:
         raise words.fail("tool_plane", "G68.3")
     given = {axis for axis, _, _ in words.axes()} & {

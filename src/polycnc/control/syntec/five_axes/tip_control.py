@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.syntec.coordinates import length as tool_length
+from polycnc.control.syntec.five_axes import mechanism
 from polycnc.control.syntec.parameters import SyntecParameters
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words import Words
@@ -66,6 +67,7 @@ def start(channel: SyntecChannel, words: Words) -> None:
     Q chooses the frame of directions, I the highest speed with which linear axes follow the rotary ones (mm/min, as
     Pr3091); L1 (smoothness) leaves the path as it is.
     """
+    mechanism.check(channel, words, channel.mode["length"])
     state = PostureState.of(channel)
     frame = words.typed("Q")
     if frame is not None and frame not in (0, 1):
