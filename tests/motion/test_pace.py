@@ -8,13 +8,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from polycnc.machine.kinematics import Kinematics
+from polycnc.machine.load import load_machine
 from polycnc.motion import plan
 from polycnc.motion.kernels.columns import Limits, PathLimits
-from polycnc.motion.pace import Travel, edge_factor, pace_of
+from polycnc.motion.pace import Travel, edge_factor, following_top, pace_of
+from polycnc.motion.row_path import line_path
 from polycnc.motion.settings import Settings
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.context import Pace
 from polycnc.toolpath.modes import AccelerationMode
+from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
 from tests.motion.paths import Build, mill
 
 MACHINE = mill(acceleration=1000.0, top=500.0)
@@ -117,3 +121,26 @@ def test_a_slower_arc_keeps_the_acceleration_across_it() -> None:
 def test_nothing_moves_without_a_way() -> None:
     context = Context(pace=Pace(feed=0.5))
     assert pace_of(context, Travel([0.0] * 3), WEIGHTS, LIMITS, rapid=False) == (1.0, inf, 1.0)
+
+
+@given(st.floats(1.0, 300.0), st.floats(-500.0, 500.0), st.floats(1.0, 170.0))
+def test_axes_that_follow_a_turning_head_keep_their_speed(length: float, way: float, turn: float) -> None:
+    machine = load_machine("mill5-bc-head")
+    axes = ("X", "Y", "Z", "B", "C")
+    tip = ToolCentrePoint(Kinematics.of(machine), axes, (0, 1, 2), (0.0,) * 5, (0.0, 0.0, -length))
+    path = line_path([0.0] * 5, [way, 0.0, 0.0, turn, 0.0])
+    context = Context(transformation=tip, pace=Pace(following=10.0))
+    top = following_top(context, path, 50.0, rapid=False)
+    # B turns by turn/50 degrees a millimetre, and the nose is the tool's length away from the tip.
+    assert top == pytest.approx(10.0 / (length * turn / 50.0 * pi / 180.0))
+
+
+def test_axes_follow_nothing_where_no_axis_turns() -> None:
+    machine = load_machine("mill5-bc-head")
+    axes = ("X", "Y", "Z", "B", "C")
+    tip = ToolCentrePoint(Kinematics.of(machine), axes, (0, 1, 2), (0.0,) * 5, (0.0, 0.0, -100.0))
+    context = Context(transformation=tip, pace=Pace(following=10.0))
+    straight, turning = (line_path([0.0] * 5, [9.0, 0.0, 0.0, b, 0.0]) for b in (0.0, 1.0))
+    assert following_top(context, straight, 9.0, rapid=False) == inf
+    assert following_top(context, turning, 9.0, rapid=True) == inf
+    assert following_top(context, turning, 9.0, rapid=False) < inf

@@ -164,7 +164,8 @@ def averages(context: Context, machine: Machine, settings: Settings) -> tuple[fl
 
     RAMP_S is the time in which the slowest axis builds up its acceleration: a balance between short ways, which it
     delays, and long ones, which need acceleration. Lines from rest to rest choose theirs (`kernels/alone.py`).
-    BLEND_S lets a corner use up its parts of the tolerance and of the jerk alike (`kernels/jerk.py`).
+    BLEND_S lets a corner use up its parts of the tolerance and of the jerk alike (`kernels/jerk.py`). Where rotary axes
+    have a tolerance of their own it is no longer than they may, so that none of them leaves its way by more.
     """
     able = [(axis.rotary, *dynamics(axis, axis.name, settings, Use.CUT)) for axis in machine.axes]
     axes = [own for own in able if own[1] > 0.0 and own[2] > 0.0]
@@ -173,8 +174,15 @@ def averages(context: Context, machine: Machine, settings: Settings) -> tuple[fl
     ramp = RAMPS * max(pull / jerk for _, pull, jerk in axes)
     tolerance = _kept_tolerance(context, settings)
     jerk = min((jerk for rotary, _, jerk in axes if not rotary), default=axes[0][2])
-    blend = (6.0 * DEVIATION_CORNER * tolerance / (JERK_CORNER * jerk)) ** (1.0 / 3.0)
-    return ramp, min(blend, ramp)
+    blends = [_blend(tolerance, jerk)]
+    if context.turn_tolerance_deg > 0.0:
+        blends += [_blend(context.turn_tolerance_deg, jerk) for rotary, _, jerk in axes if rotary]
+    return ramp, min(*blends, ramp)
+
+
+def _blend(tolerance: float, jerk: float) -> float:
+    """BLEND_S at which a corner of the highest jerk that it may have deviates as far as it may."""
+    return float((6.0 * DEVIATION_CORNER * tolerance / (JERK_CORNER * jerk)) ** (1.0 / 3.0))
 
 
 class ContextTables:

@@ -6,7 +6,7 @@ another factor: the same that rows under a transformation have (`transformed.py`
 
 from __future__ import annotations
 
-from math import inf, sqrt
+from math import hypot, inf, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.toolpath.modes import FeedMode
@@ -15,11 +15,14 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from polycnc.motion.kernels.columns import Limits
+    from polycnc.motion.row_path import Path
     from polycnc.toolpath import Context
     from polycnc.toolpath.context import Pace
 
 #: A contour radius below this part of the tool's is a corner, about which the tool turns at F.
 CORNER = 1e-6
+#: Places along a row at which the linear axes are looked at that follow its rotary ones.
+LOOKS = 16
 
 
 class Travel(NamedTuple):
@@ -127,3 +130,26 @@ def _ease(pace: Pace, way: Travel, length: float, moving: Sequence[int], limits:
             pulls = [own[i] / way.share(i, length) for i in moving]
             ease = min(ease, min(p * factors[i] for p, i in zip(pulls, moving, strict=True)) / min(pulls))
     return ease if ease < inf else 1.0
+
+
+def following_top(context: Context, path: Path, length: float, *, rapid: bool) -> float:
+    """The path speed at which linear axes follow the turns of rotary ones no faster than the pace allows, mm/s.
+
+    What they follow is their speed with the tip held where it is: derivatives by the rotary columns alone, along the
+    row. `length` is the row's, as the planner's path speed is of it. Rapids are bounded by their axes alone.
+    """
+    pace, transformation = context.pace, context.transformation
+    if pace is None or transformation is None or pace.following == inf or rapid or length == 0.0:
+        return inf
+    made = transformation.geometry
+    turned = {
+        column: (end - start) / length
+        for column, (start, end) in enumerate(zip(path(0.0), path(1.0), strict=True))
+        if column not in made and end != start
+    }
+    fastest = 0.0
+    for look in range(LOOKS + 1) if turned else ():
+        slopes = transformation.jacobian(path(look / LOOKS))
+        ways = (sum(slopes[axis][j] * turn for j, turn in turned.items()) for axis in made)
+        fastest = max(fastest, hypot(*ways))
+    return pace.following / fastest if fastest > 0.0 else inf

@@ -38,7 +38,7 @@ from polycnc.motion.demand import (
 from polycnc.motion.frames import carried, machine_of, path_of, real_of, real_rows, returned_rows, work_of
 from polycnc.motion.kernels.columns import AT_END, AT_START, SHARES, Limits, Rows
 from polycnc.motion.limits import averages, axis_limits, channel_axes, rotary_weight
-from polycnc.motion.pace import Travel, pace_of
+from polycnc.motion.pace import Travel, following_top, pace_of
 from polycnc.motion.pole import RING_MM, Turn, is_at, legs_of, turn_records
 from polycnc.motion.row_path import arc_path, line_path
 from polycnc.motion.time_constants import Use
@@ -219,7 +219,8 @@ class RealAxes:
                     continue
                 path, length = self._path(chunk, row, start, end, context)
                 shares = self._shares(context, path, length, chunk.kind[row])
-                _set_shares(bounds.shares, row * SHARES, shares)
+                top = following_top(context, path, length, rapid=chunk.kind[row] in RAPID_KINDS)
+                _set_shares(bounds.shares, row * SHARES, shares, top)
             goal = machine_of(end, context, self._geometry)
             if context.pace is not None:
                 self._pace(chunk, row, goal, context, bounds)
@@ -582,10 +583,9 @@ def _ends(worst: float, extent: float) -> list[float]:
     return sorted(ends)
 
 
-def _set_shares(columns: Shares, first: int, found: RowShares) -> None:
-    for k, share in enumerate(found.shares):
-        for column, number in zip(columns, share, strict=True):
-            column[first + k] = number
+def _set_shares(columns: Shares, first: int, found: RowShares, top: float = inf) -> None:
+    for at, (end, most, ease) in enumerate(found.shares, first):
+        columns.end[at], columns.top[at], columns.ease[at] = end, min(most, top), ease
     columns.ease[first + AT_START], columns.ease[first + AT_END] = found.at_start, found.at_end
 
 

@@ -23,7 +23,7 @@ NO_OVERLAP, STROKE, OVERLAPS = -1.0, 0.0, inf
 
 @dataclass(frozen=True, slots=True)
 class Pace:
-    """What a program says about speeds and limits of axes beside F (SINUMERIK). Tuples have a number for every column.
+    """What a program says about speeds and limits of axes beside F. Tuples have a number for every column.
 
     Attributes:
         feed: Factor on the path feed (`OVR`); `rapid` on rapids (`OVRRAP`).
@@ -34,6 +34,8 @@ class Pace:
         top: Highest velocity in cuts, mm/s or degrees/s (`FL`); infinite for none. Empty for no such limits.
         reach: Highest velocity in all moves, mm/s or degrees/s (MD32000 where it is named); infinite for that of the
             machine. Empty for no such limits.
+        following: Highest speed of what the linear axes move beside the tip's own way because rotary axes turn under
+            tool tip control, mm/s, in cuts (SYNTEC Pr3091); infinite for none.
         velocity: Factors on the highest velocity (`VELOLIM`); `acceleration` (`ACC`) and `jerk` (`JERKLIM`) likewise.
             Empty for none.
     """
@@ -44,6 +46,7 @@ class Pace:
     weights: tuple[float, ...] = ()
     top: tuple[float, ...] = ()
     reach: tuple[float, ...] = ()
+    following: float = inf
     velocity: tuple[float, ...] = ()
     acceleration: tuple[float, ...] = ()
     jerk: tuple[float, ...] = ()

@@ -61,6 +61,8 @@ class Rank(IntEnum):
     HISTORY = auto()
     #: The feed takes its course along the way.
     FEED = auto()
+    #: Moves that a fit of the path leaves as they are.
+    FITTING = auto()
     #: Positions of the work become those of the axes.
     AXES = auto()
     #: Slave axes, which only their master moves.

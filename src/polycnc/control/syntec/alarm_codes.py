@@ -94,6 +94,7 @@ ALARMS: dict[str, str] = {
     "align_way": "COR-149",
     "tilt_unreachable": "COR-153",
     "tilt_missing": SEMANTIC,
+    "tilt_mode": SEMANTIC,
     "tip_machine": "COR-100",
     "tip_mode": SEMANTIC,
     "tip_on_tool_plane": "COR-381",

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from polycnc.control.syntec import cycles, spindles, tapping
 from polycnc.control.syntec.axis_groups import borrowing, groups
+from polycnc.control.syntec.coordinates import diameters, tool_setting
 from polycnc.control.syntec.coordinates import systems as frames
-from polycnc.control.syntec.coordinates import tool_setting
 from polycnc.control.syntec.five_axes import alignment, normal_direction, spatial, tilted, tip_control
 from polycnc.control.syntec.macros import calls, interrupts
 from polycnc.control.syntec.motion import (
@@ -61,7 +61,7 @@ G_CODES = table(
     GCode("G121", handler=operation.default_conditions),
     GCode("G5", handler=smoothing.high_precision, takes="P E", axis_words=True),
     GCode("G5.1", handler=smoothing.smooth_path, takes="Q E R"),
-    GCode("G10.9", handler=frames.switch_diameter, axis_words=True),
+    GCode("G10.9", handler=diameters.switch_diameter, axis_words=True),
     GCode("G9", handler=path_modes.exact_stop_block),
     GCode("G10", handler=frames.input_data, takes="L P R Q I J K", axis_words=True, order=MOTION),
     GCode("G15", "polar"),

@@ -84,6 +84,7 @@ class SyntecMill(WordAddressControl):
         moves.recorded,
         dwell.ended_by_signal,
         smoothing.smoothed,
+        tip_control.following,
         tapping.finished,
     )
     addresses: ClassVar[Mapping[str, Planner]] = ADDRESSES
@@ -227,6 +228,7 @@ class SyntecMill(WordAddressControl):
         normal_line.end(channel)
         spatial.end(channel)
         polar.leave_plane(channel)
+        smoothing.leave(channel)
         if not channel.memory.parameters.keeps_preset_turn:
             systems.forget_preset_turn(channel.memory)
         kept = TurnState.of(channel).tilt if channel.memory.parameters.keeps_tilt else IDENTITY

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.syntec.coordinates.systems import DiameterState
+from polycnc.control.syntec.coordinates.diameters import DiameterState
 from polycnc.control.syntec.macros import functions
 from polycnc.control.syntec.macros.system_variables import SYSTEM_VARIABLES
 from polycnc.control.syntec.macros.variables import GlobalState, Locals, LocalState, is_local, put

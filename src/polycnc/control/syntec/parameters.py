@@ -60,13 +60,27 @@ class SyntecParameters(ControlParameters["SyntecAxisParameters"]):
     reference_points_3 = WholeRun(2821, 20, delivered=None)
     #: 2841: Fourth reference point of each axis, machine coordinates in least units.
     reference_points_4 = WholeRun(2841, 20, delivered=None)
+    #: 3001: Five-axis mechanism: none (0), both rotary axes in the spindle (1), both in the table (2), one in
+    #: each (3).
+    five_axis_mechanism = Whole(3001, delivered=None)
+    #: 3002: Direction of the tool with all rotary axes at zero: not set (0), X (1), Y (2), Z (3).
+    tool_direction = Whole(3002, delivered=None)
+    #: 3003: Angle RA by which the tool leans from its direction, thousandths of a degree.
+    tool_lean_a = Whole(3003, delivered=0)
+    #: 3004: Angle RB by which the tool leans from its direction, thousandths of a degree.
+    tool_lean_b = Whole(3004, delivered=0)
     #: 3009: Travel of the first rotary axis from and to, then of the second one, least units; the same number
     #: twice for none.
     rotary_travel = WholeRun(3009, 4, delivered=0)
+    #: 3013: Length of the tool holder, from the rotary axis to the nose, least units.
+    holder_length = Whole(3013, delivered=0)
     #: 3014: A reset keeps the tilted plane.
     keeps_tilt = Whole(3014, delivered=0)
     #: 3057: Directions of the tool count in the machine (0) or in the work system (1) under G43.4.
     posture_in_work = Whole(3057, delivered=0)
+    #: 3091: Highest speed with which linear axes follow the rotary ones under G43.4 and G43.5; 0 for no limit
+    #: [mm/min].
+    following_speed = Whole(3091, delivered=0)
     #: 3215: T is a plain code (0), calls T0000 as a subprogram (1), or as a macro (2).
     t_macro = Whole(3215, delivered=0)
     #: 3229: Work coordinate systems are on (0) or off (1).

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.lathe import auxiliary as turning_auxiliary
 from polycnc.control.fanuc.lathe import balance as turning_balance
-from polycnc.control.fanuc.lathe.coordinates import limits, systems
+from polycnc.control.fanuc.lathe.coordinates import limits, systems, tilted
 from polycnc.control.fanuc.lathe.cycles import grinding as turning_grinding
 from polycnc.control.fanuc.lathe.cycles import repetitive, single
 from polycnc.control.fanuc.lathe.cycles.drilling import NORMAL_CYCLES, SERIES_15_CYCLES
@@ -26,7 +26,12 @@ from polycnc.control.word_address.coordinates import frames
 from polycnc.control.word_address.coordinates import systems as coordinates
 from polycnc.control.word_address.macro_b import macro_calls, parameter_input, subprograms
 from polycnc.control.word_address.motion import path, path_modes
-from polycnc.control.word_address.transformations import cylinder, normal_line, polar_interpolation
+from polycnc.control.word_address.transformations import (
+    cylinder,
+    normal_line,
+    polar_interpolation,
+    tilted_plane,
+)
 from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:
@@ -143,8 +148,13 @@ ROWS: tuple[Row, ...] = (
     *same(GCode("G66", "macro", macro_calls.start_modal_call, takes="*", axis_words=True, order=Order.CALL)),
     *same(GCode("G66.1", "macro", macro_calls.start_modal_call, takes="*", axis_words=True, order=Order.CALL)),
     *same(GCode("G67", "macro", macro_calls.end_modal_call)),
-    *same(GCode("G68.1", "rotation", systems.rotate, takes="R", axis_words=True)),
-    *same(GCode("G69.1", "rotation", frames.end_rotation)),
+    *same(GCode("G53.1", handler=tilted_plane.align_tool, takes="P", order=Order.MOTION)),
+    *same(GCode("G53.6", handler=tilted_plane.align_tool_about_tip, takes="P", order=Order.MOTION)),
+    *same(GCode("G68.1", "rotation", tilted.rotate, takes="I J K R", axis_words=True)),
+    *same(GCode("G68.2", "rotation", tilted.tilt_plane, takes="P Q I J K", axis_words=True)),
+    *same(GCode("G68.3", "rotation", tilted.tilt_by_tool, takes="R", axis_words=True)),
+    *same(GCode("G68.4", "rotation", tilted.tilt_further, takes="P Q I J K", axis_words=True)),
+    *same(GCode("G69.1", "rotation", tilted.end)),
     *by_system("G70", "G70", "G72", _point("G70", repetitive.finish, "P Q")),
     *by_system("G71", "G71", "G73", _cycle("G71", repetitive.rough_turning)),
     *by_system("G72", "G72", "G74", _cycle("G72", repetitive.rough_facing)),
@@ -166,7 +176,7 @@ ROWS: tuple[Row, ...] = (
     *by_system("", "G98", "G98", GCode("G98", "return")),
     *by_system("", "G99", "G99", GCode("G99", "return")),
     *not_yet(
-        "G31.8", "G50.4", "G50.5", "G50.6", "G51.4", "G51.5", "G51.6", "G53.1", "G53.6", "G68.2", "G68.3", "G68.4",
+        "G31.8", "G50.4", "G50.5", "G50.6", "G51.4", "G51.5", "G51.6",
         "G80.5", "G81.5", "G96.1", "G96.2", "G96.3", "G96.4",
     ),
 )  # fmt: skip

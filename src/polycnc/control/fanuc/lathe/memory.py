@@ -27,11 +27,13 @@ class TurningFrames(ProgrammingFrames):
         turret: X of the opposite turret, mirrored (G68).
         offset: Offsets of all axes that move the point; a parameter says whether a reset ends them.
         geometry: Columns of the geometry axes.
+        conversions: How many 3-D conversions act within each other (G68.1 with I J K).
     """
 
     turret: Frame = IDENTITY
     offset: list[float] = lasting(Lifetime.POWER, factory=list)
     geometry: tuple[int, int, int] = lasting(Lifetime.POWER, (-1, -1, -1))
+    conversions: int = 0
 
     @classmethod
     def first(cls, channel: Channel) -> TurningFrames:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, lasting
 from polycnc.control.syntec.axis_groups.names import map_virtual_axis
 from polycnc.control.syntec.five_axes.spatial import choose_corners
+from polycnc.control.syntec.motion.polar import switch_polar
 from polycnc.control.syntec.units import least_unit
 from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.coordinates import frames as base_frames
@@ -38,7 +38,7 @@ REFERENCE_POINTS = (1, 2, 3, 4)
 #: Axes that G28, G29 and G30 move.
 REFERABLE_AXES = frozenset({*"XYZUVWABC", "X1", "Y1", "Z1", "X2", "Y2", "Z2"})
 MACHINING_CONDITIONS = frozenset({*range(10), 21, 22, 23})
-WORK_OFFSET, SPATIAL_CORNERS, VIRTUAL_AXIS, REGISTER_INPUT = 2, 450, 801, 1000
+WORK_OFFSET, SPATIAL_CORNERS, VIRTUAL_AXIS, REGISTER_INPUT, POLAR_PAIR = 2, 450, 801, 1000, 1301
 LAST_REGISTER = 65535
 
 
@@ -64,13 +64,6 @@ class ScaleState(State, lifetime=Lifetime.RESET):
     """Factors of the active G51."""
 
     factors: Vector = (1.0, 1.0, 1.0)
-
-
-@dataclass(slots=True)
-class DiameterState(State, lifetime=Lifetime.POWER):
-    """Axes switched by G10.9: programmed in diameter or not."""
-
-    switched: dict[int, bool] = field(default_factory=dict)
 
 
 # ---- work systems ----------------------------------------------------------------------------------------
@@ -277,25 +270,11 @@ def rotate(channel: SyntecChannel, words: Words) -> None:
     c.set_programming(frames.product())
 
 
-def switch_diameter(channel: SyntecChannel, words: Words) -> None:
-    """G10.9 X0 Y1: axes programmed and shown in radius (0) or diameter (1); nothing moves (2.73)."""
-    named = words.plan.axis_words
-    if not named:
-        raise words.fail("diameter_switch", "G10.9")
-    for word in named:
-        value = words.values[word.slot]
-        if value not in (0, 1) or channel.axis_data[word.axis].rotary:
-            raise words.fail("diameter_switch", word.address)
-        DiameterState.of(channel).switched[word.axis] = value == 1
-    channel.modes.forget_plans()
-    channel.context_changed()
-
-
 # ---- dwell, data input, cutting modes --------------------------------------------------------------------
 
 
 def input_data(channel: SyntecChannel, words: Words) -> None:
-    """G10 L2 work offsets, L10 to L13 tool data (2.14), L450 corners, L801 virtual axes, L1000 registers; G91 adds."""
+    """G10 L2 work offsets, L10 to L13 tool data (2.14), L450, L801, L1000, L1301; G91 adds to offsets."""
     kind, number = words.typed("L"), words.typed("P")
     if kind == REGISTER_INPUT:
         value = words.typed("R")
@@ -310,6 +289,9 @@ def input_data(channel: SyntecChannel, words: Words) -> None:
         return
     if kind == SPATIAL_CORNERS:
         choose_corners(channel, words)
+        return
+    if kind == POLAR_PAIR:
+        switch_polar(channel, words)
         return
     if kind == VIRTUAL_AXIS:
         map_virtual_axis(channel, words)

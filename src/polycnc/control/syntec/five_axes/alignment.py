@@ -10,12 +10,14 @@ from math import nan
 from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.coordinates.systems import TurnState, renew_preset_frame
+from polycnc.control.syntec.five_axes import mechanism
 from polycnc.control.syntec.units import least_unit
 from polycnc.control.word_address.coordinates.systems import refresh_zero
 from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.tools import length
 from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.tools.radius import RadiusState
+from polycnc.control.word_address.transformations.tilted_plane import check_compensation
 from polycnc.machine.kinematics import Kinematics
 from polycnc.toolpath import Kind
 from polycnc.transformation.orientation import choice
@@ -111,6 +113,8 @@ def _stand_on_plane(channel: SyntecChannel, angles: Angles) -> None:
 
 def _angles(channel: SyntecChannel, words: Words, code: str) -> Angles:
     """Angles of the rotary axes that P chooses: with P0 the other solution where the first one is out of reach."""
+    mechanism.check(channel, words, code)
+    check_compensation(channel, words, code)
     state = TurnState.of(channel)
     c = channel.coordinates
     if channel.mode["rotation"] not in ("G68.2", "G68.3") and not state.by_table:

@@ -9,12 +9,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.coordinates.systems import TurnState, renew_preset_frame
+from polycnc.control.syntec.five_axes import mechanism
 from polycnc.control.word_address.coordinates import frames as base_frames
 from polycnc.control.word_address.coordinates.systems import refresh_zero
 from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.tools import length
 from polycnc.control.word_address.tools.length import LengthState
-from polycnc.control.word_address.transformations.tilted_plane import named_point
+from polycnc.control.word_address.transformations.tilted_plane import check_compensation, named_point
 from polycnc.geometry.frames import IDENTITY, Frame, rotation, translation
 from polycnc.machine.kinematics import Kinematics
 from polycnc.transformation.planes.tilted import by_euler, by_rotary_axes, square_on
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
 
 def tilt_by_angles(channel: SyntecChannel, words: Words) -> None:
     """G68.2 X Y Z I J K: origin from the work zero, turned by I about Z, J about X', K about Z''."""
+    check_compensation(channel, words, "G68.2")
     origin = named_point(channel, words, "argument")
     i, j, k = (words.angle(letter) or 0.0 for letter in "IJK")
     set_tilt(channel, translation(*origin) @ by_euler(i, j, k))
@@ -40,6 +42,8 @@ def tilt_by_tool(channel: SyntecChannel, words: Words) -> None:
     """
     if not channel.memory.parameters.option_tilted_plane:
         raise channel.control.fail("option", address="G68.3", code="G68.3")
+    mechanism.check(channel, words, "G68.3")
+    check_compensation(channel, words, "G68.3")
     if TurnState.of(channel).by_table:
         raise words.fail("tool_plane", "G68.3")
     given = {axis for axis, _, _ in words.axes()} & {
@@ -56,6 +60,8 @@ def tilt_by_tool(channel: SyntecChannel, words: Words) -> None:
 
 def end_tilt(channel: SyntecChannel, words: Words) -> None:
     """G69: ends the rotation of G68 and the tilted plane."""
+    if TurnState.of(channel).tilt is not IDENTITY:
+        check_compensation(channel, words, "G69")
     base_frames.end_rotation(channel, words)
     if TurnState.of(channel).tilt is not IDENTITY:
         set_tilt(channel, IDENTITY)

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from math import inf
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.syntec.coordinates import length as tool_length
+from polycnc.control.syntec.five_axes import mechanism
 from polycnc.control.syntec.parameters import SyntecParameters
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.transformations import normal_line, tool_center_point
 from polycnc.control.word_address.transformations.polar_interpolation import PolarState
 from polycnc.deferred.records import dataclass
+from polycnc.toolpath.context import Pace
 
 if TYPE_CHECKING:
     from typing import Self
@@ -19,8 +23,10 @@ if TYPE_CHECKING:
     from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
+    from polycnc.toolpath import Context
 
 TIP_CODES = ("G43.4", "G43.5")
+MINUTE = 60.0
 
 
 @dataclass(slots=True)
@@ -35,6 +41,21 @@ class PostureState(State, lifetime=Lifetime.RESET):
         return cls(SyntecParameters.naming(channel.setup.parameters).posture_in_work == 1)
 
 
+@dataclass(slots=True)
+class FollowingState(State, lifetime=Lifetime.RESET):
+    """How fast the linear axes may follow the rotary ones by I of G43.4, mm/min; 0: as Pr3091 has it."""
+
+    fastest: float = 0.0
+
+
+def following(channel: SyntecChannel, context: Context) -> Context:
+    """A context under tool tip control, with the highest speed of the axes that follow (2.28.3, note 9)."""
+    if not is_on(channel):
+        return context
+    fastest = FollowingState.of(channel).fastest or channel.memory.parameters.following_speed
+    return replace(context, pace=Pace(following=fastest / MINUTE)) if 0.0 < fastest < inf else context
+
+
 def is_on(channel: SyntecChannel) -> bool:
     """Whether tool tip control is active."""
     return channel.mode["length"] in TIP_CODES
@@ -43,8 +64,10 @@ def is_on(channel: SyntecChannel) -> bool:
 def start(channel: SyntecChannel, words: Words) -> None:
     """G43.4 H [Q] [L1] [I], G43.5 H: from here on positions are those of the tip; nothing moves.
 
-    Q chooses the frame of directions; L1 and I (smoothness, speed of the compensating axes) leave the path as it is.
+    Q chooses the frame of directions, I the highest speed with which linear axes follow the rotary ones (mm/min, as
+    Pr3091); L1 (smoothness) leaves the path as it is.
     """
+    mechanism.check(channel, words, channel.mode["length"])
     state = PostureState.of(channel)
     frame = words.typed("Q")
     if frame is not None and frame not in (0, 1):
@@ -53,6 +76,10 @@ def start(channel: SyntecChannel, words: Words) -> None:
         raise words.fail("tip_on_tool_plane", channel.mode["length"])
     if PolarState.of(channel).plane is not None or not channel.coordinates.zero.is_identity:
         raise words.fail("tip_mode", channel.mode["length"])
+    fastest = words.typed("I") or 0.0
+    if fastest < 0.0:
+        raise words.fail("number", "I")
+    FollowingState.of(channel).fastest = fastest
     state.in_work = state.in_work if frame is None else bool(frame)
     channel.flush()
     tool_center_point.start_following(channel, words)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, retained
+from polycnc.control.syntec.five_axes import mechanism
 from polycnc.deferred.records import dataclass
 from polycnc.memory.retained import PARAMETERS
 from polycnc.messages import AlarmError
@@ -38,9 +39,12 @@ def long_of(parameters: SyntecParameters, number: int) -> int | None:
 
 
 def read_long(memory: SyntecMemory, number: int) -> int | None:
-    """A parameter as macros read it: as one has written it, else `long_of`."""
+    """A parameter as macros read it: as one has written it, else `long_of`, else what the machine file answers."""
     written = WrittenParameters.of(memory.channel).values.get(number)
-    return long_of(memory.parameters, number) if written is None else written
+    if written is not None:
+        return written
+    value = long_of(memory.parameters, number)
+    return mechanism.value_of_machine(memory.channel.machine, number) if value is None else value
 
 
 def write_long(memory: SyntecMemory, number: int, value: int) -> None:
@@ -48,6 +52,6 @@ def write_long(memory: SyntecMemory, number: int, value: int) -> None:
     if is_user_parameter(number):
         WrittenParameters.of(memory.channel).values[number] = value
         return
-    if long_of(memory.parameters, number) is None:
+    if read_long(memory, number) is None:
         raise AlarmError("COR-016", variable=f"Pr{number}")
     raise AlarmError("PC0001", hint="hint.not-supported", code=f"SETPR({number})")

@@ -21,6 +21,7 @@ from polycnc.control.syntec.macros.variables import (
 from polycnc.control.syntec.motion.arcs import ArcState
 from polycnc.control.syntec.motion.moves import SkipState
 from polycnc.control.syntec.motion.oscillation import check_frame
+from polycnc.control.syntec.motion.polar import block_start
 from polycnc.control.syntec.motion.quiet import is_quiet, switch_quiet
 from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
 from polycnc.control.word_address.memory import EXTERNAL, ToolOffsets
@@ -322,7 +323,7 @@ SYSTEM_VARIABLES = Registry(
         _by_axis(1361, _skip),
         _by_axis(1381, _length),
         Space(1401, 1403, _center),
-        _by_axis(1411, _position),
+        _by_axis(1411, lambda memory: block_start(memory.channel)),
         _by_axis(1441, _machine_skip),
         Space(1500, 1500, _quiet, _set_quiet),
         *(Space(index, index, *_word(index)) for index in (1502, 1504, 1510, 1517, 1610, 1612, 1614, 1820)),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.control.syntec.motion.polar import plane_code
 from polycnc.control.word_address.motion.planes import PlaneAxes, choose_axes
 from polycnc.control.word_address.transformations.polar_interpolation import PolarState
 from polycnc.geometry.planes import PLANES
@@ -24,8 +25,9 @@ NAMED_FIRST = "XYZUVW"
 def select_plane(channel: SyntecChannel, words: Words) -> None:
     """G17, G18, G19; within polar interpolation its plane stays (2.15.2, note 4)."""
     memory = channel.memory
-    if PolarState.of(channel).plane is not None:
-        channel.mode = channel.mode.with_code("plane", "G17")
+    polar = PolarState.of(channel).plane
+    if polar is not None:
+        channel.mode = channel.mode.with_code("plane", plane_code(polar))
     else:
         named = [axis for axis, _, _ in words.axes()]
         plane = PLANES[channel.mode["plane"]][:2]

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.syntec.five_axes import tip_control
+from polycnc.control.syntec.motion.fitting import FittingStage
 from polycnc.control.syntec.parameters import SyntecParameters
 from polycnc.control.syntec.units import least_unit
 from polycnc.control.word_address.motion import nurbs
@@ -45,11 +46,15 @@ DEFAULT_MM = 0.01
 class SmoothingState(State, lifetime=Lifetime.RESET):
     """How far the path may be bent where blocks meet, mm; 0 where no mode does that. Arcs keep their shape.
 
-    `fits`: by G05, under which G09 has no effect (2.10.3).
+    Attributes:
+        tolerance: The distance.
+        fits: By G05, under which G09 has no effect (2.10.3).
+        turn: How far rotary axes that G05 names may leave their way, degrees; 0 where it names none.
     """
 
     tolerance: float = 0.0
     fits: bool = False
+    turn: float = 0.0
 
     @classmethod
     def first(cls, channel: Channel) -> Self:
@@ -70,7 +75,9 @@ def smoothed(channel: SyntecChannel, context: Context) -> Context:
         return context
     if context.corner_mode is not CornerMode.CONTINUOUS and not state.fits:
         return context
-    return replace(context, corner_mode=CornerMode.ROUNDED, tolerance_mm=tolerance)
+    return replace(
+        context, corner_mode=CornerMode.ROUNDED, tolerance_mm=tolerance, turn_tolerance_deg=state.turn
+    )
 
 
 def smooth_path(channel: SyntecChannel, words: Words) -> None:
@@ -100,10 +107,19 @@ def smooth_path(channel: SyntecChannel, words: Words) -> None:
     _switch(channel, tolerance, "G5.1")
 
 
-def _switch(channel: SyntecChannel, tolerance: float, code: str, *, fits: bool = False) -> None:
+def leave(channel: SyntecChannel) -> None:
+    """Nothing chooses any more between blocks that are fitted and others (also at reset)."""
+    channel.path.take(FittingStage)
+
+
+def _switch(
+    channel: SyntecChannel, tolerance: float, code: str, *, fits: bool = False, turn: float = 0.0
+) -> None:
     """Another tolerance holds from here on; the axes come to rest in between."""
     state = SmoothingState.of(channel)
-    state.tolerance, state.fits = tolerance, fits
+    channel.flush()
+    leave(channel)
+    state.tolerance, state.fits, state.turn = tolerance, fits, turn
     PathModeState.of(channel).contour_control = tolerance > 0.0
     channel.event(Deed(code, None, _nothing, is_silent=False))
     channel.context_changed()
@@ -124,7 +140,7 @@ def high_precision(channel: SyntecChannel, words: Words) -> None:
         switch = 0 if error is None else ON
     if switch not in (0, ON) or (error is not None and error <= 0.0):
         raise words.fail("smoothing_format", "P" if switch not in (0, ON) else "E")
-    _check_axes(channel, words)
+    geometry, rotary = _axes(channel, words)
     if switch == ON and tip_control.is_on(channel):
         raise words.fail("tip_smoothing", "G5")
     if switch == ON and channel.mode["path"] in STOPPING_MODES:
@@ -134,7 +150,12 @@ def high_precision(channel: SyntecChannel, words: Words) -> None:
         tolerance = error * (INCH_MM if words.plan.inch else 1.0)
     elif switch == ON:
         tolerance = channel.memory.parameters.fit_tolerance / 1000.0 or DEFAULT_MM
-    _switch(channel, 0.0 if _cannot_fit(channel) else tolerance, "G5", fits=True)
+    if _cannot_fit(channel):
+        tolerance = 0.0
+    # Two rotary axes have one tolerance here, the smaller one: it keeps both.
+    _switch(channel, tolerance, "G5", fits=True, turn=min(rotary.values(), default=0.0))
+    if tolerance > 0.0 and len(geometry) + len(rotary) < len(channel.axes):
+        channel.path.put(FittingStage(channel, geometry, tuple(rotary)))
 
 
 def _cannot_fit(channel: SyntecChannel) -> bool:
@@ -143,17 +164,19 @@ def _cannot_fit(channel: SyntecChannel) -> bool:
     return channel.memory.parameters.uvw_increments == 1 or any(map(channel.memory.is_diameter, axes))
 
 
-def _check_axes(channel: SyntecChannel, words: Words) -> None:
-    """Geometry axes are listed with 0, up to two rotary axes with their tolerance."""
-    geometry = rotary = 0
+def _axes(channel: SyntecChannel, words: Words) -> tuple[list[int], dict[int, float]]:
+    """Columns that G05 fits: geometry axes named with 0, all where it names none; rotary ones with their tolerance."""
+    geometry: list[int] = []
+    rotary: dict[int, float] = {}
     for axis, value, _ in words.axes():
         if axis in channel.coordinates.geometry:
-            geometry += 1
+            geometry.append(axis)
             wrong = value != 0.0
         else:
-            rotary += 1
+            rotary[axis] = value
             wrong = value <= 0.0 or not channel.axis_data[axis].rotary
         if wrong:
             raise words.fail("smoothing_format", channel.axes[axis])
-    if rotary > MAX_ROTARY or (rotary and not geometry):
+    if len(rotary) > MAX_ROTARY or (rotary and not geometry):
         raise words.fail("smoothing_format", "G5")
+    return geometry or [axis for axis in channel.coordinates.geometry if axis >= 0], rotary

@@ -163,7 +163,7 @@ def renew_direction(channel: WordAddressChannel) -> None:
     for axis in channel.coordinates.geometry:
         if axis >= 0:
             ZeroState.of(channel).length[axis] = 0.0
-    if channel.mode["length"] in _SIGN:
+    if channel.mode.codes.get("length") in _SIGN:  # lathes have no lengths along the tool
         _shift(channel)
 
 

@@ -16,6 +16,7 @@ from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_
 from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.tools import length
 from polycnc.control.word_address.tools.length import LengthState
+from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, Frame, rotation, translation
 from polycnc.machine.kinematics import Kinematics
@@ -54,20 +55,21 @@ class TiltState(State, lifetime=Lifetime.RESET):
 
 def tilt_plane(channel: WordAddressChannel, words: Words) -> None:
     """G68.2 [P0, P1 Q, P4] X Y Z I J K: origin in the work system, and the turn; P2, P3 in several blocks."""
-    _check_tip(channel, words, "G68.2")
+    _check_state(channel, words, "G68.2")
     plane = _told(channel, words)
     if plane is not None:
-        _tilt(channel, plane)
+        tilt(channel, plane)
 
 
 def tilt_further(channel: WordAddressChannel, words: Words) -> None:
     """G68.4 …: as G68.2, but in the feature system that acts."""
+    _check_state(channel, words, "G68.4")
     before = TiltState.of(channel).plane
     if before is None:
         raise words.fail("tilt_missing", "G68.4")
     plane = _told(channel, words)
     if plane is not None:
-        _tilt(channel, before @ plane)
+        tilt(channel, before @ plane)
 
 
 def tilt_by_tool(channel: WordAddressChannel, words: Words) -> None:
@@ -75,7 +77,7 @@ def tilt_by_tool(channel: WordAddressChannel, words: Words) -> None:
 
     X of the plane is square on the tool and on Z of the machine; R turns it about the tool.
     """
-    _check_tip(channel, words, "G68.3")
+    _check_state(channel, words, "G68.3")
     c, kinematics = channel.coordinates, Kinematics.of(channel.machine)
     given = {axis for axis, _, _ in words.axes()}
     if given and len(given & set(c.geometry)) < len(c.geometry):
@@ -95,10 +97,20 @@ def tilt_by_tool(channel: WordAddressChannel, words: Words) -> None:
     TiltState.of(channel).plane = plane
 
 
-def _check_tip(channel: WordAddressChannel, words: Words, code: str) -> None:
-    """A plane is told and the tool stood on it in front of tool centre point control, not under it."""
+def _check_state(channel: WordAddressChannel, words: Words, code: str) -> None:
+    """A plane is told and the tool stood on it in front of tool centre point control, not under it.
+
+    Radius compensation has its corners between blocks of one plane, so it ends before that changes.
+    """
     if TipState.of(channel).active is not None:
         raise words.fail("tip_mode", code)
+    check_compensation(channel, words, code)
+
+
+def check_compensation(channel: WordAddressChannel, words: Words, code: str) -> None:
+    """Refuse a code that changes the plane under radius compensation."""
+    if RadiusState.of(channel).side:
+        raise words.fail("tilt_mode", code)
 
 
 def _told(channel: WordAddressChannel, words: Words) -> Frame | None:
@@ -120,7 +132,7 @@ def _told(channel: WordAddressChannel, words: Words) -> Frame | None:
     return translation(*named_point(channel, words, "tilt_format")) @ turn
 
 
-def _tilt(channel: WordAddressChannel, plane: Frame) -> None:
+def tilt(channel: WordAddressChannel, plane: Frame) -> None:
     """A plane of the work, with which the tool is not aligned yet."""
     TiltState.of(channel).plane = plane
     _renew(channel, IDENTITY, plane, None)
@@ -177,7 +189,7 @@ def align_tool_about_tip(channel: WordAddressChannel, words: Words) -> None:
 
 
 def _align(channel: WordAddressChannel, words: Words, code: str, *, holds_tip: bool) -> None:
-    _check_tip(channel, words, code)
+    _check_state(channel, words, code)
     c, plane = channel.coordinates, TiltState.of(channel).plane
     if plane is None:
         raise words.fail("tilt_missing", code)
@@ -211,8 +223,10 @@ def _work_zero(channel: WordAddressChannel) -> list[float]:
 
 def end_tilt(channel: WordAddressChannel, words: Words) -> None:
     """G69: ends the rotation of G68 and the tilted plane."""
-    frames.end_rotation(channel, words)
     state = TiltState.of(channel)
+    if state.plane is not None:
+        check_compensation(channel, words, "G69")
+    frames.end_rotation(channel, words)
     if state.plane is not None:
         state.plane = None
         _renew(channel, IDENTITY, IDENTITY, None)

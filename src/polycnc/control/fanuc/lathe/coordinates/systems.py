@@ -159,7 +159,8 @@ def return_from_reference(channel: LatheChannel, words: Words) -> None:
 
 
 def _refuse_rotation(channel: LatheChannel, words: Words, code: str) -> None:
-    if channel.memory.frames.rotates:
+    frames = channel.memory.frames
+    if frames.rotates or frames.conversions:
         raise words.fail("in_rotation", code)
 
 
@@ -233,8 +234,7 @@ def _refuse_corner(channel: LatheChannel, words: Words, code: str) -> None:
 
 def select_work_offset(channel: LatheChannel, words: Words) -> None:
     """G54 to G59, G54 P: the work coordinate system; no motion by itself."""
-    if channel.memory.frames.rotates:
-        raise words.fail("in_rotation", channel.mode["wcs"])
+    _refuse_rotation(channel, words, channel.mode["wcs"])
     systems.select_work_offset(channel, words)
 
 

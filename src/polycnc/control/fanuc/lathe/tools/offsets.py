@@ -152,9 +152,9 @@ def select_offset(channel: LatheChannel, number: int, tool: int) -> None:
 
 
 def _refuse_rotation(channel: LatheChannel) -> None:
-    """No offset within a rotation, and none that shifts within a mirror (II.5.1.5, 5.9)."""
+    """No offset within a rotation, and none that shifts within a mirror or 3-D conversion (II.5.1.5, 5.9)."""
     memory = channel.memory
-    if not memory.frames.rotates:
+    if not memory.frames.rotates and not memory.frames.conversions:
         return
     parameters = memory.parameters
     shifts = not memory.parameters.NGW and (parameters.LWT or not parameters.LGT)
