@@ -8,7 +8,7 @@ from itertools import pairwise
 from math import atan2, copysign, degrees
 from typing import TYPE_CHECKING
 
-from polycnc.control.sinumerik.cycles.contour import read
+from polycnc.control.sinumerik.cycles.contours.reading import read
 from polycnc.control.sinumerik.cycles.drilling import METRIC_PITCHES, pitch
 from polycnc.control.sinumerik.cycles.milling import feed_of
 from polycnc.control.sinumerik.cycles.moves import require_tool
