@@ -155,11 +155,8 @@ def _together(pocket: ContourPocket, rings: list[Ring]) -> list[list[Ring]]:
 
 
 def _loops(pocket: ContourPocket, away: float) -> list[Loop]:
-    """Loops at a distance in the sense of milling, checked."""
+    """Loops at a distance in the sense of milling."""
     found = region.loops_at(pocket.walls, away)
-    for loop in found:
-        if any(region.room_along(pocket.walls, edge) < away - 10.0 * NEARER_MM for edge in loop):
-            raise RegionError("too near")
     return found if pocket.keeps_sense else [region.reversed_loop(loop) for loop in found]
 
 

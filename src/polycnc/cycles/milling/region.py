@@ -174,14 +174,26 @@ def loops_at(loops: Sequence[Loop], away: float) -> list[Loop]:
     """All loops at a distance from walls that have their free side on the left; none where nothing is left.
 
     Raises:
-        RegionError: Rounding leaves a way open.
+        RegionError: Rounding leaves a way open, or one too near to a wall.
     """
-    edges = [edge for loop in loops for edge in loop]
+    # Of walls only those count whose box, widened by the distance, is met: most do not.
+    boxed = [(edge, _box(edge, away)) for loop in loops for edge in loop]
     pieces = []
     for piece in _split(_raw(loops, away)):
         middle = _middle(piece)
-        if all(distance.of_point(middle, edge) >= away - NEARER_MM for edge in edges):
+        here = (*middle, *middle)
+        if all(
+            distance.of_point(middle, edge) >= away - NEARER_MM for edge, box in boxed if _overlap(box, here)
+        ):
             pieces.append(piece)
+    for piece in pieces:
+        around = _box(piece, 0.0)
+        if any(
+            distance.between(piece, edge) < away - 10.0 * NEARER_MM
+            for edge, box in boxed
+            if _overlap(box, around)
+        ):
+            raise RegionError("too near")
     return _chained(pieces)
 
 
