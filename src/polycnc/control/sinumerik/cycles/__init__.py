@@ -11,7 +11,8 @@
     engraving            CYCLE60
     contours             CYCLE62 to CYCLE64
     turning              CYCLE95, CYCLE951, CYCLE97 to CYCLE99
-    grooves              CYCLE93, CYCLE94, CYCLE96
+    grooves              CYCLE93
+    undercuts            CYCLE94, CYCLE96
     swivel               CYCLE800
     swivel_record        its data records
     high_speed_settings  CYCLE832

@@ -156,7 +156,8 @@ def _mill_path(
         contour, side = turned_round(contour), -side
     off = radius + (abs(a["_FAL"]) if kind == ROUGHING else 0.0)
     try:
-        tool = parallel(contour, side * off)
+        # Roughing leaves stock in a rounding that is too narrow for radius and allowance.
+        tool = parallel(contour, side * off, leaves_fillets=kind == ROUGHING)
     except ValueError:
         raise AlarmError("61606") from None
     left = abs(a["_FALD"]) if kind == ROUGHING else 0.0

@@ -17,6 +17,7 @@ from polycnc.control.sinumerik.cycles import (
     surfaces,
     swivel,
     turning,
+    undercuts,
 )
 from polycnc.control.sinumerik.cycles.contours import pockets, reading
 
@@ -142,8 +143,8 @@ CYCLES: dict[str, Cycle] = {
         "SPD SPL WIDG DIAG STA1 ANG1 ANG2 RCO1 RCO2 RCI1 RCI2 FAL1 FAL2 IDEP DTB VARI _VRT _DN",
         grooves.groove,
     ),
-    "CYCLE94": Cycle("SPD SPL FORM _VARI", grooves.undercut),
-    "CYCLE96": Cycle("DIATH SPL FORM _VARI", grooves.undercut),
+    "CYCLE94": Cycle("SPD SPL FORM _VARI", undercuts.undercut),
+    "CYCLE96": Cycle("DIATH SPL FORM _VARI", undercuts.undercut),
     "CYCLE95": Cycle("NPP MID FALZ FALX FAL FF1 FF2 FF3 VARI DT DAM _VRT", turning.stock_removal),
     "CYCLE97": Cycle(
         "PIT MPIT SPL FPL DM1 DM2 APP ROP TDEP FAL IANG NSP NRC NID VARI NUMT _VRT", turning.thread
