@@ -28,6 +28,18 @@ def of_point(point: Point, edge: Edge) -> float:
     return min(ends, abs(arcs.radius_of(edge.center, point) - arcs.radius_of(edge.center, edge.end)))
 
 
+def nearest_point(point: Point, edge: Edge) -> Point:
+    """The point of a line or an arc with ends that is nearest to a point; of an arc about the point its start."""
+    if edge.center is None:
+        return _foot(point, edge)
+    away = arcs.radius_of(edge.center, point)
+    if away > NO_WAY and arcs.contains_direction(edge.start, edge.end, edge.center, edge.ccw, point, _SLACK):
+        reach = arcs.radius_of(edge.center, edge.end) / away
+        du, dv = arcs.minus(point, edge.center)
+        return edge.center[0] + reach * du, edge.center[1] + reach * dv
+    return min(edge.start, edge.end, key=lambda end: arcs.radius_of(end, point))
+
+
 def between(a: Edge, b: Edge) -> float:
     """Smallest distance (mm) of two lines or arcs with ends; 0 where they touch or cross.
 

@@ -142,3 +142,31 @@ def test_run_in_and_run_out_go_on_along_a_taper() -> None:
     taper = thread(corners=[(0.0, 12.0), (-30.0, 15.0)], run_out=10.0, cuts=1, depth=0.0)
     cut = next(s for s in thread_chain.strokes(taper) if s.lead)
     assert cut.end == pytest.approx((-40.0, 16.0))
+
+
+def rounded_corner(radius: float) -> Contour:
+    """A cylinder that runs into a shoulder over a rounding."""
+    return [
+        Piece(offset.line((0.0, 20.0), (radius - 30.0, 20.0))),
+        Piece(
+            offset.arc(
+                (radius - 30.0, 20.0), (-30.0, 20.0 + radius), (radius - 30.0, 20.0 + radius), ccw=False
+            )
+        ),
+        Piece(offset.line((-30.0, 20.0 + radius), (-30.0, 40.0))),
+    ]
+
+
+def test_a_nose_as_large_as_a_rounding_rests_in_it() -> None:
+    path = parallel(rounded_corner(0.4), -0.4)
+    assert rounded(piece.edge.end for piece in path) == [(-29.6, 20.4), (-29.6, 40.0)]
+
+
+def test_a_nose_larger_than_a_rounding_is_refused_where_it_must_fit() -> None:
+    with pytest.raises(ValueError, match="too short"):
+        parallel(rounded_corner(0.4), -0.5)
+
+
+def test_roughing_leaves_stock_in_a_rounding_that_is_too_narrow() -> None:
+    path = parallel(rounded_corner(0.4), -0.5, leaves_fillets=True)
+    assert rounded(piece.edge.end for piece in path) == [(-29.5, 20.5), (-29.5, 40.0)]

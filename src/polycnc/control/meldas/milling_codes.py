@@ -30,6 +30,7 @@ _ROWS = table(
     moves("G29", systems.return_from_reference),
     moves("G27", systems.check_reference),
     moves("G30", systems.return_to_further_reference, "P"),
+    moves("G31", skip.skip_move, "P"),
     moves("G31.1", skip.skip_move),
     moves("G31.2", skip.skip_move),
     moves("G31.3", skip.skip_move),

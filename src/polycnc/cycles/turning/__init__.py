@@ -1,5 +1,5 @@
 """Turning cycles as strokes (`stroke`): `single`, `rough` with `pockets`, `pattern`, `peck`, `grinding`.
 
 `cuts` is what roughing is told. `contour` and `stock_removal` cut a whole contour; `thread` is one pass and its
-run-out, `thread_chain` several parts; `groove` is cut with a parting tool.
+run-out, `thread_chain` several parts; `groove` is cut with a parting tool, `undercut` lies at a shoulder.
 """

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import lru_cache
 from itertools import pairwise
-from math import sqrt
+from math import pi, sqrt
 from typing import TYPE_CHECKING
 
 from polycnc.cycles.turning.stroke import PlaneStroke
@@ -284,14 +284,21 @@ def turned_round(contour: Sequence[Piece]) -> Contour:
 _ROUND = offset.Outer(intersection_limit_deg=0.0, beyond=offset.Joint.ARC)
 
 
-def parallel(contour: Sequence[Piece], distance: float) -> Contour:
+def parallel(contour: Sequence[Piece], distance: float, *, leaves_fillets: bool = False) -> Contour:
     """The contour at a distance, positive to the left of its direction; outer corners become arcs.
+
+    Args:
+        contour: What is followed.
+        distance: How far off.
+        leaves_fillets: Stock may stay in an inner arc between two lines that is too narrow: they meet without it.
 
     Raises:
         ValueError: An inner corner or arc is too narrow for the distance.
     """
     if abs(distance) <= NO_WAY:
         return list(contour)
+    if leaves_fillets:
+        contour = _without_fillets(contour, distance)
     edges = [piece.edge for piece in contour]
     corners = []
     for a, b in pairwise(edges):
@@ -304,17 +311,40 @@ def parallel(contour: Sequence[Piece], distance: float) -> Contour:
     result: Contour = []
     for number, (piece, first, last) in enumerate(zip(contour, begins, ends, strict=True)):
         edge = piece.edge
-        if offset.reverses(edge, first, last):
+        if offset.reverses(edge, first, last) or _is_too_narrow(edge, distance):
             raise ValueError("edge too short")
         start, end = _plus(edge.start, first), _plus(edge.end, last)
         if edge.center is None:
             result.append(Piece(offset.line(start, end), piece.is_rapid))
-        else:
+        elif not offset.is_point(edge, edge.end, distance):  # a nose as large as an inner arc rests in it
             result.append(Piece(offset.arc(start, end, edge.center, edge.ccw), piece.is_rapid))
         if number < len(corners) and corners[number].joint is offset.Joint.ARC:
             onto = _plus(edge.end, corners[number].vectors[-1])
             result.append(Piece(offset.arc(end, onto, edge.end, distance < 0.0), piece.is_rapid))
     return [piece for piece in result if piece.edge.length > NO_WAY]
+
+
+def _without_fillets(contour: Sequence[Piece], distance: float) -> Contour:
+    """The contour with the lines at both ends of an arc that is too narrow led on to where they meet."""
+    result = list(contour)
+    for k in range(1, len(result) - 1):
+        before, edge, after = (piece.edge for piece in result[k - 1 : k + 2])
+        if not _is_too_narrow(edge, distance) or before.center is not None or after.center is not None:
+            continue
+        met = offset.crossings(before, after, 0.0, 0.0)
+        if met and edge.sweep < pi:
+            corner = met[0]
+            result[k - 1] = Piece(offset.line(before.start, corner), result[k - 1].is_rapid)
+            result[k + 1] = Piece(offset.line(corner, after.end), result[k + 1].is_rapid)
+            result[k] = Piece(offset.line(corner, corner))
+    return [piece for piece in result if piece.edge.length > NO_WAY]
+
+
+def _is_too_narrow(edge: Edge, distance: float) -> bool:
+    """Whether an arc has less radius than the distance on its inner side: its parallel would lie beyond it."""
+    if edge.center is None or offset.is_point(edge, edge.end, distance):
+        return False
+    return offset.offset_radius(arcs.radius_of(edge.center, edge.end), distance, edge.ccw) < 0.0
 
 
 def _plus(point: Point, vector: Point) -> Point:

@@ -142,8 +142,8 @@ class Groove:
         rim = offset.line((-far, 0.0), (0.0, 0.0))
         wall = offset.line((0.0, 0.0), (foot, self.depth))
         base = offset.line((foot, self.depth), (foot + reach, self.depth))
-        pieces = _with_corner([Piece(rim)], Piece(wall), side.rim)
-        return _with_corner(pieces, Piece(base), side.base)[1:]
+        pieces = with_corner([Piece(rim)], Piece(wall), side.rim)
+        return with_corner(pieces, Piece(base), side.base)[1:]
 
     def room(self, number: int, u: float) -> float:
         """How deep a side lets an edge of the tool go that stands at u."""
@@ -159,8 +159,8 @@ class Groove:
         return depth
 
 
-def _with_corner(before: list[Piece], piece: Piece, corner: Corner) -> list[Piece]:
-    """A contour that goes on with a piece, the corner between broken or rounded."""
+def with_corner(before: list[Piece], piece: Piece, corner: Corner) -> list[Piece]:
+    """A contour that goes on with a piece, the corner between broken or rounded; `GrooveError` if that does not fit."""
     if corner.is_sharp:
         return [*before, piece]
     a, b = before[-1].edge, piece.edge

@@ -100,7 +100,7 @@ ROWS = table(
     outside_cycles("G28", systems.return_to_reference),
     outside_cycles("G29", systems.return_from_reference),
     outside_cycles("G30", systems.return_to_further_reference, "P"),
-    moves("G31", skip.skip_move, "P"),
+    moves("G31", skip.skip_or_torque_move, "P"),
     GCode("G33", "motion", ends="cycle", planner=thread.plan_thread),
     moves("G37", measuring.measure_length, "H"),
     GCode("G38", handler=corner_vectors.hold_vector, takes="I J K", order=Order.COMPENSATION),

@@ -9,9 +9,10 @@
     milling              POCKET1 to POCKET4, SLOT1, SLOT2, LONGHOLE, CYCLE899
     surfaces             CYCLE61, CYCLE71, CYCLE72, CYCLE76, CYCLE77, CYCLE79, CYCLE90
     engraving            CYCLE60
-    contour              CYCLE62, and how contours are read
+    contours             CYCLE62 to CYCLE64
     turning              CYCLE95, CYCLE951, CYCLE97 to CYCLE99
-    grooves              CYCLE93, CYCLE94, CYCLE96
+    grooves              CYCLE93
+    undercuts            CYCLE94, CYCLE96
     swivel               CYCLE800
     swivel_record        its data records
     high_speed_settings  CYCLE832

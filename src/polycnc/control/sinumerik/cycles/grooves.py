@@ -1,7 +1,4 @@
-"""Grooves CYCLE93 and undercuts CYCLE94, CYCLE96 (strokes: `polycnc.cycles.turning.groove`).
-
-Of undercuts the calls are checked and their cuts are not made.
-"""
+"""Grooves CYCLE93 (strokes: `polycnc.cycles.turning.groove`)."""
 
 from __future__ import annotations
 
@@ -11,7 +8,6 @@ from polycnc.control.sinumerik.cycles.moves import require_tool
 from polycnc.control.sinumerik.cycles.turning import LIFT_MM
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tools import stages
-from polycnc.control.sinumerik.tools.edges import DP_TIP
 from polycnc.cycles.turning import groove as turning
 from polycnc.cycles.turning.groove import Corner, Groove, GrooveError, Side
 from polycnc.messages import AlarmError
@@ -22,12 +18,6 @@ if TYPE_CHECKING:
     from polycnc.cycles.turning.groove import GrooveStroke
     from polycnc.geometry.arcs import Point
 
-#: Forms of an undercut by cycle.
-FORMS = {"CYCLE94": ("E", "F"), "CYCLE96": ("A", "B", "C", "D")}
-#: Finished parts and threads of less have no undercut.
-LEAST_DIAMETER_MM = 3.0
-#: Cutting edge positions that can turn an undercut.
-CORNERS = (1, 2, 3, 4)
 #: VARI of CYCLE93: outside or inside, lengthwise or across, side of the start; 10 more for the other kind of chamfer.
 GROOVES = (*range(1, 9), *range(11, 19))
 #: From here on a chamfer is told by what it leaves out of its edges.
@@ -59,25 +49,6 @@ SEATS = {
 #: Length 1 of a turning tool lies along X, length 2 along Z.
 _ALONG_X, _ALONG_Z = 0, 1
 _ROUNDING = 1e-6
-
-
-def undercut(moves: Moves, a: Arguments) -> None:
-    """CYCLE94, CYCLE96: an undercut of a form.
-
-    Raises:
-        AlarmError: 61000 without tool offset, 61608 for a tool point that cannot, 61609 for a form that does not
-            exist, 61601 for a diameter below 3 mm; else PC0001.
-    """
-    require_tool(moves)
-    if a.text("FORM").strip().upper() not in FORMS[a.cycle]:
-        raise AlarmError("61609", text=a.text("FORM"))
-    edge = moves.memory.tools.edge
-    if edge is None or int(edge.values[DP_TIP]) not in CORNERS:
-        raise AlarmError("61608")
-    diameter = 2.0 * a["SPD"] if a.cycle == "CYCLE94" else a["DIATH"]
-    if diameter < LEAST_DIAMETER_MM - _ROUNDING:
-        raise AlarmError("61601")
-    raise not_supported(a.cycle)
 
 
 def groove(moves: Moves, a: Arguments) -> None:

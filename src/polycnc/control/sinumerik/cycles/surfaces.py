@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING
 
-from polycnc.control.sinumerik.cycles.contour import read
+from polycnc.control.sinumerik.cycles.contours.reading import read
 from polycnc.control.sinumerik.cycles.levels import levels
 from polycnc.control.sinumerik.cycles.milling import (
     FINISHING,
@@ -156,7 +156,8 @@ def _mill_path(
         contour, side = turned_round(contour), -side
     off = radius + (abs(a["_FAL"]) if kind == ROUGHING else 0.0)
     try:
-        tool = parallel(contour, side * off)
+        # Roughing leaves stock in a rounding that is too narrow for radius and allowance.
+        tool = parallel(contour, side * off, leaves_fillets=kind == ROUGHING)
     except ValueError:
         raise AlarmError("61606") from None
     left = abs(a["_FALD"]) if kind == ROUGHING else 0.0

@@ -8,7 +8,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.control.sinumerik.cycles import (
-    contour,
     drilling,
     engraving,
     grooves,
@@ -18,7 +17,9 @@ from polycnc.control.sinumerik.cycles import (
     surfaces,
     swivel,
     turning,
+    undercuts,
 )
+from polycnc.control.sinumerik.cycles.contours import pockets, reading
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -107,7 +108,12 @@ CYCLES: dict[str, Cycle] = {
     "CYCLE61": Cycle(
         f"{_MILL} _PA _PO _LENG _WID _MID _MIDA _FALD _FFP1 _VARI _LIM _DMODE _AMODE", surfaces.face
     ),
-    "CYCLE62": Cycle("_KNAME _TYPE _LAB1 _LAB2", contour.choose),
+    "CYCLE62": Cycle("_KNAME _TYPE _LAB1 _LAB2", reading.choose),
+    "CYCLE63": Cycle(
+        f"_PRG _VARI {_MILL} _F _FZ _DXY _DZ _UXY _UZ _CDIR _XS _YS _ER _EP _EW _FS _ZFS _TR _DR _UMODE {_SL}",
+        pockets.mill,
+    ),
+    "CYCLE64": Cycle(f"_PRG _VARI {_MILL} _F _DXY _UXY _UZ _CDIR _TR _DR _UMODE {_SL}", pockets.predrill),
     "CYCLE71": Cycle(
         f"{_MILL} _PA _PO _LENG _WID _STA _MID _MIDA _FDP _FALD _FFP1 _VARI _FDP1", surfaces.face
     ),
@@ -137,8 +143,8 @@ CYCLES: dict[str, Cycle] = {
         "SPD SPL WIDG DIAG STA1 ANG1 ANG2 RCO1 RCO2 RCI1 RCI2 FAL1 FAL2 IDEP DTB VARI _VRT _DN",
         grooves.groove,
     ),
-    "CYCLE94": Cycle("SPD SPL FORM _VARI", grooves.undercut),
-    "CYCLE96": Cycle("DIATH SPL FORM _VARI", grooves.undercut),
+    "CYCLE94": Cycle("SPD SPL FORM _VARI", undercuts.undercut),
+    "CYCLE96": Cycle("DIATH SPL FORM _VARI", undercuts.undercut),
     "CYCLE95": Cycle("NPP MID FALZ FALX FAL FF1 FF2 FF3 VARI DT DAM _VRT", turning.stock_removal),
     "CYCLE97": Cycle(
         "PIT MPIT SPL FPL DM1 DM2 APP ROP TDEP FAL IANG NSP NRC NID VARI NUMT _VRT", turning.thread

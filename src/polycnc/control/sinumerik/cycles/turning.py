@@ -8,7 +8,7 @@ from itertools import pairwise
 from math import atan2, copysign, degrees
 from typing import TYPE_CHECKING
 
-from polycnc.control.sinumerik.cycles.contour import read
+from polycnc.control.sinumerik.cycles.contours.reading import read
 from polycnc.control.sinumerik.cycles.drilling import METRIC_PITCHES, pitch
 from polycnc.control.sinumerik.cycles.milling import feed_of
 from polycnc.control.sinumerik.cycles.moves import require_tool
@@ -168,8 +168,10 @@ class Work:
         """An amount along Z and one along X in the coordinates of the cuts."""
         return (radial, along) if self.across else (along, radial)
 
-    def tool_path(self, contour: Contour, allowance: float) -> Contour:
+    def tool_path(self, contour: Contour, allowance: float, *, roughs: bool = False) -> Contour:
         """Where the tool's point runs: the nose lies on the contour, or an allowance off it.
+
+        Roughing leaves stock in a rounding that is too narrow for both.
 
         Raises:
             AlarmError: 61606 where the nose does not fit the contour.
@@ -178,7 +180,8 @@ class Work:
         radius = stages.radius(channel)
         first, second = stages.tip(channel)
         try:
-            path = parallel(contour, -self.towards * onwards(contour) * (radius + allowance))
+            off = -self.towards * onwards(contour) * (radius + allowance)
+            path = parallel(contour, off, leaves_fillets=roughs)
         except ValueError:
             raise AlarmError("61606") from None
         return shifted(path, *self.pair(radius * first, radius * second))
@@ -243,7 +246,7 @@ def _rough(work: Work, a: Arguments, contour: Contour, *, follows: bool) -> None
         raise AlarmError("61610")
     if work.towards * (contour[0].edge.start[1] - contour[-1].edge.end[1]) < 0.0:
         contour = turned_round(contour)
-    path = work.tool_path(contour, abs(a["FAL"]))
+    path = work.tool_path(contour, abs(a["FAL"]), roughs=True)
     off_a, off_b = work.pair(abs(a["FALZ"]), abs(a["FALX"]))
     path = shifted(path, -onwards(contour) * off_a, -work.towards * off_b)
     straight = feed_of(a, "FF1")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from math import dist
 from typing import TYPE_CHECKING
 
@@ -20,7 +21,10 @@ if TYPE_CHECKING:
 
 #: P of G31: which skip input ends the move. All inputs come at the same place here.
 SKIP_INPUTS = range(1, 9)
-TORQUE_LIMIT_SKIP = (98, 99)
+#: P of torque limit skip: by the torque alone, or by torque or skip input, whichever comes first.
+TORQUE_LIMIT_SKIP = BY_TORQUE, BY_TORQUE_OR_INPUT = (98, 99)
+#: Where the torque of an axis reaches its limit: a signal of the setup. Without it no limit acts.
+TORQUE_LIMIT = "TORQUE_LIMIT"
 
 
 @dataclass(slots=True)
@@ -37,20 +41,46 @@ class LastSkip(State, lifetime=Lifetime.POWER):
 
 def skip_move(channel: WordAddressChannel, words: Words) -> None:
     """G31 (MELDAS also G31.1 to G31.3): straight at F to the target or to the skip signal; what is left is dropped."""
-    if channel.mode["compensation"] != "G40":
-        raise words.fail("comp_skip", "G31")
     number = words.integer("P") if "P" in words else 1
     if number in TORQUE_LIMIT_SKIP:
         raise AlarmError("PC0001", address="P", hint="hint.not-supported", code=f"G31 P{number}")
     if number not in SKIP_INPUTS:
         raise words.fail("address", "P")
+    end = _target(channel, words)
+    stopped = signal_position(channel, channel.coordinates.position, end, channel.setup.switches.skip_input)
+    move_to_signal(channel, end, stopped)
+    LastSkip.of(channel).position = list(channel.coordinates.position)
+
+
+def _target(channel: WordAddressChannel, words: Words) -> list[float]:
+    """Where a skip move leads: a work position."""
+    if channel.mode["compensation"] != "G40":
+        raise words.fail("comp_skip", "G31")
     if not channel.feed > 0.0:
         raise words.fail("no_feed")
-    c = channel.coordinates
-    programmed = reach(channel, words.plan.axis_words, words.values)
-    end = c.to_position(programmed)
-    stopped = signal_position(channel, c.position, end, channel.setup.switches.skip_input)
-    move_to_signal(channel, end, stopped)
+    return channel.coordinates.to_position(reach(channel, words.plan.axis_words, words.values))
+
+
+def skip_or_torque_move(channel: WordAddressChannel, words: Words) -> None:
+    """G31 of FANUC: as `skip_move`; with P98 and P99 torque limit skip.
+
+    P98 ends where the torque reaches its limit and does not look at the skip input, P99 at what comes first. Where no
+    torque limit is active the move goes to its end (0i-TF Plus, warnings: torque limit skip).
+    """
+    number = words.integer("P") if "P" in words else 1
+    if number not in TORQUE_LIMIT_SKIP:
+        skip_move(channel, words)
+        return
+    end = _target(channel, words)
+    start, switches = channel.coordinates.position, channel.setup.switches
+    places = [signal_position(channel, start, end, switches.signals_at.get(TORQUE_LIMIT))]
+    if number == BY_TORQUE_OR_INPUT:
+        places.append(signal_position(channel, start, end, switches.skip_input))
+    stopped = min((place for place in places if place is not None), key=partial(dist, start), default=None)
+    if number == BY_TORQUE_OR_INPUT:
+        move_to_signal(channel, end, stopped)
+    else:  # a row of skipping would end at the skip input
+        channel.straight(Kind.FEED, end if stopped is None else stopped, channel.feed)
     LastSkip.of(channel).position = list(channel.coordinates.position)
 
 

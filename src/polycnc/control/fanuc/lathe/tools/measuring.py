@@ -24,7 +24,7 @@ def skip_move(channel: LatheChannel, words: Words) -> None:
     """G31: straight at F to the target or to where the skip signal comes; P1 to P4 choose the signal."""
     if "P" in words and words.integer("P") not in _SKIP_INPUTS:
         raise words.fail("gauge_number", "P")
-    skip.skip_move(channel, words)
+    skip.skip_or_torque_move(channel, words)
 
 
 def measure_first(channel: LatheChannel, words: Words) -> None:

@@ -6,6 +6,7 @@ G functions, feed and frames are put back.
 
 from __future__ import annotations
 
+from dataclasses import field
 from functools import partial
 from math import nan
 from typing import TYPE_CHECKING, NamedTuple
@@ -41,9 +42,14 @@ class Place(NamedTuple):
 
 @dataclass(slots=True)
 class ChosenContour(State, lifetime=Lifetime.POWER):
-    """What CYCLE62 has chosen for the next cycle."""
+    """What calls of CYCLE62 have chosen for the next cycle, in their order."""
 
-    place: Place | None = None
+    places: list[Place] = field(default_factory=list)
+
+    def take(self) -> list[Place]:
+        """The contours; none is chosen afterwards."""
+        places, self.places = self.places, []
+        return places
 
 
 #: Types of CYCLE62 that name labels: of the calling program, and of another one.
@@ -51,7 +57,7 @@ LABELS_HERE, LABELS_IN_PROGRAM = 2, 3
 
 
 def choose(moves: Moves, a: Arguments) -> None:
-    """CYCLE62: the contour of the cycle that follows, by program or by labels; a second call in a row is PC0001.
+    """CYCLE62: a contour of the cycle that follows, by program or by labels; several calls in a row choose several.
 
     Raises:
         AlarmError: 61002 for a type that does not exist.
@@ -65,17 +71,20 @@ def choose(moves: Moves, a: Arguments) -> None:
 
 
 def _choose(channel: SinumerikChannel, place: Place) -> None:
-    if ChosenContour.of(channel).place is not None:
-        raise not_supported("CYCLE62: two contours")
-    ChosenContour.of(channel).place = place
+    ChosenContour.of(channel).places.append(place)
 
 
 def _place(channel: SinumerikChannel, name: str) -> Place:
-    """What "NAME" and "LABEL1:LABEL2" mean; an empty name is what CYCLE62 has chosen, once."""
+    """What "NAME" and "LABEL1:LABEL2" mean; an empty name is what CYCLE62 has chosen, once.
+
+    Raises:
+        AlarmError: PC0001 where it has chosen several.
+    """
     if not name.strip():
-        state = ChosenContour.of(channel)
-        chosen, state.place = state.place, None
-        return chosen if chosen is not None else Place("")
+        places = ChosenContour.of(channel).take()
+        if len(places) > 1:
+            raise not_supported("CYCLE62: two contours")
+        return places[0] if places else Place("")
     first, _, last = (part.strip() for part in name.partition(":"))
     return Place("", first.upper(), last.upper()) if last else Place(first)
 
@@ -101,9 +110,33 @@ def read(moves: Moves, name: str, use: Callable[[Contour], None]) -> None:
     is done with it.
 
     Raises:
-        AlarmError: As `_call`, and 61605 for a contour without moves.
+        AlarmError: As `_call`, 61605 for a contour without moves, PC0001 for several of CYCLE62.
     """
-    reading = _Reading(moves, name, use)
+    _read(moves, _place(moves.channel, name), use)
+
+
+def read_chosen(moves: Moves, use: Callable[[list[Contour]], None]) -> None:
+    """Read all contours that calls of CYCLE62 have chosen, one after the other, as `read` does.
+
+    Raises:
+        AlarmError: As `read`; 61605 where none is chosen.
+    """
+    places = ChosenContour.of(moves.channel).take()
+    found: list[Contour] = []
+
+    def go_on(contour: Contour | None = None) -> None:
+        if contour is not None:
+            found.append(contour)
+        if len(found) < max(len(places), 1):
+            _read(moves, places[len(found)] if places else Place(""), go_on)
+        else:
+            use(found)
+
+    go_on()
+
+
+def _read(moves: Moves, place: Place, use: Callable[[Contour], None]) -> None:
+    reading = _Reading(moves, place, use)
     moves.act(reading.begin)
     moves.end_block()
     moves.act(reading.end)
@@ -114,19 +147,19 @@ class _Reading:
 
     Args:
         moves: The cycle that wants it.
-        name: What it is called.
+        place: Where it stands.
         use: What is done with it.
     """
 
-    def __init__(self, moves: Moves, name: str, use: Callable[[Contour], None]) -> None:
-        self._moves, self._name, self._use = moves, name, use
+    def __init__(self, moves: Moves, place: Place, use: Callable[[Contour], None]) -> None:
+        self._moves, self._place, self._use = moves, place, use
         self._reading: ContourReading | None = None
 
     def begin(self) -> None:
         """The contour runs as a program level, and its moves are caught."""
         moves, channel = self._moves, self._moves.channel
         self._reading = reading_from_here(channel, keeps_modes=True)
-        _call(channel, _place(channel, self._name))
+        _call(channel, self._place)
         self._reading.begin(channel, moves.columns[:2])
 
     def end(self) -> None:

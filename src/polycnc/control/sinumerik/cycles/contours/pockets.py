@@ -1,0 +1,208 @@
+"""Contour pockets and spigots CYCLE63, their predrilling CYCLE64 (strokes: `polycnc.cycles.milling.contour_pocket`).
+
+Source: SINUMERIK standard cycles, cycles, section 5 (CYCLE62 to CYCLE64): parameter lists.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial
+from typing import TYPE_CHECKING
+
+from polycnc.control.sinumerik.cycles.contours.reading import read_chosen
+from polycnc.control.sinumerik.cycles.milling import (
+    FINISHING,
+    ROUGHING,
+    cutter,
+    feed_of,
+    is_ccw,
+    milling_levels,
+    perform,
+    width_of_cut,
+)
+from polycnc.control.sinumerik.cycles.moves import require_tool
+from polycnc.control.sinumerik.errors import not_supported
+from polycnc.cycles.milling import contour_pocket, region
+from polycnc.cycles.milling.contour_pocket import ContourPocket, InsertionError
+from polycnc.cycles.milling.pockets import Insertion
+from polycnc.cycles.milling.region import RegionError
+from polycnc.cycles.milling.stroke import steps
+from polycnc.messages import AlarmError
+
+if TYPE_CHECKING:
+    from polycnc.control.sinumerik.cycles.arguments import Arguments
+    from polycnc.control.sinumerik.cycles.levels import Levels
+    from polycnc.control.sinumerik.cycles.moves import Moves
+    from polycnc.cycles.turning.contour import Contour
+
+#: Units of VARI beside roughing.
+REST, BASE, EDGE, CHAMFER = FINISHING, 3, 4, 5
+#: Tens of VARI: into what is predrilled, straight down, on a helix, to and fro.
+INSERTIONS = {0: Insertion.FEED, 1: Insertion.FEED, 2: Insertion.HELIX, 3: Insertion.OSCILLATION}
+#: Places of the digits of VARI: insertion, where the tool rises to, who chooses the start point.
+_INSERTION_PLACE, _START_PLACE = 1, 4
+#: Hundreds of _DMODE: pocket (0 in older calls) or spigot; hundreds of _GMODE: only the start point is calculated.
+_HUNDREDS = 2
+POCKETS, SPIGOT = (0, 1), 2
+ONLY_START = 2
+#: What is wrong with contours, and the alarm of it; else preparation failed.
+REGION_ALARMS = {"open": "61605", "crossing": "61605", "no inside": "61605", "narrow": "61105"}
+
+
+def mill(moves: Moves, a: Arguments) -> None:
+    """CYCLE63: clear a pocket with islands, or what stands round spigots; finish the base or the edges.
+
+    Raises:
+        AlarmError: As the other milling cycles; 61605 for contours that are open, cross or are too few, 61606 where
+            they cannot be followed, 61105 for a cutter that goes in nowhere, 61108 for a helix or an oscillation
+            without room; PC0001 for residual material, chamfers, own start points and a mere calculation.
+    """
+    radius = cutter(moves)
+    kind = a.digit("_VARI", 0)
+    _refuse(a, kind)
+    base_allowance = abs(a["_UZ"]) if kind == ROUGHING else 0.0
+    found = milling_levels(moves, a, base_allowance, "_DZ")
+    if found is None:
+        return
+    insertion = INSERTIONS.get(a.digit("_VARI", _INSERTION_PLACE))
+    if insertion is None:
+        raise AlarmError("61002")
+    feed = feed_of(a, "_F")
+    # Down along the wall nothing is left; into the material the feed must be told.
+    into = kind != EDGE and insertion is Insertion.FEED
+    depth_feed = feed_of(a, "_FZ") if into else a["_FZ"] or feed
+    helix, pitch, angle = abs(a["_ER"]), abs(a["_EP"]), abs(a["_EW"])
+    if kind != EDGE and (
+        (insertion is Insertion.HELIX and not (helix and pitch))
+        or (insertion is Insertion.OSCILLATION and not 0.0 < angle < 90.0)
+    ):
+        raise AlarmError("61108")
+    shape = ContourPocket(
+        [],
+        None,
+        radius,
+        abs(a["_UXY"]) if kind == EDGE else width_of_cut(a, radius, "_DXY"),
+        is_ccw(moves, a.integer("_CDIR"), inside=True),
+        feed,
+        depth_feed,
+        found.reference,
+        found.safe,
+        found.retract,
+        abs(a["SDIS"]),
+        0.0 if kind == EDGE else abs(a["_UXY"]),
+        insertion,
+        helix,
+        pitch,
+        angle,
+    )
+    total = abs(found.depth - found.reference) - base_allowance
+    levels = [found.depth]
+    if kind != BASE:
+        levels = [found.reference + found.down * below for below in steps(total, abs(a["_DZ"]))]
+    read_chosen(moves, partial(_mill, moves, a, shape, levels))
+
+
+def _refuse(a: Arguments, kind: int) -> None:
+    """What no call may ask for, and what is not executed."""
+    if kind not in (ROUGHING, REST, BASE, EDGE, CHAMFER):
+        raise AlarmError("61002")
+    if a.integer("_CDIR") not in (0, 1):
+        raise AlarmError("61109")
+    unknown = {
+        "_TR": a.cycle == "CYCLE63" and bool(a.text("_TR").strip()),
+        "_VARI": kind in (REST, CHAMFER) or a.digit("_VARI", _START_PLACE) != 0,
+        "_GMODE": a.digit("_GMODE", _HUNDREDS) >= ONLY_START,
+        "_DMODE": a.digit("_DMODE", _HUNDREDS) not in (*POCKETS, SPIGOT),
+    }
+    for name, wrong in unknown.items():
+        if wrong:
+            raise not_supported(f"{a.cycle} {name}")
+
+
+def _with_walls(a: Arguments, shape: ContourPocket, contours: list[Contour]) -> ContourPocket:
+    """The shape with the contours that were read: of a spigot the first one is the blank."""
+    edges = [[piece.edge for piece in contour] for contour in contours]
+    if a.digit("_DMODE", _HUNDREDS) != SPIGOT:
+        return replace(shape, walls=region.walls(edges))
+    if len(edges) == 1:
+        raise RegionError("open")
+    return replace(shape, walls=region.walls(edges[1:], free_outside=True), blank=region.walls(edges[:1])[0])
+
+
+def _mill(
+    moves: Moves, a: Arguments, shape: ContourPocket, levels: list[float], contours: list[Contour]
+) -> None:
+    """Mill what the contours enclose."""
+    work = contour_pocket.finish_edges if a.digit("_VARI", 0) == EDGE else contour_pocket.rough
+    try:
+        strokes = list(work(_with_walls(a, shape, contours), levels))
+    except RegionError as error:
+        raise AlarmError(REGION_ALARMS.get(str(error), "61606")) from None
+    except InsertionError:
+        raise AlarmError("61108") from None
+    perform(moves, strokes)
+
+
+# ---- predrilling
+
+
+def predrill(moves: Moves, a: Arguments) -> None:
+    """CYCLE64: drill where CYCLE63 with the cutter `_TR`, `_DR` will go in, to the depth less the base's allowance.
+
+    Raises:
+        AlarmError: 61000 without tool offset, 17190 for a cutter that does not exist, else as `mill`.
+    """
+    require_tool(moves)
+    _refuse(a, ROUGHING)
+    found = milling_levels(moves, a, 0.0, "_UZ") if a["_UZ"] else milling_levels(moves, a, 0.0, "_DXY")
+    if found is None:
+        return
+    radius = _cutter_radius(moves, a)
+    shape = ContourPocket(
+        [],
+        None,
+        radius,
+        width_of_cut(a, radius, "_DXY"),
+        is_ccw(moves, a.integer("_CDIR"), inside=True),
+        feed_of(a, "_F"),
+        a["_F"],
+        found.reference,
+        found.safe,
+        found.retract,
+        abs(a["SDIS"]),
+        abs(a["_UXY"]),
+    )
+    read_chosen(moves, partial(_drill, moves, a, found, shape))
+
+
+def _cutter_radius(moves: Moves, a: Arguments) -> float:
+    """Radius of the cutter that will follow; without one that of the tool in the spindle."""
+    if not a.text("_TR").strip():
+        return cutter(moves)
+    tools = moves.memory.tools
+    edge = tools.find(a.text("_TR")).edges.get(max(a.integer("_DR"), 1))
+    if edge is None:
+        raise AlarmError("61000")
+    if edge.radius() <= 0.0:
+        raise AlarmError("61117")
+    return edge.radius()
+
+
+def _drill(moves: Moves, a: Arguments, found: Levels, shape: ContourPocket, contours: list[Contour]) -> None:
+    """A hole at every place where the cutter goes in."""
+    try:
+        places = contour_pocket.entries(_with_walls(a, shape, contours))
+    except RegionError as error:
+        raise AlarmError(REGION_ALARMS.get(str(error), "61606")) from None
+    bottom = found.depth - found.down * abs(a["_UZ"])
+    moves.rapid(w=found.retract)
+    moves.end_block()
+    for place in places:
+        moves.rapid(*place)
+        moves.end_block()
+        moves.rapid(w=found.safe)
+        moves.end_block()
+        moves.feed(shape.feed, w=bottom)
+        moves.end_block()
+        moves.rapid(w=found.retract)
+        moves.end_block()

@@ -1,0 +1,350 @@
+"""What the middle of a cutter may reach between closed contours, and the loops at a distance from them.
+
+Walls are closed loops of edges. A normalised wall has the free side on its left, so a wall round the outside runs
+counter-clockwise and an island clockwise. The loops at a distance R are the points of the free side whose nearest wall
+is R away. They are made of the parallels of all edges and of arcs about the corners that point into the free side: cut
+where they meet, kept where no wall is nearer, chained. Each loop has the free side on its left as well. Nothing is
+handed on that comes nearer to a wall than it was asked for; `RegionError` where that cannot be had.
+"""
+
+from __future__ import annotations
+
+from math import atan2, hypot, pi
+from typing import TYPE_CHECKING
+
+from polycnc.geometry import arcs, distance, offset
+from polycnc.geometry.tolerances import NO_WAY
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from polycnc.geometry.arcs import Point
+    from polycnc.geometry.offset import Edge
+
+#: A closed way of edges, each beginning where the one before ends.
+Loop = list["Edge"]
+#: A way is closed where its ends are no farther apart, mm.
+CLOSED_MM = 1e-3
+#: A loop may come nearer to a wall by as much, mm: rounding.
+NEARER_MM = 1e-6
+#: Ends of pieces that are as near as this belong together, mm.
+_JOINED_MM = 1e-5
+#: Shorter pieces of parallels are rounding, mm.
+_SHORT_MM = 1e-7
+_TINY_TURN = 1e-9
+#: The size of the squares in which ends of pieces are looked for, mm.
+_SQUARE_MM = 1e-3
+
+
+class RegionError(ValueError):
+    """Contours that enclose nothing that could be milled: open, crossing, or without inside."""
+
+
+# ---- walls
+
+
+def walls(contours: Sequence[Sequence[Edge]], *, free_outside: bool = False) -> list[Loop]:
+    """Closed contours as walls, by how many others each lies in.
+
+    Args:
+        contours: Each closed; in any order and sense.
+        free_outside: What lies outside all contours is free: they are spigots; else they are pockets with islands.
+
+    Raises:
+        RegionError: A contour is not closed, or two edges cross.
+    """
+    loops = [_closed(contour) for contour in contours]
+    _refuse_crossings(loops)
+    result = []
+    for number, loop in enumerate(loops):
+        depth = sum(contains(other, loop[0].start) for k, other in enumerate(loops) if k != number)
+        is_outer = (depth % 2 == 0) is not free_outside
+        result.append(loop if (area(loop) > 0.0) is is_outer else reversed_loop(loop))
+    return result
+
+
+def _closed(contour: Sequence[Edge]) -> Loop:
+    """The contour without edges of no length, full circles in two halves, and closed."""
+    loop: Loop = []
+    for edge in contour:
+        if edge.center is not None and edge.is_full_circle:
+            middle = arcs.point_on_arc(edge.start, edge.end, edge.center, edge.ccw, 0.5)
+            loop += [
+                offset.arc(edge.start, middle, edge.center, edge.ccw),
+                offset.arc(middle, edge.end, edge.center, edge.ccw),
+            ]
+        elif edge.length > NO_WAY:
+            loop.append(edge)
+    if not loop or arcs.radius_of(loop[0].start, loop[-1].end) > CLOSED_MM:
+        raise RegionError("open")
+    if abs(area(loop)) <= NO_WAY:
+        raise RegionError("no inside")
+    return loop
+
+
+def _refuse_crossings(loops: Sequence[Loop]) -> None:
+    """No two edges may meet but neighbours at their common end."""
+    edges = [
+        (number, k, edge, _box(edge, 0.0)) for number, loop in enumerate(loops) for k, edge in enumerate(loop)
+    ]
+    for i, (loop_a, a, edge_a, box_a) in enumerate(edges):
+        for loop_b, b, edge_b, box_b in edges[i + 1 :]:
+            if not _overlap(box_a, box_b):
+                continue
+            count = len(loops[loop_a])
+            beside = loop_a == loop_b and (b - a) % count in (1, count - 1)
+            ends = (edge_a.start, edge_a.end) if beside else ()
+            for point in meetings(edge_a, edge_b):
+                if all(arcs.radius_of(point, end) > CLOSED_MM for end in ends):
+                    raise RegionError("crossing")
+
+
+def reversed_loop(loop: Iterable[Edge]) -> Loop:
+    """The loop travelled the other way."""
+    return [_reversed(edge) for edge in reversed(list(loop))]
+
+
+def _reversed(edge: Edge) -> Edge:
+    if edge.center is None:
+        return offset.line(edge.end, edge.start)
+    return offset.arc(edge.end, edge.start, edge.center, not edge.ccw)
+
+
+def area(loop: Iterable[Edge]) -> float:
+    """Enclosed area, mm², above 0 counter-clockwise: of the chords, and of what arcs add to them."""
+    total = 0.0
+    for edge in loop:
+        (u0, v0), (u1, v1) = edge.start, edge.end
+        total += 0.5 * (u0 * v1 - u1 * v0)
+        if edge.center is not None:
+            r = arcs.radius_of(edge.center, edge.end)
+            sweep = edge.sweep if edge.ccw else -edge.sweep
+            du, dv = arcs.minus(edge.start, edge.center)
+            eu, ev = arcs.minus(edge.end, edge.center)
+            total += 0.5 * (r * r * sweep - (du * ev - eu * dv))
+    return total
+
+
+def contains(loop: Iterable[Edge], point: Point) -> bool:
+    """Whether a loop runs round a point that lies on none of its edges: by how often it turns about it."""
+    angle = 0.0
+    for edge in loop:
+        (au, av), (bu, bv) = arcs.minus(edge.start, point), arcs.minus(edge.end, point)
+        angle += atan2(au * bv - av * bu, au * bu + av * bv)
+        if edge.center is not None and arcs.radius_of(edge.center, point) < arcs.radius_of(
+            edge.center, edge.end
+        ):
+            # Between chord and arc the arc goes round the point on its other side.
+            cross = (edge.end[0] - edge.start[0]) * (point[1] - edge.start[1]) - (
+                edge.end[1] - edge.start[1]
+            ) * (point[0] - edge.start[0])
+            if (cross < 0.0) is edge.ccw:
+                angle += 2.0 * pi if edge.ccw else -2.0 * pi
+    return round(angle / (2.0 * pi)) % 2 != 0
+
+
+def is_free(loops: Sequence[Loop], point: Point, *, free_outside: bool = False) -> bool:
+    """Whether a point lies on the free side of all walls."""
+    return (sum(contains(loop, point) for loop in loops) % 2 != 0) is not free_outside
+
+
+# ---- distances
+
+
+def clearance(loops: Iterable[Loop], point: Point) -> float:
+    """Distance of a point from the nearest wall, mm."""
+    return min(distance.of_point(point, edge) for loop in loops for edge in loop)
+
+
+def room_along(loops: Iterable[Loop], edge: Edge) -> float:
+    """Smallest distance of an edge from the walls, mm."""
+    return min(distance.between(edge, wall) for loop in loops for wall in loop)
+
+
+def nearest(loops: Iterable[Loop], point: Point) -> Point:
+    """The point of the walls that is nearest to a point."""
+    places = [distance.nearest_point(point, edge) for loop in loops for edge in loop]
+    return min(places, key=lambda place: arcs.radius_of(place, point))
+
+
+# ---- loops at a distance
+
+
+def loops_at(loops: Sequence[Loop], away: float) -> list[Loop]:
+    """All loops at a distance from walls that have their free side on the left; none where nothing is left.
+
+    Raises:
+        RegionError: Rounding leaves a way open, or one too near to a wall.
+    """
+    # Of walls only those count whose box, widened by the distance, is met: most do not.
+    boxed = [(edge, _box(edge, away)) for loop in loops for edge in loop]
+    pieces = []
+    for piece in _split(_raw(loops, away)):
+        middle = _middle(piece)
+        here = (*middle, *middle)
+        if all(
+            distance.of_point(middle, edge) >= away - NEARER_MM for edge, box in boxed if _overlap(box, here)
+        ):
+            pieces.append(piece)
+    for piece in pieces:
+        around = _box(piece, 0.0)
+        if any(
+            distance.between(piece, edge) < away - 10.0 * NEARER_MM
+            for edge, box in boxed
+            if _overlap(box, around)
+        ):
+            raise RegionError("too near")
+    return _chained(pieces)
+
+
+def _raw(loops: Sequence[Loop], away: float) -> list[Edge]:
+    """Parallels of all edges, and arcs about the corners that point into the free side."""
+    result: list[Edge] = []
+    for loop in loops:
+        for edge, follower in zip(loop, [*loop[1:], loop[0]], strict=True):
+            end = _beside(edge.end, edge.arriving, away)
+            if edge.center is None:
+                result.append(offset.line(_beside(edge.start, edge.departing, away), end))
+            else:
+                radius = offset.offset_radius(arcs.radius_of(edge.center, edge.end), away, edge.ccw)
+                if radius > NEARER_MM:
+                    start = _beside(edge.start, edge.departing, away)
+                    result.append(offset.arc(start, end, edge.center, edge.ccw))
+            if offset.turn(edge, follower) < -_TINY_TURN:
+                onto = _beside(follower.start, follower.departing, away)
+                if arcs.radius_of(end, onto) > _SHORT_MM:
+                    result.append(offset.arc(end, onto, edge.end, ccw=False))
+    return result
+
+
+def _beside(point: Point, direction: Point, away: float) -> Point:
+    return arcs.plus(point, offset.square(direction, away))
+
+
+def _split(edges: Sequence[Edge]) -> list[Edge]:
+    """Edges cut wherever two of them meet."""
+    boxes = [_box(edge, _JOINED_MM) for edge in edges]
+    cuts: list[list[Point]] = [[] for _ in edges]
+    for i, a in enumerate(edges):
+        for j in range(i + 1, len(edges)):
+            if _overlap(boxes[i], boxes[j]):
+                b = edges[j]
+                found = [*meetings(a, b), b.start, b.end, a.start, a.end]
+                cuts[i] += [p for p in found if distance.of_point(p, a) <= _JOINED_MM]
+                cuts[j] += [p for p in found if distance.of_point(p, b) <= _JOINED_MM]
+    return [part for edge, points in zip(edges, cuts, strict=True) for part in _parts(edge, points)]
+
+
+def _parts(edge: Edge, points: list[Point]) -> list[Edge]:
+    """An edge between points on it."""
+    result = []
+    at = edge.start
+    for point in [*sorted(points, key=lambda p: _along(edge, p)), edge.end]:
+        if arcs.radius_of(at, point) > _JOINED_MM:
+            result.append(piece_of(edge, at, point))
+            at = point
+    return result
+
+
+def piece_of(edge: Edge, start: Point, end: Point) -> Edge:
+    """The part of an edge between two points on it."""
+    return offset.line(start, end) if edge.center is None else offset.arc(start, end, edge.center, edge.ccw)
+
+
+def _along(edge: Edge, point: Point) -> float:
+    """How far along an edge a point on it lies, as a measure for sorting."""
+    if edge.center is None:
+        du, dv = arcs.minus(point, edge.start)
+        return du * edge.departing[0] + dv * edge.departing[1]
+    if arcs.radius_of(edge.start, point) <= _JOINED_MM:
+        return 0.0
+    if arcs.radius_of(edge.end, point) <= _JOINED_MM:
+        return edge.sweep
+    return abs(arcs.sweep_angle(edge.start, point, edge.center, edge.ccw))
+
+
+def _middle(edge: Edge) -> Point:
+    if edge.center is None:
+        return 0.5 * (edge.start[0] + edge.end[0]), 0.5 * (edge.start[1] + edge.end[1])
+    return arcs.point_on_arc(edge.start, edge.end, edge.center, edge.ccw, 0.5)
+
+
+def meetings(a: Edge, b: Edge) -> list[Point]:
+    """Points that lie on both of two edges, as far as these are not parallel."""
+    if a.center is None and b.center is None and a.end == b.start:
+        return [a.end]
+    return [
+        point
+        for point in offset.crossings(a, b, 0.0, 0.0)
+        if distance.of_point(point, a) <= _JOINED_MM and distance.of_point(point, b) <= _JOINED_MM
+    ]
+
+
+def _chained(pieces: list[Edge]) -> list[Loop]:
+    """Loops out of pieces, each going on with the one that begins nearest to where it ends."""
+    left = dict(enumerate(pieces))
+    begins: dict[tuple[int, int], list[int]] = {}
+    for number, piece in left.items():
+        begins.setdefault(_square(piece.start), []).append(number)
+    result: list[Loop] = []
+    while left:
+        first = next(iter(left))
+        loop = [left.pop(first)]
+        while arcs.radius_of(loop[0].start, loop[-1].end) > 2.0 * _JOINED_MM:
+            follower = _follower(loop[-1].end, left, begins)
+            if follower is None:
+                raise RegionError("open way")
+            loop.append(left.pop(follower))
+        result.append(loop)
+    return [loop for loop in result if sum(edge.length for edge in loop) > 4.0 * _JOINED_MM]
+
+
+def _square(point: Point) -> tuple[int, int]:
+    return round(point[0] / _SQUARE_MM), round(point[1] / _SQUARE_MM)
+
+
+def _follower(at: Point, left: dict[int, Edge], begins: dict[tuple[int, int], list[int]]) -> int | None:
+    """The piece that begins at a point; None for none."""
+    u, v = _square(at)
+    best, least = None, 4.0 * _JOINED_MM
+    for du in (-1, 0, 1):
+        for dv in (-1, 0, 1):
+            for number in begins.get((u + du, v + dv), ()):
+                if number in left and arcs.radius_of(left[number].start, at) < least:
+                    best, least = number, arcs.radius_of(left[number].start, at)
+    return best
+
+
+# ---- boxes
+
+Box = tuple[float, float, float, float]
+
+
+def _box(edge: Edge, more: float) -> Box:
+    """The rectangle round an edge: of an arc that round its circle."""
+    if edge.center is None:
+        (u0, v0), (u1, v1) = edge.start, edge.end
+        return min(u0, u1) - more, min(v0, v1) - more, max(u0, u1) + more, max(v0, v1) + more
+    r = arcs.radius_of(edge.center, edge.end) + more
+    u, v = edge.center
+    return u - r, v - r, u + r, v + r
+
+
+def _overlap(a: Box, b: Box) -> bool:
+    return a[0] <= b[2] and b[0] <= a[2] and a[1] <= b[3] and b[1] <= a[3]
+
+
+def bounds(loops: Iterable[Loop]) -> Box:
+    """The rectangle round loops."""
+    boxes = [_box(edge, 0.0) for loop in loops for edge in loop]
+    return (
+        min(box[0] for box in boxes),
+        min(box[1] for box in boxes),
+        max(box[2] for box in boxes),
+        max(box[3] for box in boxes),
+    )
+
+
+def size(box: Box) -> float:
+    """Length of the diagonal of a rectangle, mm."""
+    return hypot(box[2] - box[0], box[3] - box[1])
