@@ -139,6 +139,21 @@ def set_here(screen: ScreenState) -> None:
     SOURCES[column.source].here(screen.control, column, row)
 
 
+def restore(screen: ScreenState) -> None:
+    """The row at the cursor has its delivered values again."""
+    table, _, row = _field(screen)
+    for column in table.spec.columns:
+        SOURCES[column.source].restore(screen.control, column, row)
+
+
+def restore_all(screen: ScreenState) -> None:
+    """All rows have their delivered values again."""
+    table, _, _ = _field(screen)
+    for row in table.numbers:
+        for column in table.spec.columns:
+            SOURCES[column.source].restore(screen.control, column, row)
+
+
 def origin(screen: ScreenState) -> None:
     """ORIGIN: the relative coordinate of the axis that is keyed in becomes 0, or what is keyed in behind it."""
     snapshot = screen.control.snapshot
@@ -324,6 +339,8 @@ ACTIONS: dict[str, Action] = {
     "measure": measure,
     "set-here": set_here,
     "counter-input": counter_input,
+    "restore": restore,
+    "restore-all": restore_all,
     "origin": origin,
     "clear": clear,
     "search-program": search_program,

@@ -84,7 +84,7 @@ class Screen(ScreenState):
         elif key == "RESET":
             self.control.reset()
             self.buffer = ""
-        elif key == "MENU":
+        elif key in ("MENU", self.family.next_key):
             self._turn_menu()
         elif key == "RETURN":
             self.menu, self.turned = self.page.menu, 0
@@ -133,7 +133,9 @@ class Screen(ScreenState):
             return
         key = keys[index]
         try:
-            if key.action:
+            if key.action == "next-keys":
+                self._turn_menu()
+            elif key.action:
                 ACTIONS[key.action](self)
             if key.switch or key.signal:
                 self.turn_over(key)

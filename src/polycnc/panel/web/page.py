@@ -169,6 +169,8 @@ class Page:
                 for name in self._editing():
                     # Two legends stand one above the other.
                     label = EDITING.get(name, name).replace("/", "/ ")
+                    if name == "MENU":
+                        label = screen.family.next_key or label
                     self._key(label, partial(desk.do, "screen_key", key=name), hint=name)
             for letters in screen.family.letters:
                 with ui.element("div").classes("row"):

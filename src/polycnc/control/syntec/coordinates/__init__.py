@@ -1,1 +1,1 @@
-"""Coordinate systems of SYNTEC: `systems` (G52 to G59, G68, G10), `length` (G43), `tool_setting` (G37)."""
+"""Coordinate systems of SYNTEC: `systems` (G52 to G59, G68, G10), `turns` (G54.4), `length`, `tool_setting` (G37)."""
