@@ -10,6 +10,7 @@ from polycnc.control.fanuc.lathe.tools import screens as lathe
 from polycnc.control.fanuc.lathe.tools.screens import Page
 from polycnc.deferred.regexes import regex
 from polycnc.mainrun import CommandRefused
+from polycnc.panel.screens import forms
 from polycnc.panel.screens.sources import SOURCES
 from polycnc.panel.screens.tables import Table
 from polycnc.panel.screens.transfer import Transfer, begin_transfer
@@ -364,4 +365,10 @@ ACTIONS: dict[str, Action] = {
     "execute": execute,
     "cancel": cancel,
     "run-from-card": run_from_card,
+    "open-cycle": forms.open_cycle,
+    "insert-call": forms.insert_call,
+    "enter": forms.enter,
+    "toggle": forms.toggle,
+    "acknowledge": forms.acknowledge,
+    "go-to-step": forms.go_to_step,
 }

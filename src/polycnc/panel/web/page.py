@@ -181,7 +181,7 @@ class Page:
         """Keys that edit: those of the MDI unit, where its manual names them."""
         units = self._desk.panel.description.mdi_units
         if not units:
-            return list(EDITING)
+            return [*EDITING, *self._desk.screen.family.more_keys]
         return ["RETURN", "MENU", *(key for key in units[0].keys if key not in self._desk.screen.family.keys)]
 
     # ---- the machine panel ---------------------------------------------------------------------------------
