@@ -165,7 +165,7 @@ class Page:
             with ui.element("div").classes("row"):
                 for name in screen.family.keys:
                     self._key(name, partial(desk.do, "screen_key", key=name))
-            with ui.element("div").classes("row"):
+            with ui.element("div").classes("row edit"):
                 for name in self._editing():
                     # Two legends stand one above the other.
                     label = EDITING.get(name, name).replace("/", "/ ")
