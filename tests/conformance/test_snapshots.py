@@ -34,6 +34,8 @@ CASES = [
 SOME = [(case, name, path) for case, name, path in CASES if not case.operate][::EVERY]
 #: States by the names of their classes, each with a case that changes it, such that it is changed between two blocks.
 CHANGED_BY = {
+    "ChosenSet": "syntec-conditions",
+    "OperatorScreen": "sin-seform",
     "ArcState": "syntec-move-full-circle",
     "ArrivalState": "fanuc-0i-tf-s-makes-a-hole-wait",
     "AxisSettings": "sinumerik-scpara",
@@ -130,7 +132,7 @@ CHANGED_BY = {
     "SpindleState": "syntec-move-surface-speed-axis",
     "Spindles": "sin-auxiliary-functions",
     "Splines": "sin-bspline-weight-pulls",
-    "Stored": "sin-seform",
+    "Stored": "sinumerik-markers-keep-the-look-ahead",
     "Tangential": "sin-tang-words-of-the-axis",
     "ThreadDepthState": "fanuc-0i-tf-g76-least-depth",
     "ThreadState": "fanuc-0i-tf-largest-lead",

@@ -23,6 +23,8 @@ TABLES = (
     retained.VARIABLES,
     retained.VARIABLE_NAMES,
     retained.WORK_SHIFT,
+    retained.WORK_TURNS,
+    retained.MACHINING_CONDITIONS,
     retained.REGISTERS,
     retained.PARAMETERS,
     retained.TOOLS,

@@ -324,7 +324,10 @@ class VirtualControl:
         self._commands.power_off()
 
     def power_on(self) -> None:
-        """Switch on again: as after reset; machines without absolute encoders have to return to their references."""
+        """Switch on again: codes and values that live as long as the power are as at first, the axes where they were.
+
+        Machines without absolute encoders have to return to their references.
+        """
         self._commands.power_on()
 
     def close(self) -> None:

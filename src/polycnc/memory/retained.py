@@ -18,6 +18,8 @@ TOOL_OFFSETS = "tool offsets"
 VARIABLES = "variables"
 VARIABLE_NAMES = "variable names"
 WORK_SHIFT = "work shift"
+WORK_TURNS = "work turns"
+MACHINING_CONDITIONS = "machining conditions"
 REGISTERS = "registers"
 PARAMETERS = "parameters"
 TOOLS = "tools"
@@ -30,8 +32,8 @@ MESSAGES = "messages"
 PANEL = "panel"
 #: The tables that programs read and write.
 DATA = (
-    WORK_OFFSETS, TOOL_OFFSETS, VARIABLES, VARIABLE_NAMES, WORK_SHIFT, REGISTERS, PARAMETERS, TOOLS, TOOL_CARRIERS,
-    USER_VARIABLES,
+    WORK_OFFSETS, TOOL_OFFSETS, VARIABLES, VARIABLE_NAMES, WORK_SHIFT, WORK_TURNS, MACHINING_CONDITIONS, REGISTERS,
+    PARAMETERS, TOOLS, TOOL_CARRIERS, USER_VARIABLES,
 )  # fmt: skip
 
 

@@ -67,23 +67,6 @@ def test_the_picture_has_the_path_and_the_trail(address: str, tmp_path: Path) ->
     asyncio.run(journey())
 
 
-@pytest.mark.parametrize(("width", "height"), [(1280, 800), (1920, 1080), (1024, 768), (768, 1024)])
-def test_the_page_fits_into_screens_and_tablets(
-    address: str, tmp_path: Path, width: int, height: int
-) -> None:
-    async def journey() -> None:
-        async with browser(f"http://{address}/", tmp_path / "profile", free_port()) as page:
-            await page.sized(width, height)
-            await page.until("!!document.querySelector('.crt-body td')")
-            wide = "document.documentElement.scrollWidth <= innerWidth"
-            assert await page.evaluate(_FITS if width >= 1280 else wide)
-            assert await page.evaluate("document.querySelector('.crt').getBoundingClientRect().height >= 400")
-            heights = "[...document.querySelectorAll('button.k')].map(key => key.offsetHeight)"
-            assert min(filter(None, await page.evaluate(heights))) >= 36
-
-    asyncio.run(journey())
-
-
 @pytest.mark.skipif(AXE is None, reason="axe-core is not installed")
 def test_axe_finds_nothing_serious(address: str, tmp_path: Path) -> None:
     assert AXE is not None

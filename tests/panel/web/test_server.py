@@ -105,6 +105,16 @@ async def talk(address: str, *messages: object) -> list[object]:
     return answers
 
 
+def sheet_with(address: str, word: str) -> str:
+    """The result sheet of an exercise once it has a word."""
+    until, sheet = monotonic() + PATIENCE_S, ""
+    while monotonic() < until and word not in sheet:
+        (answer,) = asyncio.run(talk(address, {"do": "lesson"}))
+        assert isinstance(answer, dict)
+        sheet = answer["ok"]
+    return sheet
+
+
 def test_the_panel_is_served_and_answers(address: str, tmp_path: Path) -> None:
     assert status(address) == 200
     assert status(address, Origin="http://elsewhere.example") == 403
@@ -126,19 +136,9 @@ def test_an_exercise_is_served_and_its_sheet_and_record_are_written(tmp_path: Pa
     words = ["--exercise", f"{exercises}#low-air", "--sheet", "sheet.md", "--record", "session.jsonl"]
     with served(tmp_path, *words) as address:
         assert asyncio.run(talk(address, {"do": "press", "with": {"keys": ["START"]}})) == [{"ok": None}]
-        until, sheet = monotonic() + PATIENCE_S, ""
-        while monotonic() < until and "1051" not in sheet:
-            (answer,) = asyncio.run(talk(address, {"do": "lesson"}))
-            assert isinstance(answer, dict)
-            sheet = answer["ok"]
-        assert "1051" in sheet
+        assert "1051" in sheet_with(address, "1051")
     assert "2. [x]" in (tmp_path / "sheet.md").read_text(encoding="utf-8")
     recorded = (tmp_path / "session.jsonl").read_text(encoding="utf-8").splitlines()
     assert [json.loads(line).get("do") for line in recorded] == [None, "press"]
     with served(tmp_path, "--exercise", f"{exercises}#low-air", "--replay", "session.jsonl") as address:
-        until, sheet = monotonic() + PATIENCE_S, ""
-        while monotonic() < until and "1051" not in sheet:
-            (answer,) = asyncio.run(talk(address, {"do": "lesson"}))
-            assert isinstance(answer, dict)
-            sheet = answer["ok"]
-        assert "1051" in sheet
+        assert "1051" in sheet_with(address, "1051")

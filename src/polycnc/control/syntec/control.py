@@ -15,12 +15,12 @@ from polycnc.control.syntec.axis_groups import borrowing, groups, names
 from polycnc.control.syntec.builder import SyntecBuilder
 from polycnc.control.syntec.codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
 from polycnc.control.syntec.coordinates import systems
-from polycnc.control.syntec.coordinates.systems import TurnState
+from polycnc.control.syntec.coordinates.turns import TurnState
 from polycnc.control.syntec.five_axes import normal_direction, spatial, tilted, tip_control
 from polycnc.control.syntec.macros import calls, interrupts, single_block
 from polycnc.control.syntec.macros.variables import SpaceState, locals_of
 from polycnc.control.syntec.memory import SyntecMemory
-from polycnc.control.syntec.motion import arcs, dwell, moves, oscillation, polar, quiet, smoothing
+from polycnc.control.syntec.motion import arcs, conditions, dwell, moves, oscillation, polar, quiet, smoothing
 from polycnc.control.syntec.motion.moves import FeedState
 from polycnc.control.syntec.parameters import SyntecParameters
 from polycnc.control.syntec.plain import SyntecPlainBlocks
@@ -86,6 +86,7 @@ class SyntecMill(WordAddressControl):
         smoothing.smoothed,
         tip_control.following,
         tapping.finished,
+        conditions.bounded,
     )
     addresses: ClassVar[Mapping[str, Planner]] = ADDRESSES
     power_on: ClassVar[Mapping[str, str]] = POWER_ON

@@ -213,6 +213,7 @@ class ProgramCommands:
                 self._signals[f"NOT_REFERENCED_{axis}"] = 1.0
         for run in runs:
             run.forget_shift()
+        self._operation.starts_up = True
         self._operation.brake(State.BRAKING)
 
     def key(self, name: str, *, pressed: bool) -> None:

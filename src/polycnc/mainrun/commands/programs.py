@@ -95,7 +95,16 @@ class Programs:
             for each in self.all
             if wanted in (each.name.casefold(), f"{each.directory}/{each.name}".casefold())
         )
-        return next(exact, None) or self.store.kept(name) or self._by_number(name)
+        return next(exact, None) or self.store.kept(name) or self._by_number(name) or self._of_cycles(name)
+
+    def _of_cycles(self, name: str) -> Program | None:
+        """A text file of a cycle directory (`UC.COM`), the user's first; it is none of the programs that are listed."""
+        stored = names.stored_name(name.rpartition("/")[2])
+        if self._form is not Form.SINUMERIK or not stored.endswith("_COM"):
+            return None
+        there = self.copy()
+        found = (there.find_in(directory, stored) for directory in (*names.CYCLE_DIRS, _DIRECTORY))
+        return next((each for each in found if each is not None), None)
 
     def _by_number(self, name: str) -> Program | None:
         digits = name.strip().upper().removeprefix("O")

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from math import inf
+from dataclasses import replace
+from math import inf, nan
 from typing import TYPE_CHECKING, Protocol
 
 from polycnc.channel.channel import Channel
 from polycnc.channel.group import ChannelGroup
 from polycnc.channel.stack import LevelKind
+from polycnc.channel.states.state import Lifetime, end_of
 from polycnc.mainrun.axes.channel_axes import ChannelAxes
 from polycnc.mainrun.axes.machine_axes import MachineAxes
 from polycnc.mainrun.errors import CommandRefused
@@ -238,6 +240,21 @@ class ChannelRuns:
         except ArithmeticError as error:
             self._supervisor.failed(self._control.arithmetic_alarm(error))
         self._use(run)
+
+    def switch_on_again(self, run: ChannelRun) -> None:
+        """Power comes back to a channel that has been reset: what lived as long as the power begins anew.
+
+        The axes are where they were, and the tool is still in the spindle.
+        """
+        channel, here = run.channel, run.machine_position
+        tool = run.execution.context.tool_name or run.execution.context.tool
+        channel.stack.clear()
+        channel.feed = nan
+        end_of(channel, Lifetime.POWER)
+        begun = channel.setup
+        channel.setup = replace(begun, spindle_tool={**begun.spindle_tool, channel.number: tool})
+        self.switch_on(run)
+        run.stand_at(here)
 
     def _use(self, run: ChannelRun) -> None:
         """A channel, which stands, is executed from here on."""

@@ -78,6 +78,7 @@ class Operation:
         keys: What the keys do that are signals too, by name.
         program_mode: The mode in which the program was started that runs or waits.
         waiting_mode: The same of a program that waits while typed blocks run in its midst.
+        starts_up: The power has come back: what lived as long as it does begins anew once the axes stand.
         searched: A block search has come to its block; cycle start leads the axes there.
         collected: Auxiliary functions that the search has collected, by channel.
         mains: Channels whose programs the operator has started; programs start those of others.
@@ -103,7 +104,7 @@ class Operation:
         self.status, self._retained = status, retained
         self.keys: Mapping[str, Callable[[], None]] = {}
         self.program_mode = self.waiting_mode = Mode.AUTO
-        self.searched = False
+        self.searched = self.starts_up = False
         self.collected: dict[int, list[Happening]] = {}
         self.mains: set[int] = set()
         self._giving_up = self._returning = False
@@ -255,8 +256,11 @@ class Operation:
             run.give_up()
             if self.status.is_locked:
                 self.control.stop_spindles(run.channel)
+            if self.starts_up:
+                self.runs.switch_on_again(run)
             run.stand_at(position)
             self.prepare(run)
+        self.starts_up = False
         self._retained.commit()
         if not self.status.is_locked:
             self.status.show_alarms(())

@@ -10,6 +10,7 @@ from polycnc.control.fanuc.lathe.tools import screens as lathe
 from polycnc.control.fanuc.lathe.tools.screens import Page
 from polycnc.deferred.regexes import regex
 from polycnc.mainrun import CommandRefused
+from polycnc.panel.screens import forms
 from polycnc.panel.screens.sources import SOURCES
 from polycnc.panel.screens.tables import Table
 from polycnc.panel.screens.transfer import Transfer, begin_transfer
@@ -137,6 +138,21 @@ def set_here(screen: ScreenState) -> None:
     """SET: the field at the cursor is where the axis stands."""
     _, column, row = _field(screen)
     SOURCES[column.source].here(screen.control, column, row)
+
+
+def restore(screen: ScreenState) -> None:
+    """The row at the cursor has its delivered values again."""
+    table, _, row = _field(screen)
+    for column in table.spec.columns:
+        SOURCES[column.source].restore(screen.control, column, row)
+
+
+def restore_all(screen: ScreenState) -> None:
+    """All rows have their delivered values again."""
+    table, _, _ = _field(screen)
+    for row in table.numbers:
+        for column in table.spec.columns:
+            SOURCES[column.source].restore(screen.control, column, row)
 
 
 def origin(screen: ScreenState) -> None:
@@ -324,6 +340,8 @@ ACTIONS: dict[str, Action] = {
     "measure": measure,
     "set-here": set_here,
     "counter-input": counter_input,
+    "restore": restore,
+    "restore-all": restore_all,
     "origin": origin,
     "clear": clear,
     "search-program": search_program,
@@ -347,4 +365,10 @@ ACTIONS: dict[str, Action] = {
     "execute": execute,
     "cancel": cancel,
     "run-from-card": run_from_card,
+    "open-cycle": forms.open_cycle,
+    "insert-call": forms.insert_call,
+    "enter": forms.enter,
+    "toggle": forms.toggle,
+    "acknowledge": forms.acknowledge,
+    "go-to-step": forms.go_to_step,
 }

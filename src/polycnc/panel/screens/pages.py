@@ -124,7 +124,7 @@ class WindowSpec:
     shown: int = 17
     exists: str = ""
     columns: tuple[Column, ...] = ()
-    labels: tuple[str, ...] = ()
+    labels: tuple[Text, ...] = ()
     words: Mapping[str, Text] = field(default_factory=dict)
 
 
@@ -194,6 +194,8 @@ class Family:
         axis_parameters: Parameters that every axis has its own of stand in a row for each axis.
         sequence: How the title line writes the block number (`N{n:05}`); empty for not at all.
         measures: It has measured input B.
+        next_key: What the key ▷ is called on this control; empty for ▷.
+        more_keys: Keys that edit, beside those that every control has.
         tasks: The maintenance schedule of the machine; `periods` and `works` have its words by their ids.
         data_mode: The mode in which data are transferred; empty for every mode.
         message_line: Messages have a line of their own, beside that of alarms.
@@ -220,6 +222,8 @@ class Family:
     periods: Mapping[str, Text] = field(default_factory=dict)
     works: Mapping[str, Text] = field(default_factory=dict)
     message_line: bool = False
+    next_key: str = ""
+    more_keys: tuple[str, ...] = ()
 
 
 @cache
@@ -258,6 +262,8 @@ def family_of(control: str) -> Family:
         periods=merged.get("periods", {}),
         works=merged.get("works", {}),
         message_line=merged.get("message_line", False),
+        next_key=merged.get("next_key", ""),
+        more_keys=tuple(merged.get("more_keys", ())),
     )
 
 

@@ -18,6 +18,7 @@ from polycnc.mainrun import CommandRefused, Mode
 from polycnc.messages import UserError
 from polycnc.messages.catalogue import language
 from polycnc.panel.screens.actions import ACTIONS, calculate, insert, set_value
+from polycnc.panel.screens.forms import enter, follow_dialog
 from polycnc.panel.screens.operate import state_of
 from polycnc.panel.screens.pages import SoftKey, in_language
 from polycnc.panel.screens.state import ScreenState
@@ -35,7 +36,9 @@ _NUMBERED = regex(r"\s*/?\d?\s*[Nn](\d+)")
 LONGEST_BUFFER = 127
 #: Keys whose name is not what they type.
 _SIGNS = {"EOB": ";", "SPACE": " "}
-_EDITING = frozenset(("CAN", "RUBOUT", "CANCEL_BLOCK", "CALC", "INPUT", "INSERT", "ALTER", "DELETE"))
+_EDITING = frozenset(
+    ("CAN", "RUBOUT", "CANCEL_BLOCK", "CALC", "INPUT", "INSERT", "ALTER", "DELETE", "SELECT")
+)
 _MOVES = {"UP": (-1, 0), "DOWN": (1, 0), "LEFT": (0, -1), "RIGHT": (0, 1)}
 
 
@@ -58,6 +61,11 @@ class Screen(ScreenState):
             self._press(key)
         except UserError as refusal:
             self.refusal = refusal
+
+    def follow(self) -> None:
+        """Note alarms and dialogs of the program, and go on with what takes time; called while time passes."""
+        super().follow()
+        follow_dialog(self)
 
     def _press(self, key: str) -> None:
         if key == "SHIFT" and self.family.dual:
@@ -84,7 +92,7 @@ class Screen(ScreenState):
         elif key == "RESET":
             self.control.reset()
             self.buffer = ""
-        elif key == "MENU":
+        elif key in ("MENU", self.family.next_key):
             self._turn_menu()
         elif key == "RETURN":
             self.menu, self.turned = self.page.menu, 0
@@ -96,7 +104,7 @@ class Screen(ScreenState):
     @property
     def _reads_program(self) -> bool:
         """Whether the cursor stands in a program, where a text that has been keyed in is looked for."""
-        return self.shows("program") and self.table is None
+        return self.shows("program") and self.table is None and not self.shows("mask")
 
     def _edit(self, key: str) -> None:
         """A key that changes the key-in buffer, or enters it."""
@@ -107,7 +115,9 @@ class Screen(ScreenState):
         elif key == "CALC":
             calculate(self)
         elif key == "INPUT":
-            (insert if self.shows("mdi") else set_value)(self)
+            (insert if self.shows("mdi") else enter if self.shows("mask") else set_value)(self)
+        elif key == "SELECT":
+            ACTIONS["toggle"](self)
         elif key in ("INSERT", "ALTER"):
             insert(self)
         elif self.shows("mdi"):
@@ -133,7 +143,9 @@ class Screen(ScreenState):
             return
         key = keys[index]
         try:
-            if key.action:
+            if key.action == "next-keys":
+                self._turn_menu()
+            elif key.action:
                 ACTIONS[key.action](self)
             if key.switch or key.signal:
                 self.turn_over(key)

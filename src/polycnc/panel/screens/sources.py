@@ -10,6 +10,9 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from polycnc.control.fanuc.lathe.tools import screens as lathe
 from polycnc.control.fanuc.lathe.tools.screens import RADIUS, TIP, Page
+from polycnc.control.syntec.coordinates import turns
+from polycnc.control.syntec.coordinates.systems import WORK_SYSTEMS
+from polycnc.control.syntec.motion import conditions
 from polycnc.mainrun import CommandRefused
 
 if TYPE_CHECKING:
@@ -61,6 +64,10 @@ class Source:
 
     def here(self, control: VirtualControl, column: Column, row: int) -> None:
         """SET: the present position."""
+        raise CommandRefused("screen.no-field")
+
+    def restore(self, control: VirtualControl, column: Column, row: int) -> None:
+        """The delivered value comes back."""
         raise CommandRefused("screen.no-field")
 
 
@@ -190,6 +197,44 @@ class Barrier(Source):
         control.change(partial(lathe.set_barrier_here, page=self._page, symbol=self._symbols[row - 1]))
 
 
+class WorkTurn(Source):
+    """Coordinate rotation page of SYNTEC (2.39.2): rows are work systems, G54 P1 to P100; columns X, Y, Z."""
+
+    def read(self, control: VirtualControl, column: Column, row: int) -> object:
+        """An angle, degrees."""
+        return turns.angle(control.channel, WORK_SYSTEMS[row - 1], "XYZ".index(column.variable))
+
+    def write(
+        self, control: VirtualControl, column: Column, row: int, value: float | str, latched: Latched
+    ) -> None:
+        """An angle; it acts when the rotation or the tool length is called next."""
+        axis, system = "XYZ".index(column.variable), WORK_SYSTEMS[row - 1]
+        control.change(partial(turns.set_angle, system=system, axis=axis, value=float(value)))
+
+
+class ConditionSets(Source):
+    """The nine sets of machining conditions of SYNTEC (2.67.1)."""
+
+    def read(self, control: VirtualControl, column: Column, row: int) -> object:
+        """What a set has, or what it is delivered with."""
+        delivered = column.variable == "delivered"
+        return conditions.DELIVERED if delivered else conditions.speed(control.channel, row)
+
+    def write(
+        self, control: VirtualControl, column: Column, row: int, value: float | str, latched: Latched
+    ) -> None:
+        """Another value; none below 0."""
+        if column.variable == "delivered":
+            raise CommandRefused("screen.no-field")
+        if float(value) < 0.0:
+            raise CommandRefused("screen.value", value=f"{value:g}")
+        control.change(partial(conditions.set_speed, number=row, value=float(value)))
+
+    def restore(self, control: VirtualControl, column: Column, row: int) -> None:
+        """The delivered value comes back."""
+        control.change(partial(conditions.set_speed, number=row, value=conditions.DELIVERED))
+
+
 SOURCES: dict[str, Source] = {
     "": Variables(),
     "work": WorkOffsets(),
@@ -199,4 +244,6 @@ SOURCES: dict[str, Source] = {
     "work-shift": WorkShift(),
     "chuck": Barrier("chuck"),
     "tailstock": Barrier("tailstock"),
+    "work-turn": WorkTurn(),
+    "conditions": ConditionSets(),
 }

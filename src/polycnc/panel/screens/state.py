@@ -19,8 +19,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
     from polycnc.control.parameters import KnownParameter
+    from polycnc.control.sinumerik.variables.dialogs import Dialog
     from polycnc.mainrun import VirtualControl
     from polycnc.mainrun.reading.snapshot import Record, Snapshot
+    from polycnc.panel.screens.masks import Mask, MaskInput
     from polycnc.panel.screens.pages import Column, Page, SoftKey, WindowSpec
 
 #: The signal of the button that keeps the position.
@@ -73,6 +75,11 @@ class ScreenState:
         measuring: Measured input B; None on controls without it.
         writes_parameters: Parameters may be written.
         clock: The time of day.
+        mask: The mask that is filled in; None for none.
+        listed: The user's cycles as they were when the page came upon the screen.
+        sections: Lines of a program, and its sections: row, level, name.
+        dialog: The dialog of the program that is shown, since `dialog_since` (simulated time, s); the page that it lies
+            upon is `behind_dialog`.
         program_row: Row of the cursor in the program; None where the window follows the block in execution.
         interrupted: The block of the main program that was last in execution.
 
@@ -104,6 +111,11 @@ class ScreenState:
         control.listeners.append(self._hear)
         self.clock: Callable[[], datetime] = lambda: datetime.now(UTC).astimezone()
         self._came: dict[str, datetime] = {}
+        self.mask: MaskInput | None = None
+        self.listed: tuple[Mask, ...] | None = None
+        self.sections: tuple[object, tuple[tuple[int, int, str], ...]] = (None, ())
+        self.dialog: Dialog | None = None
+        self.dialog_since, self.behind_dialog = 0.0, self.page.id
         self._cursors: dict[str, tuple[int, int]] = {}
         self.program_row: int | None = None
         self.interrupted = ActiveBlock()
@@ -117,6 +129,7 @@ class ScreenState:
         """Turn to a page."""
         if self.pending is not None and not self.pending.status:
             self.pending = None
+        self.listed = None
         shown = self._pages[page]
         self.page = self._present(shown if self.holds(shown.when) else self._pages[shown.instead])
         self.menu, self.turned = self.page.menu, 0
@@ -227,7 +240,7 @@ class ScreenState:
         (row, column), table = self.cursor, self.table
         if self.measuring is not None and self.measuring.leads_cursor:
             return
-        if self.shows("program") and table is None:
+        if self.shows("program") and table is None and not self.shows("mask"):
             self.look_at((self.program_row if self.program_row is not None else self.running_row) + rows)
             return
         row, column = row + rows, column + columns

@@ -92,7 +92,8 @@ def rows_of(screen: ScreenState, spec: WindowSpec, lang: str) -> Rows:
     heads = (Cell("", "label"), *(Cell(in_language(column.head, lang), "label") for column in spec.columns))
     rows = [heads]
     for place, number in enumerate(present[first : first + spec.shown], first):
-        name = spec.labels[place] if place < len(spec.labels) else spec.label.format(n=number)
+        own = spec.labels[place] if place < len(spec.labels) else spec.label.format(n=number)
+        name = in_language(own, lang)
         fields = (
             Cell(table.text(column, number, screen.digits), "value", cursor=(number, i) == (row, at))
             for i, column in enumerate(spec.columns)

@@ -11,7 +11,7 @@ from polycnc.deferred.records import dataclass
 from polycnc.deferred.regexes import regex
 from polycnc.messages import text
 from polycnc.panel.description import RETURNED, is_returned
-from polycnc.panel.screens import operate, tables
+from polycnc.panel.screens import forms, operate, tables
 from polycnc.panel.screens.pages import in_language
 from polycnc.panel.screens.view import Cell, Window
 
@@ -391,6 +391,10 @@ KINDS: dict[str, Reader] = {
     "message-list": lambda at: operate.message_list(at.screen, at.snapshot, at.lang),
     "channel-state": lambda at: operate.channel_state(at.spec.words, at.snapshot, at.lang),
     "blank": lambda at: operate.blank(at.screen, at.lang),
+    "cycles": lambda at: forms.cycles(at.screen, at.spec.shown),
+    "mask": lambda at: forms.mask(at.screen, at.spec.shown),
+    "dialog": lambda at: forms.dialog(at.screen, at.lang),
+    "steps": lambda at: forms.steps(at.screen, at.spec.shown),
     "graph": _graph,
     "maintenance": _maintenance,
 }

@@ -165,10 +165,12 @@ class Page:
             with ui.element("div").classes("row"):
                 for name in screen.family.keys:
                     self._key(name, partial(desk.do, "screen_key", key=name))
-            with ui.element("div").classes("row"):
+            with ui.element("div").classes("row edit"):
                 for name in self._editing():
                     # Two legends stand one above the other.
                     label = EDITING.get(name, name).replace("/", "/ ")
+                    if name == "MENU":
+                        label = screen.family.next_key or label
                     self._key(label, partial(desk.do, "screen_key", key=name), hint=name)
             for letters in screen.family.letters:
                 with ui.element("div").classes("row"):
@@ -179,7 +181,7 @@ class Page:
         """Keys that edit: those of the MDI unit, where its manual names them."""
         units = self._desk.panel.description.mdi_units
         if not units:
-            return list(EDITING)
+            return [*EDITING, *self._desk.screen.family.more_keys]
         return ["RETURN", "MENU", *(key for key in units[0].keys if key not in self._desk.screen.family.keys)]
 
     # ---- the machine panel ---------------------------------------------------------------------------------

@@ -28,6 +28,7 @@ from polycnc.control.sinumerik.tangential import definitions as tangential
 from polycnc.control.sinumerik.tools import d_numbers, online
 from polycnc.control.sinumerik.tools.management import lists, magazines, monitoring
 from polycnc.control.sinumerik.transformations import seat, selection, start
+from polycnc.control.sinumerik.variables import dialogs
 from polycnc.control.sinumerik.variables.stored import Stored
 from polycnc.language.sinumerik.names.initialisation import NEW_CONFIGURATION, initialise
 from polycnc.messages import Alarm, AlarmError
@@ -204,7 +205,7 @@ def section_of_program(channel: SinumerikChannel, args: Arguments) -> None:
     if len(args) != 3 or not isinstance(args[0], str) or not isinstance(args[2], str):
         raise AlarmError("14020", text="SEFORM")
     arguments.whole(args[1])
-    Stored.of(channel).values["SEFORM", ()] = args[0]
+    dialogs.begin_section(channel, args[0])
 
 
 def editor_mark(_channel: SinumerikChannel, _args: Arguments) -> None:
@@ -242,6 +243,7 @@ PROCEDURES: dict[str, Callable[[SinumerikChannel, Arguments], None]] = {
     "NEWCONF": new_configuration,
     "CHANDATA": channel_data,
     "SEFORM": section_of_program,
+    "MMC": dialogs.call,
     "DIAMCHAN": diameters_of_channel,
     "WORKPIECE": workpiece,
     "GROUP_BEGIN": editor_mark,

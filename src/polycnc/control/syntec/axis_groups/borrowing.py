@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.channel.waits import Wait, Why
 from polycnc.control.syntec.axis_groups.names import CODES, axis_of_code
-from polycnc.control.syntec.coordinates.systems import TurnState
+from polycnc.control.syntec.coordinates.turns import TurnState
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.deferred.records import dataclass
 
@@ -123,7 +123,7 @@ def _axes(channel: SyntecChannel, words: Words) -> list[int]:
     codes = [words.typed(letter) for letter in "PQR" if letter in words]
     if any(code is not None and code != int(code) for code in codes):
         raise words.fail("axis_borrowing_type", "P")
-    bound = channel.coordinates.transformation is not None or not TurnState.of(channel).tilt.is_identity
+    bound = channel.coordinates.transformation is not None or not TurnState.of(channel).plane.is_identity
     axes = [axis_of_code(channel, code) for code in codes if code is not None and code in CODES]
     if not axes or len(axes) != len(codes) or bound or any(a < 0 or not roams(channel, a) for a in axes):
         raise words.fail("axis_borrowing", "P")

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.channel.states.state import Lifetime, State, lasting
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.syntec.axis_groups.names import map_virtual_axis
+from polycnc.control.syntec.coordinates.turns import TurnState, renew_preset_frame, renew_work_turn
 from polycnc.control.syntec.five_axes.spatial import choose_corners
+from polycnc.control.syntec.motion import conditions
 from polycnc.control.syntec.motion.polar import switch_polar
 from polycnc.control.syntec.units import least_unit
 from polycnc.control.word_address.block.words import Words
@@ -21,12 +23,11 @@ from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, about, scaling
 from polycnc.geometry.planes import PLANES
 from polycnc.language.syntec.values import to_long
-from polycnc.machine.kinematics import turn_about
 
 if TYPE_CHECKING:
     from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.syntec.memory import SyntecMemory
-    from polycnc.geometry.frames import Frame, Vector
+    from polycnc.geometry.frames import Vector
 
 #: Names of the work coordinate systems G54 P1 … P100 in the memory of offsets.
 WORK_SYSTEMS = (
@@ -37,26 +38,8 @@ WORK_SYSTEMS = (
 REFERENCE_POINTS = (1, 2, 3, 4)
 #: Axes that G28, G29 and G30 move.
 REFERABLE_AXES = frozenset({*"XYZUVWABC", "X1", "Y1", "Z1", "X2", "Y2", "Z2"})
-MACHINING_CONDITIONS = frozenset({*range(10), 21, 22, 23})
 WORK_OFFSET, SPATIAL_CORNERS, VIRTUAL_AXIS, REGISTER_INPUT, POLAR_PAIR = 2, 450, 801, 1000, 1301
 LAST_REGISTER = 65535
-
-
-@dataclass(slots=True)
-class TurnState(State, lifetime=Lifetime.RESET):
-    """How the work system is turned.
-
-    Attributes:
-        angle: Of G92.1 (#1930), degrees, about `axis` (#1931 to #1933).
-        tilt: Frame of the tilted plane in the work system; `table` is how the table has turned it since.
-        by_table: G54.4 P1 is active (#1849).
-    """
-
-    angle: float = lasting(Lifetime.POWER, 0.0)
-    axis: list[float] = lasting(Lifetime.POWER, factory=lambda: [0.0, 0.0, 1.0])
-    tilt: Frame = IDENTITY
-    table: Frame = IDENTITY
-    by_table: bool = False
 
 
 @dataclass(slots=True)
@@ -83,6 +66,7 @@ def select_work_system(channel: SyntecChannel, words: Words) -> None:
         state.system = WORK_SYSTEMS[int(number) - 1]
     if memory.parameters.without_work_systems == 1:
         state.system = NO_WORK_SYSTEM
+    renew_work_turn(channel)
     refresh_zero(channel)
 
 
@@ -139,16 +123,6 @@ def forget_preset_turn(memory: SyntecMemory) -> None:
     state = TurnState.of(memory.channel)
     state.angle, state.axis = 0.0, [0.0, 0.0, 1.0]
     renew_preset_frame(memory)
-
-
-def renew_preset_frame(memory: SyntecMemory) -> None:
-    """The zero frame follows #1930 to #1933 and the tilted plane."""
-    state = TurnState.of(memory.channel)
-    x, y, z = state.axis
-    turns = state.angle != 0.0 and x * x + y * y + z * z != 0.0
-    turn = turn_about((x, y, z), state.angle) if turns else IDENTITY
-    zero = ZeroState.of(memory.channel)
-    zero.frame, zero.table, zero.plane = turn, state.table, state.tilt
 
 
 # ---- reference points, stroke limits ---------------------------------------------------------------------
@@ -323,6 +297,9 @@ def _input_work_offset(channel: SyntecChannel, words: Words) -> None:
 def cutting_mode(channel: SyntecChannel, words: Words) -> None:
     """G61 to G64 [P]: P of G62 and G64 selects a set of machining conditions (2.40)."""
     condition = words.typed("P") if "P" in words else None
-    if condition is not None and condition not in MACHINING_CONDITIONS:
+    if condition is None:
+        channel.context_changed()
+    elif condition not in conditions.KNOWN:
         raise words.fail("condition_set", "P")
-    channel.context_changed()
+    else:
+        conditions.choose(channel, int(condition))

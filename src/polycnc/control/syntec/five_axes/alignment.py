@@ -9,7 +9,7 @@ from __future__ import annotations
 from math import nan
 from typing import TYPE_CHECKING
 
-from polycnc.control.syntec.coordinates.systems import TurnState, renew_preset_frame
+from polycnc.control.syntec.coordinates.turns import TurnState, renew_preset_frame
 from polycnc.control.syntec.five_axes import mechanism
 from polycnc.control.syntec.units import least_unit
 from polycnc.control.word_address.coordinates.systems import refresh_zero
@@ -126,7 +126,7 @@ def _angles(channel: SyntecChannel, words: Words, code: str) -> Angles:
         raise words.fail("align_way", "P")
     channel.flush()
     near = dict(zip(channel.axes, c.machine, strict=True))
-    wanted: Vector = state.tilt.direct(0.0, 0.0, 1.0)
+    wanted: Vector = state.plane.direct(0.0, 0.0, 1.0)
     kinematics = Kinematics.of(channel.machine)
     if not kinematics.axes and wanted[2] > 1.0 - 1e-9:
         return {}

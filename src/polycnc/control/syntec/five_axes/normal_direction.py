@@ -9,7 +9,7 @@ from __future__ import annotations
 from math import inf
 from typing import TYPE_CHECKING
 
-from polycnc.control.syntec.coordinates.systems import TurnState
+from polycnc.control.syntec.coordinates.turns import TurnState
 from polycnc.control.word_address.transformations.normal_line import GROUP, LEFT, NormalLineRules, end
 from polycnc.control.word_address.transformations.normal_stage import Direction, NormalStage
 from polycnc.control.word_address.transformations.polar_interpolation import PolarState
@@ -48,7 +48,7 @@ def start(channel: SyntecChannel, words: Words) -> None:
         raise words.fail("option", code)
     if mode["compensation"] != "G40" or mode["length"] in ("G43.4", "G43.5"):
         raise words.fail("normal_compensation", code)
-    if PolarState.of(channel).plane is not None or not TurnState.of(channel).tilt.is_identity:
+    if PolarState.of(channel).plane is not None or not TurnState.of(channel).plane.is_identity:
         raise words.fail("normal_frame", code)
     axis, place, sense = _rotary_axis(channel, words, code)
     angle, turns_first, shortest, longest = _words(channel, words)

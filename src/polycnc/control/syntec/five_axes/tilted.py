@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.syntec.coordinates.systems import TurnState, renew_preset_frame
+from polycnc.control.syntec.coordinates.turns import TurnState, renew_preset_frame, renew_work_turn
 from polycnc.control.syntec.five_axes import mechanism
 from polycnc.control.word_address.coordinates import frames as base_frames
 from polycnc.control.word_address.coordinates.systems import refresh_zero
@@ -68,7 +68,7 @@ def end_tilt(channel: SyntecChannel, words: Words) -> None:
 
 
 def switch_work_rotation(channel: SyntecChannel, words: Words) -> None:
-    """G54.4 P0, P1: rotation of the work system; the angles belong to the offset page and are zero here.
+    """G54.4 P0, P1: rotation of the work system by the angles of its page.
 
     With Pr3229 = 1 there are no work systems, and the code has no effect (2.39.4).
     """
@@ -82,7 +82,10 @@ def switch_work_rotation(channel: SyntecChannel, words: Words) -> None:
 
 def rotate_work_system(channel: SyntecChannel, *, on: bool) -> None:
     """The rotation of the work system is on or off; it is off where Pr3229 takes work systems away."""
-    TurnState.of(channel).by_table = on and not channel.memory.parameters.without_work_systems
+    state = TurnState.of(channel)
+    state.by_table = on and not channel.memory.parameters.without_work_systems
+    if renew_work_turn(channel):
+        set_tilt(channel, state.tilt)
 
 
 def _position_in_work_system(channel: SyntecChannel) -> Vector:

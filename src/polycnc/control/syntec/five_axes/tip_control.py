@@ -8,10 +8,12 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.syntec.coordinates import length as tool_length
+from polycnc.control.syntec.coordinates.turns import TurnState, renew_work_turn
 from polycnc.control.syntec.five_axes import mechanism
 from polycnc.control.syntec.parameters import SyntecParameters
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words import Words
+from polycnc.control.word_address.coordinates.systems import refresh_zero
 from polycnc.control.word_address.transformations import normal_line, tool_center_point
 from polycnc.control.word_address.transformations.polar_interpolation import PolarState
 from polycnc.deferred.records import dataclass
@@ -74,6 +76,9 @@ def start(channel: SyntecChannel, words: Words) -> None:
         raise words.fail("argument", "Q")
     if channel.mode["rotation"] == "G68.3":
         raise words.fail("tip_on_tool_plane", channel.mode["length"])
+    renew_work_turn(channel)
+    if not TurnState.of(channel).work.is_identity:
+        raise channel.control.not_yet(f"G54.4 {channel.mode['length']}")
     if PolarState.of(channel).plane is not None or not channel.coordinates.zero.is_identity:
         raise words.fail("tip_mode", channel.mode["length"])
     fastest = words.typed("I") or 0.0
@@ -88,6 +93,8 @@ def start(channel: SyntecChannel, words: Words) -> None:
 def compensate_length(channel: SyntecChannel, words: Words) -> None:
     """G43, G44 H: tip control ends, the length counts along the tool."""
     end(channel)
+    if renew_work_turn(channel):
+        refresh_zero(channel)  # a change of the work's turn is not travelled, one of the length is
     tool_length.compensate_length(channel, words)
 
 

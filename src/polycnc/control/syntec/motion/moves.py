@@ -9,7 +9,7 @@ from math import copysign, hypot, nan, sqrt
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, lasting
-from polycnc.control.syntec.coordinates.systems import TurnState
+from polycnc.control.syntec.coordinates.turns import TurnState
 from polycnc.control.syntec.macros.calls import ModalMacroState
 from polycnc.control.syntec.motion import planes
 from polycnc.control.syntec.spindles import SpindleState

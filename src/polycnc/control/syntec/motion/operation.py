@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.control.syntec.motion import conditions
 from polycnc.geometry.units import INCH_MM
 
 if TYPE_CHECKING:
@@ -37,9 +38,9 @@ def select_conditions(channel: SyntecChannel, words: Words) -> None:
     condition = 1 if condition is None else condition
     if application not in range(4) or condition not in range(1, 4):
         raise words.fail("conditions_range", "P" if application not in range(4) else "Q")
-    channel.context_changed()
+    conditions.choose(channel, 3 * (int(application) - 1) + int(condition) if application else 0)
 
 
 def default_conditions(channel: SyntecChannel, _words: Words) -> None:
     """G121: the default set."""
-    channel.context_changed()
+    conditions.choose(channel, 0)

@@ -1,0 +1,102 @@
+"""How the work system is turned: G92.1, tilted planes, and the angles of the coordinate rotation page (manual 2.39.2).
+
+A work system turns about Z, then about the new Y, then about the new X. The angles of the page last; they act while
+G54.4 P1 is on.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.channel.states.state import Lifetime, State, lasting, retained
+from polycnc.control.word_address.coordinates.systems import ZeroState
+from polycnc.deferred.records import dataclass
+from polycnc.geometry.frames import IDENTITY, Frame
+from polycnc.machine.kinematics import turn_about
+from polycnc.memory.retained import WORK_TURNS
+from polycnc.transformation.planes.tilted import by_own_axes
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.syntec.family import SyntecChannel
+    from polycnc.control.syntec.memory import SyntecMemory
+
+
+@dataclass(slots=True)
+class TurnState(State, lifetime=Lifetime.RESET):
+    """How the work system is turned.
+
+    Attributes:
+        angle: Of G92.1 (#1930), degrees, about `axis` (#1931 to #1933).
+        tilt: Frame of the tilted plane in the work system; `table` is how the table has turned it since.
+        by_table: G54.4 P1 is active (#1849).
+        work: How that turns the work system.
+    """
+
+    angle: float = lasting(Lifetime.POWER, 0.0)
+    axis: list[float] = lasting(Lifetime.POWER, factory=lambda: [0.0, 0.0, 1.0])
+    tilt: Frame = IDENTITY
+    table: Frame = IDENTITY
+    by_table: bool = False
+    work: Frame = IDENTITY
+
+    @property
+    def plane(self) -> Frame:
+        """The tilted plane in the system of the work offset, before the table turns."""
+        return self.work @ self.tilt
+
+
+@dataclass(slots=True)
+class WorkTurns(State, lifetime=Lifetime.RETAINED):
+    """What the page holds.
+
+    Attributes:
+        by_system: Angles X, Y, Z by the name of the work system, degrees.
+    """
+
+    by_system: dict[str, list[float]] = retained(WORK_TURNS)
+
+
+def angle(channel: Channel, system: str, axis: int) -> float:
+    """An angle of the page, degrees; `axis` is 0 to 2 for X, Y, Z."""
+    return WorkTurns.of(channel).by_system.get(system, [0.0] * 3)[axis]
+
+
+def set_angle(channel: Channel, system: str, axis: int, value: float) -> None:
+    """Another angle, degrees. It acts when the rotation, the system or the tool length is called next (2.39.3)."""
+    WorkTurns.of(channel).by_system.setdefault(system, [0.0] * 3)[axis] = value
+
+
+def turn_of(channel: Channel, system: str) -> Frame:
+    """How a work system is turned."""
+    x, y, z = WorkTurns.of(channel).by_system.get(system, (0.0, 0.0, 0.0))
+    if x == y == z == 0.0:
+        return IDENTITY
+    return by_own_axes(((2, z), (1, y), (0, x)))
+
+
+def renew_preset_frame(memory: SyntecMemory) -> None:
+    """The zero frame follows #1930 to #1933 and the tilted plane."""
+    state = TurnState.of(memory.channel)
+    x, y, z = state.axis
+    turns = state.angle != 0.0 and x * x + y * y + z * z != 0.0
+    turn = turn_about((x, y, z), state.angle) if turns else IDENTITY
+    zero = ZeroState.of(memory.channel)
+    zero.frame, zero.table, zero.plane = turn, state.table, state.plane
+
+
+def renew_work_turn(channel: SyntecChannel) -> bool:
+    """The angles of the chosen work system act from here on, with G54.4 P1; gives whether it turns otherwise now.
+
+    Raises:
+        AlarmError: The tool's tip is led meanwhile, or a transformation is active: that is not executed.
+    """
+    state = TurnState.of(channel)
+    turn = turn_of(channel, ZeroState.of(channel).system) if state.by_table else IDENTITY
+    if turn == state.work:
+        return False
+    if channel.coordinates.transformation is not None:
+        raise channel.control.not_yet("G54.4")
+    state.work = turn
+    renew_preset_frame(channel.memory)
+    return True
