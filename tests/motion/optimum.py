@@ -169,13 +169,16 @@ def _optimum(path: _Path, cap2: Numbers, pulls: Numbers, jerks: Numbers) -> floa
         worth = np.zeros(count + 1)
         worth[:-1] += step / sums / speed[:-1]
         worth[1:] += step / sums / speed[1:]
-        found = linprog(
-            -worth * scale,
-            A_ub=vstack([*fixed, *bent]).tocsr() * scale,
-            b_ub=np.ones(len(fixed) * count + len(bent) * (count - 1)),
-            bounds=np.stack([np.zeros(count + 1), cap2 / scale], axis=1),
-            method="highs-ipm",
-        )
+        for method in ("highs-ipm", "highs-ds"):  # the first is quicker, and now and then finds nothing
+            found = linprog(
+                -worth * scale,
+                A_ub=vstack([*fixed, *bent]).tocsr() * scale,
+                b_ub=np.ones(len(fixed) * count + len(bent) * (count - 1)),
+                bounds=np.stack([np.zeros(count + 1), cap2 / scale], axis=1),
+                method=method,
+            )
+            if found.status == 0:
+                break
         assert found.status == 0, found.message
         aim = np.maximum(found.x * scale, 0.0)
         seconds, share = min((_seconds(step, x + share * (aim - x)), share) for share in (1.0, 0.6, 0.3))

@@ -151,6 +151,42 @@ def test_axes_keep_their_velocity_between_the_points_of_a_coarse_spline(
             assert np.abs(velocity[:, i]).max() <= axis.max_feed * SLACK
 
 
+@settings(max_examples=300 if settings.get_current_profile_name() == "explore" else 40, deadline=None)
+@given(
+    st.lists(st.tuples(st.floats(0.05, 8.0), st.floats(-0.5, 0.5)), min_size=2, max_size=24),
+    st.floats(0.0, 1.0),
+    contexts,
+    machines,
+)
+def test_splines_of_any_chords_keep_limits_and_tolerance(
+    chords: list[tuple[float, float]], evenness: float, context: Context, machine: Machine
+) -> None:
+    """From chords of one length that turn alike to chords of any length that turn to either side, between two lines."""
+    rows, heading = Build(context=context).feed(5.0, 0.0, 0.0, feed=300.0), 0.0
+    for length, turn in chords:
+        heading += evenness * chords[0][1] + (1.0 - evenness) * turn
+        way = evenness * chords[0][0] + (1.0 - evenness) * length
+        x, y, z = rows.end
+        rows.row(Kind.SPLINE, x + way * cos(heading), y + way * sin(heading), z + 0.02 * way, feed=300.0)
+    rows.feed(rows.end[0] + 5.0 * cos(heading), rows.end[1] + 5.0 * sin(heading), rows.end[2], feed=300.0)
+    check(rows, machine)
+    blend = averages(context, machine, SOFT)[1]
+    for run in runs(rows, machine)[1]:
+        assert stray(run, blend) <= (context.tolerance_mm or EXACT_MM) * SLACK
+
+
+@pytest.mark.parametrize(("chord", "longer"), [(0.02, 1.05), (0.05, 1.1), (0.2, 1.5)])
+def test_a_spline_takes_little_longer_than_the_arc_through_its_points(chord: float, longer: float) -> None:
+    """Twice round a circle: only at its ends, where a chord has no neighbour, does the spline differ from the arc."""
+    context = Context(corner_mode=CornerMode.ROUNDED, tolerance_mm=0.01)
+    around, spline_rows = Build(context=context), Build(context=context)
+    around.arc(0.0, 0.0, 0.0, center=(0.0, 20.0), feed=1000.0, turns=1.0)
+    for k in range(1, round(12.5 / chord) + 1):
+        spline_rows.row(Kind.SPLINE, 20.0 * sin(k * chord), 20.0 * (1.0 - cos(k * chord)), 0.0, feed=1000.0)
+    arc_s = around.plan(MILL, settings=SOFT).total_s
+    assert spline_rows.plan(MILL, settings=SOFT).total_s < longer * arc_s
+
+
 def facets(radius: float, angle: float, noise: float, seed: int, context: Context) -> Build:
     """A circle in short lines, as a CAM system writes it, a little off."""
     off = np.random.default_rng(seed).uniform(-noise, noise, (120, 2))

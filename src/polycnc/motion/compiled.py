@@ -6,7 +6,19 @@ from functools import cache
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.kernels.library import Library
-from polycnc.motion.kernels import alone, arcs, columns, corners, feeds, hold, jerk, lay, rounding, speeds
+from polycnc.motion.kernels import (
+    alone,
+    arcs,
+    chords,
+    columns,
+    corners,
+    feeds,
+    hold,
+    jerk,
+    lay,
+    rounding,
+    speeds,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -16,7 +28,7 @@ from polycnc.motion.kernels.columns import Limits, Rows, State
 
 LIBRARY = Library(
     "motion",
-    (alone, arcs, columns, corners, feeds, hold, jerk, lay, rounding, speeds),
+    (alone, arcs, chords, columns, corners, feeds, hold, jerk, lay, rounding, speeds),
     (lay.lay, speeds.backward, speeds.forward),
 )
 

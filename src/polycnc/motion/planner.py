@@ -14,7 +14,7 @@ from math import sqrt
 from typing import TYPE_CHECKING
 
 from polycnc.motion.compiled import PLAIN, kernels
-from polycnc.motion.kernels.alone import settle_alone
+from polycnc.motion.kernels.chords import settle
 from polycnc.motion.kernels.columns import PLACES, PieceRecord, Rows, new_state, piece_width
 from polycnc.motion.limits import ContextTables, averages, axis_rapids
 from polycnc.motion.settings import DEFAULT, Settings
@@ -165,7 +165,7 @@ class Planner:
             self._lay(Rows(chunk.kind[:edge], *others), row, chunk.curves, chunk.first)
             row = edge
             if edge in rests:
-                settle_alone(self._pieces, self._axes, self._limits, self._state)
+                settle(self._pieces, self._axes, self._limits, self._state)
                 self._state.run.stop = 1.0
             if edge in switches:
                 self._switch(switches[edge], self._toolpath.contexts[chunk.context[edge]])
@@ -205,7 +205,7 @@ class Planner:
 
     def _switch(self, use: Use, context: Context) -> None:
         """Before a row that another use holds for the axes rest."""
-        settle_alone(self._pieces, self._axes, self._limits, self._state)
+        settle(self._pieces, self._axes, self._limits, self._state)
         self._use, self._limits = use, self._real.limits(context.transformation, use)
         self._state.run.stop = 1.0
 
@@ -233,7 +233,7 @@ class Planner:
         rapid = kind == Kind.RAPID
         slot = 2 * context + (0 if rapid else 1)
         records = self._real.turn(turn, self._toolpath.contexts[context], kind, number, slot)
-        settle_alone(self._pieces, self._axes, self._limits, self._state)
+        settle(self._pieces, self._axes, self._limits, self._state)
         self._look_ahead(number)
         while len(self._pieces) < len(records):
             self._pieces.frombytes(bytes(8 * len(self._pieces)))
@@ -249,7 +249,7 @@ class Planner:
 
     def _enter(self, context: Context, position: list[float], row: int) -> None:
         """Before a row a transformation begins or ends: at rest the path goes on from where the real axes are."""
-        settle_alone(self._pieces, self._axes, self._limits, self._state)
+        settle(self._pieces, self._axes, self._limits, self._state)
         self._look_ahead(row)
         self._limits = self._real.limits(context.transformation, self._use)
         self._state.run.stop = 1.0
@@ -261,7 +261,7 @@ class Planner:
             if chunk.first >= self._next_row:
                 self.take(chunk)
         self._waits.settle(self._next_row)
-        settle_alone(self._pieces, self._axes, self._limits, self._state)
+        settle(self._pieces, self._axes, self._limits, self._state)
         self._look_ahead(self._next_row)
         self._beside.settle(self._next_row, self._seconds, self._wait)
         self._settle_parallel(self._next_row)
@@ -331,8 +331,9 @@ class Planner:
         reach = 0.5 * sqrt(state.run.top2) * state.run.window
         if state.run.window == 0.0:
             reach = 0.5 * state.run.length  # the corner behind the last row may bend so much of it
-        last = count - 1
-        way = 0.0
+        last, way = count - 1, 0.0
+        if state.run.chord and last > 0 and pieces[last * width + PieceRecord.PAUSE] == 0.0:
+            last -= 1  # what bounds the joint before it has not been spread
         while last > 0 and way < reach and pieces[last * width + PieceRecord.PAUSE] == 0.0:
             way += pieces[last * width + PieceRecord.LENGTH]
             last -= 1

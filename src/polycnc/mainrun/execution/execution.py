@@ -420,13 +420,13 @@ class Execution:
                 return True
         if self.preprocessing.is_last_piece:
             self.preprocessing.end_in_rest()
+            self._look_ahead()
         cap2 = self.preprocessing.front_cap2(self.rates)
         if self._x2 == 0.0 and cap2 == 0.0:
             return False
         preprocessing = self.preprocessing
         piece, record = preprocessing.queue.pop_piece()
-        self.context = self.place = piece.context
-        self._cap2 = cap2
+        self._cap2, self.context, self.place = cap2, piece.context, piece.context
         if self.block is not None and (self.block.program, self.block.line) != (piece.program, piece.line):
             self._enter(Block(piece.program, piece.line, self.modal))
         if piece.kind == Kind.SKIP and piece.first == 0.0 and self._skip_after_s is not None:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from polycnc.mainrun.preparation.layout import Before
 from polycnc.motion.compiled import kernels
 from polycnc.motion.frames import with_axis
-from polycnc.motion.kernels.alone import settle_alone
+from polycnc.motion.kernels.chords import settle
 from polycnc.motion.kernels.columns import MAIN_RUN, TAP, Form, Limits, PieceRecord, new_state, piece_width
 from polycnc.motion.kernels.jerk import window_s
 from polycnc.motion.limits import ContextTables
@@ -91,7 +91,7 @@ class PieceBuffer:
     def end_in_rest(self) -> None:
         """The axes come to rest behind the last row."""
         self.state.run.stop, self._rested = 1.0, True
-        settle_alone(self._records, self._axes, self.led or self.limits, self.state)
+        settle(self._records, self._axes, self.led or self.limits, self.state)
 
     def note_rest(self) -> bool:
         """Whether the axes rest before the next row for what is none, such as an auxiliary function; asked once."""
@@ -105,7 +105,7 @@ class PieceBuffer:
             return []
         rows, number, called, state = prepared.rows_for(layout), prepared.number, prepared.called, self.state
         if prepared.led is not None:  # the axes rest where the use changes
-            settle_alone(self._records, self._axes, prepared.led, state)
+            settle(self._records, self._axes, prepared.led, state)
             state.run.stop = 1.0
         self.led, self.use = prepared.limits, prepared.use
         contexts = self.tables.of(prepared.use)
@@ -357,6 +357,8 @@ class PieceBuffer:
             return True
         run = self.state.run
         reach = 0.5 * (sqrt(run.top2) * run.window if run.window else run.length)
+        if run.chord:  # what bounds the joint before it has not been spread
+            reach += self._records[(run.pieces - 1) * self._width + PieceRecord.LENGTH]
         return not self.is_open and self._way - self.front(PieceRecord.LENGTH) >= reach
 
     @property

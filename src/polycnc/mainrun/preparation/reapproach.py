@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.mainrun.motion.geometry import Line
 from polycnc.mainrun.preparation.items import Move, Piece
-from polycnc.motion.kernels.alone import settle_alone
+from polycnc.motion.kernels.chords import settle
 from polycnc.motion.kernels.columns import (
     SPARE_PIECES,
     ContextRecord,
@@ -59,7 +59,7 @@ def line_from(
     records = array("d", bytes(8 * width * ROOM))
     rows = Rows([move.kind], [0], [asked if asked < inf else 0.0], end, [-1], [], [], [], [])
     lay(rows, 0, array("d"), int(move.row), own, limits, records, state)
-    settle_alone(records, n, limits, state)
+    settle(records, n, limits, state)
     del records[state.run.pieces * width :]
     if not records:
         return records, []

@@ -5,6 +5,7 @@ changes linearly with the way, so that one step of look-ahead is `x + 2·a·leng
 such squares.
 
     lay       rows to pieces: length, tangents, curvature, caps on x inside      (`lay.py`, `arcs.py`)
+    chord     the curve between the points of a spline, and what it allows         (`chords.py`)
     join      the cap on x where two rows meet, and how the path is bent there   (`corners.py`, `rounding.py`)
     feed      what a row asks for: the length that its feed counts, and the speed (`feeds.py`)
     jerk      what limited jerk allows: at one place, as far around it as the average reaches, and on a line from

@@ -6,6 +6,7 @@ from math import atan2, ceil, cos, inf, pi, sin, sqrt
 
 from polycnc.kernels.layout import Floats
 from polycnc.motion.kernels.alone import settle_alone
+from polycnc.motion.kernels.chords import end_chord
 from polycnc.motion.kernels.columns import (
     CCW,
     HELIX_CCW,
@@ -173,6 +174,7 @@ def lay_arc(
     parts = max(ceil(turning * PIECES_PER_TURN / (2.0 * pi) - 1e-9), 1)
     if not has_room(pieces, contexts, record, state, parts + state.row.shares, n):
         return False
+    end_chord(pieces, n, limits, state)
     step = sweep / parts
     margin, weight = 1.0 + 0.625 * (turning / parts) ** 2, contexts[record + ContextRecord.ROTARY_WEIGHT]
     end_way = arc_point(sweep, n, limits, weight, state)

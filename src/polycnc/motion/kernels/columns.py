@@ -184,6 +184,8 @@ class PieceRecord(Places):
 PLACES, PIECE_BLOCKS = 4, 6
 
 
+#: `RunState.chord`: the tangent at the chord's end is open yet; it is known.
+OPEN, CLOSED = 2.0, 1.0
 #: ZONE of a piece that is bent for a corner.
 TO_CORNER, FROM_CORNER = 1.0, 2.0
 
@@ -229,6 +231,11 @@ class RunState(Structure):
         overlap: OVERLAP of the row before; `rapid_overlap` likewise, 0 behind a cut.
         is_bent: The row before is bent already for the corner to the row at hand (1): the latter is laid out again.
         unseen: Nobody asks where the axes are within a piece (1).
+        chord: With limited jerk: the last piece is a chord of a spline, OPEN or CLOSED (`chords.py`), and `hold.py` has
+            not spread what bounds it.
+        chord_mm: Length of the chord that was closed last, 0 where a row that is none came behind it.
+        chord_ease: Factor on the limits along the last chord.
+        tolerance: Contour tolerance along it.
     """
 
     stop: float
@@ -257,6 +264,10 @@ class RunState(Structure):
     rapid_overlap: float
     is_bent: float
     unseen: float
+    chord: float
+    chord_mm: float
+    chord_ease: float
+    tolerance: float
 
 
 @record
@@ -328,7 +339,7 @@ class State(NamedTuple):
         delta: The way there.
         unit: Room for one q'.
         bend: Room for one q''.
-        bent_before: q'' at the end of the last piece.
+        bent_before: q'' at the end of the last piece; with limited jerk its mean over the last chord of a spline.
         turn: What q' changes by at the joint at hand.
     """
 

@@ -29,9 +29,9 @@ def join(
     """Largest x at the joint between the row before and this one, which starts along `unit` with `cap2`.
 
     Zero after a stop, where the path turns back, and where the feed counts another length than before. Where
-    two chords of a spline meet without a corner, `run.smooth` becomes 2, and the curvature decides instead of
-    the corner. With limited jerk `joint.pull` becomes the pull around the joint, and `joint.rest` the seconds
-    until the averages have come to rest; it also rests where that takes less time (`alone.py`).
+    two chords of a spline meet without a corner, `run.smooth` becomes 2, and they decide (`chords.py`). With
+    limited jerk `joint.pull` becomes the pull around the joint, and `joint.rest` the seconds until the averages
+    have come to rest; it also rests where that takes less time (`alone.py`).
     """
     ramp = contexts[record + ContextRecord.RAMP_S]
     state.run.window = window_s(ramp, contexts[record + ContextRecord.BLEND_S])
@@ -43,43 +43,55 @@ def join(
     if stopped:
         state.joint.rest, state.joint.pull = state.run.window, inf
         return 0.0
-    unit, tangent = state.unit, state.tangent
-    cosine = 0.0
-    for i in range(n):
-        w = weight if limits.rotary[i] != 0.0 else 1.0
-        cosine += w * w * unit[i] * tangent[i]
+    cosine = cosine_of_turn(n, limits, state, weight)
     if cosine <= TURNS_BACK:
         state.joint.rest, state.joint.pull = state.run.window, inf
         return 0.0
     cap2 = min(cap2, state.run.exit2)
     if smooth and cosine > SMOOTH_COS:
         state.run.smooth = 2.0
-        if ramp == 0.0:
-            return cap2
+        return cap2
     shorter = min(length, state.run.length)
     tolerance = contexts[record + ContextRecord.TOLERANCE]
-    if state.run.smooth != 2.0:
-        angle, distance = (
-            contexts[record + ContextRecord.TURN_TOLERANCE],
-            contexts[record + ContextRecord.TURN_DISTANCE],
-        )
-        turns = not (angle > 0.0 or distance > 0.0)
-        if ramp == 0.0 and turns:
-            own2 = bend_corner(contexts, record, n, limits, state, shorter)
-        elif tolerance > 0.0:
-            rounding = contexts[record + ContextRecord.ROUNDING]
-            own2 = rounded2(tolerance, rounding, turns, n, limits, state, shorter)
-        else:
-            own2 = jump2(turns, n, limits, state, shorter)
-        if not turns:
-            own2 = min(own2, turned2(angle, distance, n, limits, state, shorter))
-        cap2 = min(cap2, own2, stepped2(n, limits, state))
+    angle, distance = (
+        contexts[record + ContextRecord.TURN_TOLERANCE],
+        contexts[record + ContextRecord.TURN_DISTANCE],
+    )
+    turns = not (angle > 0.0 or distance > 0.0)
+    if ramp == 0.0 and turns:
+        own2 = bend_corner(contexts, record, n, limits, state, shorter)
+    elif tolerance > 0.0:
+        rounding = contexts[record + ContextRecord.ROUNDING]
+        own2 = rounded2(tolerance, rounding, turns, n, limits, state, shorter)
+    else:
+        own2 = jump2(turns, n, limits, state, shorter)
+    if not turns:
+        own2 = min(own2, turned2(angle, distance, n, limits, state, shorter))
+    cap2 = min(cap2, own2, stepped2(n, limits, state))
     if ramp > 0.0:
         cap2 = corner_hold2(contexts, record, n, limits, state, length, cap2)
-        if wanted > 0.0 and state.run.smooth != 2.0 and pays_to_rest(n, limits, state, length, cap2, wanted):
+        if wanted > 0.0 and pays_to_rest(n, limits, state, length, cap2, wanted):
             state.joint.rest, state.joint.pull = state.run.window, inf
             return 0.0
     return cap2
+
+
+def cosine_of_turn(n: int, limits: Limits, state: State, weight: float) -> float:
+    """Cosine of the angle between the row before and the row at hand, as the feed counts it."""
+    cosine = 0.0
+    for i in range(n):
+        w = weight if limits.rotary[i] != 0.0 else 1.0
+        cosine += w * w * state.unit[i] * state.tangent[i]
+    return cosine
+
+
+def goes_on_smoothly(n: int, limits: Limits, state: State, weight: float) -> bool:
+    """Whether the row at hand is a chord of a spline that goes on with the one before it."""
+    if state.row.kind != SPLINE or state.run.smooth == 0.0:
+        return False
+    if state.run.stop != 0.0 or state.run.metric != weight:
+        return False
+    return cosine_of_turn(n, limits, state, weight) > SMOOTH_COS
 
 
 def stepped2(n: int, limits: Limits, state: State) -> float:

@@ -14,7 +14,7 @@ from __future__ import annotations
 from math import inf, sqrt
 
 from polycnc.kernels.layout import Floats
-from polycnc.motion.kernels.columns import PLACES, SPLINE, Form, PieceRecord, State, piece_width
+from polycnc.motion.kernels.columns import CLOSED, OPEN, PLACES, Form, PieceRecord, State, piece_width
 
 #: A line is cut if what is left of it is at least this part of it; a part of a curve if that is so many mm, so that it
 #: makes no difference in how many parts it was laid.
@@ -24,9 +24,9 @@ SLIVER_MM = 1e-6
 
 
 def hold(pieces: Floats, first: int, n: int, state: State) -> None:
-    """Spread the bounds of joints over the pieces from `first` on, and over those before."""
-    p, width = first, piece_width(n)
-    while p < state.run.pieces:
+    """Spread the bounds of joints over the pieces from `first` on, and over those before; but over no open chord."""
+    p, width, left = first, piece_width(n), 1 if state.run.chord == OPEN else 0
+    while p < state.run.pieces - left:
         at = p * width
         pieces[at + PieceRecord.HOLD_WAY] = (
             0.5 * sqrt(pieces[at + PieceRecord.HOLD2]) * state.run.window
@@ -64,6 +64,8 @@ def hold(pieces: Floats, first: int, n: int, state: State) -> None:
                 pieces[at + PieceRecord.ENTRY2], pieces[at - width + PieceRecord.CAP2]
             )
         p += 1
+    if state.run.chord == CLOSED:
+        state.run.chord = 0.0
 
 
 def hold_behind(pieces: Floats, p: int, n: int, state: State) -> int:
@@ -117,8 +119,7 @@ def hold_ahead(pieces: Floats, p: int, n: int, state: State) -> None:
         if q > 0:
             way += pieces[joint - width + PieceRecord.LENGTH]
     edge = min(end2 if low2 < cap2 else inf, end_pull if low_pull < pull else inf)
-    # The next point of a spline still turns the end of its last chord.
-    if state.row.kind != SPLINE and worth_cutting(pieces, at, edge):
+    if worth_cutting(pieces, at, edge):
         cut(pieces, p, n, state, edge)
     pieces[at + PieceRecord.CAP2], pieces[at + PieceRecord.PULL] = min(cap2, low2), min(pull, low_pull)
     state.run.low2, state.run.low_pull = low2, low_pull

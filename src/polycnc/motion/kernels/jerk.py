@@ -20,8 +20,9 @@ from polycnc.motion.kernels.columns import ContextRecord, Limits, State
 #: Parts of the acceleration: along the path; across it; in corners.
 ALONG, ACROSS, CORNER = 0.7, 0.3, 0.3
 #: Parts of the jerk: of one corner; of a row of short lines; where the curvature changes; on a
-#: curve by its speed and by its change of speed; at a corner by the change of speed.
+#: curve by its speed and by its change of speed; at a corner by the change of speed; by the uneven q'' of a chord.
 JERK_CORNER, JERK_LINES, JERK_ENTRY, JERK_CURVE, JERK_BOTH, JERK_TURN = 0.5, 0.3, 0.4, 0.25, 0.2, 0.25
+JERK_BOW = 0.15
 #: Parts of the tolerance: of one corner, of the acceleration across the path.
 DEVIATION_CORNER, DEVIATION_CURVE = 0.5, 0.5
 #: Turns smaller than this count as none.
@@ -58,49 +59,65 @@ def line_pull(contexts: Floats, record: int, n: int, limits: Limits, state: Stat
 def corner_hold2(
     contexts: Floats, record: int, n: int, limits: Limits, state: State, length: float, cap2: float
 ) -> float:
-    """Largest x up to `cap2` at the joint between two rows; lowers the joint's pull, the acceleration around it.
-
-    Where `run.smooth` is 2 the rows are chords of a spline, and the curve through their ends turns steadily.
-    """
-    smooth = state.run.smooth == 2.0
+    """Largest x up to `cap2` at the joint between two rows; lowers the joint's pull, the acceleration around it."""
     unit, tangent = state.unit, state.tangent
     bend, before = state.bend, state.bent_before
     blend, x2 = contexts[record + ContextRecord.BLEND_S], cap2
-    shorter, mean = min(length, state.run.length), 0.5 * (length + state.run.length)
-    turn, least = 0.0, inf
+    shorter, turn = min(length, state.run.length), 0.0
     for i in range(n):
         a = state.joint.ease * limits.acceleration[i]
         j = state.joint.ease * limits.jerk[i]
         step = abs(unit[i] - tangent[i])
         if limits.rotary[i] == 0.0:
             turn += step * step
-        if smooth:
-            bend[i] = (unit[i] - tangent[i]) / mean
-            if step > NO_TURN:
-                x2 = min(x2, ACROSS * a * mean / step)
-                least = min(least, j * mean / step)
-        elif step > NO_TURN:
+        if step > NO_TURN:
             jump = min(JERK_CORNER * j * blend * blend, CORNER * a * blend) / step
             x2 = min(x2, jump * jump, min(ACROSS * a, JERK_LINES * j * blend) * shorter / step)
             state.joint.pull = min(state.joint.pull, JERK_TURN * j * blend / step)
         change = abs(bend[i] - before[i])
         if change > NO_TURN:
             x2 = min(x2, JERK_ENTRY * j * blend / change)
-            if smooth:
-                x2 = min(x2, (JERK_CURVE * j * mean / change) ** (2.0 / 3.0))
     turn = sqrt(turn)
     if turn > NO_TURN:
         deviation = contexts[record + ContextRecord.TOLERANCE] / (blend * turn)
-        x2 = min(x2, 12.0 * DEVIATION_CURVE * deviation / blend * (mean if smooth else shorter))
-        if not smooth:
-            x2 = min(
-                x2,
-                (6.0 * DEVIATION_CORNER * deviation) ** 2,
-                (contexts[record + ContextRecord.ROUNDING] / blend) ** 2,
-            )
-    if smooth and least < inf and x2 > 0.0:
-        state.joint.pull = min(state.joint.pull, JERK_BOTH * least / (3.0 * sqrt(x2)))
+        x2 = min(
+            x2,
+            12.0 * DEVIATION_CURVE * deviation / blend * shorter,
+            (6.0 * DEVIATION_CORNER * deviation) ** 2,
+            (contexts[record + ContextRecord.ROUNDING] / blend) ** 2,
+        )
     return x2
+
+
+def left_across(a: float, j: float, blend: float, along: float) -> float:
+    """What is left of an axis's acceleration on a curve, beside that along the path and that of a corner."""
+    corner = min(CORNER * a, JERK_CORNER * j * blend)
+    return max(ACROSS * a, a - corner - along)
+
+
+def step_top2(j: float, blend: float, step: float, spacing: float) -> float:
+    """Largest x where the mean of an axis's q'' changes by a step from chord to chord, which are `spacing` mm apart.
+
+    On a way shorter than that the average of the positions sees one step, `x·step/τ`; on a longer one as many as lie
+    in it, which is `v³·step/spacing`.
+    """
+    if step <= NO_TURN:
+        return inf
+    return min(JERK_ENTRY * j * blend / step, (JERK_CURVE * j * spacing / step) ** (2.0 / 3.0))
+
+
+def bow_top2(j: float, blend: float, bow: float, length: float) -> float:
+    """Largest x on a chord along which an axis's q'' changes by `bow` to either side of its mean.
+
+    Over a whole chord that cancels out: the second difference of q' over a way longer than the chord has no more than
+    `bow·length` of it, which gives a jerk of `v·bow·length/τ²`. On a shorter way the average sees the change along
+    the chord, `2·v³·bow/length`, and the steps at its ends, `2·x·bow/τ`.
+    """
+    if bow <= NO_TURN:
+        return inf
+    long = JERK_BOW * j * blend * blend / (bow * length)
+    short = min(0.5 * JERK_BOW * j * blend / bow, (0.5 * JERK_BOW * j * length / bow) ** (2.0 / 3.0))
+    return max(long * long, short)
 
 
 def arc_hold(

@@ -7,6 +7,7 @@ from math import inf
 from polycnc.kernels.layout import Floats
 from polycnc.motion.kernels.alone import alone_pull, alone_top, best_ramp, goes_straight_on, settle_alone
 from polycnc.motion.kernels.arcs import find_arc, lay_arc
+from polycnc.motion.kernels.chords import close_chord, end_chord, lay_chord
 from polycnc.motion.kernels.columns import (
     AT_END,
     AT_START,
@@ -16,6 +17,7 @@ from polycnc.motion.kernels.columns import (
     EVENT,
     FACING_PIECES,
     HELIX_CCW,
+    OPEN,
     PLACES,
     SHARES,
     SKIP,
@@ -30,7 +32,7 @@ from polycnc.motion.kernels.columns import (
     State,
     piece_width,
 )
-from polycnc.motion.kernels.corners import join
+from polycnc.motion.kernels.corners import goes_on_smoothly, join
 from polycnc.motion.kernels.feeds import (
     asked_speed,
     axes_of,
@@ -155,6 +157,9 @@ def lay_move(
 ) -> bool:
     """Lay the row at hand out; false when the room ends: it can then be tried again."""
     kind, first, state.joint.bend_way = state.row.kind, state.run.pieces, 0.0
+    if first == 0:
+        state.run.chord = 0.0
+    not_held = first - (1 if state.run.chord != 0.0 else 0)
     rapid = is_rapid(state)
     stands = kind in (TAP, SKIP) or (rapid and limits.path.rapid_stops != 0.0)
     if stands or contexts[record + ContextRecord.STATION] != state.run.station:
@@ -170,14 +175,17 @@ def lay_move(
         return False
     if state.run.pieces > first:
         overlap(contexts, record, pieces, first, n, limits, state)
+    stands = stands or contexts[record + ContextRecord.EXACT_STOP] != 0.0
+    if stands and state.run.pieces > first:
+        close_chord(pieces, (state.run.pieces - 1) * piece_width(n), n, limits, state)
     if contexts[record + ContextRecord.RAMP_S] > 0.0:
-        hold(pieces, first, n, state)
+        hold(pieces, not_held, n, state)
     else:
         round_joint(pieces, first, n, limits, state)
     for i in range(n):
         state.position[i] = state.target[i]
     state.run.station = contexts[record + ContextRecord.STATION]
-    if stands or contexts[record + ContextRecord.EXACT_STOP] != 0.0:
+    if stands:
         state.run.stop = 1.0
     return True
 
@@ -226,6 +234,7 @@ def lay_rapid_by_axis(
     delta = state.delta
     if not has_room(pieces, contexts, record, state, 1, n):
         return False
+    end_chord(pieces, n, limits, state)
     settle_alone(pieces, n, limits, state)
     state.run.alone = 0.0
     gentle, longest, ramp = contexts[record + ContextRecord.RAMP_S] > 0.0, 0.0, 0.0
@@ -274,6 +283,8 @@ def lay_straight(
     if not has_room(pieces, contexts, record, state, parts, n):
         return False
     top, pull = line_limits(curves, contexts, record, n, limits, state, length, start_x)
+    if not goes_on_smoothly(n, limits, state, weight):
+        end_chord(pieces, n, limits, state)
     entry2, first, last, whole_pull, before = 0.0, 0.0, 0.0, pull / state.row.ease, pull
     for part in range(parts):
         first, last = last, state.share_end[part] if shared else (part + 1) / parts
@@ -322,7 +333,8 @@ def lay_straight(
             lay_chord(contexts, record, pieces, at, n, limits, state, length, weight)
     for i in range(n):
         state.tangent[i] = unit[i]
-        state.bent_before[i] = state.bend[i]
+        if state.run.chord != OPEN:
+            state.bent_before[i] = state.bend[i]
     state.run.exit_pull = pull
     state.run.length, state.run.metric, state.run.smooth = (
         length,
@@ -381,103 +393,3 @@ def line_limits(
         asked = asked_speed(curves, contexts, record, state, length, state.row.facing)
         pull = min(pull, lagging_pull(contexts, record, min(top, asked)))
     return top, state.row.ease * pull
-
-
-def lay_chord(
-    contexts: Floats,
-    record: int,
-    pieces: Floats,
-    at: int,
-    n: int,
-    limits: Limits,
-    state: State,
-    length: float,
-    weight: float,
-) -> None:
-    """Give a spline's chord the tangents and the curvature of the curve through its points.
-
-    At a point between two chords the tangent is their mean direction, the shorter one counting more, the
-    curvature the change of direction over the mean length: the derivatives of the parabola through the three
-    points. `unit` is the chord, `tangent` the one before.
-    """
-    unit, tangent, bend = state.unit, state.tangent, state.bend
-    here = at + PieceRecord.VECTORS
-    before = here - piece_width(n)
-    pieces[at + PieceRecord.FORM] = (
-        Form.CURVED if contexts[record + ContextRecord.RAMP_S] == 0.0 else Form.BENT
-    )
-    if contexts[record + ContextRecord.DRIVE_SPEED] < 1.0 or state.row.ease < 1.0:
-        pieces[at + PieceRecord.PATH_PULL] = pieces[at + PieceRecord.PULL]
-    for i in range(n):
-        pieces[here + i] = pieces[here + n + i] = unit[i]
-        pieces[here + 2 * n + i] = pieces[here + 3 * n + i] = 0.0
-    if state.run.smooth != 2.0:
-        return
-    for i in range(n):
-        bend[i] = unit[i] * state.run.length + tangent[i] * length
-    size, mean = norm(bend, n, limits, weight), 0.5 * (length + state.run.length)
-    cap2, turn2 = pieces[at + PieceRecord.ENTRY2], 0.0
-    for i in range(n):
-        turn = (unit[i] - tangent[i]) * (weight if limits.rotary[i] != 0.0 else 1.0)
-        turn2 += turn * turn
-        direction, curvature = bend[i] / size, (unit[i] - tangent[i]) / mean
-        pieces[before + n + i] = pieces[here + i] = direction
-        pieces[before + 3 * n + i] = pieces[here + 2 * n + i] = curvature
-        if curvature != 0.0:
-            cap2 = min(cap2, limits.acceleration[i] / abs(curvature))
-    if contexts[record + ContextRecord.RAMP_S] == 0.0:
-        for chord in (at - piece_width(n), at):
-            cap2 = min(cap2, bend_chord(pieces, chord, n, limits))
-    # In the middle of its chord the curve is longer than the chord by `turn²/16` at most (a cubic, `run.py`).
-    for chord in (at - piece_width(n), at):
-        top2 = chord_top2(pieces, chord, n, limits)
-        longer = 1.0 - 0.125 * min(turn2, 4.0)
-        pieces[chord + PieceRecord.CAP2] = min(pieces[chord + PieceRecord.CAP2] * longer, top2)
-        pieces[chord + PieceRecord.ENTRY2] = min(
-            pieces[chord + PieceRecord.ENTRY2], pieces[chord + PieceRecord.CAP2]
-        )
-    pieces[at + PieceRecord.ENTRY2] = min(
-        cap2, pieces[at + PieceRecord.CAP2], pieces[at - piece_width(n) + PieceRecord.CAP2]
-    )
-    state.run.exit2 = pieces[at + PieceRecord.CAP2]
-
-
-def bend_chord(pieces: Floats, at: int, n: int, limits: Limits) -> float:
-    """Give a chord the q'' of its cubic (`run.py`), and say the largest x at which every axis can hold it.
-
-    In the words of `chord_top2` it is `-(4·l + 2·a)` at the start, `2·l + 4·a` at the end, over the chord's length.
-    """
-    here, length, cap2 = at + PieceRecord.VECTORS, pieces[at + PieceRecord.LENGTH], inf
-    for i in range(n):
-        place = here + PLACES * n + i
-        unit = (pieces[place + n] - pieces[place]) / length
-        leave, arrive = pieces[here + i] - unit, pieces[here + n + i] - unit
-        first, last = -(4.0 * leave + 2.0 * arrive) / length, (2.0 * leave + 4.0 * arrive) / length
-        pieces[here + 2 * n + i], pieces[here + 3 * n + i] = first, last
-        most = max(abs(first), abs(last))
-        if most > 0.0:
-            cap2 = min(cap2, limits.acceleration[i] / most)
-    return cap2
-
-
-def chord_top2(pieces: Floats, at: int, n: int, limits: Limits) -> float:
-    """Largest x at which every axis keeps its velocity all along the cubic over a spline's chord (`run.py`).
-
-    Its derivative by the share f of the chord, over the chord's length, is
-    `u + l·(1 - f)·(1 - 3·f) + a·f·(3·f - 2)`, where u is the chord's direction, and l and a are what the tangents at
-    its start and its end differ by: a parabola, largest at an end or at its crest.
-    """
-    here, top2 = at + PieceRecord.VECTORS, inf
-    for i in range(n):
-        leave, arrive = pieces[here + i], pieces[here + n + i]
-        place = here + PLACES * n + i
-        unit = (pieces[place + n] - pieces[place]) / pieces[at + PieceRecord.LENGTH]
-        most, bow = max(abs(leave), abs(arrive)), leave + arrive - 2.0 * unit
-        if bow != 0.0:
-            f = (2.0 * leave + arrive - 3.0 * unit) / (3.0 * bow)
-            if 0.0 < f < 1.0:
-                most = max(most, abs(leave - 3.0 * bow * f * f))
-        if most > 0.0:
-            top = limits.top_feed[i] / most
-            top2 = min(top2, top * top)
-    return top2

@@ -1,0 +1,226 @@
+"""Chords between the points of a spline: each is the cubic through its ends with the tangents there (`run.py`).
+
+The tangent at the end of a chord is known when the next row comes. Until then the chord is open, and with limited jerk
+nothing is bounded by it; it is closed when the next chord goes on with it, or when something else follows.
+"""
+
+from __future__ import annotations
+
+from math import inf, sqrt
+
+from polycnc.kernels.layout import Floats
+from polycnc.motion.kernels.alone import settle_alone
+from polycnc.motion.kernels.columns import (
+    AT_END,
+    AT_START,
+    CLOSED,
+    OPEN,
+    PLACES,
+    ContextRecord,
+    Form,
+    Limits,
+    PieceRecord,
+    State,
+    piece_width,
+)
+from polycnc.motion.kernels.feeds import norm
+from polycnc.motion.kernels.hold import hold
+from polycnc.motion.kernels.jerk import (
+    DEVIATION_CURVE,
+    JERK_BOTH,
+    bow_top2,
+    left_across,
+    step_top2,
+)
+
+#: A q'' smaller than this (1/mm) counts as none.
+NO_BEND = 1e-12
+
+
+def lay_chord(
+    contexts: Floats,
+    record: int,
+    pieces: Floats,
+    at: int,
+    n: int,
+    limits: Limits,
+    state: State,
+    length: float,
+    weight: float,
+) -> None:
+    """Give a spline's chord the tangents and the curvature of the curve through its points.
+
+    At a point between two chords the tangent is their mean direction, the shorter one counting more: the derivative of
+    the parabola through the three points. `unit` is the chord, `tangent` the one before.
+    """
+    unit, here = state.unit, at + PieceRecord.VECTORS
+    soft = contexts[record + ContextRecord.RAMP_S] > 0.0
+    pieces[at + PieceRecord.FORM] = Form.BENT if soft else Form.CURVED
+    if contexts[record + ContextRecord.DRIVE_SPEED] < 1.0 or state.row.ease < 1.0:
+        pieces[at + PieceRecord.PATH_PULL] = pieces[at + PieceRecord.PULL]
+    for i in range(n):
+        pieces[here + i] = pieces[here + n + i] = unit[i]
+        pieces[here + 2 * n + i] = pieces[here + 3 * n + i] = 0.0
+    if state.run.smooth == 2.0:
+        cap2 = meet_chord(pieces, at, n, limits, state, length, weight, soft)
+        if soft:
+            close_chord(pieces, at - piece_width(n), n, limits, state)
+            cap2 = min(cap2, state.run.exit2)
+            pieces[at + PieceRecord.HOLD_PULL] = min(pieces[at + PieceRecord.HOLD_PULL], state.run.exit_pull)
+        pieces[at + PieceRecord.ENTRY2] = min(
+            cap2, pieces[at + PieceRecord.CAP2], pieces[at - piece_width(n) + PieceRecord.CAP2]
+        )
+        if soft:
+            pieces[at + PieceRecord.HOLD2] = min(
+                pieces[at + PieceRecord.HOLD2], pieces[at + PieceRecord.ENTRY2]
+            )
+        state.run.exit2 = pieces[at + PieceRecord.CAP2]
+    if soft:
+        state.run.chord, state.run.tolerance = OPEN, contexts[record + ContextRecord.TOLERANCE]
+        state.run.chord_ease = min(state.row.ease, state.share_ease[AT_START], state.share_ease[AT_END])
+
+
+def meet_chord(
+    pieces: Floats,
+    at: int,
+    n: int,
+    limits: Limits,
+    state: State,
+    length: float,
+    weight: float,
+    soft: bool,
+) -> float:
+    """Let a chord go on smoothly with the one before: one tangent for both. Largest x where they meet.
+
+    Without limited jerk the curvature there bounds it, the change of direction over the mean length, and q'' of both.
+    """
+    unit, tangent, bend = state.unit, state.tangent, state.bend
+    here, before = at + PieceRecord.VECTORS, at + PieceRecord.VECTORS - piece_width(n)
+    for i in range(n):
+        bend[i] = unit[i] * state.run.length + tangent[i] * length
+    size, mean = norm(bend, n, limits, weight), 0.5 * (length + state.run.length)
+    cap2, turn2 = pieces[at + PieceRecord.ENTRY2], 0.0
+    for i in range(n):
+        turn = (unit[i] - tangent[i]) * (weight if limits.rotary[i] != 0.0 else 1.0)
+        turn2 += turn * turn
+        direction, curvature = bend[i] / size, (unit[i] - tangent[i]) / mean
+        pieces[before + n + i] = pieces[here + i] = direction
+        if curvature != 0.0 and not soft:
+            cap2 = min(cap2, limits.acceleration[i] / abs(curvature))
+        bend[i] = 0.0
+    if not soft:
+        for chord in (at - piece_width(n), at):
+            cap2 = min(cap2, bend_chord(pieces, chord, n, limits))
+    # In the middle of its chord the curve is longer than the chord by `turn²/16` at most (a cubic, `run.py`).
+    for chord in (at - piece_width(n), at):
+        top2 = chord_top2(pieces, chord, n, limits)
+        longer = 1.0 - 0.125 * min(turn2, 4.0)
+        pieces[chord + PieceRecord.CAP2] = min(pieces[chord + PieceRecord.CAP2] * longer, top2)
+        pieces[chord + PieceRecord.ENTRY2] = min(
+            pieces[chord + PieceRecord.ENTRY2], pieces[chord + PieceRecord.CAP2]
+        )
+    return cap2
+
+
+def close_chord(pieces: Floats, at: int, n: int, limits: Limits, state: State) -> None:
+    """With limited jerk: bound an open chord, whose cubic is known now, and the joint before it, by its q''.
+
+    `bent_before` is the mean of q'' over the chord before, and becomes that over this one.
+    """
+    if state.run.chord != OPEN:
+        return
+    state.run.chord = CLOSED
+    bend_chord(pieces, at, n, limits)
+    here, length, blend = (
+        at + PieceRecord.VECTORS,
+        pieces[at + PieceRecord.LENGTH],
+        pieces[at + PieceRecord.BLEND],
+    )
+    cap2, pull, joint2 = pieces[at + PieceRecord.CAP2], pieces[at + PieceRecord.PULL], inf
+    least, first2, last2 = inf, 0.0, 0.0
+    spacing = 0.5 * (length + state.run.chord_mm) if state.run.chord_mm > 0.0 else inf
+    for i in range(n):
+        a, j = state.run.chord_ease * limits.acceleration[i], state.run.chord_ease * limits.jerk[i]
+        first, last = pieces[here + 2 * n + i], pieces[here + 3 * n + i]
+        if limits.rotary[i] == 0.0:
+            first2, last2 = first2 + first * first, last2 + last * last
+        mean, most = 0.5 * (first + last), max(abs(first), abs(last))
+        joint2 = min(joint2, step_top2(j, blend, abs(mean - state.bent_before[i]), spacing))
+        state.bent_before[i] = mean
+        if most > NO_BEND:
+            way = pieces[here + PLACES * n + n + i] - pieces[here + PLACES * n + i]
+            share = max(abs(pieces[here + i]), abs(pieces[here + n + i]), 1.5 * abs(way) / length)
+            cap2 = min(
+                cap2,
+                left_across(a, j, blend, share * pull) / most,
+                bow_top2(j, blend, 0.5 * abs(last - first), length),
+            )
+            least = min(least, j / most)
+    if first2 > 0.0 or last2 > 0.0:
+        cap2 = min(
+            cap2, 12.0 * DEVIATION_CURVE * state.run.tolerance / (blend * blend * sqrt(max(first2, last2)))
+        )
+    if least < inf and cap2 > 0.0:
+        pull = min(pull, JERK_BOTH * least / (3.0 * sqrt(cap2)))
+    pieces[at + PieceRecord.CAP2], pieces[at + PieceRecord.PULL] = cap2, pull
+    pieces[at + PieceRecord.ENTRY2] = min(pieces[at + PieceRecord.ENTRY2], cap2)
+    pieces[at + PieceRecord.HOLD2] = min(pieces[at + PieceRecord.HOLD2], cap2, joint2)
+    pieces[at + PieceRecord.HOLD_PULL] = min(pieces[at + PieceRecord.HOLD_PULL], pull)
+    state.run.chord_mm, state.run.exit2, state.run.exit_pull = length, cap2, pull
+
+
+def end_chord(pieces: Floats, n: int, limits: Limits, state: State) -> None:
+    """Close the last chord: the row at hand does not go on with it."""
+    if state.run.chord == OPEN:
+        close_chord(pieces, (state.run.pieces - 1) * piece_width(n), n, limits, state)
+    state.run.chord_mm = 0.0
+
+
+def settle(pieces: Floats, n: int, limits: Limits, state: State) -> None:
+    """The axes come to rest behind the last row: nothing goes on with its chord or its line any more."""
+    if state.run.chord != 0.0 and state.run.pieces > 0:
+        last = state.run.pieces - 1
+        end_chord(pieces, n, limits, state)
+        hold(pieces, last, n, state)
+    settle_alone(pieces, n, limits, state)
+
+
+def bend_chord(pieces: Floats, at: int, n: int, limits: Limits) -> float:
+    """Give a chord the q'' of its cubic (`run.py`), and say the largest x at which every axis can hold it.
+
+    In the words of `chord_top2` it is `-(4·l + 2·a)` at the start, `2·l + 4·a` at the end, over the chord's length.
+    """
+    here, length, cap2 = at + PieceRecord.VECTORS, pieces[at + PieceRecord.LENGTH], inf
+    for i in range(n):
+        place = here + PLACES * n + i
+        unit = (pieces[place + n] - pieces[place]) / length
+        leave, arrive = pieces[here + i] - unit, pieces[here + n + i] - unit
+        first, last = -(4.0 * leave + 2.0 * arrive) / length, (2.0 * leave + 4.0 * arrive) / length
+        pieces[here + 2 * n + i], pieces[here + 3 * n + i] = first, last
+        most = max(abs(first), abs(last))
+        if most > 0.0:
+            cap2 = min(cap2, limits.acceleration[i] / most)
+    return cap2
+
+
+def chord_top2(pieces: Floats, at: int, n: int, limits: Limits) -> float:
+    """Largest x at which every axis keeps its velocity all along the cubic over a spline's chord (`run.py`).
+
+    Its derivative by the share f of the chord, over the chord's length, is
+    `u + l·(1 - f)·(1 - 3·f) + a·f·(3·f - 2)`, where u is the chord's direction, and l and a are what the tangents at
+    its start and its end differ by: a parabola, largest at an end or at its crest.
+    """
+    here, top2 = at + PieceRecord.VECTORS, inf
+    for i in range(n):
+        leave, arrive = pieces[here + i], pieces[here + n + i]
+        place = here + PLACES * n + i
+        unit = (pieces[place + n] - pieces[place]) / pieces[at + PieceRecord.LENGTH]
+        most, bow = max(abs(leave), abs(arrive)), leave + arrive - 2.0 * unit
+        if bow != 0.0:
+            f = (2.0 * leave + arrive - 3.0 * unit) / (3.0 * bow)
+            if 0.0 < f < 1.0:
+                most = max(most, abs(leave - 3.0 * bow * f * f))
+        if most > 0.0:
+            top = limits.top_feed[i] / most
+            top2 = min(top2, top * top)
+    return top2
