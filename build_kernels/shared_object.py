@@ -11,7 +11,12 @@ from polycnc.kernels import native
 from polycnc.kernels.library import Library
 
 #: Modules with a `LIBRARY`.
-MODULES = ("polycnc.language.bulk.compiled", "polycnc.motion.compiled", "polycnc.toolpath.compiled")
+MODULES = (
+    "polycnc.compensation.runs.compiled",
+    "polycnc.language.bulk.compiled",
+    "polycnc.motion.compiled",
+    "polycnc.toolpath.compiled",
+)
 
 
 def libraries() -> list[Library]:

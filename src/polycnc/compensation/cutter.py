@@ -34,6 +34,7 @@ from polycnc.compensation.ends import blind_end, end_before, square_ends, starts
 from polycnc.compensation.interference import InterferenceCheck, Objections
 from polycnc.compensation.policy import Violation
 from polycnc.compensation.rows import RowWriter
+from polycnc.compensation.runs.window import Window, fits
 from polycnc.compensation.step import NO_VECTOR, Role, Step
 from polycnc.geometry import arcs, offset
 from polycnc.geometry.offset import Corner
@@ -42,6 +43,7 @@ from polycnc.geometry.tolerances import NO_WAY, ROUNDED_MM
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from polycnc.channel.moves.path import Run
     from polycnc.compensation.plane import Plane
     from polycnc.compensation.policy import Policy
     from polycnc.geometry.arcs import Point
@@ -201,6 +203,24 @@ class CutterCompensation(Stage):
         self._place = None
         self._take(move, edge)
 
+    def run(self, run: Run) -> int:
+        """Take many moves at once, where all that wait and all that follow are ordinary lines (`runs`)."""
+        window = self._window
+        waits = self._place is not None or self._forced is not None or self._holds
+        if waits or self.suspended or self._starts_square or self._role is not Role.CONTOUR or not window:
+            return 0
+        same = window[-1].distance == self._side * self._radius and window[-1].policy == self.policy
+        if not (same and window[-1].shift == self._shift() and fits(window, run, self._read)):
+            return 0
+        whole = Window(self.plane, window, run, self._rows.displacement)
+        read = self.after.run(whole.run.part(whole.lead()))
+        if read:
+            window[:] = whole.steps(read, self._read + read)
+            self._read += read
+            self._rows.vector = whole.vector(read - 1)
+            self._rows.displacement = arcs.plus(self._rows.vector, self._shift())
+        return read
+
     def event(self, event: PlacedEvent) -> None:
         """Take an event; it keeps its place between the moves."""
         self._in_order(event)
@@ -239,8 +259,7 @@ class CutterCompensation(Stage):
 
     def _take(self, move: Move, edge: offset.Edge) -> None:
         """Put a plane move into the window; it closes the corner in front of it."""
-        distance = self._side * self._radius
-        shift = (abs(distance) * self._tip[0], abs(distance) * self._tip[1])
+        distance, shift = self._side * self._radius, self._shift()
         step = Step(move, edge, edge, self._role, distance, shift, self.policy, self._read, self._rows.vector)
         step.suspended = self.suspended and self._role is Role.CONTOUR
         step.forced, step.holds = self._forced, self._holds or step.suspended
@@ -260,6 +279,11 @@ class CutterCompensation(Stage):
             step.corner, step.shift = Corner([NO_VECTOR]), NO_VECTOR
             self._release_all()
             self._forget()
+
+    def _shift(self) -> Point:
+        """What stands beside every vector (nose centre to tip), mm."""
+        reach = abs(self._side * self._radius)
+        return reach * self._tip[0], reach * self._tip[1]
 
     def _checked(self, step: Step) -> offset.Edge:
         """The edge to be offset, once it is sure that it may be."""

@@ -69,9 +69,9 @@ class Edge(NamedTuple):
 
 
 def line(start: Point, end: Point) -> Edge:
-    """The straight edge between two points."""
+    """The straight edge between two points; its direction is that of the kernels, bit for bit."""
     du, dv = end[0] - start[0], end[1] - start[1]
-    length = hypot(du, dv)
+    length = sqrt(du * du + dv * dv)
     direction = (du / length, dv / length) if length > 0.0 else (0.0, 0.0)
     return Edge(start, end, direction, direction)
 

@@ -39,9 +39,8 @@ def split_lines(text: str, path: str = "") -> list[str]:
 
 
 def _refuse_long_lines(lines: list[str], path: str) -> None:
-    line = next((number for number, text in enumerate(lines, 1) if len(text) > MAX_LINE), 0)
-    if line:
-        refuse_long_line(path, line)
+    if max(map(len, lines), default=0) > MAX_LINE:
+        refuse_long_line(path, next(n for n, text in enumerate(lines, 1) if len(text) > MAX_LINE))
 
 
 def refuse_long_line(path: str, line: int) -> NoReturn:

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from math import cos, inf, radians, sin
+
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.language.bulk.both_ways import differences, run, scanned
+from polycnc.channel.moves.path import Move
+from polycnc.compensation.cutter import CutterCompensation
+from tests.language.bulk.both_ways import PLAIN, differences, run, scanned
 from tests.language.bulk.programs import arc
 
 CONTROLS = ("fanuc-m", "meldas-m", "syntec-mill")
@@ -56,6 +60,65 @@ def test_contours_give_the_same_both_ways(text: str, control_id: str, travel: fl
 @given(contour(), st.integers(3, 60))
 def test_a_limit_of_blocks_is_exact_within_a_run(text: str, limit: int) -> None:
     assert differences(text, "fanuc-m", SETUP, block_limit=limit) == []
+
+
+@st.composite
+def smooth(draw: st.DrawFn) -> str:
+    """Chords of a curve, as CAM systems write them: most of them are handed over many at once."""
+    lines = [
+        "O0001",
+        "G21 G90 G54 G0 X-10. Y-10. Z5.",
+        f"{draw(st.sampled_from(('G41', 'G42')))} D1 G1 X0 Y0 F500.",
+    ]
+    angle, x, y = 0.0, 0.0, 0.0
+    for _ in range(draw(st.integers(1, 4))):
+        bend = draw(st.floats(-25.0, 25.0))
+        for _ in range(draw(st.integers(4, 30))):
+            angle += bend
+            x, y = x + 4.0 * cos(radians(angle)), y + 4.0 * sin(radians(angle))
+            lines.append(f"G90 G1 X{x:.3f} Y{y:.3f}{draw(st.sampled_from(('', '', ' F300.', ' Z-1.')))}")
+        lines.append(draw(st.sampled_from(BETWEEN)))
+    return "\n".join([*lines, "G90 G40 G1 X-20. Y-20.", "M30", ""])
+
+
+@settings(max_examples=100, deadline=None)
+@given(
+    smooth(), st.sampled_from(CONTROLS), st.sampled_from((30.0, 90.0, inf)), st.sampled_from((20, 70, 500))
+)
+def test_chords_of_curves_give_the_same_both_ways(
+    text: str, control_id: str, travel: float, limit: int
+) -> None:
+    assert differences(text, control_id, SETUP, travel=travel, block_limit=limit) == []
+
+
+@pytest.mark.parametrize("control_id", CONTROLS)
+def test_most_moves_of_a_contour_are_handed_over_at_once(
+    control_id: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    single: list[Move] = []
+
+    def move(stage: CutterCompensation, move: Move) -> None:
+        single.append(move)
+        one(stage, move)
+
+    one = CutterCompensation.move
+    monkeypatch.setattr(CutterCompensation, "move", move)
+    points = "\n".join(f"X{50 * cos(i / 90):.3f} Y{50 * sin(i / 90):.3f}" for i in range(1, 500))
+    text = f"O0001\nG90 G54 G0 X10. Y0 Z5.\nG41 D1 G1 X50. Y0 F500.\n{points}\nG40 X-20.\nM30\n"
+    run(text, control_id, SETUP, PLAIN)
+    assert len(single) < 20
+    assert differences(text, control_id, SETUP) == []
+
+
+def test_a_limit_of_travel_is_kept_by_the_way_of_the_tool() -> None:
+    """The contour ends at X 99 of 100; the tool, 3 mm beside it, would pass the limit."""
+    points = "\n".join(f"X{99 * sin(i / 90):.3f} Y{80 * cos(i / 90):.3f}" for i in range(1, 180))
+    text = f"O0001\nG90 G54 G0 X0 Y10. Z5.\nG41 D1 G1 X0 Y80. F500.\n{points}\nG40 X0 Y0\nM30\n"
+    setup = {"tools": SETUP["tools"]}
+    (alarm,) = run(text, "fanuc-m", setup, PLAIN, travel=100.0).alarms
+    assert 100 < alarm.line < 150
+    assert not run(text.replace("G41", "G42"), "fanuc-m", setup, PLAIN, travel=100.0).alarms
+    assert differences(text, "fanuc-m", setup, travel=100.0) == []
 
 
 @pytest.mark.parametrize("control_id", CONTROLS)

@@ -10,6 +10,7 @@ out; `Path.divert` lays the whole path aside while a control reads a contour wit
 
 from __future__ import annotations
 
+from array import array
 from contextlib import contextmanager
 from enum import IntEnum, auto
 from itertools import pairwise
@@ -129,6 +130,57 @@ class Move:
 
 
 @dataclass(frozen=True, slots=True)
+class Run:
+    """Moves of blocks that follow each other, a move a block and nothing else, as columns of a toolpath.
+
+    Attributes:
+        kinds: Row kinds.
+        lines: Lines in the program.
+        feeds: In internal units.
+        ends: Where the moves end, flat.
+        curves: `NO_CURVE` for each: none is an arc.
+        start: Where the first one begins.
+        program: Number of the program in the toolpath's list.
+        context: Number of the context that holds.
+    """
+
+    kinds: array[int]
+    lines: array[int]
+    feeds: array[float]
+    ends: array[float]
+    curves: array[int]
+    start: list[float]
+    program: int
+    context: int
+
+    def part(self, count: int, first: int = 0) -> Run:
+        """So many of its moves, from one on."""
+        axes, end = len(self.start), first + count
+        start = self.ends[(first - 1) * axes : first * axes].tolist() if first else self.start
+        return Run(
+            self.kinds[first:end], self.lines[first:end], self.feeds[first:end],
+            self.ends[first * axes : end * axes], self.curves[first:end], start, self.program, self.context,
+        )  # fmt: skip
+
+    def behind(self, moves: Sequence[Move]) -> Run:
+        """The same with some moves in front that belong to it, as `continues` tells."""
+        return Run(
+            array("B", [move.kind for move in moves]) + self.kinds,
+            array("I", [move.line for move in moves]) + self.lines,
+            array("d", [move.feed for move in moves]) + self.feeds,
+            array("d", [number for move in moves for number in move.end]) + self.ends,
+            self.curves[:1] * len(moves) + self.curves,
+            moves[0].start,
+            self.program,
+            self.context,
+        )
+
+    def continues(self, move: Move) -> bool:
+        """Whether program and context are those of a move."""
+        return move.program == self.program and move.context == self.context
+
+
+@dataclass(frozen=True, slots=True)
 class PlacedEvent:
     """An event on its way to the toolpath, with program, line and context as a `Move` has them."""
 
@@ -184,6 +236,13 @@ class Stage:
     def block(self) -> None:
         """Called after every block of the program, with or without motion (look-ahead limits count blocks)."""
         self.after.block()
+
+    def run(self, _run: Run) -> int:
+        """Take as many of a run's first moves as can be taken at once, with the ends of their blocks; gives how many.
+
+        The next move, which may be the first one, is given by itself.
+        """
+        return 0
 
     def flush(self) -> None:
         """Pass on everything that is held back: no more moves will come that could change it."""
@@ -248,6 +307,16 @@ class TableStage(Sink):
         self.context = move.context
         if move.end != move.start or move.center is not None or move.parameters:
             self._channel.write(move)
+
+    def run(self, run: Run) -> int:
+        """Write moves that all have a way."""
+        count = len(run.kinds)
+        if count:
+            self.end, self.context = run.ends[-len(run.start) :].tolist(), run.context
+            columns = (run.kinds, run.lines, run.feeds, run.ends, run.curves)
+            views = [memoryview(column).cast("B") for column in columns]
+            self._channel.toolpath.chunk.extend(0, count, run.program, run.context, views)
+        return count
 
     def event(self, event: PlacedEvent) -> None:
         """Write an event at the place of the last move, as the event's own coordinates have it."""

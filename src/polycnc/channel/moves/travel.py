@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
     from polycnc.channel.moves.move_path import MovePath
+    from polycnc.channel.moves.path import Run
     from polycnc.geometry.frames import Frame
     from polycnc.machine.model import Axis
     from polycnc.toolpath import Context
@@ -116,6 +117,24 @@ class TravelGuard(Stage):
             alarm.line, alarm.program = move.line, move.program
             raise
         self.after.move(move)
+
+    def run(self, run: Run) -> int:
+        """Pass moves on, up to the first that might lead beyond a limit."""
+        return self.after.run(run.part(self._within(run)))
+
+    def _within(self, run: Run) -> int:
+        """How many straight moves certainly stay within the limits, from the first on."""
+        channel, context = self._channel, self._channel.toolpath.contexts[run.context]
+        if channel.boundary is not None or context.transformation is not None:
+            return 0
+        axes, count = len(run.start), len(run.kinds)
+        limits, to_machine = channel.limits, channel.toolpath.to_machine
+        geometry = channel.coordinates.geometry
+        for i in range(count if limits else 0):
+            machine = to_machine(run.ends[i * axes : (i + 1) * axes].tolist(), context, geometry)
+            if not all(low <= at <= high for at, (low, high) in zip(machine, limits, strict=True)):
+                return i
+        return count
 
 
 def limits_of(axes: Sequence[Axis]) -> tuple[tuple[float, float], ...]:

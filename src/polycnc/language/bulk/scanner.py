@@ -13,7 +13,7 @@ from polycnc.language.bulk.kernels import Tables
 from polycnc.language.bulk.layout import State, new_state
 from polycnc.language.bulk.moves import Columns
 from polycnc.language.bulk.shapes import Shapes
-from polycnc.language.bulk.staged import MOST_BLOCKS, StagedRun, leading_moves
+from polycnc.language.bulk.staged import FEWEST_AHEAD, StagedRun, leading_moves
 from polycnc.language.bulk.text import Window
 from polycnc.messages import AlarmError
 from polycnc.toolpath.table import CHUNK_ROWS, CURVE_WIDTH
@@ -166,6 +166,7 @@ class Scanner:
         self._patience = 1
         self._next_try = 0
         self._most_patience = settings.most_patience
+        self._ahead = FEWEST_AHEAD
         self._state = new_state(axes)
         self._columns = (
             array("B", bytes(rooms)), array("I", bytes(4 * rooms)), array("d", bytes(8 * rooms)),
@@ -226,10 +227,11 @@ class Scanner:
         Where one finds an alarm, the channel stands in that block: the blocks up to there are scanned once more.
         """
         at = self._state.scan
-        outcome = self._call(channel, MOST_BLOCKS)
+        outcome = self._call(channel, self._ahead)
         first_line = channel.level.code.program.first_line + self._window.line
         moves = leading_moves(first_line, at, self._columns, self._notes)
         is_all = moves == at.blocks and at.line == first_line + moves
+        self._ahead = min(2 * self._ahead, self._rooms) if is_all else FEWEST_AHEAD
         if not moves:
             return outcome if is_all else layout.Outcome.NOT_PLAIN
         if not is_all:
