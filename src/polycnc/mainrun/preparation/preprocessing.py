@@ -140,7 +140,7 @@ class Preprocessing:
         channel.main_run = self
         real = RealAxes(self._machine, self._number, self.toolpath.axes, settings, ())
         uses = uses_of(self._machine, self._number, settings)
-        self._buffer.tables = ContextTables(uses.after_s)
+        self._buffer.tables, self._known_contexts = ContextTables(uses.after_s), 0
         self._rows.use(real, settings, uses)
 
     def start(self, program: Program, position: Sequence[float]) -> None:
