@@ -26,8 +26,9 @@ _OF_BLOCK = frozenset({"STOPREOF", "DELDTG()"})
 def fine_offset_of_block(compiler: BlockCompiler) -> None:
     """`PUTFTOCF(function,reference,length[,channel[,spindle]])`: FTOC as an action of the next block alone (7.4)."""
     live = LiveReader(compiler)
-    first = live.token
-    live.tokens[live.place] = first._replace(text="FTOC")
+    tokens = list(live.tokens)
+    tokens[live.place] = live.token._replace(text="FTOC")
+    live.tokens = tokens
     live.effect()
     if live.token.kind != "end":
         raise live.error()
