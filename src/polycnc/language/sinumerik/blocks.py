@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.language.expressions.code import Code, constant, quoted, sequence
 from polycnc.language.sinumerik import keywords, runtime
-from polycnc.language.sinumerik.actions.block import action
+from polycnc.language.sinumerik.actions.block import action, fine_offset_of_block
 from polycnc.language.sinumerik.emitter import Emitter, provide
 from polycnc.language.sinumerik.errors import NcSyntaxError, not_supported, syntax
 from polycnc.language.sinumerik.expressions import ExpressionReader
@@ -297,6 +297,7 @@ _STATEMENTS: dict[str, Callable[[BlockCompiler], None]] = {
     **redefinitions.STATEMENTS,
     **calls.STATEMENTS,
     **dict.fromkeys(keywords.SYNCHRONOUS, action),
+    "PUTFTOCF": fine_offset_of_block,
     **dict.fromkeys(keywords.NOT_EXECUTED, _not_yet),
     **dict.fromkeys(keywords.PARTS | keywords.OPERATORS, _alone),
 }

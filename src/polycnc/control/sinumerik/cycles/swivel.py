@@ -53,8 +53,14 @@ PLANE_OF_DMODE = {1: "G17", 2: "G18", 3: "G19"}
 
 
 def swivel(moves: Moves, a: Arguments) -> None:
-    """CYCLE800; without arguments, or with the record "0", it takes the swivel away."""
+    """CYCLE800; without arguments, or with the record "0", it takes the swivel away.
+
+    Raises:
+        AlarmError: 61815 under radius compensation; what `_check` finds.
+    """
     channel = moves.channel
+    if channel.mode["compensation"] != "G40":
+        raise AlarmError("61815", text="CYCLE800")  # its corner would lie between two planes
     if not a.any_given or a.text("_TC").strip() == DESELECT:
         if a.any_given and a.integer("_FR"):
             _retract(moves, a, Kinematics.of(channel.machine), {})

@@ -81,7 +81,8 @@ def start(channel: SyntecChannel, words: Words) -> None:
         raise channel.control.not_yet(f"G54.4 {channel.mode['length']}")
     if PolarState.of(channel).plane is not None or not channel.coordinates.zero.is_identity:
         raise words.fail("tip_mode", channel.mode["length"])
-    fastest = words.typed("I") or 0.0
+    # I of G43.5 is a part of the tool's direction.
+    fastest = (words.typed("I") or 0.0) if channel.mode["length"] == "G43.4" else 0.0
     if fastest < 0.0:
         raise words.fail("number", "I")
     FollowingState.of(channel).fastest = fastest

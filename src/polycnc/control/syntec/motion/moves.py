@@ -5,7 +5,7 @@ from __future__ import annotations
 from contextlib import contextmanager
 from dataclasses import field, replace
 from functools import partial
-from math import copysign, hypot, nan, sqrt
+from math import copysign, hypot, nan
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, lasting
@@ -25,6 +25,7 @@ from polycnc.control.word_address.motion.skip import LastSkip
 from polycnc.control.word_address.tools import radius
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.normal_stage import NormalStage
+from polycnc.control.word_address.transformations.polar_interpolation import is_length
 from polycnc.deferred.records import dataclass
 from polycnc.geometry import arcs
 from polycnc.geometry.frames import IDENTITY
@@ -306,10 +307,15 @@ def _with_inverse_time(builder: Builder, plan: Plan, step: Step | None) -> Step 
 
 
 def _length(channel: SyntecChannel, plan: Plan, values: list[float]) -> float:
-    """Length of the straight way that a block will make, over all axes."""
+    """Length of the straight way that a block will make, over all axes, as its feed counts it: a degree is an inch."""
     c = channel.coordinates
     end = c.to_position(path.target(channel, plan.axis_words, values))
-    return sqrt(sum((e - s) ** 2 for s, e in zip(c.position, end, strict=True)))
+    ways = [e - s for s, e in zip(c.position, end, strict=True)]
+    if plan.inch:
+        for axis, data in enumerate(channel.axis_data):
+            if data.rotary and not is_length(channel, axis):
+                ways[axis] *= INCH_MM
+    return hypot(*ways)
 
 
 # ---- G31, G33 --------------------------------------------------------------------------------------------

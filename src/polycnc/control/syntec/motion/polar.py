@@ -111,7 +111,10 @@ def _enter(
     c, (plane, geometry, eccentricity) = channel.coordinates, placed
     if RadiusState.of(channel).side or not (c.direct and c.zero.is_identity):
         raise words.fail("polar_mode", "G12.1")
-    if PolarState.of(channel).plane is not None:
+    active = PolarState.of(channel).plane
+    if active is not None:
+        if (active.linear, active.rotary) != (linear, rotary):
+            raise words.fail("polar_mode", "G12.1")
         return
     channel.flush()
     here = c.position

@@ -21,7 +21,8 @@ from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, Frame, rotation, translation
 from polycnc.machine.kinematics import Kinematics
 from polycnc.toolpath import Kind
-from polycnc.transformation.orientation.solutions import angles_for
+from polycnc.transformation.orientation import choice
+from polycnc.transformation.orientation.solutions import angles_for, solutions_for
 from polycnc.transformation.planes.tilted import (
     by_directions,
     by_euler,
@@ -36,6 +37,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import WordAddressChannel
     from polycnc.geometry.frames import Vector
+    from polycnc.machine.kinematics import Angles
 
 #: P of G68.2: how the plane is told.
 EULER, ROLL_PITCH_YAW, POINTS, VECTORS, PROJECTION = 0, 1, 2, 3, 4
@@ -43,6 +45,9 @@ EULER, ROLL_PITCH_YAW, POINTS, VECTORS, PROJECTION = 0, 1, 2, 3, 4
 BLOCKS = {POINTS: 3, VECTORS: 2}
 ORDERS = {123, 132, 213, 231, 312, 321}
 MACHINE_ZERO = (0.0, 0.0, 0.0)
+#: P of G53.1 and G53.6: the nearest position, or the sense in which the first rotary axis turns.
+NEAREST = 0
+SENSES = {NEAREST: 0, 1: 1, 2: -1}
 
 
 @dataclass(slots=True)
@@ -179,12 +184,12 @@ def named_point(channel: WordAddressChannel, words: Words, mistake: str) -> Vect
 
 
 def align_tool(channel: WordAddressChannel, words: Words) -> None:
-    """G53.1: the rotary axes turn at rapid until the tool stands on the tilted plane; X, Y and Z stay."""
+    """G53.1 [P]: the rotary axes turn at rapid until the tool stands on the tilted plane; X, Y and Z stay."""
     _align(channel, words, "G53.1", holds_tip=False)
 
 
 def align_tool_about_tip(channel: WordAddressChannel, words: Words) -> None:
-    """G53.6: as G53.1, while X, Y and Z go along so that the tip stays where it is on the work."""
+    """G53.6 [P]: as G53.1, while X, Y and Z go along so that the tip stays where it is on the work."""
     _align(channel, words, "G53.6", holds_tip=True)
 
 
@@ -198,7 +203,7 @@ def _align(channel: WordAddressChannel, words: Words, code: str, *, holds_tip: b
     wanted = plane.direct(0.0, 0.0, 1.0)
     if not kinematics.axes and abs(wanted[2] - 1.0) < 1e-9:
         return
-    angles = angles_for(kinematics, wanted, near)
+    angles = _angles(words, kinematics, wanted, near)
     if angles is None or not set(angles) <= set(channel.axes):
         raise words.fail("tilt_unreachable", code)
     tip, end = c.position, c.machine
@@ -213,6 +218,23 @@ def _align(channel: WordAddressChannel, words: Words, code: str, *, holds_tip: b
         for axis in c.geometry:
             c.pending[axis] = 0.0
     channel.straight(Kind.RAPID, goal, nan)
+
+
+def _angles(words: Words, kinematics: Kinematics, wanted: Vector, near: Angles) -> dict[str, float] | None:
+    """Positions of the rotary axes: the nearest ones, by P1 and P2 those to which the first axis turns up or down.
+
+    The first axis is the one that carries the other.
+    """
+    way = words.integer("P") if "P" in words else NEAREST
+    if way not in SENSES:
+        raise words.fail("tilt_format", "P")
+    if way == NEAREST or not kinematics.axes:
+        return angles_for(kinematics, wanted, near)
+    first = (kinematics.work or kinematics.tool)[0].axis
+    found = [
+        choice.led(solution, near, first, SENSES[way]) for solution in solutions_for(kinematics, wanted, near)
+    ]
+    return next(iter(choice.by_way_of(found, near, first)), None)
 
 
 def _work_zero(channel: WordAddressChannel) -> list[float]:

@@ -13,6 +13,7 @@ from polycnc.language.sinumerik.names.values import Type
 
 if TYPE_CHECKING:
     from polycnc.language.expressions.code import Code
+    from polycnc.language.sinumerik.actions.code import Condition
     from polycnc.language.sinumerik.blocks import BlockCompiler
     from polycnc.language.sinumerik.lexer import Token
 
@@ -20,6 +21,18 @@ if TYPE_CHECKING:
 MOST_CYCLES = 8
 #: Effects that belong to the next block alone.
 _OF_BLOCK = frozenset({"STOPREOF", "DELDTG()"})
+
+
+def fine_offset_of_block(compiler: BlockCompiler) -> None:
+    """`PUTFTOCF(function,reference,length[,channel[,spindle]])`: FTOC as an action of the next block alone (7.4)."""
+    live = LiveReader(compiler)
+    tokens = list(live.tokens)
+    tokens[live.place] = live.token._replace(text="FTOC")
+    live.tokens = tokens
+    live.effect()
+    if live.token.kind != "end":
+        raise live.error()
+    _define(compiler, live, "", "", None, "", constant(None))
 
 
 def action(compiler: BlockCompiler) -> None:
@@ -40,6 +53,19 @@ def action(compiler: BlockCompiler) -> None:
     if cycles > MOST_CYCLES:
         raise live.refused(first)
     _check(live.needs, word, keyword, first)
+    _define(compiler, live, word, keyword, condition, unit, number)
+
+
+def _define(
+    compiler: BlockCompiler,
+    live: LiveReader,
+    word: str,
+    keyword: str,
+    condition: Condition | None,
+    unit: str,
+    number: Code,
+) -> None:
+    """Let the block hand the action over."""
     compiler.place = live.place
     emitter = compiler.emitter
     made = ActionCode(
