@@ -11,12 +11,14 @@ out; `Path.divert` lays the whole path aside while a control reads a contour wit
 from __future__ import annotations
 
 from contextlib import contextmanager
+from dataclasses import replace
 from enum import IntEnum, auto
 from itertools import pairwise
 from math import nan
 from typing import TYPE_CHECKING, ClassVar, TypeVar
 
 from polycnc.deferred.records import dataclass
+from polycnc.toolpath.context import PROGRAMMED
 from polycnc.toolpath.kinds import Kind
 
 if TYPE_CHECKING:
@@ -98,6 +100,7 @@ class Move:
         turns: Full turns beyond the first part of an arc.
         parameters: Other curve parameters (lead, start angle, seconds), as `CURVE_WIDTH` documents.
         turning: How the rotary axes go on the way, where they do not go evenly from start to end.
+        origin: What has made it of the program's moves, as `Context` says.
     """
 
     kind: Kind
@@ -112,6 +115,7 @@ class Move:
     turns: float = 0.0
     parameters: tuple[float, ...] = ()
     turning: Turning | None = None
+    origin: int = PROGRAMMED
 
     @property
     def is_arc(self) -> bool:
@@ -122,7 +126,7 @@ class Move:
         """The same move between two other positions."""
         return Move(
             self.kind, start, end, self.feed, self.program, self.line, self.context,
-            self.center, self.normal, self.turns, self.parameters, self.turning,
+            self.center, self.normal, self.turns, self.parameters, self.turning, self.origin,
         )  # fmt: skip
 
 
@@ -245,7 +249,12 @@ class TableStage(Sink):
         self.end = move.end
         self.context = move.context
         if move.end != move.start or move.center is not None or move.parameters:
-            self._channel.write(move)
+            channel = self._channel
+            if move.origin != PROGRAMMED and channel.main_run is not None:
+                # Nobody but the main run asks for it.
+                held = channel.toolpath.contexts[move.context]
+                move.context = channel.toolpath.context_number(replace(held, origin=move.origin))
+            channel.write(move)
 
     def event(self, event: PlacedEvent) -> None:
         """Write an event at the place of the last move, as the event's own coordinates have it."""

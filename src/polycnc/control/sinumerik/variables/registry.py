@@ -45,6 +45,7 @@ from polycnc.control.sinumerik.tools.online import OVERLAY_VARIABLES
 from polycnc.control.sinumerik.tools.sides import Contour
 from polycnc.control.sinumerik.tools.variables import IN_MAIN_RUN, TOOL_VARIABLES
 from polycnc.control.sinumerik.transformations import smoothing
+from polycnc.control.sinumerik.variables.block_types import BLOCK_VARIABLES
 from polycnc.control.sinumerik.variables.clock import PARTS, part_of_clock
 from polycnc.control.sinumerik.variables.known import is_known
 from polycnc.control.sinumerik.variables.part_counts import PART_COUNTS
@@ -418,7 +419,7 @@ VARIABLES: dict[str, SystemVariable] = {
     **{name: SystemVariable(name, *row) for name, row in REPOS_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in MEASURE_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in DEFINITION_VARIABLES.items()},
-    **{name: SystemVariable(name, *row) for name, row in SURROUNDINGS.items()},
+    **{name: SystemVariable(name, *row) for name, row in {**SURROUNDINGS, **BLOCK_VARIABLES}.items()},
     **{name: SystemVariable(name, *row) for name, row in REPLACED_VARIABLES.items()},
     **{name: SystemVariable(name, Type.INT, part_of_clock(part), stop=True) for name, part in PARTS.items()},
     **{

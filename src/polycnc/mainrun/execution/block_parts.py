@@ -1,0 +1,138 @@
+"""The blocks of the main run: those of the program, and the intermediate ones that it makes of them.
+
+A rounding that the control puts between two rows (`CornerMode.ROUNDED`) is a block here, but no row: the rows keep
+their corner, and the axes round it. It begins where the corner is, and the next block with it.
+"""
+
+from __future__ import annotations
+
+from itertools import islice, pairwise, takewhile
+from math import hypot
+from typing import TYPE_CHECKING
+
+from polycnc.channel.interpolator import BlockKind
+from polycnc.mainrun.preparation.items import Block, Happening, Move, Standing
+from polycnc.toolpath.context import PROGRAMMED, SHORTENED
+from polycnc.toolpath.modes import CornerMode
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
+
+    from polycnc.mainrun.motion.geometry import Segment
+    from polycnc.mainrun.preparation.items import Item
+
+#: A share of a way over which its direction is taken.
+_NEAR = 1e-6
+#: Directions whose unit vectors differ by less make no corner.
+_SAME_DIRECTION = 1e-6
+
+
+class BlockParts:
+    """Counts the blocks of one channel as they begin.
+
+    Args:
+        geometry: Columns of X, Y, Z, -1 for a missing one.
+
+    Attributes:
+        number: How many blocks have begun.
+        kind: What the block in execution is.
+    """
+
+    def __init__(self, geometry: Sequence[int]) -> None:
+        self._axes = [column for column in geometry if column >= 0]
+        self.number = 0
+        self.kind = BlockKind()
+        self._move: Move | None = None
+        self._own: Move | None = None
+        self._modal: Mapping[str, str] = {}
+        self._is_counted = self._is_cut = False
+
+    def block(self, ahead: Iterable[Item], x2: float) -> Iterator[bool]:
+        """A block of the program begins.
+
+        Args:
+            ahead: What comes next.
+            x2: Squared speed at which the axes are.
+
+        Yields:
+            For each block that begins, while it is the one in execution: whether it is the program's own.
+        """
+        own = takewhile(lambda item: not isinstance(item, Block) or item.is_silent, ahead)
+        following = next(_without_rest(own), None)
+        rounds = following is not None and self._rounds(following, x2)
+        if rounds:
+            self._begin(BlockKind(rounding=self._modal))
+            yield False
+        self._begin(BlockKind(following.context.origin if following is not None else PROGRAMMED))
+        self._own, self._is_counted, self._is_cut = following, True, rounds
+        yield True
+
+    def row(self, move: Move, x2: float, modal: Mapping[str, str]) -> Iterator[bool]:
+        """A row begins, at a squared speed, where codes are active; gives false for each block that begins with it."""
+        before, counted = self._move, self._is_counted
+        if before is move:
+            return
+        rounds = not counted and self._rounds(move, x2)
+        rounded_by = self._modal
+        self._move, self._modal, self._is_counted = move, modal, False
+        self._own = move
+        origin, was = move.context.origin, before.context.origin if before is not None else PROGRAMMED
+        goes_on = before is None or before.context.knot or max(origin, was) <= SHORTENED
+        if counted or (goes_on and not rounds):
+            self.kind = BlockKind(origin)
+            return
+        if rounds:
+            self._begin(BlockKind(rounding=rounded_by))
+            yield False
+        self._begin(BlockKind(origin))
+        self._is_cut = rounds
+        yield False
+
+    def _begin(self, kind: BlockKind) -> None:
+        self.number, self.kind, self._is_cut = self.number + 1, kind, False
+
+    def split(self, ahead: Iterable[Item]) -> tuple[bool, bool]:
+        """Whether the block in execution is not as programmed, and whether the one behind it is not; `ahead` comes."""
+        if self.kind.rounding is not None:
+            return True, True
+        move = self._own
+        if move is None:
+            return False, False
+        ahead = tuple(ahead)
+        following = next((row for row in ahead if isinstance(row, Move) and row is not move), None)
+        rows = [move, *(row for row in islice(_without_rest(ahead), 3) if row is not move)]
+        rounded = [self._is_rounded(one, two) for one, two in pairwise(rows)]
+        goes_on = any(rounded[:2]) or (following is not None and following.context.origin != PROGRAMMED)
+        return self._is_cut or any(rounded[:1]) or self.kind.origin != PROGRAMMED, goes_on
+
+    def _rounds(self, move: Move, x2: float) -> bool:
+        """Whether a rounding lies between the last row and another one, to which the axes go on without a rest."""
+        before = self._move
+        return x2 > 0.0 and before is not None and before is not move and self._is_rounded(before, move)
+
+    def _is_rounded(self, one: Move, two: Move) -> bool:
+        context = one.context
+        from_distance = context.corner_mode is CornerMode.ROUNDED_FROM and context.tolerance_mm > 0.0
+        if context.knot or not (from_distance or context.corner_mode is CornerMode.ROUNDED):
+            return False
+        out, into = direction(one.way, 1.0, self._axes), direction(two.way, 0.0, self._axes)
+        turns = any(abs(a - b) > _SAME_DIRECTION for a, b in zip(out, into, strict=True))
+        return turns and any(out) and any(into)
+
+
+def _without_rest(ahead: Iterable[Item]) -> Iterator[Move]:
+    """The rows that the axes go on to without a rest."""
+    for item in ahead:
+        if isinstance(item, Move):
+            yield item
+        elif isinstance(item, Standing) or (isinstance(item, Happening) and item.stands):
+            return
+
+
+def direction(way: Segment, share: float, axes: Sequence[int]) -> list[float]:
+    """Unit vector of a way at its start (0) or its end (1), on some axes; all zero where none of them moves."""
+    first, last = (0.0, _NEAR) if share == 0.0 else (1.0 - _NEAR, 1.0)
+    start, end = way.at(first), way.at(last)
+    along = [end[axis] - start[axis] for axis in axes]
+    length = hypot(*along)
+    return [value / length for value in along] if length else along
