@@ -22,6 +22,7 @@ from polycnc.control.sinumerik.couplings.links import Couplings
 from polycnc.control.sinumerik.couplings.spindle_pairs import SpindlePairs, turns
 from polycnc.control.sinumerik.curve_tables import definition as curve_definition
 from polycnc.control.sinumerik.data import access, init_programs
+from polycnc.control.sinumerik.data.availability import refused
 from polycnc.control.sinumerik.data.machine_data import MachineData
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed import pace, spindle_speed, tolerances
@@ -225,6 +226,7 @@ class Sinumerik:
                 **user_data(data),
             },
             macros={**punching.macros(channel), **coordination.names(channel)},
+            refused=refused(channel.machine.control_variant, channel.machine.control_options),
         )
 
     def end_of_program(self, channel: SinumerikChannel) -> None:

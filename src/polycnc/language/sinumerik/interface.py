@@ -181,6 +181,7 @@ class LanguageMemory(State, lifetime=Lifetime.POWER):
         write_levels: Protection level that WRITE needs in some directories.
         rights: What REDEF has made of the rights of system variables, R parameters and words, by name and keyword.
         nck_variables: Those of the global variables that all channels share.
+        refused: Words that this variant of the control does without.
         macros: Texts of DEFINE … AS of the definition files, and names of channels, upper case.
         call_path: Directory of CALLPATH, or empty.
         modal_call: What MCALL has set: called after every block with path motion.
@@ -205,6 +206,7 @@ class LanguageMemory(State, lifetime=Lifetime.POWER):
     rights: dict[str, dict[str, int]] = field(default_factory=dict)
     nck_variables: dict[str, Any] = field(default_factory=dict)
     macros: dict[str, str] = field(default_factory=dict)
+    refused: frozenset[str] = frozenset()
     call_path: str = ""
     modal_call: Callable[[Channel], None] | None = lasting(Lifetime.RESET, None)
     definitions_loaded: bool = False

@@ -11,7 +11,7 @@ from math import hypot
 from typing import TYPE_CHECKING
 
 from polycnc.channel.interpolator import BlockKind
-from polycnc.mainrun.preparation.items import Block, Happening, Move, Standing
+from polycnc.mainrun.preparation.items import Block, Move
 from polycnc.toolpath.context import PROGRAMMED, SHORTENED
 from polycnc.toolpath.modes import CornerMode
 
@@ -47,19 +47,18 @@ class BlockParts:
         self._modal: Mapping[str, str] = {}
         self._is_counted = self._is_cut = False
 
-    def block(self, ahead: Iterable[Item], x2: float) -> Iterator[bool]:
+    def block(self, ahead: Iterable[Item]) -> Iterator[bool]:
         """A block of the program begins.
 
         Args:
             ahead: What comes next.
-            x2: Squared speed at which the axes are.
 
         Yields:
             For each block that begins, while it is the one in execution: whether it is the program's own.
         """
         own = takewhile(lambda item: not isinstance(item, Block) or item.is_silent, ahead)
-        following = next(_without_rest(own), None)
-        rounds = following is not None and self._rounds(following, x2)
+        following = next((item for item in own if isinstance(item, Move)), None)
+        rounds = following is not None and self._rounds(following)
         if rounds:
             self._begin(BlockKind(rounding=self._modal))
             yield False
@@ -67,12 +66,12 @@ class BlockParts:
         self._own, self._is_counted, self._is_cut = following, True, rounds
         yield True
 
-    def row(self, move: Move, x2: float, modal: Mapping[str, str]) -> Iterator[bool]:
-        """A row begins, at a squared speed, where codes are active; gives false for each block that begins with it."""
+    def row(self, move: Move, modal: Mapping[str, str]) -> Iterator[bool]:
+        """A row begins, where codes are active; gives false for each block that begins with it."""
         before, counted = self._move, self._is_counted
         if before is move:
             return
-        rounds = not counted and self._rounds(move, x2)
+        rounds = not counted and self._rounds(move)
         rounded_by = self._modal
         self._move, self._modal, self._is_counted = move, modal, False
         self._own = move
@@ -98,35 +97,25 @@ class BlockParts:
         move = self._own
         if move is None:
             return False, False
-        ahead = tuple(ahead)
-        following = next((row for row in ahead if isinstance(row, Move) and row is not move), None)
-        rows = [move, *(row for row in islice(_without_rest(ahead), 3) if row is not move)]
+        rows = [move, *islice((row for row in ahead if isinstance(row, Move) and row is not move), 2)]
         rounded = [self._is_rounded(one, two) for one, two in pairwise(rows)]
-        goes_on = any(rounded[:2]) or (following is not None and following.context.origin != PROGRAMMED)
+        goes_on = any(rounded) or any(row.context.origin != PROGRAMMED for row in rows[1:2])
         return self._is_cut or any(rounded[:1]) or self.kind.origin != PROGRAMMED, goes_on
 
-    def _rounds(self, move: Move, x2: float) -> bool:
-        """Whether a rounding lies between the last row and another one, to which the axes go on without a rest."""
+    def _rounds(self, move: Move) -> bool:
+        """Whether a rounding lies between the last row and another one."""
         before = self._move
-        return x2 > 0.0 and before is not None and before is not move and self._is_rounded(before, move)
+        return before is not None and before is not move and self._is_rounded(before, move)
 
     def _is_rounded(self, one: Move, two: Move) -> bool:
         context = one.context
         from_distance = context.corner_mode is CornerMode.ROUNDED_FROM and context.tolerance_mm > 0.0
-        if context.knot or not (from_distance or context.corner_mode is CornerMode.ROUNDED):
+        rests = two.prepared is None or two.prepared.rests
+        if rests or context.knot or not (from_distance or context.corner_mode is CornerMode.ROUNDED):
             return False
         out, into = direction(one.way, 1.0, self._axes), direction(two.way, 0.0, self._axes)
         turns = any(abs(a - b) > _SAME_DIRECTION for a, b in zip(out, into, strict=True))
         return turns and any(out) and any(into)
-
-
-def _without_rest(ahead: Iterable[Item]) -> Iterator[Move]:
-    """The rows that the axes go on to without a rest."""
-    for item in ahead:
-        if isinstance(item, Move):
-            yield item
-        elif isinstance(item, Standing) or (isinstance(item, Happening) and item.stands):
-            return
 
 
 def direction(way: Segment, share: float, axes: Sequence[int]) -> list[float]:

@@ -67,7 +67,6 @@ class Execution:
         axes: The axes, with what moves them beside the path.
         position: Where on the path the axes last were at a joint, and `place` what held there.
         rates: The speeds of this channel.
-        x2: Squared speed, (mm/s)², at which the axes have passed the joint in front of the next piece.
         on_row: Is told of every row that begins; None where nobody asks.
         lingers: Says whether the end of the program has to wait for actions; None where there are none.
     """
@@ -96,7 +95,7 @@ class Execution:
         self.motion: Motion | None = None
         self.position = list(position)
         self._machinery = machinery
-        self.x2, self._cap2 = 0.0, inf
+        self._x2, self._cap2 = 0.0, inf
         self._until, self._dwell_signal = 0.0, ""
         self._gated = self._waiting = self._blocked = self._moved_on = False
         self._by_hand: tuple[float, ...] = ()
@@ -211,7 +210,7 @@ class Execution:
         """The end of a piece."""
         motion = self.motion
         assert motion is not None
-        self.x2 = motion.end2 if motion.end2 > REST2 else 0.0
+        self._x2 = motion.end2 if motion.end2 > REST2 else 0.0
         self.position = motion.piece.at(1.0)
         if isinstance(motion, PathMotion):
             self._calm = motion.calm(self.clock.time)
@@ -220,7 +219,7 @@ class Execution:
             self._coast(motion, 0.5 * self._follower.window)
         if self.motion is None:
             self._behind = motion.piece.length
-            if self.x2 == 0.0:
+            if self._x2 == 0.0:
                 self._come_to_rest()
 
     def _come_to_rest(self) -> None:
@@ -244,7 +243,7 @@ class Execution:
         if coasting is not None:
             self._follower.enter(coasting.piece, coasting.length, done)
             self._lead()
-        self.x2, self._moved_on = 0.0, True
+        self._x2, self._moved_on = 0.0, True
         self.preprocessing.queue.drop_moves()
 
     def skip_signal(self) -> list[float] | None:
@@ -283,7 +282,7 @@ class Execution:
             self.motion = None
             self._come_to_rest()
         self.rates.stops, self._moved_on = False, True
-        self.x2, self._skips_at = 0.0, inf
+        self._x2, self._skips_at = 0.0, inf
         self.preprocessing.queue.drop_moves()
 
     def _go_on(self) -> bool:
@@ -291,7 +290,7 @@ class Execution:
         self._waiting = False
         if not self.running:
             return False
-        if self.rates.stops and self.x2 == 0.0:
+        if self.rates.stops and self._x2 == 0.0:
             self._drop()
         if self._awaits is not None and self._awaits():
             due = self.axes.due
@@ -301,7 +300,7 @@ class Execution:
         filled = self.preprocessing.fill(one_block=self.single_block)
         if self.preprocessing.revised:
             self._look_ahead()
-        if self.rates.influence.holds_next and self.x2 == 0.0 and self.preprocessing.begins_anew:
+        if self.rates.influence.holds_next and self._x2 == 0.0 and self.preprocessing.begins_anew:
             self._until = self.clock.time + self.clock.cycle_s
             return True
         if not self.preprocessing.items:
@@ -311,7 +310,7 @@ class Execution:
             return self._begin(item)
         held = self.context.feed_hold or (isinstance(item, Block) and self.preprocessing.queue.knows_hold)
         held = self.rates.gives_up or (self.rates.hold and held)
-        if held and self.x2 == 0.0 and not isinstance(item, BlockEnd):
+        if held and self._x2 == 0.0 and not isinstance(item, BlockEnd):
             return False
         return self._pass(item)
 
@@ -368,7 +367,7 @@ class Execution:
 
     def _pass(self, item: Block | BlockEnd | Happening | Standing) -> bool:
         """Execute something that is no motion."""
-        if isinstance(item, Block) and self.x2 == 0.0 and self._machinery.busy:
+        if isinstance(item, Block) and self._x2 == 0.0 and self._machinery.busy:
             self._waiting = True
             return True
         self.preprocessing.items.popleft()
@@ -377,7 +376,7 @@ class Execution:
             self._work()
         elif isinstance(item, BlockEnd):
             halts = self.single_block and not self.context.stop_delay
-            if halts and self.x2 == 0.0 and not self.preprocessing.typed_blocks_end:
+            if halts and self._x2 == 0.0 and not self.preprocessing.typed_blocks_end:
                 self.stop("single-block")
         elif isinstance(item, Standing):
             self.context = item.context
@@ -397,7 +396,7 @@ class Execution:
         """A block costs the control its time: a loop without a way, which has used up what was prepared, lasts."""
         ready = self.clock.time - BLOCK_S * PREPARED
         self._worked_until = max(self._worked_until, ready) + BLOCK_S
-        if self.x2 == 0.0:
+        if self._x2 == 0.0:
             self._until = max(self._until, self._worked_until)
 
     def _enter(self, block: Block) -> None:
@@ -408,7 +407,7 @@ class Execution:
         """Start along the next piece of a move."""
         if self.rates.enter(move.context):
             self._look_ahead()
-        if self.x2 == 0.0 and self.axes.have_offset:
+        if self._x2 == 0.0 and self.axes.have_offset:
             if (error := beyond_limits(move, self.axes, self.preprocessing.channel)) is not None:
                 self.preprocessing.refuse(error)
                 return True
@@ -420,7 +419,7 @@ class Execution:
         if move.done == 0.0 and self.on_row is not None:
             self.on_row(move)
         cap2 = self.preprocessing.front_cap2(self.rates)
-        if self.x2 == 0.0 and cap2 == 0.0:
+        if self._x2 == 0.0 and cap2 == 0.0:
             return False
         preprocessing = self.preprocessing
         piece, record = preprocessing.queue.pop_piece()
@@ -430,10 +429,10 @@ class Execution:
             self._enter(Block(piece.program, piece.line, self.modal))
         if piece.kind == Kind.SKIP and piece.first == 0.0 and self._skip_after_s is not None:
             self._skips_at = self.clock.time + self._skip_after_s
-        if self.x2 == 0.0 and self.clock.time < self._rest_time:
+        if self._x2 == 0.0 and self.clock.time < self._rest_time:
             self._follower = Follower(self._follower, self._rest_time, self.position)
         follower = self._follower
-        if self.x2 == 0.0:
+        if self._x2 == 0.0:
             follower.begin(self.clock.time, record[PieceRecord.RAMP], record[PieceRecord.BLEND])
         follower.enter(piece, record[PieceRecord.LENGTH], self._behind)
         if piece.by_axis:
@@ -442,7 +441,7 @@ class Execution:
             )
         else:
             self.motion = PathMotion(
-                piece, record, preprocessing.limits, self.clock.time, self.x2, preprocessing.reach2, cap2,
+                piece, record, preprocessing.limits, self.clock.time, self._x2, preprocessing.reach2, cap2,
                 follower.window, *self._steadiness(record),
             )  # fmt: skip
         self._lead()
@@ -455,7 +454,7 @@ class Execution:
         ramp = record[PieceRecord.RAMP]
         if record[PieceRecord.BLEND] != 0.0 or record[PieceRecord.FORM] != Form.STRAIGHT or ramp == 0.0:
             return FREE, NO_WAYS
-        if self.x2 == 0.0:
+        if self._x2 == 0.0:
             self._calm = Calm(ramp)
         return self._calm, self.preprocessing.ways_to_rest
 
@@ -478,7 +477,7 @@ class Execution:
         self._blocked = False
         motion = self.motion
         if motion is None:
-            at_rest = self.x2 == 0.0
+            at_rest = self._x2 == 0.0
             if not self.preprocessing.queue.suits(self.rates, at_rest=at_rest):
                 self.preprocessing.queue.lay_again(self.rates, at_rest=at_rest)
             self._look_ahead()
@@ -551,7 +550,7 @@ class Execution:
         self.axes.moved(way, absolute=absolute)
         motion = self.motion
         if motion is not None and self._take_back(motion.piece, motion.machine(self.clock.time)):
-            self.motion, self.x2, self._skips_at = None, 0.0, inf
+            self.motion, self._x2, self._skips_at = None, 0.0, inf
 
     def _take_back(self, piece: Move | Piece, here: Sequence[float]) -> bool:
         """Let the row of a piece go to its end from where the axes are; false where it does not do that."""
@@ -585,7 +584,7 @@ class Execution:
 
     def stop(self, reason: str) -> None:
         """Halt here: the axes stand."""
-        self.running, self.halt, self.attention, self.x2 = False, reason, True, 0.0
+        self.running, self.halt, self.attention, self._x2 = False, reason, True, 0.0
         self._machinery.halted(reason)
 
     def abandon(self) -> None:
@@ -594,6 +593,6 @@ class Execution:
         self.axes.take_back(-1)
         self.axes.rebase()
         self.motion, self.running, self.halt = None, False, ""
-        self.x2, self._until, self._rest_time, self._skips_at = 0.0, self.clock.time, self.clock.time, inf
+        self._x2, self._until, self._rest_time, self._skips_at = 0.0, self.clock.time, self.clock.time, inf
         self.block, self.rates.stops, self._awaits = None, False, None
         self.preprocessing.clear(self.position)

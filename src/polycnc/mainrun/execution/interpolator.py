@@ -121,15 +121,13 @@ class ChannelInterpolator:
         for watcher in self._watchers:
             watcher.block_ends()
         if self._parts is not None and not block.is_silent:
-            execution = self._run.execution
-            self._begin(self._parts.block(execution.preprocessing.items, execution.x2))
+            self._begin(self._parts.block(self._run.execution.preprocessing.items))
         self.wake()
 
     def _row(self, move: Move) -> None:
         """A row begins."""
         if self._parts is not None:
-            execution = self._run.execution
-            self._begin(self._parts.row(move, execution.x2, execution.modal))
+            self._begin(self._parts.row(move, self._run.execution.modal))
 
     def _begin(self, blocks: Iterator[bool]) -> None:
         """Let the watchers look where blocks begin, those of the program and others."""
