@@ -36,6 +36,7 @@ from polycnc.control.sinumerik.motion.repositioning import REPOS_VARIABLES
 from polycnc.control.sinumerik.replaced import REPLACED_VARIABLES
 from polycnc.control.sinumerik.signals.measuring import MEASURE_VARIABLES
 from polycnc.control.sinumerik.signals.sections import SECTION_VARIABLES
+from polycnc.control.sinumerik.signals.workpiece import WORKPIECE_VARIABLES
 from polycnc.control.sinumerik.tables import MINUTE
 from polycnc.control.sinumerik.tools.management.environments import ENVIRONMENT_VARIABLES
 from polycnc.control.sinumerik.tools.management.lists import LIST_VARIABLES
@@ -417,7 +418,9 @@ VARIABLES: dict[str, SystemVariable] = {
     **{name: SystemVariable(name, *row) for name, row in CONTAINER_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in INDEX_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in REPOS_VARIABLES.items()},
-    **{name: SystemVariable(name, *row) for name, row in MEASURE_VARIABLES.items()},
+    **{
+        name: SystemVariable(name, *row) for name, row in {**MEASURE_VARIABLES, **WORKPIECE_VARIABLES}.items()
+    },
     **{name: SystemVariable(name, *row) for name, row in DEFINITION_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in {**SURROUNDINGS, **BLOCK_VARIABLES}.items()},
     **{name: SystemVariable(name, *row) for name, row in REPLACED_VARIABLES.items()},
