@@ -30,7 +30,10 @@ def counted(ways: Sequence[tuple[float, float]], feed: float, codes: str) -> tup
     virtual.cycle_start()
     virtual.run(limit_s=10_000.0)
     assert not virtual.alarms
-    return int(virtual.read_variable("R1")), int(virtual.read_variable("R2"))
+    found = virtual.read_variable("R1"), virtual.read_variable("R2")
+    assert isinstance(found[0], float)
+    assert isinstance(found[1], float)
+    return int(found[0]), int(found[1])
 
 
 @pytest.mark.parametrize("soft", ["BRISK", "SOFT"])

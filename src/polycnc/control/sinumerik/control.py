@@ -398,6 +398,21 @@ class Sinumerik:
             pace=pace.pace(channel, side),
         )
 
+    def select_iso(self, channel: SinumerikChannel) -> None:
+        """G291 acts; PC0001 on a lathe, whose dialect is another one, in a subprogram, and with MCALL active."""
+        if (
+            channel.memory.transverse >= 0
+            or len(channel.stack) > 1
+            or LanguageMemory.of(channel).modal_call is not None
+        ):
+            raise not_supported("G291")
+        channel.mode = channel.mode.with_code("language", "G291")
+
+    def check_iso(self, channel: SinumerikChannel) -> None:
+        """A block of the ISO dialect comes: PC0001 where the program has come there without G291."""
+        if channel.mode["language"] != "G291":
+            raise not_supported("G291")
+
     def halts(self, channel: SinumerikChannel, level: Level, step: ProgramStep) -> bool:  # noqa: ARG002 - levels decide
         """Whether single block operation halts behind the block that a level has run."""
         return single_block.halts(channel, level)

@@ -267,9 +267,11 @@ def expanded(tokens: list[Token], scope: Scope) -> list[Token]:
     return result
 
 
-def compile_block(program: SinumerikProgram, index: int, channel: Channel) -> CompiledBlock:
-    """Compile the block of a step."""
-    line = program.text(index)
+def compile_block(
+    program: SinumerikProgram, index: int, channel: Channel, text: str | None = None
+) -> CompiledBlock:
+    """Compile the block of a step; `text` where other words than those of its line mean it."""
+    line = program.text(index) if text is None else text
     prefix = prefix_of(line)
     scope = program.scope_of(channel)
     tokens = expanded(tokenize(line, prefix.end), scope)

@@ -105,6 +105,12 @@ class LanguageControl(Protocol):
     def execute(self, channel: Channel, block: Block, values: tuple[Any, ...]) -> bool:
         """Run the functions and words of a block; true if a modal subprogram (MCALL) follows the block."""
 
+    def select_iso(self, channel: Channel) -> None:
+        """G291 acts: blocks of the ISO dialect come."""
+
+    def check_iso(self, channel: Channel) -> None:
+        """A block of the ISO dialect comes; PC0001 where G291 does not act."""
+
     def procedure(self, channel: Channel, name: str, args: tuple[Any, ...], column: int) -> None:
         """Run a predefined procedure or a cycle; an argument left out is None, VAR is a `Reference`."""
 

@@ -133,7 +133,10 @@ class ChannelInterpolator:
         """Let the watchers look where blocks begin, those of the program and others."""
         for is_own in blocks:
             self._block_since = self._clock.time
-            self._look(lambda watcher, own=is_own: watcher.block_begins() if own else watcher.look())
+            if is_own:
+                self._look(lambda watcher: watcher.block_begins())
+            else:
+                self._look(lambda watcher: watcher.look())
 
     def end(self, *, reset: bool) -> None:
         """The program has ended, or was given up by a reset: no action holds the path any more."""

@@ -18,9 +18,9 @@ from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.positions import SHOWS_DIAMETERS, diameter_function, shown
 from polycnc.control.sinumerik.errors import not_supported
-from polycnc.control.sinumerik.tables import INCH_MM
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.planes import PLANES
+from polycnc.geometry.units import INCH_MM
 from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES, NEUTRAL, NcFrame, cfine, ctrans
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.messages import AlarmError
