@@ -253,7 +253,8 @@ class TableStage(Sink):
             if move.origin != PROGRAMMED and channel.main_run is not None:
                 # Nobody but the main run asks for it.
                 held = channel.toolpath.contexts[move.context]
-                move.context = channel.toolpath.context_number(replace(held, origin=move.origin))
+                made = channel.toolpath.context_number(replace(held, origin=move.origin))
+                move = replace(move, context=made)
             channel.write(move)
 
     def event(self, event: PlacedEvent) -> None:

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 #: A share of a way over which its direction is taken.
 _NEAR = 1e-6
-#: Directions whose unit vectors differ by less make no corner.
+#: Unit vectors that differ by less are one direction: there is no corner, nor where the path turns back.
 _SAME_DIRECTION = 1e-6
 
 
@@ -114,8 +114,10 @@ class BlockParts:
         if rests or context.knot or not (from_distance or context.corner_mode is CornerMode.ROUNDED):
             return False
         out, into = direction(one.way, 1.0, self._axes), direction(two.way, 0.0, self._axes)
-        turns = any(abs(a - b) > _SAME_DIRECTION for a, b in zip(out, into, strict=True))
-        return turns and any(out) and any(into)
+        pairs = tuple(zip(out, into, strict=True))
+        goes_on = all(abs(a - b) <= _SAME_DIRECTION for a, b in pairs)
+        turns_back = all(abs(a + b) <= _SAME_DIRECTION for a, b in pairs)
+        return any(out) and any(into) and not goes_on and not turns_back
 
 
 def direction(way: Segment, share: float, axes: Sequence[int]) -> list[float]:
