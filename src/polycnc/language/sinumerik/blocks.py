@@ -9,7 +9,7 @@ from polycnc.language.expressions.code import Code, constant, quoted, sequence
 from polycnc.language.sinumerik import keywords, runtime
 from polycnc.language.sinumerik.actions.block import action
 from polycnc.language.sinumerik.emitter import Emitter, provide
-from polycnc.language.sinumerik.errors import NcSyntaxError, not_supported, syntax, unknown
+from polycnc.language.sinumerik.errors import NcSyntaxError, not_supported, syntax
 from polycnc.language.sinumerik.expressions import ExpressionReader
 from polycnc.language.sinumerik.lexer import Token, prefix_of, tokenize
 from polycnc.language.sinumerik.names import vocabulary
@@ -74,7 +74,7 @@ class BlockCompiler(ExpressionReader):
         if token.kind == "end":
             return
         if self.scope.memory.refused:
-            self._check_available()
+            self.scope.check_available(self.tokens)
         handler = _STATEMENTS.get(token.text) if token.kind == "name" else None
         if handler is not None and self.scope.find(token.text) is None:
             handler(self)
@@ -84,15 +84,6 @@ class BlockCompiler(ExpressionReader):
             self._mixed()
         if self.token.kind != "end":
             raise self.error()
-
-    def _check_available(self) -> None:
-        """12550 for a word that this variant of the control does without; names of one's own and of labels are none."""
-        before = ""
-        for token in self.tokens:
-            own = before in flow.JUMPS or self.scope.find(token.text) is not None
-            if token.kind == "name" and token.text in self.scope.memory.refused and not own:
-                raise unknown(token.column, token.text)
-            before = token.text
 
     def _calls_program(self, token: Token) -> bool:
         """Whether a name that begins the block is that of a program: no variable, no word; or `L123`."""
