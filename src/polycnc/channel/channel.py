@@ -7,6 +7,8 @@ language compiled, and what differs between controls lies behind `Control`.
 
 from __future__ import annotations
 
+from contextlib import contextmanager
+from dataclasses import replace
 from math import nan
 from typing import TYPE_CHECKING, ClassVar, Generic
 
@@ -39,7 +41,7 @@ from polycnc.toolpath.events import Stop
 from polycnc.toolpath.table import CHUNK_ROWS, is_way
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Iterator, Sequence
 
     from polycnc.channel.group import ChannelGroup
     from polycnc.channel.interface import Boundary, Bulk, MainRun, Scanner
@@ -465,6 +467,14 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
 
     def context_changed(self) -> None:
         """Something that a context holds has changed; the next row gets a new context."""
+        self._context_changed = True
+
+    @contextmanager
+    def intermediate(self, origin: int) -> Iterator[None]:
+        """Moves meanwhile are intermediate blocks, of an origin as `Context` says."""
+        held = self.toolpath.contexts[self.context_number()]
+        self._context = self.toolpath.context_number(replace(held, origin=origin))
+        yield
         self._context_changed = True
 
     @property

@@ -38,6 +38,18 @@ class OnPath(NamedTuple):
     speed: float
 
 
+class BlockKind(NamedTuple):
+    """What has made the block in execution.
+
+    Attributes:
+        origin: As `Context` says.
+        rounding: The control rounds the corner between two blocks: the codes that are active there; else None.
+    """
+
+    origin: int = 0
+    rounding: Mapping[str, str] | None = None
+
+
 @dataclass(slots=True)
 class Influence:
     """What actions have made of the speeds in one interpolation cycle; it holds until they look again.
@@ -129,6 +141,18 @@ class Interpolator(Protocol):
     @property
     def on_path(self) -> OnPath:
         """Where the block in execution is."""
+
+    @property
+    def block_number(self) -> int:
+        """How many blocks have begun, intermediate ones too."""
+
+    @property
+    def block_kind(self) -> BlockKind:
+        """What has made the block in execution."""
+
+    @property
+    def block_split(self) -> tuple[bool, bool]:
+        """Whether the block in execution is not as the program has it, and whether the one behind it is not."""
 
     @property
     def runs_programs(self) -> bool:

@@ -11,13 +11,15 @@ from __future__ import annotations
 from dataclasses import field, replace
 from enum import Enum
 from math import degrees, isnan, nan, radians
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from polycnc.channel.moves import origins
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import END_OF_BLOCK, EndOfBlock, Item, Move, PlacedEvent, Rank, Stage
 from polycnc.deferred.records import dataclass
 from polycnc.geometry import offset
 from polycnc.messages import AlarmError
+from polycnc.toolpath.context import SHORTENED
 from polycnc.toolpath.kinds import Kind
 
 if TYPE_CHECKING:
@@ -295,15 +297,16 @@ class CornerStage(Stage):
             turned = first.turning, move.turning
         inserted = replace(
             first, kind=Kind.FEED, start=leaving, end=entering, center=None, turns=0.0, parameters=(), turning=None,
-            feed=first.feed if isnan(held.request.feed) else held.request.feed,
+            feed=first.feed if isnan(held.request.feed) else held.request.feed, origin=origins.CORNER_LINE,
         )  # fmt: skip
         if cuts.center is not None:
             inserted.kind = plane.arc_kind(ccw, leaving, entering)
             inserted.center, inserted.normal = plane.lift(cuts.center, leaving), plane.normal
-        held.move = _rest(replace(first, end=own_end, turning=turned[0]), cuts.part_a > 0.0)
+            inserted.origin = origins.CORNER_ARC
+        held.move = _rest(_cut_short(first, end=own_end, turning=turned[0]), cuts.part_a > 0.0)
         self._let_go(held, inserted)
         start = plane.at(move.start, cuts.entering) if moved else entering
-        return _rest(replace(move, start=start, turning=turned[1]), cuts.part_b < 1.0)
+        return _rest(_cut_short(move, start=start, turning=turned[1]), cuts.part_b < 1.0)
 
 
 def _cuts(shape: Shape, a: offset.Edge, b: offset.Edge, size: float) -> offset.Cuts | None:
@@ -323,6 +326,11 @@ def _largest(shape: Shape, a: offset.Edge, b: offset.Edge, size: float) -> float
         else:
             low = middle
     return low
+
+
+def _cut_short(move: Move, **changes: Any) -> Move:
+    """A move that the shape beside it leaves less of."""
+    return replace(move, origin=move.origin or SHORTENED, **changes)
 
 
 def _rest(move: Move, is_left: bool) -> Move:

@@ -6,6 +6,7 @@ from dataclasses import replace
 from math import hypot, inf
 from typing import TYPE_CHECKING
 
+from polycnc.channel.moves import origins
 from polycnc.compensation.step import NO_VECTOR
 from polycnc.geometry import arcs
 from polycnc.geometry.offset import Joint
@@ -99,8 +100,9 @@ class RowWriter:
             center = plane.lift(arcs.plus(step.edge.end, step.shift), end)
         elif joint is Joint.SPLINE:
             kind = Kind.SPLINE
+        origin = origins.ROUND_CORNER if center is not None or kind is Kind.SPLINE else origins.JOINED
         row = replace(
-            template, kind=kind, start=template.end, end=end, center=center,
+            template, origin=origin, kind=kind, start=template.end, end=end, center=center,
             normal=plane.normal, turns=0.0, parameters=(), turning=None,
         )  # fmt: skip
         u, v = plane.point(template.end)

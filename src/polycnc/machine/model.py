@@ -260,7 +260,8 @@ class Machine:
 
     From the end of the interpolation `settle_fine_s` and `settle_coarse_s` pass until the axes are within their
     windows `in_position_fine` and `in_position_coarse`. `block_time_s` is what the control takes for a block of a path
-    before it can run the next one. `rules` and `alarms` are the file's own; those of its `builder`
+    before it can run the next one. `control_variant` names a variant of the control that does without some functions,
+    `control_options` those that it has all the same. `rules` and `alarms` are the file's own; those of its `builder`
     lie under them. `m_functions` and `g_functions` hold both.
     """
 
@@ -278,6 +279,8 @@ class Machine:
     settle_fine_s: float = 0.0
     settle_coarse_s: float = 0.0
     block_time_s: float = 0.0
+    control_variant: str = ""
+    control_options: tuple[str, ...] = ()
     rules: tuple[Rule, ...] = ()
     alarms: tuple[PlcAlarm, ...] = ()
     g_functions: Mapping[str, GFunction] = field(default_factory=dict)

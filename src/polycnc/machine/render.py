@@ -88,7 +88,16 @@ def _tables(machine: Machine) -> Iterator[tuple[str, str, _Keys]]:
     top: _Keys = [("name", machine.name), ("description", _or_none(machine.description))]
     top.append(("rules", machine.builder.name or None))
     times = ("interpolation_cycle_s", "settle_fine_s", "settle_coarse_s", "block_time_s")
-    yield "", "", [*top, *((key, getattr(machine, key)) for key in times)]
+    yield (
+        "",
+        "",
+        [
+            *top,
+            *((key, getattr(machine, key)) for key in times),
+            ("control_variant", machine.control_variant or None),
+            ("control_options", list(machine.control_options) or None),
+        ],
+    )
     for channel in machine.channels:
         yield "channel", f"[channel.{channel.number}]", _channel(channel)
     for axis in machine.axes:

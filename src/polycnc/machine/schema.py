@@ -222,6 +222,18 @@ class MachineTable(BuilderTable):
     settle_fine_s: NotNegative | None = None
     settle_coarse_s: NotNegative | None = None
     block_time_s: NotNegative | None = None
+    control_variant: (
+        Literal["828D PPU260 turning", "828D PPU260 milling", "828D PPU280 turning", "828D PPU280 milling"]
+        | None
+    ) = None
+    control_options: (
+        list[
+            Literal[
+                "splines", "compressors", "synchronous spindles", "force control", "inclined axis", "transmit"
+            ]
+        ]
+        | None
+    ) = None
     defaults: Defaults | None = None
     channel: dict[Number, ChannelTable] | None = None
     axis: dict[Name, AxisTable] | None = None

@@ -13,6 +13,8 @@ if TYPE_CHECKING:
     from polycnc.transformation.contract import Transformation
 
 
+#: Origins of rows that the program itself has; higher ones are intermediate blocks.
+PROGRAMMED, SHORTENED = 0, 1
 #: Metres in a foot, in which surface speeds count where the program is in inches.
 FOOT_M = 0.3048
 #: How a stroke of a cycle meets the next one: none of its ends overlaps; only its start may; its end may too: the next
@@ -101,6 +103,8 @@ class Context:
         knot: Rows end at a knot within a motion, which the next row goes on with: displays show the motion as one.
         share: Part of its motion that a row of inverse time makes: displays show the feed of the whole.
         finishes: The move belongs to strokes that a hold and a reset let come to their end (SYNTEC taps).
+        origin: What has made a row of the program's blocks: `PROGRAMMED` nothing, `SHORTENED` one that a chamfer or the
+            like beside it has cut, else an intermediate block by its kind and what has made it (`origins.py`).
         dwell_signal: A signal that ends the dwell of a row (SYNTEC G04 Q); empty for none.
     """
 
@@ -148,6 +152,7 @@ class Context:
     share: float = 1.0
     finishes: bool = False
     dwell_signal: str = ""
+    origin: int = PROGRAMMED
 
     @property
     def surface_m_min(self) -> float:

@@ -12,12 +12,14 @@ from __future__ import annotations
 
 from array import array
 from contextlib import contextmanager
+from dataclasses import replace
 from enum import IntEnum, auto
 from itertools import pairwise
 from math import nan
 from typing import TYPE_CHECKING, ClassVar, TypeVar
 
 from polycnc.deferred.records import dataclass
+from polycnc.toolpath.context import PROGRAMMED
 from polycnc.toolpath.kinds import Kind
 
 if TYPE_CHECKING:
@@ -101,6 +103,7 @@ class Move:
         turns: Full turns beyond the first part of an arc.
         parameters: Other curve parameters (lead, start angle, seconds), as `CURVE_WIDTH` documents.
         turning: How the rotary axes go on the way, where they do not go evenly from start to end.
+        origin: What has made it of the program's moves, as `Context` says.
     """
 
     kind: Kind
@@ -115,6 +118,7 @@ class Move:
     turns: float = 0.0
     parameters: tuple[float, ...] = ()
     turning: Turning | None = None
+    origin: int = PROGRAMMED
 
     @property
     def is_arc(self) -> bool:
@@ -125,7 +129,7 @@ class Move:
         """The same move between two other positions."""
         return Move(
             self.kind, start, end, self.feed, self.program, self.line, self.context,
-            self.center, self.normal, self.turns, self.parameters, self.turning,
+            self.center, self.normal, self.turns, self.parameters, self.turning, self.origin,
         )  # fmt: skip
 
 
@@ -306,7 +310,13 @@ class TableStage(Sink):
         self.end = move.end
         self.context = move.context
         if move.end != move.start or move.center is not None or move.parameters:
-            self._channel.write(move)
+            channel = self._channel
+            if move.origin != PROGRAMMED and channel.main_run is not None:
+                # Nobody but the main run asks for it.
+                held = channel.toolpath.contexts[move.context]
+                made = channel.toolpath.context_number(replace(held, origin=move.origin))
+                move = replace(move, context=made)
+            channel.write(move)
 
     def run(self, run: Run) -> int:
         """Write moves that all have a way."""

@@ -22,6 +22,7 @@ from polycnc.control.sinumerik.couplings.links import Couplings
 from polycnc.control.sinumerik.couplings.spindle_pairs import SpindlePairs, turns
 from polycnc.control.sinumerik.curve_tables import definition as curve_definition
 from polycnc.control.sinumerik.data import access, init_programs
+from polycnc.control.sinumerik.data.availability import refused
 from polycnc.control.sinumerik.data.machine_data import MachineData
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed import pace, spindle_speed, tolerances
@@ -225,6 +226,7 @@ class Sinumerik:
                 **user_data(data),
             },
             macros={**punching.macros(channel), **coordination.names(channel)},
+            refused=refused(channel.machine.control_variant, channel.machine.control_options),
         )
 
     def end_of_program(self, channel: SinumerikChannel) -> None:
@@ -395,6 +397,21 @@ class Sinumerik:
             shown_by=PointToPoint.of(channel).shown_by or Couplings.of(channel).shown_by,
             pace=pace.pace(channel, side),
         )
+
+    def select_iso(self, channel: SinumerikChannel) -> None:
+        """G291 acts; PC0001 on a lathe, whose dialect is another one, in a subprogram, and with MCALL active."""
+        if (
+            channel.memory.transverse >= 0
+            or len(channel.stack) > 1
+            or LanguageMemory.of(channel).modal_call is not None
+        ):
+            raise not_supported("G291")
+        channel.mode = channel.mode.with_code("language", "G291")
+
+    def check_iso(self, channel: SinumerikChannel) -> None:
+        """A block of the ISO dialect comes: PC0001 where the program has come there without G291."""
+        if channel.mode["language"] != "G291":
+            raise not_supported("G291")
 
     def halts(self, channel: SinumerikChannel, level: Level, step: ProgramStep) -> bool:  # noqa: ARG002 - levels decide
         """Whether single block operation halts behind the block that a level has run."""

@@ -4,6 +4,7 @@ The way of a block: `executable` finds its line and asks `shapes` for a step of 
 (`keywords` is the vocabulary), `blocks` chooses what they are, `expressions` compiles values, and `emitter` turns the
 code into a step, which `joining` puts together with those that follow; `runtime` is what compiled blocks call
 (`formatting` for SPRINT).
+`iso_dialect` tells blocks of ISO code in the control's own words.
 `nc_words` with `words` is what the control gets; `interface` is what language and control ask of each other; `errors`
 are its alarms, `place` where one is shown.
 

@@ -73,6 +73,8 @@ class BlockCompiler(ExpressionReader):
         token = self.token
         if token.kind == "end":
             return
+        if self.scope.memory.refused:
+            self.scope.check_available(self.tokens)
         handler = _STATEMENTS.get(token.text) if token.kind == "name" else None
         if handler is not None and self.scope.find(token.text) is None:
             handler(self)
@@ -256,9 +258,11 @@ def expanded(tokens: list[Token], scope: Scope) -> list[Token]:
     return result
 
 
-def compile_block(program: SinumerikProgram, index: int, channel: Channel) -> CompiledBlock:
-    """Compile the block of a step."""
-    line = program.text(index)
+def compile_block(
+    program: SinumerikProgram, index: int, channel: Channel, text: str | None = None
+) -> CompiledBlock:
+    """Compile the block of a step; `text` where other words than those of its line mean it."""
+    line = program.text(index) if text is None else text
     prefix = prefix_of(line)
     scope = program.scope_of(channel)
     tokens = expanded(tokenize(line, prefix.end), scope)

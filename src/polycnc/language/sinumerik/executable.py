@@ -15,6 +15,7 @@ from polycnc.channel.states.snapshot import unchanging
 from polycnc.channel.steps import forget_steps, kept_steps
 from polycnc.deferred.regexes import regex
 from polycnc.language.expressions.joined import led_by
+from polycnc.language.sinumerik import iso_dialect
 from polycnc.language.sinumerik.blocks import CompiledBlock, compile_block, compile_text, expanded
 from polycnc.language.sinumerik.emitter import Emitter
 from polycnc.language.sinumerik.errors import NcSyntaxError
@@ -87,6 +88,7 @@ class SinumerikProgram:
         self._joins: dict[int, set[int]] = {}
         self._joined_into = bytearray(len(self._reached))
         self._shapes = Shapes()
+        self._iso: list[range] = []
 
     @property
     def whole(self) -> SinumerikProgram:
@@ -118,9 +120,9 @@ class SinumerikProgram:
         """The first step at or behind a line of the text."""
         return bisect_left(self._lines, line)
 
-    def scannable_to(self, _line: int) -> int:
+    def scannable_to(self, line: int) -> int:
         """The line behind those that the scanner may read, from a line of the text on: every line is a block."""
-        return len(self.program.lines)
+        return line if self._iso else len(self.program.lines)
 
     @property
     def is_open(self) -> bool:
@@ -146,7 +148,10 @@ class SinumerikProgram:
 
     def word_columns(self, channel: Channel, position: int) -> int:
         """The column of a word of the running block, by compiling it once more."""
-        columns = compile_block(self, channel.level.current, channel).columns
+        index, text = channel.level.current, None
+        if self._iso and self._is_iso(index):
+            text = iso_dialect.translated(self.text(index), channel.mode["motion"])
+        columns = compile_block(self, index, channel, text).columns
         return columns[position] if position < len(columns) else 0
 
     def forget_steps(self) -> None:
@@ -177,6 +182,10 @@ class SinumerikProgram:
         if self.program.name.endswith(_COMMENT_FILE):
             raise AlarmError("PC0011", text=self.program.name)
         line = self.text(index)
+        if self._iso and self._is_iso(index):
+            return self._iso_step(index, channel)
+        if "291" in line and iso_dialect.switched(line) == "G291":
+            return self._begin_iso(index, channel)
         shape = self._shapes.step(line)
         if shape is not None:
             return shape
@@ -186,6 +195,43 @@ class SinumerikProgram:
         compiled = self.compiled(index, channel)
         self._shapes.learn(line, compiled.emitter)
         return compiled.step
+
+    # ---- ISO dialect ---------------------------------------------------------------------------------------
+
+    def _is_iso(self, index: int) -> bool:
+        """Whether a step is a block of the ISO dialect."""
+        return any(self._lines[index] in lines for lines in self._iso)
+
+    def _begin_iso(self, index: int, channel: Channel) -> Step:
+        """The step of G291: lines behind it are of the ISO dialect, and what they have been taken for is forgotten."""
+        step = compile_text("G290", self, index, channel)
+        lines = iso_dialect.region(self.program.lines, self._lines[index] + 1)
+        if lines not in self._iso:
+            self._iso.append(lines)
+            self.forget_steps()
+
+        def run(channel: Channel) -> None:
+            step(channel)
+            self.control.select_iso(channel)
+
+        return run
+
+    def _iso_step(self, index: int, channel: Channel) -> Step:
+        """A block of the ISO dialect, told in the control's own words for the motion that is active now."""
+        line = self.text(index)
+        if prefix_of(line).skip >= 0 and self.control.skipped(channel, prefix_of(line).skip):
+            return _skipped
+
+        def run(channel: Channel) -> None:
+            self.control.check_iso(channel)
+            try:
+                text = iso_dialect.translated(line, channel.mode["motion"])
+                step = compile_block(self, index, channel, text).step
+            except AlarmError as error:
+                fail(error, channel)
+            step(channel)
+
+        return run
 
     def compiled(self, index: int, channel: Channel) -> CompiledBlock:
         """Compile the block of a step."""
@@ -197,11 +243,16 @@ class SinumerikProgram:
             # A branch that had never been run when blocks were joined has become alive: join anew.
             del self._joins[join]
             self.steps[join] = None
-        if channel.setup.switches.interrupts:
+        if channel.setup.switches.interrupts or self._iso:
             return None
 
         def source(at: int) -> Emitter | None:
-            if at >= len(self._lines) or not self._reached[at] or prefix_of(self.text(at)).skip >= 0:
+            if (
+                self._iso
+                or at >= len(self._lines)
+                or not self._reached[at]
+                or prefix_of(self.text(at)).skip >= 0
+            ):
                 return None
             if self._joined_into[at] >= MOST_JOINS:
                 return None

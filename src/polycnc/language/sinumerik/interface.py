@@ -105,6 +105,12 @@ class LanguageControl(Protocol):
     def execute(self, channel: Channel, block: Block, values: tuple[Any, ...]) -> bool:
         """Run the functions and words of a block; true if a modal subprogram (MCALL) follows the block."""
 
+    def select_iso(self, channel: Channel) -> None:
+        """G291 acts: blocks of the ISO dialect come."""
+
+    def check_iso(self, channel: Channel) -> None:
+        """A block of the ISO dialect comes; PC0001 where G291 does not act."""
+
     def procedure(self, channel: Channel, name: str, args: tuple[Any, ...], column: int) -> None:
         """Run a predefined procedure or a cycle; an argument left out is None, VAR is a `Reference`."""
 
@@ -181,6 +187,7 @@ class LanguageMemory(State, lifetime=Lifetime.POWER):
         write_levels: Protection level that WRITE needs in some directories.
         rights: What REDEF has made of the rights of system variables, R parameters and words, by name and keyword.
         nck_variables: Those of the global variables that all channels share.
+        refused: Words that this variant of the control does without.
         macros: Texts of DEFINE … AS of the definition files, and names of channels, upper case.
         call_path: Directory of CALLPATH, or empty.
         modal_call: What MCALL has set: called after every block with path motion.
@@ -205,6 +212,7 @@ class LanguageMemory(State, lifetime=Lifetime.POWER):
     rights: dict[str, dict[str, int]] = field(default_factory=dict)
     nck_variables: dict[str, Any] = field(default_factory=dict)
     macros: dict[str, str] = field(default_factory=dict)
+    refused: frozenset[str] = frozenset()
     call_path: str = ""
     modal_call: Callable[[Channel], None] | None = lasting(Lifetime.RESET, None)
     definitions_loaded: bool = False

@@ -3,6 +3,7 @@
 clock          simulated time
 execution      from event to event, one channel
 outside        what it asks of those around it
+block_parts    its blocks, those of the program and those that it makes of them
 beside_path    axes that an operator has moved beside their path
 channel_run    a channel with all that executes it
 channel_runs   the channels of a control

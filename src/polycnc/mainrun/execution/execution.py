@@ -67,6 +67,7 @@ class Execution:
         axes: The axes, with what moves them beside the path.
         position: Where on the path the axes last were at a joint, and `place` what held there.
         rates: The speeds of this channel.
+        on_row: Is told of every row that begins; None where nobody asks.
         lingers: Says whether the end of the program has to wait for actions; None where there are none.
     """
 
@@ -83,29 +84,24 @@ class Execution:
         self.preprocessing = preprocessing
         self.rates = ChannelRates(rates)
         self.lingers: Callable[[], bool] | None = None
-        self._gated = False
+        self.on_row: Callable[[Move], None] | None = None
         self._awaits: Callable[[], bool] | None = None
-        self.clock = clock
+        self.clock, self.axes = clock, axes
         self.running, self.halt = False, ""
         self.attention = self.single_block = False
         self.block: Block | None = None
-        self.context = Context()
+        self.context = self.place = Context()
         self.modal: Mapping[str, str] = {}
         self.motion: Motion | None = None
         self.position = list(position)
-        self.place = Context()
-        self.axes = axes
         self._machinery = machinery
         self._x2, self._cap2 = 0.0, inf
         self._until, self._dwell_signal = 0.0, ""
-        self._waiting = self._blocked = self._moved_on = False
+        self._gated = self._waiting = self._blocked = self._moved_on = False
         self._by_hand: tuple[float, ...] = ()
-        self._skip_after_s = skip_after_s
-        self._skips_at = inf
-        self._follower = Follower()
-        self._behind = 0.0
-        self._calm, self._rest_time = FREE, 0.0
-        self._worked_until = -inf
+        self._skip_after_s, self._skips_at = skip_after_s, inf
+        self._follower, self._behind = Follower(), 0.0
+        self._calm, self._rest_time, self._worked_until = FREE, 0.0, -inf
 
     # ---- what a panel reads --------------------------------------------------------------------------------
 
@@ -421,6 +417,8 @@ class Execution:
         if self.preprocessing.is_last_piece:
             self.preprocessing.end_in_rest()
             self._look_ahead()
+        if move.done == 0.0 and self.on_row is not None:
+            self.on_row(move)
         cap2 = self.preprocessing.front_cap2(self.rates)
         if self._x2 == 0.0 and cap2 == 0.0:
             return False

@@ -6,25 +6,25 @@ when a block begins, something is prepared, a signal changes, or an axis comes t
 
 from __future__ import annotations
 
-from math import acos, degrees, hypot, inf
+from math import acos, degrees, inf
 from typing import TYPE_CHECKING, Protocol
 
-from polycnc.channel.interpolator import HANDWHEEL_OFFSET, Influence, OnPath
+from polycnc.channel.interpolator import HANDWHEEL_OFFSET, BlockKind, Influence, OnPath
 from polycnc.channel.moves.travel import limits_of
 from polycnc.mainrun.axes.commanded import CommandedAxis
 from polycnc.mainrun.axes.overlay import Overlay
+from polycnc.mainrun.execution.block_parts import BlockParts, direction
 from polycnc.mainrun.preparation.items import UNINFLUENCED, Happening, Move
 from polycnc.transformation.couplings.graph import in_order
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Iterator, Mapping, Sequence
 
     from polycnc.channel.interpolator import Watcher
     from polycnc.mainrun.axes.channel_axes import ChannelAxes
     from polycnc.mainrun.execution.clock import Clock
     from polycnc.mainrun.execution.execution import Execution
     from polycnc.mainrun.execution.machinery import Machinery
-    from polycnc.mainrun.motion.geometry import Segment
     from polycnc.mainrun.preparation.items import Block
     from polycnc.messages import AlarmError
     from polycnc.toolpath import Context, Event
@@ -66,6 +66,7 @@ class ChannelInterpolator:
         self._watchers: list[Watcher] = []
         self._awake = False
         self._block_since = 0.0
+        self._parts: BlockParts | None = None
         self._static: set[int] = set()
         self._looks = False
         self.runs_programs = True
@@ -81,8 +82,10 @@ class ChannelInterpolator:
         """From now on somebody is told of cycles and blocks."""
         if watcher not in self._watchers:
             self._watchers.append(watcher)
-        self._run.execution.lingers = self._lingers
-        self._run.execution.preprocessing.on_step = self.wake
+        execution = self._run.execution
+        execution.lingers, execution.on_row = self._lingers, self._row
+        self._parts = self._parts or BlockParts(execution.preprocessing.channel.coordinates.geometry)
+        execution.preprocessing.on_step = self.wake
         self.wake()
 
     def wake(self) -> None:
@@ -117,10 +120,23 @@ class ChannelInterpolator:
         """A block begins."""
         for watcher in self._watchers:
             watcher.block_ends()
-        if not block.is_silent:
-            self._block_since = self._clock.time
-            self._look(lambda watcher: watcher.block_begins())
+        if self._parts is not None and not block.is_silent:
+            self._begin(self._parts.block(self._run.execution.preprocessing.items))
         self.wake()
+
+    def _row(self, move: Move) -> None:
+        """A row begins."""
+        if self._parts is not None:
+            self._begin(self._parts.row(move, self._run.execution.modal))
+
+    def _begin(self, blocks: Iterator[bool]) -> None:
+        """Let the watchers look where blocks begin, those of the program and others."""
+        for is_own in blocks:
+            self._block_since = self._clock.time
+            if is_own:
+                self._look(lambda watcher: watcher.block_begins())
+            else:
+                self._look(lambda watcher: watcher.look())
 
     def end(self, *, reset: bool) -> None:
         """The program has ended, or was given up by a reset: no action holds the path any more."""
@@ -192,6 +208,22 @@ class ChannelInterpolator:
         return OnPath(seconds, done, max(length - done, 0.0), execution.speed)
 
     @property
+    def block_number(self) -> int:
+        """How many blocks have begun, intermediate ones too."""
+        return self._parts.number if self._parts is not None else 0
+
+    @property
+    def block_kind(self) -> BlockKind:
+        """What has made the block in execution."""
+        return self._parts.kind if self._parts is not None else BlockKind()
+
+    @property
+    def block_split(self) -> tuple[bool, bool]:
+        """Whether the block in execution is not as the program has it, and whether the one behind it is not."""
+        items = self._run.execution.preprocessing.items
+        return self._parts.split(items) if self._parts is not None else (False, False)
+
+    @property
     def modal(self) -> Mapping[str, str]:
         """Active codes in the block in execution."""
         return self._run.execution.modal
@@ -238,7 +270,7 @@ class ChannelInterpolator:
         if execution.motion is None or ahead is None:
             return None
         axes = [axis for axis in execution.preprocessing.channel.coordinates.geometry if axis >= 0]
-        out, into = _direction(execution.motion.piece.way, 1.0, axes), _direction(ahead.way, 0.0, axes)
+        out, into = direction(execution.motion.piece.way, 1.0, axes), direction(ahead.way, 0.0, axes)
         cosine = sum(a * b for a, b in zip(out, into, strict=True))
         return degrees(acos(min(max(cosine, -1.0), 1.0)))
 
@@ -406,16 +438,3 @@ class ChannelInterpolator:
             self._run.execution.place_axis(column, place)
             self._narrow_travel()
         return place
-
-
-#: A share of a way over which its direction is taken.
-_NEAR = 1e-6
-
-
-def _direction(way: Segment, share: float, axes: Sequence[int]) -> list[float]:
-    """Unit vector of a way at its start (0) or its end (1), on some axes; all zero where none of them moves."""
-    first, last = (0.0, _NEAR) if share == 0.0 else (1.0 - _NEAR, 1.0)
-    start, end = way.at(first), way.at(last)
-    along = [end[axis] - start[axis] for axis in axes]
-    length = hypot(*along)
-    return [value / length for value in along] if length else along

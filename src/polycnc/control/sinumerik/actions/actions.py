@@ -63,7 +63,7 @@ class SynchronisedActions(State, lifetime=Lifetime.POWER):
         waiting: Actions for the next block that does something.
         of_block: Those of the block in execution.
         locked_by_plc: Numbers that the machine's controller has locked.
-        looks: How often they have been looked at since the block began.
+        looks: How often they have been looked at since the block began, an intermediate one too.
     """
 
     run: ActionRun
@@ -73,6 +73,7 @@ class SynchronisedActions(State, lifetime=Lifetime.POWER):
     locked: set[int] = field(default_factory=set)
     looks: int = 0
     _last_look: float = -1.0
+    _block: int = 0
     _ending: bool = False
 
     @classmethod
@@ -143,12 +144,14 @@ class SynchronisedActions(State, lifetime=Lifetime.POWER):
 
     def look(self) -> None:
         """An interpolation cycle has come."""
-        if self.run.clocked.time != self._last_look:
+        if self.run.clocked.time != self._last_look or self.run.clocked.block_number != self._block:
             self._look()
 
     def _look(self) -> None:
         run = self.run
         clocked = run.clocked
+        if clocked.block_number != self._block:
+            self._block, self.looks = clocked.block_number, 0
         self._last_look, before = clocked.time, run.influence
         run.influence, run.changed = Influence(), False
         in_program, modal = clocked.runs_programs, clocked.modal

@@ -124,6 +124,7 @@ DATA: dict[str, tuple[int, bool | float | str]] = {
     "$MC_MULTFEED_ASSIGN_FASTIN": (21220, 0),
     "$MC_TOOL_CHANGE_MODE": (22550, 0),
     "$MC_TOOL_CHANGE_M_CODE": (22560, 6),
+    "$MC_AUTO_IPTR_LOCK": (22680, 0),
     "$MC_FRAME_ADD_COMPONENTS": (24000, True),
     "$MC_CHBFRAME_RESET_MASK": (24002, 65535),
     "$MC_NIBBLE_PUNCH_CODE": (26008, 20),

@@ -10,11 +10,12 @@ from dataclasses import replace
 from math import ceil, hypot
 from typing import TYPE_CHECKING
 
+from polycnc.channel.moves import origins
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move, PlacedEvent, Rank, Stage
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.tolerances import NO_WAY
-from polycnc.toolpath.context import Pace
+from polycnc.toolpath.context import SHORTENED, Pace
 from polycnc.toolpath.events import Event, Stroke
 
 if TYPE_CHECKING:
@@ -130,9 +131,12 @@ class SegmentStage(Stage):
         context = self._context(block, move, length / count) if strikes else move.context
         if strikes:
             self._stroke(move.program, move.line, context, starts=True, ends=False)
-        for piece in self._pieces(block, move, count):
+        segment = origins.STROKE_SEGMENT if strikes else origins.SEGMENT
+        for number, piece in enumerate(self._pieces(block, move, count), 1):
             self._channel.once_more()
             piece.context = context
+            if count > 1:
+                piece.origin = segment if number < count else SHORTENED
             self.after.move(piece)
             if strikes:
                 self._stroke(move.program, move.line, context)

@@ -1,5 +1,6 @@
 """What inputs do.
 
-`measuring` (MEAS), `measuring_actions` (MEAWA of actions), `interrupts` (SETINT), `retraction` (LIFTFAST), `sections`
+`measuring` (MEAS), `measuring_actions` (MEAWA of actions), `workpiece` (MEASURE: what points say), `interrupts`
+(SETINT), `retraction` (LIFTFAST), `sections`
 without stops, `fixed_stop` (FXS).
 """

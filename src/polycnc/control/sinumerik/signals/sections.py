@@ -11,7 +11,9 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.block.arguments import Arguments, Procedure
-from polycnc.control.sinumerik.variables.row import RowWithStop
+from polycnc.control.sinumerik.couplings.links import Couplings, Kind
+from polycnc.control.sinumerik.data.machine_data import MachineData
+from polycnc.control.sinumerik.variables.row import Indices, RowWithStop
 from polycnc.deferred.records import dataclass
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.language.sinumerik.statements.sections import ENDS_CONTEXT
@@ -21,6 +23,9 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.family import SinumerikChannel
 
 STOP_DELAY, POINTER_LOCK = "DELAYFST", "IPTRLOCK"
+#: MD22680: which couplings, while they are on, make their section one that a search cannot enter; by its bits.
+AUTOMATIC = "$MC_AUTO_IPTR_LOCK"
+LOCKING = {0: Kind.GEAR, 1: Kind.LEAD}
 
 
 @dataclass(slots=True)
@@ -59,8 +64,16 @@ def is_open(channel: SinumerikChannel, section: str) -> bool:
     return any(level is each for each in channel.stack)
 
 
+def _locks_pointer(channel: SinumerikChannel, _indices: Indices) -> bool:
+    """`$P_IPTRLOCK`: a search cannot enter, for IPTRLOCK or for couplings that MD22680 names (8.5)."""
+    mask = MachineData.of(channel).integer(AUTOMATIC)
+    kinds = {kind for bit, kind in LOCKING.items() if mask >> bit & 1}
+    every = Couplings.of(channel).links.values() if kinds else ()
+    return is_open(channel, POINTER_LOCK) or any(link.kind in kinds for links in every for link in links)
+
+
 SECTION_VARIABLES: dict[str, RowWithStop] = {
     "$P_DELAYFST": (Type.INT, lambda channel, _indices: int(is_open(channel, STOP_DELAY)), None, False),
     "$AC_DELAYFST": (Type.INT, lambda channel, _indices: int(is_open(channel, STOP_DELAY)), None, True),
-    "$P_IPTRLOCK": (Type.BOOL, lambda channel, _indices: is_open(channel, POINTER_LOCK), None, False),
+    "$P_IPTRLOCK": (Type.BOOL, _locks_pointer, None, False),
 }

@@ -11,7 +11,7 @@ from dataclasses import replace
 from math import inf
 from typing import TYPE_CHECKING
 
-from polycnc.channel.moves import knots
+from polycnc.channel.moves import knots, origins
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move, Rank, Stage
 from polycnc.control.sinumerik.limits.working_area import WORKING_AREA, Ranges
@@ -119,24 +119,28 @@ class TangentialStage(Stage):
     def _turn_first(self, move: Move, coupling: Coupling, jump: float) -> float:
         """What is left of a jump behind the turn in front of the move, where there is one."""
         if coupling.lifts and abs(jump) > coupling.lift_deg:
-            self._turn(move, coupling, coupling.at + jump, coupling.lift_feed, move.context)
+            self._turn(move, coupling, coupling.at + jump, coupling.lift_feed, move.context, origins.TURN)
             return 0.0
         if coupling.leads_speed and move.kind is not Kind.RAPID and move.turning is None:
             left = min(abs(jump), coupling.tolerance_deg) if coupling.smoothing_mm else 0.0
             if abs(jump) - left > SAME_DEG:
                 left = left if jump > 0.0 else -left
                 within = knots.knot_context(self._channel, move.context)
-                self._turn(move, coupling, coupling.at + jump - left, coupling.velocity, within)
+                self._turn(
+                    move, coupling, coupling.at + jump - left, coupling.velocity, within, origins.INTERNAL
+                )
                 return left
         return jump
 
-    def _turn(self, move: Move, coupling: Coupling, place: float, feed: float, context: int) -> None:
+    def _turn(
+        self, move: Move, coupling: Coupling, place: float, feed: float, context: int, origin: int
+    ) -> None:
         """The axis turns while the path stands."""
         end = move.start.copy()
         end[coupling.column] = place
         turn = replace(
             move, kind=Kind.FEED, start=move.start, end=end, feed=feed, context=context,
-            center=None, turns=0.0, parameters=(), turning=None,
+            center=None, turns=0.0, parameters=(), turning=None, origin=origin,
         )  # fmt: skip
         toolpath = self._channel.toolpath
         if toolpath.contexts[context].feed_mode is not FeedMode.PER_MINUTE:

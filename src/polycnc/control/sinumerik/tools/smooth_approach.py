@@ -178,10 +178,11 @@ def retract(draft: Draft) -> Step | None:
         if third >= 0 and not shape.in_plane:
             point[third] = height
         center = shape.center(touch, direction)
-        if center is None:
-            moves.line(channel, Kind.FEED, point, moves.checked_feed(old))
-        else:
-            circles.arc(channel, columns, axes, point, center, moves.checked_feed(old), shape.ccw)
+        with channel.intermediate(shape.origin):
+            if center is None:
+                moves.line(channel, Kind.FEED, point, moves.checked_feed(old))
+            else:
+                circles.arc(channel, columns, axes, point, center, moves.checked_feed(old), shape.ccw)
         if draft.codes.get("compensation") == "G40":
             stages.leave_contour(channel)
             channel.context_changed()

@@ -8,10 +8,12 @@ from __future__ import annotations
 from math import isnan
 from typing import TYPE_CHECKING
 
+from polycnc.channel.moves import origins
 from polycnc.channel.moves.path import Move, Rank, Stage
 from polycnc.deferred.records import dataclass
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
+from polycnc.toolpath.context import SHORTENED
 
 if TYPE_CHECKING:
     from polycnc.compensation.plane import Plane
@@ -56,6 +58,13 @@ class Shape:
             return None
         turned = self.side if self.code in RETRACTIONS else -self.side
         return touch[0] - direction[1] * turned * self.size, touch[1] + direction[0] * turned * self.size
+
+    @property
+    def origin(self) -> int:
+        """What kind of intermediate block it is."""
+        if self.code in LINES:
+            return origins.APPROACH_LINE
+        return origins.APPROACH_QUARTER if self.code in QUARTERS else origins.APPROACH_HALF
 
     @property
     def ccw(self) -> bool:
@@ -146,6 +155,9 @@ class SmoothApproach(Stage):
         if center is not None:
             last.kind = plane.arc_kind(shape.ccw, now, touch)
             last.center, last.normal = plane.lift(center, now), plane.normal
+        for part in parts:
+            part.origin = SHORTENED
+        last.origin = shape.origin
         return [*parts, last]
 
 

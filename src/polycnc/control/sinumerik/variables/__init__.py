@@ -4,6 +4,7 @@ row            what a variable is
 stored         values that only store
 blank          the blank of WORKPIECE, for pictures
 clock          date and time
+block_types    type of the block in execution
 run_times      timers of programs
 part_counts    workpiece counters
 surroundings   version, modal call, compensation

@@ -15,6 +15,7 @@ from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.frames import adding, codes
 from polycnc.control.sinumerik.frames.variables import frame_axis
 from polycnc.control.sinumerik.limits import calcposi
+from polycnc.control.sinumerik.signals import workpiece
 from polycnc.control.sinumerik.tools import d_numbers
 from polycnc.control.sinumerik.tools.management import environments, lists, magazines
 from polycnc.geometry import fit
@@ -157,6 +158,7 @@ FUNCTIONS: dict[str, Callable[[SinumerikChannel, Arguments], Any]] = {
     "GETDNO": d_numbers.get_number,
     "SETDNO": d_numbers.set_number,
     "GETACTTD": d_numbers.tool_of_number,
+    **workpiece.FUNCTIONS,
     **lists.FUNCTIONS,
     **magazines.FUNCTIONS,
     **environments.FUNCTIONS,

@@ -36,6 +36,7 @@ from polycnc.control.sinumerik.motion.repositioning import REPOS_VARIABLES
 from polycnc.control.sinumerik.replaced import REPLACED_VARIABLES
 from polycnc.control.sinumerik.signals.measuring import MEASURE_VARIABLES
 from polycnc.control.sinumerik.signals.sections import SECTION_VARIABLES
+from polycnc.control.sinumerik.signals.workpiece import WORKPIECE_VARIABLES
 from polycnc.control.sinumerik.tables import MINUTE
 from polycnc.control.sinumerik.tools.management.environments import ENVIRONMENT_VARIABLES
 from polycnc.control.sinumerik.tools.management.lists import LIST_VARIABLES
@@ -45,6 +46,7 @@ from polycnc.control.sinumerik.tools.online import OVERLAY_VARIABLES
 from polycnc.control.sinumerik.tools.sides import Contour
 from polycnc.control.sinumerik.tools.variables import IN_MAIN_RUN, TOOL_VARIABLES
 from polycnc.control.sinumerik.transformations import smoothing
+from polycnc.control.sinumerik.variables.block_types import BLOCK_VARIABLES
 from polycnc.control.sinumerik.variables.clock import PARTS, part_of_clock
 from polycnc.control.sinumerik.variables.known import is_known
 from polycnc.control.sinumerik.variables.part_counts import PART_COUNTS
@@ -416,9 +418,11 @@ VARIABLES: dict[str, SystemVariable] = {
     **{name: SystemVariable(name, *row) for name, row in CONTAINER_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in INDEX_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in REPOS_VARIABLES.items()},
-    **{name: SystemVariable(name, *row) for name, row in MEASURE_VARIABLES.items()},
+    **{
+        name: SystemVariable(name, *row) for name, row in {**MEASURE_VARIABLES, **WORKPIECE_VARIABLES}.items()
+    },
     **{name: SystemVariable(name, *row) for name, row in DEFINITION_VARIABLES.items()},
-    **{name: SystemVariable(name, *row) for name, row in SURROUNDINGS.items()},
+    **{name: SystemVariable(name, *row) for name, row in {**SURROUNDINGS, **BLOCK_VARIABLES}.items()},
     **{name: SystemVariable(name, *row) for name, row in REPLACED_VARIABLES.items()},
     **{name: SystemVariable(name, Type.INT, part_of_clock(part), stop=True) for name, part in PARTS.items()},
     **{

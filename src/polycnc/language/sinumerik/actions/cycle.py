@@ -133,6 +133,9 @@ class _Reader:
         text = self._code.text(index)
         tokens = tokenize(text, prefix_of(text).end)
         first = tokens[0]
+        scope = self._code.scope_of(self._channel)
+        if scope.memory.refused:
+            scope.check_available(tokens)
         if self._leaves_out(tokens):
             return True
         if first.kind == "end" or first.text in ("PROC", "ENDPROC"):
@@ -142,9 +145,7 @@ class _Reader:
                 raise NcSyntaxError("14500", first.column, first.text)
             self._definition(index, first)
             return False
-        block = ExpressionReader(
-            tokens, self._code.scope_of(self._channel), Emitter(self._code.control.shapes)
-        )
+        block = ExpressionReader(tokens, scope, Emitter(self._code.control.shapes))
         self._statement(LiveReader(block, self._parameters), self._code.line(index), index)
         return True
 

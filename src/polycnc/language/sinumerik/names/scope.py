@@ -8,6 +8,7 @@ from polycnc.language.expressions.code import Code, constant, item, quoted, sequ
 from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.errors import NcSyntaxError, unknown
 from polycnc.language.sinumerik.expressions import Expr
+from polycnc.language.sinumerik.lexer import JUMPS
 from polycnc.language.sinumerik.names.level_variables import LEVEL_VARIABLES
 from polycnc.language.sinumerik.names.places import (
     CharPlace,
@@ -24,6 +25,8 @@ from polycnc.language.sinumerik.names.variables import locals_of
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from polycnc.channel.channel import Channel
     from polycnc.language.sinumerik.expressions import ExpressionReader
     from polycnc.language.sinumerik.interface import LanguageControl, LanguageMemory, SystemVariable
@@ -84,6 +87,15 @@ class Scope:
         rights = self.memory.rights.get(token.text)
         if rights and self.level > rights.get("APX", LOWEST):
             raise NcSyntaxError("PC0006", token.column, token.text)
+
+    def check_available(self, tokens: Sequence[Token]) -> None:
+        """12550 for a word that this variant of the control does without; names of one's own and of labels are none."""
+        before = ""
+        for token in tokens:
+            own = before in JUMPS or self.find(token.text) is not None
+            if token.kind == "name" and token.text in self.memory.refused and not own:
+                raise unknown(token.column, token.text)
+            before = token.text
 
     def is_place(self, token: Token) -> bool:
         """Whether a token begins something that can be assigned to."""

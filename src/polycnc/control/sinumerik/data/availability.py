@@ -1,0 +1,33 @@
+"""Which words of the language a control of the machine does without (job planning 16.1, columns of 828D).
+
+The machine file names the variant of the control and the options that it has. Without a variant every word is there, as
+on 840D sl.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
+
+TABLE = Path(__file__).with_suffix(".toml")
+#: Marks of the table.
+ABSENT, OPTION = "-", "o"
+
+
+def refused(variant: str, options: Collection[str]) -> frozenset[str]:
+    """The words that a variant does not have, with the options that are on; none without a variant."""
+    if not variant:
+        return frozenset()
+    table = tomllib.loads(TABLE.read_text(encoding="utf-8"))
+    column = table["variants"].index(variant)
+    return frozenset(
+        word
+        for group in table["group"]
+        if group["marks"][column] == ABSENT
+        or (group["marks"][column] == OPTION and group["option"] not in options)
+        for word in group["words"].split()
+    )
