@@ -294,7 +294,7 @@ def pitch(a: Arguments, sizes: Mapping[int, float] = METRIC_PITCHES) -> float:
     of_size = sizes.get(round(abs(nominal)))
     if nominal and of_size is None:
         raise AlarmError("61001")
-    given = _written_pitch(a, "PIT")
+    given = written_pitch(a, "PIT")
     if not nominal and not written:
         raise AlarmError("61001")
     if nominal and of_size is not None:
@@ -304,7 +304,7 @@ def pitch(a: Arguments, sizes: Mapping[int, float] = METRIC_PITCHES) -> float:
     return -abs(given) if a.digit("_AMODE", 2) == 2 else given
 
 
-def _written_pitch(a: Arguments, name: str) -> float:
+def written_pitch(a: Arguments, name: str) -> float:
     """PIT in the unit that _PITA names: of the program, mm, threads per inch, inch per revolution."""
     value = a.plain(name)
     match a.integer("_PITA"):
