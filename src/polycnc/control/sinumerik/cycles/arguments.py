@@ -40,7 +40,7 @@ FEEDS = _names(
 )
 #: Diameters of turned parts, whatever DIAMON says; the value is the radius.
 DIAMETERS = _names("SPD DM1 DM2 DM3 DM4 _SPD _EPD _ZPD _DM1 _DM2")
-TEXTS = _names("_TC _KNAME _HIDE _TEXT NPP FORM _FORM _PITM _PRG _LAB1 _LAB2 _TR")
+TEXTS = _names("_TC _KNAME _HIDE _TEXT NPP FORM _FORM _PITM _PRG _LAB1 _LAB2 _TR S_CON S_COFF")
 #: Table of threads and row of it: texts that only say where a pitch came from. Older calls have numbers there.
 TABLES = _names("_PTAB _PTABA")
 

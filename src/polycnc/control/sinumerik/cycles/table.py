@@ -55,7 +55,8 @@ CYCLES: dict[str, Cycle] = {
         f"{_HOLE} FDEP FDPR DAM DTB DTS FRF VARI _AXN _MDEP _VRT _DTD _DIS1 {_SL}", drilling.deep_hole
     ),
     "CYCLE830": Cycle(
-        f"RTP RFP SDIS DP FDEP _DAM DTB DTS FRF VARI _MDEP _VRT _DTD _DIS1 {' '.join(drilling.REST)}",
+        f"RTP RFP SDIS DP FDEP _DAM DTB DTS FRF VARI _MDEP _VRT _DTD _DIS1 {drilling.REST} {_SL}"
+        f" {drilling.REST_OF_MODES}",
         drilling.deep_hole_2,
     ),
     "CYCLE84": Cycle(
