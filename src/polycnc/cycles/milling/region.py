@@ -32,35 +32,43 @@ _JOINED_MM = 1e-5
 #: Shorter pieces of parallels are rounding, mm.
 _SHORT_MM = 1e-7
 _TINY_TURN = 1e-9
+#: Where an arc is cut so that neither part has a chord like that of the whole.
+_UNEVEN = 0.37
 #: The size of the squares in which ends of pieces are looked for, mm.
 _SQUARE_MM = 1e-3
 
 
 class RegionError(ValueError):
-    """Contours that enclose nothing that could be milled: open, crossing, or without inside."""
+    """Contours that enclose nothing that could be milled: open, crossing, nested, or without inside."""
 
 
 # ---- walls
 
 
-def walls(contours: Sequence[Sequence[Edge]], *, free_outside: bool = False) -> list[Loop]:
-    """Closed contours as walls, by how many others each lies in.
+def walls(
+    outline: Sequence[Edge], islands: Sequence[Sequence[Edge]] = (), *, free_outside: bool = False
+) -> list[Loop]:
+    """Closed contours as walls, in any sense.
 
     Args:
-        contours: Each closed; in any order and sense.
-        free_outside: What lies outside all contours is free: they are spigots; else they are pockets with islands.
+        outline: Of a pocket, or of the blank round spigots.
+        islands: What stands in it.
+        free_outside: What lies outside the outline is free, so it is no wall but a blank.
 
     Raises:
-        RegionError: A contour is not closed, or two edges cross.
+        RegionError: A contour is not closed, two edges cross, or an island lies outside the outline or in another.
     """
-    loops = [_closed(contour) for contour in contours]
-    _refuse_crossings(loops)
-    result = []
-    for number, loop in enumerate(loops):
-        depth = sum(contains(other, loop[0].start) for k, other in enumerate(loops) if k != number)
-        is_outer = (depth % 2 == 0) is not free_outside
-        result.append(loop if (area(loop) > 0.0) is is_outer else reversed_loop(loop))
-    return result
+    loops = [_closed(contour) for contour in (outline, *islands)]
+    _refuse_crossings(loops[1:] if free_outside else loops)
+    first, *others = loops
+    for number, loop in enumerate(others):
+        within = [other for k, other in enumerate(others) if k != number and contains(other, loop[0].start)]
+        if within or not contains(first, loop[0].start):
+            raise RegionError("nested")
+    return [
+        loop if (area(loop) > 0.0) is (number == 0) else reversed_loop(loop)
+        for number, loop in enumerate(loops)
+    ]
 
 
 def _closed(contour: Sequence[Edge]) -> Loop:
@@ -127,20 +135,27 @@ def area(loop: Iterable[Edge]) -> float:
 
 def contains(loop: Iterable[Edge], point: Point) -> bool:
     """Whether a loop runs round a point that lies on none of its edges: by how often it turns about it."""
-    angle = 0.0
-    for edge in loop:
-        (au, av), (bu, bv) = arcs.minus(edge.start, point), arcs.minus(edge.end, point)
-        angle += atan2(au * bv - av * bu, au * bu + av * bv)
-        if edge.center is not None and arcs.radius_of(edge.center, point) < arcs.radius_of(
-            edge.center, edge.end
-        ):
-            # Between chord and arc the arc goes round the point on its other side.
-            cross = (edge.end[0] - edge.start[0]) * (point[1] - edge.start[1]) - (
-                edge.end[1] - edge.start[1]
-            ) * (point[0] - edge.start[0])
-            if (cross < 0.0) is edge.ccw:
-                angle += 2.0 * pi if edge.ccw else -2.0 * pi
-    return round(angle / (2.0 * pi)) % 2 != 0
+    return round(sum(_turn_about(edge, point) for edge in loop) / (2.0 * pi)) % 2 != 0
+
+
+def _turn_about(edge: Edge, point: Point) -> float:
+    """Angle by which the direction from a point to an edge turns along it, radians."""
+    (au, av), (bu, bv) = arcs.minus(edge.start, point), arcs.minus(edge.end, point)
+    angle = atan2(au * bv - av * bu, au * bu + av * bv)
+    if edge.center is None or arcs.radius_of(edge.center, point) >= arcs.radius_of(edge.center, edge.end):
+        return angle
+    du, dv = arcs.minus(edge.end, edge.start)
+    beside = (av * du - au * dv) / hypot(du, dv)
+    if (
+        abs(beside) <= NEARER_MM
+    ):  # on the chord, where the sign says nothing: parts of the arc have other chords
+        cut = arcs.point_on_arc(edge.start, edge.end, edge.center, edge.ccw, _UNEVEN)
+        halves = piece_of(edge, edge.start, cut), piece_of(edge, cut, edge.end)
+        return sum(_turn_about(half, point) for half in halves)
+    # Between chord and arc the arc goes round the point on its other side.
+    if (beside > 0.0) is edge.ccw:
+        angle += 2.0 * pi if edge.ccw else -2.0 * pi
+    return angle
 
 
 def is_free(loops: Sequence[Loop], point: Point, *, free_outside: bool = False) -> bool:
