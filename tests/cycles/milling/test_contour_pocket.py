@@ -265,3 +265,18 @@ def test_a_circle_of_two_arcs_contains_what_is_nearer_than_its_radius(
 def _segment(radius: float, half_chord: float) -> float:
     half = arcs.sweep_angle((half_chord, 5.0), (-half_chord, 5.0), (0.0, 0.0), ccw=True)
     return 0.5 * radius * radius * (half - sin(half))
+
+
+@pytest.mark.parametrize("count", [60, 400])
+def test_a_contour_of_short_lines_is_followed_as_a_curve(count: int) -> None:
+    def place(k: int) -> Point:
+        turned = 2.0 * pi * (k % count) / count
+        return arcs.point_at((0.0, 0.0), 30.0 + 6.0 * sin(5.0 * turned), turned)
+
+    made = pocket(polygon(*(place(k) for k in range(count))))
+    (area,) = contour_pocket.areas(made)
+    done = contour_pocket.passes(made, area)
+    assert sum(not one.is_linked for one in done) == 1
+    for one in done:
+        for edge in one.loop[:: max(len(one.loop) // 20, 1)]:
+            assert region.clearance(made.walls, edge.start) == pytest.approx(one.away, abs=NEAR)
