@@ -38,8 +38,9 @@ ISLAND = circle((30.0, 20.0), 5.0)
 
 
 def pocket(*contours: Loop, spigot: bool = False, radius: float = 4.0, **more: object) -> ContourPocket:
-    blank = region.walls(contours[:1])[0] if spigot else None
-    walls = region.walls(contours[1:] if spigot else contours, free_outside=spigot)
+    outline, *islands = region.walls(contours[0], contours[1:], free_outside=spigot)
+    blank = outline if spigot else None
+    walls = islands if spigot else [outline, *islands]
     made = ContourPocket(
         walls,
         blank,
@@ -125,7 +126,7 @@ def test_any_pocket_is_cleared_and_nothing_else(
             and not (shape is not outline and region.contains(shape, (u, v)))
             for shape in shapes
         ):
-            shapes.append(region.walls([circle((u, v), size)])[0])
+            shapes.append(region.walls(circle((u, v), size))[0])
     made = pocket(*shapes, radius=radius, step=step, keeps_sense=keeps)
     try:
         strokes = list(contour_pocket.rough(made, [-1.0]))
@@ -151,7 +152,7 @@ def test_any_spigot_is_left_and_the_blank_round_it_cleared(
     sweep(made, path)
     first = next(stroke.point for stroke in strokes if stroke.point is not None)
     assert first is not None
-    assert not region.contains(region.walls([blank])[0], first)
+    assert not region.contains(region.walls(blank)[0], first)
     assert min(distance.of_point(first, edge) for edge in blank) >= radius
 
 
@@ -215,11 +216,15 @@ def test_edges_are_finished_at_every_level_and_the_cutter_comes_and_goes_off_the
 
 def test_contours_that_are_open_or_cross_are_refused() -> None:
     with pytest.raises(RegionError, match="open"):
-        region.walls([PLATE[:-1]])
+        region.walls(PLATE[:-1])
     with pytest.raises(RegionError, match="crossing"):
-        region.walls([PLATE, circle((60.0, 20.0), 5.0)])
+        region.walls(PLATE, [circle((60.0, 20.0), 5.0)])
     with pytest.raises(RegionError, match="crossing"):
-        region.walls([polygon((0.0, 0.0), (10.0, 10.0), (10.0, 0.0), (0.0, 12.0))])
+        region.walls(polygon((0.0, 0.0), (10.0, 10.0), (10.0, 0.0), (0.0, 12.0)))
+    with pytest.raises(RegionError, match="nested"):
+        region.walls(PLATE, [circle((90.0, 20.0), 5.0)])
+    with pytest.raises(RegionError, match="nested"):
+        region.walls(PLATE, [circle((30.0, 20.0), 9.0), circle((30.0, 20.0), 3.0)])
     with pytest.raises(RegionError, match="narrow"):
         contour_pocket.areas(pocket(PLATE, radius=21.0))
 
@@ -246,6 +251,32 @@ def test_a_loop_knows_what_it_contains_with_arcs() -> None:
     assert region.area(moon) == pytest.approx(pi * 100.0 / 2.0 - _segment(hypot(10.0, 5.0), 10.0))
 
 
+@given(st.floats(-9.0, 9.0), st.floats(-9.0, 9.0), st.floats(0.0, 360.0), st.booleans())
+def test_a_circle_of_two_arcs_contains_what_is_nearer_than_its_radius(
+    u: float, v: float, turned: float, ccw: bool
+) -> None:
+    start = arcs.point_at((0.0, 0.0), 7.0, turned)
+    end = (-start[0], -start[1])
+    loop = [offset.arc(start, end, (0.0, 0.0), ccw), offset.arc(end, start, (0.0, 0.0), ccw)]
+    if abs(hypot(u, v) - 7.0) > NEAR:
+        assert region.contains(loop, (u, v)) is (hypot(u, v) < 7.0)
+
+
 def _segment(radius: float, half_chord: float) -> float:
     half = arcs.sweep_angle((half_chord, 5.0), (-half_chord, 5.0), (0.0, 0.0), ccw=True)
     return 0.5 * radius * radius * (half - sin(half))
+
+
+@pytest.mark.parametrize("count", [60, 400])
+def test_a_contour_of_short_lines_is_followed_as_a_curve(count: int) -> None:
+    def place(k: int) -> Point:
+        turned = 2.0 * pi * (k % count) / count
+        return arcs.point_at((0.0, 0.0), 30.0 + 6.0 * sin(5.0 * turned), turned)
+
+    made = pocket(polygon(*(place(k) for k in range(count))))
+    (area,) = contour_pocket.areas(made)
+    done = contour_pocket.passes(made, area)
+    assert sum(not one.is_linked for one in done) == 1
+    for one in done:
+        for edge in one.loop[:: max(len(one.loop) // 20, 1)]:
+            assert region.clearance(made.walls, edge.start) == pytest.approx(one.away, abs=NEAR)

@@ -9,18 +9,20 @@ handed on that comes nearer to a wall than it was asked for; `RegionError` where
 
 from __future__ import annotations
 
-from math import atan2, hypot, pi
+from math import atan2, floor, hypot, pi
 from typing import TYPE_CHECKING
 
 from polycnc.geometry import arcs, distance, offset
 from polycnc.geometry.tolerances import NO_WAY
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
 
     from polycnc.geometry.arcs import Point
     from polycnc.geometry.offset import Edge
 
+#: The rectangle round something: least and greatest u and v.
+Box = tuple[float, float, float, float]
 #: A closed way of edges, each beginning where the one before ends.
 Loop = list["Edge"]
 #: A way is closed where its ends are no farther apart, mm.
@@ -32,35 +34,45 @@ _JOINED_MM = 1e-5
 #: Shorter pieces of parallels are rounding, mm.
 _SHORT_MM = 1e-7
 _TINY_TURN = 1e-9
+#: Where an arc is cut so that neither part has a chord like that of the whole.
+_UNEVEN = 0.37
 #: The size of the squares in which ends of pieces are looked for, mm.
-_SQUARE_MM = 1e-3
+_SQUARE_MM = 1e-4
+#: Longest piece that may be left over, mm.
+_LONGEST_TAIL_MM = 0.1
 
 
 class RegionError(ValueError):
-    """Contours that enclose nothing that could be milled: open, crossing, or without inside."""
+    """Contours that enclose nothing that could be milled: open, crossing, nested, or without inside."""
 
 
 # ---- walls
 
 
-def walls(contours: Sequence[Sequence[Edge]], *, free_outside: bool = False) -> list[Loop]:
-    """Closed contours as walls, by how many others each lies in.
+def walls(
+    outline: Sequence[Edge], islands: Sequence[Sequence[Edge]] = (), *, free_outside: bool = False
+) -> list[Loop]:
+    """Closed contours as walls, in any sense.
 
     Args:
-        contours: Each closed; in any order and sense.
-        free_outside: What lies outside all contours is free: they are spigots; else they are pockets with islands.
+        outline: Of a pocket, or of the blank round spigots.
+        islands: What stands in it.
+        free_outside: What lies outside the outline is free, so it is no wall but a blank.
 
     Raises:
-        RegionError: A contour is not closed, or two edges cross.
+        RegionError: A contour is not closed, two edges cross, or an island lies outside the outline or in another.
     """
-    loops = [_closed(contour) for contour in contours]
-    _refuse_crossings(loops)
-    result = []
-    for number, loop in enumerate(loops):
-        depth = sum(contains(other, loop[0].start) for k, other in enumerate(loops) if k != number)
-        is_outer = (depth % 2 == 0) is not free_outside
-        result.append(loop if (area(loop) > 0.0) is is_outer else reversed_loop(loop))
-    return result
+    loops = [_closed(contour) for contour in (outline, *islands)]
+    _refuse_crossings(loops[1:] if free_outside else loops)
+    first, *others = loops
+    for number, loop in enumerate(others):
+        within = [other for k, other in enumerate(others) if k != number and contains(other, loop[0].start)]
+        if within or not contains(first, loop[0].start):
+            raise RegionError("nested")
+    return [
+        loop if (area(loop) > 0.0) is (number == 0) else reversed_loop(loop)
+        for number, loop in enumerate(loops)
+    ]
 
 
 def _closed(contour: Sequence[Edge]) -> Loop:
@@ -84,19 +96,27 @@ def _closed(contour: Sequence[Edge]) -> Loop:
 
 def _refuse_crossings(loops: Sequence[Loop]) -> None:
     """No two edges may meet but neighbours at their common end."""
-    edges = [
-        (number, k, edge, _box(edge, 0.0)) for number, loop in enumerate(loops) for k, edge in enumerate(loop)
-    ]
-    for i, (loop_a, a, edge_a, box_a) in enumerate(edges):
-        for loop_b, b, edge_b, box_b in edges[i + 1 :]:
-            if not _overlap(box_a, box_b):
-                continue
-            count = len(loops[loop_a])
-            beside = loop_a == loop_b and (b - a) % count in (1, count - 1)
-            ends = (edge_a.start, edge_a.end) if beside else ()
-            for point in meetings(edge_a, edge_b):
-                if all(arcs.radius_of(point, end) > CLOSED_MM for end in ends):
-                    raise RegionError("crossing")
+    places = [(number, k) for number, loop in enumerate(loops) for k in range(len(loop))]
+    edges = [loops[number][k] for number, k in places]
+    for i, j in _meeting_boxes([_box(edge, 0.0) for edge in edges]):
+        (loop_a, a), (loop_b, b) = places[i], places[j]
+        count = len(loops[loop_a])
+        beside = loop_a == loop_b and (b - a) % count in (1, count - 1)
+        ends = (edges[i].start, edges[i].end) if beside else ()
+        for point in meetings(edges[i], edges[j]):
+            if all(arcs.radius_of(point, end) > CLOSED_MM for end in ends):
+                raise RegionError("crossing")
+
+
+def _meeting_boxes(boxes: Sequence[Box]) -> Iterator[tuple[int, int]]:
+    """Pairs of numbers of boxes that overlap, the smaller number first: a line swept across them finds them."""
+    active: list[int] = []
+    for i in sorted(range(len(boxes)), key=lambda k: boxes[k][0]):
+        active = [j for j in active if boxes[j][2] >= boxes[i][0]]
+        for j in active:
+            if _overlap(boxes[i], boxes[j]):
+                yield (i, j) if i < j else (j, i)
+        active.append(i)
 
 
 def reversed_loop(loop: Iterable[Edge]) -> Loop:
@@ -127,20 +147,27 @@ def area(loop: Iterable[Edge]) -> float:
 
 def contains(loop: Iterable[Edge], point: Point) -> bool:
     """Whether a loop runs round a point that lies on none of its edges: by how often it turns about it."""
-    angle = 0.0
-    for edge in loop:
-        (au, av), (bu, bv) = arcs.minus(edge.start, point), arcs.minus(edge.end, point)
-        angle += atan2(au * bv - av * bu, au * bu + av * bv)
-        if edge.center is not None and arcs.radius_of(edge.center, point) < arcs.radius_of(
-            edge.center, edge.end
-        ):
-            # Between chord and arc the arc goes round the point on its other side.
-            cross = (edge.end[0] - edge.start[0]) * (point[1] - edge.start[1]) - (
-                edge.end[1] - edge.start[1]
-            ) * (point[0] - edge.start[0])
-            if (cross < 0.0) is edge.ccw:
-                angle += 2.0 * pi if edge.ccw else -2.0 * pi
-    return round(angle / (2.0 * pi)) % 2 != 0
+    return round(sum(_turn_about(edge, point) for edge in loop) / (2.0 * pi)) % 2 != 0
+
+
+def _turn_about(edge: Edge, point: Point) -> float:
+    """Angle by which the direction from a point to an edge turns along it, radians."""
+    (au, av), (bu, bv) = arcs.minus(edge.start, point), arcs.minus(edge.end, point)
+    angle = atan2(au * bv - av * bu, au * bu + av * bv)
+    if edge.center is None or arcs.radius_of(edge.center, point) >= arcs.radius_of(edge.center, edge.end):
+        return angle
+    du, dv = arcs.minus(edge.end, edge.start)
+    beside = (av * du - au * dv) / hypot(du, dv)
+    if (
+        abs(beside) <= NEARER_MM
+    ):  # on the chord, where the sign says nothing: parts of the arc have other chords
+        cut = arcs.point_on_arc(edge.start, edge.end, edge.center, edge.ccw, _UNEVEN)
+        halves = piece_of(edge, edge.start, cut), piece_of(edge, cut, edge.end)
+        return sum(_turn_about(half, point) for half in halves)
+    # Between chord and arc the arc goes round the point on its other side.
+    if (beside > 0.0) is edge.ccw:
+        angle += 2.0 * pi if edge.ccw else -2.0 * pi
+    return angle
 
 
 def is_free(loops: Sequence[Loop], point: Point, *, free_outside: bool = False) -> bool:
@@ -176,45 +203,64 @@ def loops_at(loops: Sequence[Loop], away: float) -> list[Loop]:
     Raises:
         RegionError: Rounding leaves a way open, or one too near to a wall.
     """
-    # Of walls only those count whose box, widened by the distance, is met: most do not.
-    boxed = [(edge, _box(edge, away)) for loop in loops for edge in loop]
+    near = _Nearby([edge for loop in loops for edge in loop], away)
     pieces = []
     for piece in _split(_raw(loops, away)):
         middle = _middle(piece)
-        here = (*middle, *middle)
-        if all(
-            distance.of_point(middle, edge) >= away - NEARER_MM for edge, box in boxed if _overlap(box, here)
-        ):
+        if all(distance.of_point(middle, edge) >= away - NEARER_MM for edge in near.to((*middle, *middle))):
             pieces.append(piece)
     for piece in pieces:
-        around = _box(piece, 0.0)
-        if any(
-            distance.between(piece, edge) < away - 10.0 * NEARER_MM
-            for edge, box in boxed
-            if _overlap(box, around)
-        ):
+        walls_near = near.to(_box(piece, 0.0))
+        if any(distance.between(piece, edge) < away - 10.0 * NEARER_MM for edge in walls_near):
             raise RegionError("too near")
-    return _chained(pieces)
+    return _chained(_without_tails(pieces))
 
 
 def _raw(loops: Sequence[Loop], away: float) -> list[Edge]:
-    """Parallels of all edges, and arcs about the corners that point into the free side."""
+    """Parallels of all edges, and arcs about the corners that point into the free side.
+
+    Parallels that meet in an inner corner end there, so that nothing of a smooth contour is left over.
+    """
     result: list[Edge] = []
     for loop in loops:
-        for edge, follower in zip(loop, [*loop[1:], loop[0]], strict=True):
-            end = _beside(edge.end, edge.arriving, away)
+        met = _inner_corners(loop, away)
+        for k, edge in enumerate(loop):
+            follower = loop[(k + 1) % len(loop)]
+            start = met[k - 1] or _beside(edge.start, edge.departing, away)
+            end = met[k] or _beside(edge.end, edge.arriving, away)
             if edge.center is None:
-                result.append(offset.line(_beside(edge.start, edge.departing, away), end))
-            else:
-                radius = offset.offset_radius(arcs.radius_of(edge.center, edge.end), away, edge.ccw)
-                if radius > NEARER_MM:
-                    start = _beside(edge.start, edge.departing, away)
-                    result.append(offset.arc(start, end, edge.center, edge.ccw))
+                result.append(offset.line(start, end))
+            elif _radius_beside(edge, away) > NEARER_MM:
+                result.append(offset.arc(start, end, edge.center, edge.ccw))
             if offset.turn(edge, follower) < -_TINY_TURN:
                 onto = _beside(follower.start, follower.departing, away)
                 if arcs.radius_of(end, onto) > _SHORT_MM:
                     result.append(offset.arc(end, onto, edge.end, ccw=False))
     return result
+
+
+def _radius_beside(edge: Edge, away: float) -> float:
+    assert edge.center is not None
+    return offset.offset_radius(arcs.radius_of(edge.center, edge.end), away, edge.ccw)
+
+
+def _inner_corners(loop: Loop, away: float) -> list[Point | None]:
+    """Where the parallels of each edge and its follower meet; None where they do not, or one would be reversed."""
+    met: list[Point | None] = []
+    for edge, follower in zip(loop, [*loop[1:], loop[0]], strict=True):
+        vanish = any(e.center is not None and _radius_beside(e, away) <= NEARER_MM for e in (edge, follower))
+        inner = offset.turn(edge, follower) > _TINY_TURN
+        met.append(offset.meet(edge, follower, away, away) if inner and not vanish else None)
+    reversed_edges = []
+    for k, edge in enumerate(loop):
+        before, after = met[k - 1], met[k]
+        first = arcs.minus(before, edge.start) if before else offset.square(edge.departing, away)
+        last = arcs.minus(after, edge.end) if after else offset.square(edge.arriving, away)
+        if offset.reverses(edge, first, last, -_JOINED_MM):
+            reversed_edges.append(k)
+    for k in reversed_edges:
+        met[k - 1] = met[k] = None
+    return met
 
 
 def _beside(point: Point, direction: Point, away: float) -> Point:
@@ -223,15 +269,13 @@ def _beside(point: Point, direction: Point, away: float) -> Point:
 
 def _split(edges: Sequence[Edge]) -> list[Edge]:
     """Edges cut wherever two of them meet."""
-    boxes = [_box(edge, _JOINED_MM) for edge in edges]
     cuts: list[list[Point]] = [[] for _ in edges]
-    for i, a in enumerate(edges):
-        for j in range(i + 1, len(edges)):
-            if _overlap(boxes[i], boxes[j]):
-                b = edges[j]
-                found = [*meetings(a, b), b.start, b.end, a.start, a.end]
-                cuts[i] += [p for p in found if distance.of_point(p, a) <= _JOINED_MM]
-                cuts[j] += [p for p in found if distance.of_point(p, b) <= _JOINED_MM]
+    # In the order of their numbers, so that the same contour gives the same loops.
+    for i, j in sorted(_meeting_boxes([_box(edge, _JOINED_MM) for edge in edges])):
+        a, b = edges[i], edges[j]
+        found = [*meetings(a, b), b.start, b.end, a.start, a.end]
+        cuts[i] += [p for p in found if distance.of_point(p, a) <= _JOINED_MM]
+        cuts[j] += [p for p in found if distance.of_point(p, b) <= _JOINED_MM]
     return [part for edge, points in zip(edges, cuts, strict=True) for part in _parts(edge, points)]
 
 
@@ -280,6 +324,29 @@ def meetings(a: Edge, b: Edge) -> list[Point]:
     ]
 
 
+def _without_tails(pieces: list[Edge]) -> list[Edge]:
+    """Pieces that something goes on from and leads to: ends that are left over where ways part at a small angle go.
+
+    Raises:
+        RegionError: What leads nowhere is no such end.
+    """
+    while True:
+        starts, ends = {_square(edge.start) for edge in pieces}, {_square(edge.end) for edge in pieces}
+        goes_on = [_is_near(edge.end, starts) and _is_near(edge.start, ends) for edge in pieces]
+        if all(goes_on):
+            return pieces
+        if any(
+            edge.length > _LONGEST_TAIL_MM for edge, good in zip(pieces, goes_on, strict=True) if not good
+        ):
+            raise RegionError("open way")
+        pieces = [edge for edge, good in zip(pieces, goes_on, strict=True) if good]
+
+
+def _is_near(point: Point, squares: set[tuple[int, int]]) -> bool:
+    u, v = _square(point)
+    return any((u + du, v + dv) in squares for du in (-1, 0, 1) for dv in (-1, 0, 1))
+
+
 def _chained(pieces: list[Edge]) -> list[Loop]:
     """Loops out of pieces, each going on with the one that begins nearest to where it ends."""
     left = dict(enumerate(pieces))
@@ -317,17 +384,47 @@ def _follower(at: Point, left: dict[int, Edge], begins: dict[tuple[int, int], li
 
 # ---- boxes
 
-Box = tuple[float, float, float, float]
+
+class _Nearby:
+    """Edges by the squares of a grid that lie within a distance of them: most walls are far from most places.
+
+    Args:
+        edges: The walls.
+        away: The distance, mm.
+    """
+
+    def __init__(self, edges: Sequence[Edge], away: float) -> None:
+        self._size = max(2.0 * away, 1.0)
+        self._cells: dict[tuple[int, int], list[tuple[Edge, Box]]] = {}
+        for edge in edges:
+            box = _box(edge, away)
+            for cell in self._covered(box):
+                self._cells.setdefault(cell, []).append((edge, box))
+
+    def _covered(self, box: Box) -> Iterator[tuple[int, int]]:
+        u0, v0, u1, v1 = (floor(value / self._size) for value in box)
+        for u in range(u0, u1 + 1):
+            for v in range(v0, v1 + 1):
+                yield u, v
+
+    def to(self, box: Box) -> Iterator[Edge]:
+        """The edges whose boxes, widened by the distance, meet a box; some of them more than once."""
+        for cell in self._covered(box):
+            for edge, near in self._cells.get(cell, ()):
+                if _overlap(near, box):
+                    yield edge
 
 
 def _box(edge: Edge, more: float) -> Box:
-    """The rectangle round an edge: of an arc that round its circle."""
-    if edge.center is None:
-        (u0, v0), (u1, v1) = edge.start, edge.end
-        return min(u0, u1) - more, min(v0, v1) - more, max(u0, u1) + more, max(v0, v1) + more
-    r = arcs.radius_of(edge.center, edge.end) + more
-    u, v = edge.center
-    return u - r, v - r, u + r, v + r
+    """The rectangle round an edge, wider by a distance on all sides."""
+    ends = [edge.start, edge.end]
+    if edge.center is not None:
+        u, v = edge.center
+        r = arcs.radius_of(edge.center, edge.end)
+        sides = ((u + r, v), (u, v + r), (u - r, v), (u, v - r))
+        ends += [p for p in sides if arcs.contains_direction(edge.start, edge.end, edge.center, edge.ccw, p)]
+    us, vs = [p[0] for p in ends], [p[1] for p in ends]
+    return min(us) - more, min(vs) - more, max(us) + more, max(vs) + more
 
 
 def _overlap(a: Box, b: Box) -> bool:

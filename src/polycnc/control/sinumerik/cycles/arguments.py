@@ -26,10 +26,10 @@ def _names(text: str) -> frozenset[str]:
 #: Plain numbers: angles, times, counts, modes, factors.
 NUMBERS = _names(
     """
-    DTB DTS _DTD DTD FRF VARI _VARI _AXN _GMODE _DMODE _AMODE _UMODE SDAC SDIR SDR ENC MPIT POSS SST SST1 _PTAB
-    _PTABA _PITA _TECHNO STA1 _STA INDA NUM _NUM _NUM1 _NUM2 _NSP CDIR _CDIR NSP NRC NID NUMT IANG ANG1 ANG2 TYPTH
+    DTB DTS _DTD DTD FRF VARI _VARI _AXN _GMODE _DMODE _AMODE _UMODE SDAC SDIR SDR ENC MPIT POSS SST SST1
+    _PITA _TECHNO STA1 _STA INDA NUM _NUM _NUM1 _NUM2 _NSP CDIR _CDIR NSP NRC NID NUMT IANG ANG1 ANG2 TYPTH
     _ANG1 _ANG2 _STA2 AFSL SSF _ST _MODE _A _B _C _DIR _FR _TYPE _RL _AS1 _AS2 _LIM S_TOLM S_OTOL DT _LAGE _DN _XA
-    _YA _CODEP PIT_INCH _IANG _NRC _NID _NUMT _GST _NR _EW _DR
+    _YA _CODEP PIT_INCH _IANG _NRC _NID _NUMT _GST _NR _EW _DR _NT _TYPTH
     """
 )
 #: Path feeds, in the feed type of the caller.
@@ -40,7 +40,9 @@ FEEDS = _names(
 )
 #: Diameters of turned parts, whatever DIAMON says; the value is the radius.
 DIAMETERS = _names("SPD DM1 DM2 DM3 DM4 _SPD _EPD _ZPD _DM1 _DM2")
-TEXTS = _names("_TC _KNAME _HIDE _TEXT NPP FORM _FORM _PITM _PRG _LAB1 _LAB2 _TR")
+TEXTS = _names("_TC _KNAME _HIDE _TEXT NPP FORM _FORM _PITM _PRG _LAB1 _LAB2 _TR S_CON S_COFF")
+#: Table of threads and row of it: texts that only say where a pitch came from. Older calls have numbers there.
+TABLES = _names("_PTAB _PTABA")
 
 
 class Arguments:
@@ -74,7 +76,8 @@ class Arguments:
             name: value for name, value in zip(signature, values, strict=False) if value is not None
         }
         for name, value in self._values.items():
-            if isinstance(value, str) is not (name in TEXTS) or not isinstance(value, (int, float, str)):
+            is_wrong = isinstance(value, str) is not (name in TEXTS) and name not in TABLES
+            if is_wrong or not isinstance(value, (int, float, str)):
                 raise AlarmError("12330", text=f"{cycle} {name}")
             if isinstance(value, float) and not isfinite(value):
                 raise arithmetic(name)

@@ -208,13 +208,23 @@ def bore_and_halt(moves: Moves, a: Arguments) -> None:
 # ---- deep holes
 
 
-#: What a call of CYCLE830 may hold behind the parameters that polycnc knows.
-REST = [f"_REST{number}" for number in range(1, 25)]
+#: What a call of CYCLE830 may hold behind the strokes: feeds, speeds and directions of pilot hole, hole and way back,
+#: soft entry, through drilling, M functions of the coolant; and behind the modes the distance in the pilot hole.
+REST = (
+    "S_FP S_SDAC2 S_SV2 S_F S_SDAC S_SV S_SPOS S_ZA S_FA S_ZP S_FS S_ZS1 S_ZS2 S_N S_ZD S_FD S_FR S_SDAC3 S_SV3"
+    " S_CON S_COFF"
+)
+REST_OF_MODES = "S_AMODE2 S_AMODE3 S_ZPV"
+
+
+#: Units of VARI that newer versions have beside 0 (breaking chips) and 1 (clearing them): both in turn.
+CHIPS_AND_SWARF = (2, 3)
 
 
 def deep_hole_2(moves: Moves, a: Arguments) -> None:
     """CYCLE830: as CYCLE83, the first depth absolute; pilot holes, soft entries and through drilling are PC0001."""
-    if any(a.plain(name) for name in REST):
+    rest = f"{REST} {REST_OF_MODES}".split()
+    if any(a.text(name) not in ("", "0", "0.0") for name in rest) or a.integer("VARI") >= 10:
         raise not_supported("CYCLE830: pilot hole, entry, through drilling")
     deep_hole(moves, a)
 
@@ -223,6 +233,8 @@ def deep_hole(moves: Moves, a: Arguments) -> None:
     """CYCLE83: strokes that become shorter, breaking chips (VARI=0) or clearing them (VARI=1)."""
     found = levels_of_drill(moves, a)
     variant = a.digit("VARI", 0)
+    if variant in CHIPS_AND_SWARF:
+        raise not_supported(f"{a.cycle} VARI")
     if variant not in (0, 1):
         raise AlarmError("61002")
     if found is None:
@@ -294,7 +306,7 @@ def pitch(a: Arguments, sizes: Mapping[int, float] = METRIC_PITCHES) -> float:
     of_size = sizes.get(round(abs(nominal)))
     if nominal and of_size is None:
         raise AlarmError("61001")
-    given = _written_pitch(a, "PIT")
+    given = written_pitch(a, "PIT")
     if not nominal and not written:
         raise AlarmError("61001")
     if nominal and of_size is not None:
@@ -304,7 +316,7 @@ def pitch(a: Arguments, sizes: Mapping[int, float] = METRIC_PITCHES) -> float:
     return -abs(given) if a.digit("_AMODE", 2) == 2 else given
 
 
-def _written_pitch(a: Arguments, name: str) -> float:
+def written_pitch(a: Arguments, name: str) -> float:
     """PIT in the unit that _PITA names: of the program, mm, threads per inch, inch per revolution."""
     value = a.plain(name)
     match a.integer("_PITA"):

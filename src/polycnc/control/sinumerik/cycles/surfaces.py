@@ -1,4 +1,4 @@
-"""Faces, contours, spigots and milled threads: CYCLE61, CYCLE71, CYCLE72, CYCLE76, CYCLE77, CYCLE79, CYCLE90."""
+"""Faces, contours, spigots, milled threads: CYCLE61, CYCLE71, CYCLE72, CYCLE76, CYCLE77, CYCLE79, CYCLE70, CYCLE90."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.cycles.contours.reading import read
+from polycnc.control.sinumerik.cycles.drilling import written_pitch
 from polycnc.control.sinumerik.cycles.levels import levels
 from polycnc.control.sinumerik.cycles.milling import (
     FINISHING,
@@ -19,6 +20,7 @@ from polycnc.control.sinumerik.cycles.milling import (
     variant,
 )
 from polycnc.control.sinumerik.cycles.moves import require_tool
+from polycnc.control.sinumerik.errors import not_supported
 from polycnc.cycles.count import checked
 from polycnc.cycles.milling import contour as path_milling
 from polycnc.cycles.milling import facing, spigots
@@ -278,3 +280,61 @@ def thread(moves: Moves, a: Arguments) -> None:
         retract=found.retract,
     )
     perform(moves, thread_milling.mill(milled))
+
+
+#: Tens of VARI of CYCLE70: where the thread begins; hundreds: its hand.
+DOWNWARDS, UPWARDS = 1, 2
+RIGHT_HAND, LEFT_HAND = 0, 1
+#: Module threads are told in another unit than a pitch.
+BY_MODULE = 4
+
+
+def thread_with_teeth(moves: Moves, a: Arguments) -> None:
+    """CYCLE70: internal or external thread in passes, with a cutter of one tooth or of several in a row.
+
+    Raises:
+        AlarmError: As the other milling cycles; 61001 without pitch or depth of thread, 61002 for VARI or TYPTH, 61010
+            for an allowance of more than the thread's depth, 61105 for a cutter that does not go into the core hole;
+            PC0001 for a pitch by module.
+    """
+    radius = cutter(moves)
+    kind, way, hand = (a.digit("_VARI", place) for place in range(3))
+    is_inside = a.integer("_TYPTH") == 0
+    if (
+        kind not in (ROUGHING, FINISHING)
+        or way not in (DOWNWARDS, UPWARDS)
+        or hand not in (RIGHT_HAND, LEFT_HAND)
+        or a.integer("_TYPTH") not in (0, 1)
+    ):
+        raise AlarmError("61002")
+    if a.integer("_PITA") == BY_MODULE:
+        raise not_supported("CYCLE70 _PITA")
+    lead, deep = abs(written_pitch(a, "_PIT")), abs(a["_H1"])
+    if not lead or not deep:
+        raise AlarmError("61001")
+    if abs(a["_FAL"]) >= deep:
+        raise AlarmError("61010")
+    found = levels(moves, a)
+    if found is None:
+        return
+    outer = 0.5 * abs(a["_DIATH"])
+    if is_inside and radius >= outer - deep:
+        raise AlarmError("61105")
+    cuts = steps(deep - abs(a["_FAL"]), abs(a["_MID"])) if kind == ROUGHING else [deep]
+    rises = way == UPWARDS
+    outwards = -found.down if rises else found.down
+    milled = thread_milling.ToothedThread(
+        Place(reference_point(moves, a), a["_NSP"]),
+        [outer - deep + cut - radius if is_inside else outer - cut + radius for cut in cuts],
+        lead,
+        max(a.integer("_NT"), 1),
+        found.reference,
+        found.depth,
+        rises,
+        ccw=(outwards > 0.0) is (hand == RIGHT_HAND),
+        beside=0.0 if is_inside else outer + 2.0 * radius + abs(a["SDIS"]),
+        feed=feed_of(a, "_FFR"),
+        safe=found.safe,
+        retract=found.retract,
+    )
+    perform(moves, thread_milling.mill_with_teeth(milled))

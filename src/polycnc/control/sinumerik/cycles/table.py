@@ -55,7 +55,8 @@ CYCLES: dict[str, Cycle] = {
         f"{_HOLE} FDEP FDPR DAM DTB DTS FRF VARI _AXN _MDEP _VRT _DTD _DIS1 {_SL}", drilling.deep_hole
     ),
     "CYCLE830": Cycle(
-        f"RTP RFP SDIS DP FDEP _DAM DTB DTS FRF VARI _MDEP _VRT _DTD _DIS1 {' '.join(drilling.REST)}",
+        f"RTP RFP SDIS DP FDEP _DAM DTB DTS FRF VARI _MDEP _VRT _DTD _DIS1 {drilling.REST} {_SL}"
+        f" {drilling.REST_OF_MODES}",
         drilling.deep_hole_2,
     ),
     "CYCLE84": Cycle(
@@ -114,6 +115,10 @@ CYCLES: dict[str, Cycle] = {
         pockets.mill,
     ),
     "CYCLE64": Cycle(f"_PRG _VARI {_MILL} _F _DXY _UXY _UZ _CDIR _TR _DR _UMODE {_SL}", pockets.predrill),
+    "CYCLE70": Cycle(
+        f"{_MILL} _DIATH _H1 _FAL _PIT _NT _MID _FFR _TYPTH _PA _PO _NSP _VARI _PITA {_PITCHES} {_SL}",
+        surfaces.thread_with_teeth,
+    ),
     "CYCLE71": Cycle(
         f"{_MILL} _PA _PO _LENG _WID _STA _MID _MIDA _FDP _FALD _FFP1 _VARI _FDP1", surfaces.face
     ),

@@ -69,7 +69,7 @@ def thread_chain(moves: Moves, a: Arguments) -> None:
 
 
 #: CYCLE99: what its parameters must be, as far as it is executed: one pitch, lengthwise, absolute, in G18 or the plane.
-_ONLY_ZERO = "_GDEP _PIT1 _FDEP _GST _GUD _MID _AMODE _PTABA".split()  # noqa: SIM905 - a table
+_ONLY_ZERO = "_GDEP _PIT1 _FDEP _GST _GUD _MID _AMODE".split()  # noqa: SIM905 - a table
 _PITCH_UNITS, _PLANES = (0, 1), (0, 2)
 #: Digits of its VARI: how cuts go in, and whether it roughs and finishes.
 INFEED_PLACE, STAGE_PLACE, ALTERNATING = 2, 5, 2
@@ -88,7 +88,7 @@ def thread_of_plane(moves: Moves, a: Arguments) -> None:
     wrong += [
         name for name, known in (("_PITA", _PITCH_UNITS), ("_DMODE", _PLANES)) if a.integer(name) not in known
     ]
-    if wrong or a.digit("_VARI", STAGE_PLACE) not in _COMPLETE or a.plain("_PTAB") or not a.integer("_NRC"):
+    if wrong or a.digit("_VARI", STAGE_PLACE) not in _COMPLETE or not a.integer("_NRC"):
         raise not_supported(f"CYCLE99 {wrong[0] if wrong else '_VARI'}")
     flank = a["_IANG"]
     if not flank and a["_IFLANK"]:

@@ -46,16 +46,22 @@ _HUNDREDS = 2
 POCKETS, SPIGOT = (0, 1), 2
 ONLY_START = 2
 #: What is wrong with contours, and the alarm of it; else preparation failed.
-REGION_ALARMS = {"open": "61605", "crossing": "61605", "no inside": "61605", "narrow": "61105"}
+REGION_ALARMS = {
+    "open": "61605",
+    "crossing": "61605",
+    "nested": "61605",
+    "no inside": "61605",
+    "narrow": "61105",
+}
 
 
 def mill(moves: Moves, a: Arguments) -> None:
     """CYCLE63: clear a pocket with islands, or what stands round spigots; finish the base or the edges.
 
     Raises:
-        AlarmError: As the other milling cycles; 61605 for contours that are open, cross or are too few, 61606 where
-            they cannot be followed, 61105 for a cutter that goes in nowhere, 61108 for a helix or an oscillation
-            without room; PC0001 for residual material, chamfers, own start points and a mere calculation.
+        AlarmError: As the other milling cycles; 61605 for contours that are open, cross, lie in each other or are too
+            few, 61606 where they cannot be followed, 61105 for a cutter that goes in nowhere, 61108 for a helix or an
+            oscillation without room; PC0001 for residual material, chamfers, own start points, a mere calculation.
     """
     radius = cutter(moves)
     kind = a.digit("_VARI", 0)
@@ -120,13 +126,14 @@ def _refuse(a: Arguments, kind: int) -> None:
 
 
 def _with_walls(a: Arguments, shape: ContourPocket, contours: list[Contour]) -> ContourPocket:
-    """The shape with the contours that were read: of a spigot the first one is the blank."""
-    edges = [[piece.edge for piece in contour] for contour in contours]
+    """The shape with the contours that were read: the first one is the pocket, or the blank round spigots."""
+    first, *others = ([piece.edge for piece in contour] for contour in contours)
     if a.digit("_DMODE", _HUNDREDS) != SPIGOT:
-        return replace(shape, walls=region.walls(edges))
-    if len(edges) == 1:
+        return replace(shape, walls=region.walls(first, others))
+    if not others:
         raise RegionError("open")
-    return replace(shape, walls=region.walls(edges[1:], free_outside=True), blank=region.walls(edges[:1])[0])
+    blank, *spigots = region.walls(first, others, free_outside=True)
+    return replace(shape, walls=spigots, blank=blank)
 
 
 def _mill(

@@ -33,15 +33,20 @@ if TYPE_CHECKING:
 
 
 class Place(NamedTuple):
-    """Where a contour stands: in a program (empty for the calling one), all of it or from one label to another."""
+    """Where a contour stands: in a program (empty for the calling one), all of it or from one label to another.
+
+    A contour by its name stands in the calling program, between the labels that the control's editor writes, or else is
+    a program of that name.
+    """
 
     program: str
     first: str = ""
     last: str = ""
+    is_by_name: bool = False
 
 
 @dataclass(slots=True)
-class ChosenContour(State, lifetime=Lifetime.POWER):
+class ChosenContour(State, lifetime=Lifetime.RESET):
     """What calls of CYCLE62 have chosen for the next cycle, in their order."""
 
     places: list[Place] = field(default_factory=list)
@@ -54,6 +59,9 @@ class ChosenContour(State, lifetime=Lifetime.POWER):
 
 #: Types of CYCLE62 that name labels: of the calling program, and of another one.
 LABELS_HERE, LABELS_IN_PROGRAM = 2, 3
+#: Type of CYCLE62 that names a contour, and the labels that the control's editor sets around it.
+BY_NAME = 1
+EDITOR_FIRST, EDITOR_LAST = "E_LAB_A_", "E_LAB_E_"
 
 
 def choose(moves: Moves, a: Arguments) -> None:
@@ -63,10 +71,11 @@ def choose(moves: Moves, a: Arguments) -> None:
         AlarmError: 61002 for a type that does not exist.
     """
     kind = a.integer("_TYPE")
-    if kind not in (0, 1, LABELS_HERE, LABELS_IN_PROGRAM):
+    if kind not in (0, BY_NAME, LABELS_HERE, LABELS_IN_PROGRAM):
         raise AlarmError("61002")
     labels = (a.text("_LAB1").upper(), a.text("_LAB2").upper()) if kind >= LABELS_HERE else ("", "")
-    moves.act(_choose, moves.channel, Place("" if kind == LABELS_HERE else a.text("_KNAME"), *labels))
+    name = "" if kind == LABELS_HERE else a.text("_KNAME")
+    moves.act(_choose, moves.channel, Place(name, *labels, is_by_name=kind == BY_NAME))
     moves.end_block()
 
 
@@ -95,6 +104,11 @@ def _call(channel: SinumerikChannel, place: Place) -> None:
     Raises:
         AlarmError: 61605 where no contour is named, 14011 for a program that does not exist, 14082 for a label.
     """
+    if place.is_by_name:
+        first, last = (f"{mark}{place.program.strip().upper()}" for mark in (EDITOR_FIRST, EDITOR_LAST))
+        if channel.executable(channel.level.code.program).whole.find_label(first, 0) >= 0:
+            call_section(channel, "", first, last)
+            return
     if place.first:
         call_section(channel, place.program, place.first, place.last)
     elif place.program:
