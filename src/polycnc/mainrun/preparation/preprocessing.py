@@ -132,10 +132,15 @@ class Preprocessing:
         real = RealAxes(self._machine, self._number, self.toolpath.axes, settings, ())
         self._rows.use(real, settings)
 
-    def start(self, program: Program, position: Sequence[float]) -> None:
-        """Begin with a program; the axes stand at a machine position."""
+    def start(
+        self,
+        program: Program,
+        position: Sequence[float],
+        enter: Callable[[Channel], None] | None = None,
+    ) -> None:
+        """Begin with a program; the axes stand at a machine position. `enter` may begin at another block."""
         self.channel.alarms.clear()
-        self.begin(self.channel.run(program, power_on=False), position)
+        self.begin(self.channel.run(program, power_on=False, enter=enter), position)
 
     def go_on(self, run: Iterator[Wait], position: Sequence[float], wait: Wait | None = None) -> None:
         """Go on with a run that is under way, and may wait; the axes stand at a machine position."""
