@@ -164,6 +164,22 @@ def test_the_key_switch_keeps_its_position_without_power() -> None:
     assert [alarm.code for alarm in control.alarms] == ["17070"]
 
 
+def test_before_the_key_switch_is_turned_a_program_has_the_rights_of_a_run() -> None:
+    files = {"_N_MGUD_DEF": "DEF NCK INT APWP 2 SECRET=4\nM30\n"}
+    control = VirtualControl("sinumerik-840d", files=files)
+    panel = Panel(control)
+    control.load("SECRET=5\nG4 F0.1\nM30\n")
+    for _ in range(2):
+        panel.press("START")
+        assert control.run() is State.READY
+        control.power_off()
+        panel.press("POWER_ON")
+    panel.turn("key_switch", "3")
+    panel.press("START")
+    assert control.run() is State.ALARM
+    assert [alarm.code for alarm in control.alarms] == ["17070"]
+
+
 TWO = "$1\nG00 X0. Y0.\nG04.1 P1\nM30\n$2\nG00 X0. Y0.\nG00 Y50.\nG04.1 P1\nM99\n"
 STATES = {"en": ("Block stop", "Machining.."), "zh-TW": ("單節停止", "加工中..")}
 
