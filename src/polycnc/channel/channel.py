@@ -213,6 +213,10 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
             self._executables[key] = code
         return self._executables[key]
 
+    def forget_programs(self) -> None:
+        """Programs are read anew: what they were compiled to may belong to a memory that is no more."""
+        self._executables.clear()
+
     @property
     def programs(self) -> list[Program]:
         """Every program of this run, in the order of their first use."""
