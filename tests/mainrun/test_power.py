@@ -80,3 +80,16 @@ def test_power_may_come_back_before_the_axes_stand() -> None:
     assert virtual.modal["wcs"] != "G55"
     assert virtual.read_variable("R1") == 7.0
     assert 0.0 < virtual.positions.machine["X"] < 500.0
+
+
+def test_programs_read_user_variables_of_the_memory_that_is_there() -> None:
+    files = {"_N_MGUD_DEF": "DEF NCK INT COUNT\nDEF CHAN REAL WAY=3\nM30\n"}
+    virtual = VirtualControl("sinumerik-840d", files=files)
+    virtual.load("COUNT=COUNT+1\nWAY=WAY+1\nR1=COUNT\nG0 X=WAY\nM30\n")
+    for turn in range(1, 4):
+        virtual.cycle_start()
+        assert virtual.run() is State.READY
+        assert virtual.read_variable("R1") == virtual.read_variable("COUNT") == turn
+        assert virtual.positions.machine["X"] == 3.0 + turn
+        again(virtual)
+        assert virtual.read_variable("COUNT") == turn

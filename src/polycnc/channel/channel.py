@@ -215,6 +215,10 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
             self._executables[key] = code
         return self._executables[key]
 
+    def forget_programs(self) -> None:
+        """Programs are read anew: what they were compiled to may belong to a memory that is no more."""
+        self._executables.clear()
+
     @property
     def programs(self) -> list[Program]:
         """Every program of this run, in the order of their first use."""
@@ -298,14 +302,17 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
 
     # ---- running -------------------------------------------------------------------------------------------------
 
-    def run(self, program: Program, *, power_on: bool = True) -> Run:
+    def run(
+        self, program: Program, *, power_on: bool = True, enter: Callable[[Channel], None] | None = None
+    ) -> Run:
         """Run a program to its end or to an alarm: an iterator that gives every wait of the channel.
 
         Args:
             program: The main program.
             power_on: Begin in the state of power-on; else in the state that the channel is in.
+            enter: Called at the first block: it may begin at another one.
         """
-        self.running = Run(self, program, power_on=power_on)
+        self.running = Run(self, program, power_on=power_on, enter=enter)
         return self.running
 
     def begin(self, program: Program, *, power_on: bool) -> None:

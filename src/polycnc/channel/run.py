@@ -8,6 +8,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from polycnc.channel.channel import Channel
     from polycnc.channel.waits import Wait
     from polycnc.program import Program
@@ -20,14 +22,23 @@ class Run:
         channel: The channel.
         program: The main program.
         power_on: Begin in the state of power-on; else in the state that the channel is in.
+        enter: Called at the first block: it may begin at another one.
     """
 
-    __slots__ = ("_begun", "_channel", "_over", "_power_on", "_program")
+    __slots__ = ("_begun", "_channel", "_enter", "_over", "_power_on", "_program")
 
-    def __init__(self, channel: Channel, program: Program, *, power_on: bool) -> None:
+    def __init__(
+        self,
+        channel: Channel,
+        program: Program,
+        *,
+        power_on: bool,
+        enter: Callable[[Channel], None] | None = None,
+    ) -> None:
         self._channel = channel
         self._program = program
         self._power_on = power_on
+        self._enter = enter
         self._begun = self._over = False
 
     def __iter__(self) -> Run:
@@ -38,6 +49,9 @@ class Run:
         if not self._begun:
             self._begun = True
             channel.begin(self._program, power_on=self._power_on)
+            if self._enter is not None:
+                self._enter(channel)
+                self._enter = None
             first, channel.wait = channel.wait, None
             if first is not None:  # it is to be executed in time from its first block on
                 return first

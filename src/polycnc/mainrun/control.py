@@ -26,6 +26,7 @@ from polycnc.mainrun.commands.hand import HandCommands
 from polycnc.mainrun.commands.permission import Permission
 from polycnc.mainrun.commands.program_keys import ProgramCommands
 from polycnc.mainrun.commands.programs import Programs
+from polycnc.mainrun.commands.search import SearchMode
 from polycnc.mainrun.commands.settings import Switches
 from polycnc.mainrun.commands.states import Command, Mode, State, is_allowed
 from polycnc.mainrun.commands.switches import SwitchCommands
@@ -182,16 +183,17 @@ class VirtualControl:
         """
         return self._commands.teach(words, line, channel)
 
-    def block_search(self, target: int | str, *, channel: int = 1) -> None:
-        """Search a block with calculation: a line of a channel's main program, or a block number such as `N50`.
+    def block_search(self, target: int | str, *, channel: int = 1, how: SearchMode | str = "contour") -> None:
+        """Search a block: a line of a channel's main program, or a block number such as `N50`.
 
         Everything before it is calculated without motion. Cycle start puts out the auxiliary functions that hold there,
-        leads the axes to where the block begins, and goes on with it.
+        leads the axes to where the block begins (`contour`) or ends (`end-point`), and goes on. `without-calculation`
+        begins with the block where the axes are.
 
         Raises:
             CommandRefused: The program ends before it.
         """
-        self._commands.block_search(target, channel)
+        self._commands.block_search(target, channel, _one_of(SearchMode, "how", how))
 
     # ---- data ----------------------------------------------------------------------------------------------
 

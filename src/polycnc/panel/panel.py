@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from collections.abc import Set as AbstractSet
     from pathlib import Path
 
-    from polycnc.mainrun import VirtualControl
+    from polycnc.mainrun import Record, VirtualControl
     from polycnc.panel.description import Switch
 
 SAFETY_KEY = "C8"
@@ -81,7 +81,9 @@ class Panel:
         )
         self.locked: Callable[[], AbstractSet[tuple[str, int]]] = frozenset
         self._pressed: set[str] = set()
-        self._give_rights()
+        self._turned: set[str] = set()
+        self._was_off = False
+        control.listeners.append(self._hear)
 
     # ---- keys ----------------------------------------------------------------------------------------------
 
@@ -172,8 +174,6 @@ class Panel:
             control.emergency_stop()
         else:
             {"feed_hold": control.feed_hold, "reset": control.reset, "power_on": control.power_on}[command]()
-        if command == "power_on":
-            self._give_rights()
 
     def _cycle_start(self) -> None:
         """Cycle start.
@@ -256,6 +256,7 @@ class Panel:
                 raise CommandRefused("panel.unknown", name=switch, known=known)
             self._check(switch, wanted, row.positions)
             self.positions[switch] = wanted
+            self._turned.add(switch)
             self._apply(row)
 
     def _check(self, switch: str, position: str, known: tuple[str, ...]) -> None:
@@ -282,11 +283,19 @@ class Panel:
         elif switch.id in ("feed", "spindle"):
             self.control.override(**{switch.id: value})
 
-    def _give_rights(self) -> None:
-        """Programs have the rights of the key switch, which keeps its position without power."""
-        for row in self.description.switches.values():
-            if row.rights:
-                self._apply(row)
+    def _hear(self, record: Record) -> None:
+        """Behind power-on programs have the rights of the key switch again, which keeps its position without power.
+
+        As long as nobody has turned it they have those of `polycnc run`: the manufacturer's password is set.
+        """
+        state = record.data.get("state") if record.what == "state" else None
+        if state == State.OFF:
+            self._was_off = True
+        elif state == State.READY and self._was_off:
+            self._was_off = False
+            for row in self.description.switches.values():
+                if row.rights and row.id in self._turned:
+                    self._apply(row)
 
     def _f0_share(self) -> float:
         """The lowest position of the rapid override as a share of the fastest axis' rapid traverse."""

@@ -7,7 +7,7 @@ from datetime import UTC, datetime
 import pytest
 
 from polycnc.mainrun import CommandRefused, State, VirtualControl
-from polycnc.panel.panel import Panel
+from polycnc.panel.panel import Light, Panel
 from polycnc.panel.screens.screen import Screen
 from tests.panel.screens.test_screen import press
 
@@ -162,6 +162,59 @@ def test_the_key_switch_keeps_its_position_without_power() -> None:
     control.cycle_start()
     control.run()
     assert [alarm.code for alarm in control.alarms] == ["17070"]
+
+
+def test_before_the_key_switch_is_turned_a_program_has_the_rights_of_a_run() -> None:
+    files = {"_N_MGUD_DEF": "DEF NCK INT APWP 2 SECRET=4\nM30\n"}
+    control = VirtualControl("sinumerik-840d", files=files)
+    panel = Panel(control)
+    control.load("SECRET=5\nG4 F0.1\nM30\n")
+    for _ in range(2):
+        panel.press("START")
+        assert control.run() is State.READY
+        control.power_off()
+        panel.press("POWER_ON")
+    panel.turn("key_switch", "3")
+    panel.press("START")
+    assert control.run() is State.ALARM
+    assert [alarm.code for alarm in control.alarms] == ["17070"]
+
+
+TRAORI = "T1 D1\nM6\nG0 X0 Y0 Z50\nTRAORI\nG0 X10 Y20 Z30\nM0\nM30\n"
+
+
+@pytest.mark.feature("sie.ori_jog", control="sinumerik-840d")
+@pytest.mark.parametrize("lang", ["en", "zh-TW"])
+def test_a_rotary_axis_by_hand_turns_the_tool_about_its_tip(lang: str) -> None:
+    setup = {"tools": {1: {"length": 100.0}}}
+    screen = Screen(VirtualControl("sinumerik-840d", machine="mill5-bc-head", setup=setup))
+    control, panel = screen.control, Panel(screen.control)
+    runs(screen, TRAORI)
+
+    def shown() -> list[list[str]]:
+        return [[cell.text for cell in row] for row in screen.view(lang).windows[0].rows]
+
+    screen.press("MACHINE")
+    panel.turn("mode", "jog")
+    panel.press("B+")
+    for _ in range(10):
+        control.step(0.1)
+        assert shown()[:3] == [["X", "10.000"], ["Y", "20.000"], ["Z", "30.000"]]
+    with pytest.raises(CommandRefused):
+        panel.press("C+")
+    panel.release("B+")
+    control.run()
+    assert shown()[3] != ["B", "0.000"]
+    press(screen, "Act. values MCS")
+    assert shown()[0] != ["X", "10.000"]  # the linear axes have followed
+    panel.press("MCS")
+    assert panel.lamps()["MCS"] is Light.ON
+    linear = shown()[:3]
+    panel.press("C+")
+    control.step(0.5)
+    panel.release("C+")
+    control.run()
+    assert shown()[:3] == linear  # each axis by itself
 
 
 TWO = "$1\nG00 X0. Y0.\nG04.1 P1\nM30\n$2\nG00 X0. Y0.\nG00 Y50.\nG04.1 P1\nM99\n"

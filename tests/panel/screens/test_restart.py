@@ -6,7 +6,7 @@ from itertools import product
 
 import pytest
 
-from polycnc.mainrun import State
+from polycnc.mainrun import CommandRefused, Record, State
 from polycnc.messages.catalogue import LANGUAGES
 from tests.panel.bench import Bench
 
@@ -134,3 +134,54 @@ def test_a_text_that_is_not_there_is_refused_and_the_cursor_stays() -> None:
     panel.press("START")
     panel.passes(0.1)
     assert panel.screen.program_row is None
+
+
+# ---- kinds of search ---------------------------------------------------------------------------------------------
+
+KINDS = {
+    "contour": ("With calc. contour", "計算至輪廓"),
+    "end-point": ("With calc. end point", "計算至終點"),
+    "without-calculation": ("Without calculation", "不計算"),
+}
+#: Where cycle start leads the axes, whether the spindle then turns, the line that runs first, R1 at the end.
+LED = {"contour": (10.0, 1, 5, 2.0), "end-point": (50.0, 1, 7, 2.0), "without-calculation": (3.0, 0, 5, 1.0)}
+COUNTED = "DEF REAL WAY=60\nM3 S500\nR1=1\nG0 X10 Z-3\nN7 G1 X50 F600\nR1=R1+1\nN8 G1 X=WAY F600\nM30\n"
+
+
+@pytest.mark.parametrize(("lang", "kind"), list(product(LANGUAGES, KINDS)))
+def test_sinumerik_searches_to_the_contour_to_the_end_point_or_without_calculation(
+    lang: str, kind: str
+) -> None:
+    panel = Bench("sinumerik-840d", lang, setup={"start": {"X": 3.0}}, program=COUNTED)
+    control = panel.control
+    panel.soft("Block search", "單節搜尋")
+    side(panel, *KINDS[kind])
+    chosen = [key.text for key in panel.view.side_keys if key.active]
+    assert chosen == [panel.says(*KINDS[kind])]
+    search(panel, "N7")
+    assert control.state is State.STOPPED
+    assert control.positions.machine["X"] == 3.0  # nothing has moved
+    place, turns, line, counted = LED[kind]
+    seen: list[tuple[int, float, int]] = []
+
+    def look(record: Record) -> None:
+        if record.what == "block":
+            at = control.positions.machine["X"]
+            seen.append((int(str(record.data["line"])), at, control.spindle.direction))
+
+    control.listeners.append(look)
+    panel.press("START")
+    assert control.run() is State.READY
+    assert seen[0] == (line, pytest.approx(place), turns)
+    assert control.positions.machine["X"] == pytest.approx(60.0)
+    assert control.read_variable("R1") == counted
+
+
+def test_a_search_beyond_the_program_is_refused_in_every_kind() -> None:
+    panel = Bench("sinumerik-840d", "en", program=COUNTED)
+    for kind in KINDS:
+        with pytest.raises(CommandRefused):
+            panel.control.block_search(99, how=kind)
+        assert panel.control.state is State.READY
+    with pytest.raises(CommandRefused):
+        panel.control.block_search(2, how="serupro")

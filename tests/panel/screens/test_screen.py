@@ -61,7 +61,9 @@ def test_every_page_can_be_shown_and_every_soft_key_leads_somewhere(control: str
         for key in keys:
             assert not key.page or key.page in family.pages, key
             assert not key.menu or key.menu in menus, key
-            assert bool(key.text) == bool(key.page or key.menu or key.action or key.switch or key.signal), key
+            assert bool(key.text) == bool(
+                key.page or key.menu or key.action or key.switch or key.signal or key.search
+            ), key
     assert set(family.keys.values()) <= set(family.pages)
 
 

@@ -9,6 +9,7 @@ from polycnc.geometry.tolerances import NO_WAY
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
+    from polycnc.mainrun.axes.about_tip import AboutTip
     from polycnc.mainrun.axes.axis import Axis
     from polycnc.mainrun.execution.clock import Clock
 
@@ -24,12 +25,15 @@ class ChannelAxes:
 
     Attributes:
         by_hand: An operator has had the axes since a program led them.
+        about_tip: What leads the linear axes when an operator turns rotary ones about the tip, which displays show from
+            then on; None before.
     """
 
     def __init__(self, axes: Sequence[Axis], clock: Clock) -> None:
         self._axes = tuple(axes)
         self._clock = clock
         self.by_hand = False
+        self.about_tip: AboutTip | None = None
 
     def __getitem__(self, column: int) -> Axis:
         return self._axes[column]
@@ -105,6 +109,13 @@ class ChannelAxes:
             for axis, here, base in zip(self._axes, place, self.without_hand(path), strict=True):
                 axis.hand.stand(here, base)
 
+    def settle(self) -> None:
+        """Rotary axes that were turned about the tip stand: the linear ones are where they have followed them."""
+        if self.about_tip is not None:
+            self.about_tip.leads = False
+        for axis in self._axes:
+            axis.hand.settle(self._clock.time)
+
     def forget_shift(self, column: int) -> None:
         """An axis that stays where it is returns to its reference point: its shift ends."""
         axis = self._axes[column]
@@ -113,7 +124,7 @@ class ChannelAxes:
 
     def leave(self) -> None:
         """The axes belong to a program again."""
-        self.by_hand = False
+        self.by_hand, self.about_tip = False, None
         for axis in self._axes:
             axis.hand.stand(0.0, 0.0)
 

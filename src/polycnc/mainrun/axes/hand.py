@@ -10,6 +10,8 @@ from polycnc.mainrun.motion.axis_move import AxisMove, axis_move
 from polycnc.motion.law import Law
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from polycnc.machine.model import Axis as AxisData
 
 #: How far an axis without limits is sent, mm or degrees.
@@ -28,7 +30,7 @@ class Hand:
         ramp: Seconds over which its motion is averaged.
     """
 
-    __slots__ = ("_base", "_data", "_goal", "_law", "_lead", "_place", "_ramp")
+    __slots__ = ("_base", "_data", "_follows", "_goal", "_law", "_lead", "_place", "_ramp")
 
     def __init__(self, data: AxisData, ramp: float) -> None:
         self._data = data
@@ -37,14 +39,16 @@ class Hand:
         self._lead: AxisMove | None = None
         self._law = Law(0.0, 0.0)
         self._goal: float | None = None
+        self._follows: Callable[[float], float] | None = None
 
     # ---- a source of the axis ------------------------------------------------------------------------------
 
     def at(self, time: float) -> float:
         """Its share of the setpoint."""
+        beside = self._follows(time) if self._follows is not None else 0.0
         if self._lead is None:
-            return self._place - self._base
-        return self._law.mean(time, self._ramp) - self._base
+            return self._place - self._base + beside
+        return self._law.mean(time, self._ramp) - self._base + beside
 
     @property
     def due(self) -> float:
@@ -85,11 +89,20 @@ class Hand:
     def stand(self, place: float, base: float) -> None:
         """The axis rests at a place; without the hand it would be at `base`."""
         self._place, self._base = place, base
-        self._lead = self._goal = None
+        self._lead = self._goal = self._follows = None
 
     def rebase(self, way: float) -> None:
         """Without the hand the axis would be elsewhere from now on, by this way; it stays where it is."""
         self._base += way
+
+    def follow(self, share: Callable[[float], float]) -> None:
+        """The axis goes along with others: a share of its own by time, until `settle` or `stand`."""
+        self._follows = share
+
+    def settle(self, time: float) -> None:
+        """The others stand: where the axis has followed them is its own place."""
+        if self._follows is not None:
+            self._place, self._follows = self._place + self._follows(time), None
 
     def towards(self, target: float, speed: float, time: float) -> None:
         """Lead the axis to a target (its limits kept), from rest or out of its motion."""

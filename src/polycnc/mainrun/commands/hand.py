@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.mainrun.axes.about_tip import AboutTip
 from polycnc.mainrun.commands.states import PROGRAM_MODES, Command
 from polycnc.mainrun.errors import CommandRefused
 from polycnc.messages.catalogue import listed
@@ -13,6 +14,11 @@ if TYPE_CHECKING:
     from polycnc.mainrun.commands.permission import Permission
     from polycnc.mainrun.execution.channel_run import ChannelRun
     from polycnc.mainrun.execution.operation import Operation
+
+#: The code under which rotary axes turn the tool about its tip.
+TURNS_ABOUT_TIP = "TRAORI"
+#: A signal: axes are moved by hand in the machine coordinate system, each by itself.
+IN_MACHINE_SYSTEM = "JOG_MCS"
 
 
 class HandCommands:
@@ -29,6 +35,7 @@ class HandCommands:
         self._clock = operation.clock
         self._status = operation.status
         self._permission = permission
+        self._signals = operation.signals
 
     def jog(self, axis: str, direction: int, *, rapid: bool, channel: int) -> None:
         """Press a jog key."""
@@ -37,8 +44,10 @@ class HandCommands:
         self._permission.ask_machine(*_move_words(run, i))
         here, data = self._take_in_hand(run), run.channel.axis_data[i]
         speed = self._switches.rapid_speed(data) if rapid else self._switches.jog_speed(data)
+        about_tip = self._about_tip(run, i, here, others=False)
         for axis_, hand in _hands(run, i):
-            hand.towards(hand.end_of_travel(direction, here[axis_]), speed, self._clock.time)
+            target = hand.end_of_travel(direction, here[axis_])
+            self._send(run, axis_, target, speed, about_tip)
 
     def stop_jog(self, axis: str | None, *, channel: int) -> None:
         """Let a jog key go; all of them where no axis is named."""
@@ -91,14 +100,48 @@ class HandCommands:
         self._permission.ask_machine(*_move_words(run, axis))
         here = self._take_in_hand(run)
         factor = run.display.machine_factor(axis, run.execution.context)
+        about_tip = self._about_tip(run, axis, here, others=True)
         for i, hand in _hands(run, axis):
-            hand.towards(hand.goal(here[i]) + shown / factor, speed, self._clock.time)
+            self._send(run, i, hand.goal(here[i]) + shown / factor, speed, about_tip)
+
+    def _send(
+        self, run: ChannelRun, axis: int, target: float, speed: float, about_tip: AboutTip | None
+    ) -> None:
+        """An axis goes to a target, so far and so fast as the others stand it."""
+        if about_tip is not None:
+            target, speed = about_tip.reach(axis, target, speed)
+        run.axes[axis].hand.towards(target, speed, self._clock.time)
+
+    def _about_tip(self, run: ChannelRun, axis: int, here: list[float], *, others: bool) -> AboutTip | None:
+        """What leads the linear axes when a rotary one is turned while TRAORI is active; None where nothing does.
+
+        By keys one orientation axis moves at a time; the handwheel moves several (`others`).
+        """
+        is_rotary = run.channel.axis_data[axis].rotary
+        leading = run.axes.about_tip
+        if leading is not None and leading.turns and not (is_rotary and others):
+            if run.axes[axis].hand.moves:
+                return leading
+            raise CommandRefused("mainrun.moving")
+        if not is_rotary:
+            return None
+        if run.execution.modal.get("transformation") != TURNS_ABOUT_TIP or self._signals[IN_MACHINE_SYSTEM]:
+            return None
+        if leading is None or not leading.turns:
+            if any(each.hand.moves for each in run.axes):
+                raise CommandRefused("mainrun.moving")
+            leading = AboutTip(run.axes, run.display, run.execution.context, here, self._clock.time)
+            leading.lead()
+            run.axes.about_tip = leading
+        return leading
 
     def _take_in_hand(self, run: ChannelRun) -> list[float]:
         """Machine position from which axes of a channel are moved by hand."""
         if self._runs.move:
             raise CommandRefused("mainrun.moving")
         run.take_in_hand(run.machine_position)
+        if run.axes.about_tip is not None and not run.axes.about_tip.turns:
+            run.axes.settle()
         return run.machine_position
 
     def _axis(self, name: str, channel: int) -> tuple[ChannelRun, int]:

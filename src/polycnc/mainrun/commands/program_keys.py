@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.mainrun.commands.search import search
+from polycnc.mainrun.commands.search import SearchMode, at_line, search
 from polycnc.mainrun.commands.states import Command, Mode, State
 from polycnc.mainrun.errors import CommandRefused
 from polycnc.mainrun.execution.operation import AT_END
@@ -76,8 +76,8 @@ class ProgramCommands:
         self._programs.insert(block, line, channel)
         return block
 
-    def block_search(self, target: int | str, channel: int) -> None:
-        """Search a block with calculation."""
+    def block_search(self, target: int | str, channel: int, how: SearchMode) -> None:
+        """Search a block: with calculation, up to its beginning or its end, or without."""
         self._permission.ask(Command.BLOCK_SEARCH)
         operation = self._operation
         if operation.runs.move_by_hand:
@@ -88,15 +88,22 @@ class ProgramCommands:
         operation.program_mode = Mode.AUTO
         operation.prepare(run)
         run.machinery.reset()
+        operation.mains = {channel}
+        if how is SearchMode.WITHOUT:
+            if not 0 <= line - program.first_line < len(program.lines):
+                raise CommandRefused("mainrun.search", target=target)
+            run.preprocessing.start(program, here, at_line(line))
+            operation.collected, operation.searched = {}, True
+            self._status.become(State.STOPPED, halt="search")
+            return
         run.preprocessing.start(program, here)
-        found = search(run.preprocessing, program.name, line)
+        found = search(run.preprocessing, program.name, line, behind=how is SearchMode.END_POINT)
         if found is None:
             operation.give_up()
             raise CommandRefused("mainrun.search", target=target)
         run.execution.stand_before(found.position, found.context, found.modal)
         run.take_in_hand(here)
         operation.collected, operation.searched = {channel: found.functions}, True
-        operation.mains = {channel}
         self._status.become(State.STOPPED, halt="search")
 
     # ---- running -------------------------------------------------------------------------------------------

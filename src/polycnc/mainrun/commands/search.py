@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import field
+from enum import StrEnum
 from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass
@@ -11,8 +12,9 @@ from polycnc.toolpath import Context
 from polycnc.toolpath.events import Auxiliary, Raised, SignalWrite, SpindleSpeed, ToolSelection
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
+    from polycnc.channel.channel import Channel
     from polycnc.mainrun.preparation.preprocessing import Preprocessing
 
 #: M functions of which the last one before the block is put out, by what they switch. Others belong to their block.
@@ -41,8 +43,36 @@ class Found:
     functions: list[Happening] = field(default_factory=list)
 
 
-def search(preprocessing: Preprocessing, program: str, line: int) -> Found | None:
-    """Go on in what is prepared to a block; it is then the next item. None where the program ends before it."""
+class SearchMode(StrEnum):
+    """How a block is searched."""
+
+    CONTOUR = "contour"
+    """With calculation: the axes are led to where the block begins."""
+    END_POINT = "end-point"
+    """With calculation of the block too: the axes are led to where it ends."""
+    WITHOUT = "without-calculation"
+    """Nothing in front of the block is calculated: it begins where the axes are, with what holds now."""
+
+
+def at_line(line: int) -> Callable[[Channel], None]:
+    """A program begins at a line of its file: its definitions are made, nothing else in front of it is run."""
+
+    def enter(channel: Channel) -> None:
+        level = channel.level
+        define = getattr(level.code, "run_definitions", None)  # a language without definitions has none
+        if define is not None:
+            define(channel)
+        level.index = level.current = level.code.step_of_line(line - level.code.program.first_line)
+
+    return enter
+
+
+def search(preprocessing: Preprocessing, program: str, line: int, *, behind: bool = False) -> Found | None:
+    """Go on in what is prepared to a block; it is then the next item. None where the program ends before it.
+
+    With `behind` the block is calculated too, and what comes next is the next item.
+    """
+    reached = False
     found = Found(preprocessing.position, Context())
     functions: dict[object, Happening] = {}
     patience, left = PATIENCE, LONGEST
@@ -52,7 +82,7 @@ def search(preprocessing: Preprocessing, program: str, line: int) -> Found | Non
         patience = PATIENCE if preprocessing.fill() else patience - 1
         if not preprocessing.items:
             if preprocessing.finished:
-                return None
+                return _at(found, functions) if reached else None
             if preprocessing.waiting is not None:
                 if preprocessing.waiting.until is not None and not preprocessing.waiting.until():
                     return None  # another channel, which does not run, would have to do something first
@@ -60,9 +90,10 @@ def search(preprocessing: Preprocessing, program: str, line: int) -> Found | Non
             continue
         item = preprocessing.items[0]
         if isinstance(item, Block):
-            if (item.program, item.line) == (program, line):
-                found.functions = list(functions.values())
-                return found
+            is_wanted = (item.program, item.line) == (program, line)
+            if reached if behind else is_wanted:
+                return _at(found, functions)
+            reached = reached or is_wanted
             found.modal = item.modal
             left = left if (item.program, item.line) in blocks else LONGEST
             blocks.add((item.program, item.line))
@@ -80,6 +111,11 @@ def search(preprocessing: Preprocessing, program: str, line: int) -> Found | Non
                 functions.pop(key, None)
                 functions[key] = item
     return None
+
+
+def _at(found: Found, functions: Mapping[object, Happening]) -> Found:
+    found.functions = list(functions.values())
+    return found
 
 
 def _what_it_switches(happening: Happening) -> object:

@@ -249,6 +249,7 @@ class ChannelRuns:
         channel, here = run.channel, run.machine_position
         tool = run.execution.context.tool_name or run.execution.context.tool
         channel.stack.clear()
+        channel.forget_programs()
         channel.feed = nan
         end_of(channel, Lifetime.POWER)
         begun = channel.setup

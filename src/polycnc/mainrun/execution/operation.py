@@ -219,6 +219,7 @@ class Operation:
         self._returning = True
         for run in self.runs:
             if run.axes.by_hand:
+                run.axes.settle()
                 for axis, target in zip(run.axes, run.without_hand, strict=True):
                     axis.hand.towards(target, self.switches.jog_speed(axis.data), self.clock.time)
 

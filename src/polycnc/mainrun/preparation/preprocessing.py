@@ -143,10 +143,15 @@ class Preprocessing:
         self._buffer.tables, self._known_contexts = ContextTables(uses.after_s), 0
         self._rows.use(real, settings, uses)
 
-    def start(self, program: Program, position: Sequence[float]) -> None:
-        """Begin with a program; the axes stand at a machine position."""
+    def start(
+        self,
+        program: Program,
+        position: Sequence[float],
+        enter: Callable[[Channel], None] | None = None,
+    ) -> None:
+        """Begin with a program; the axes stand at a machine position. `enter` may begin at another block."""
         self.channel.alarms.clear()
-        self.begin(self.channel.run(program, power_on=False), position)
+        self.begin(self.channel.run(program, power_on=False, enter=enter), position)
 
     def go_on(self, run: Iterator[Wait], position: Sequence[float], wait: Wait | None = None) -> None:
         """Go on with a run that is under way, and may wait; the axes stand at a machine position."""

@@ -201,9 +201,10 @@ def search_block(screen: ScreenState) -> None:
     """Block search: cycle start goes on at the block number or line that has been keyed in, or at the cursor."""
     typed = screen.buffer.strip()
     if not typed and screen.program_row is not None:
-        screen.control.block_search(screen.control.first_line(screen.control.program) + screen.program_row)
+        target: int | str = screen.control.first_line(screen.control.program) + screen.program_row
     else:
-        screen.control.block_search(int(typed) if typed.isdigit() else typed)
+        target = int(typed) if typed.isdigit() else typed
+    screen.control.block_search(target, how=screen.search_mode)
     screen.program_row, screen.buffer = None, ""
 
 

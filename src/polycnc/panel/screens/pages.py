@@ -48,6 +48,7 @@ class SoftKey:
         action: What it does (`actions`).
         switch: Panel switch that it turns over.
         signal: Signal that it turns over.
+        search: The kind of block search that it chooses.
         when: Parameters under which it is there (`8136#6`, `!8136#6`, several with `&`); empty for always.
         by_page: The row that it opens is the page's own, where the page has one (`operations`).
     """
@@ -58,6 +59,7 @@ class SoftKey:
     action: str = ""
     switch: str = ""
     signal: str = ""
+    search: str = ""
     when: str = ""
     by_page: bool = False
 

@@ -147,6 +147,8 @@ class Screen(ScreenState):
                 self._turn_menu()
             elif key.action:
                 ACTIONS[key.action](self)
+            if key.search:
+                self.search_mode = key.search
             if key.switch or key.signal:
                 self.turn_over(key)
             before = self.menu, self.turned

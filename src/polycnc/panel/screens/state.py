@@ -81,6 +81,7 @@ class ScreenState:
         dialog: The dialog of the program that is shown, since `dialog_since` (simulated time, s); the page that it lies
             upon is `behind_dialog`.
         program_row: Row of the cursor in the program; None where the window follows the block in execution.
+        search_mode: The kind of block search that is chosen.
         interrupted: The block of the main program that was last in execution.
 
     Raises:
@@ -118,6 +119,7 @@ class ScreenState:
         self.dialog_since, self.behind_dialog = 0.0, self.page.id
         self._cursors: dict[str, tuple[int, int]] = {}
         self.program_row: int | None = None
+        self.search_mode = "contour"
         self.interrupted = ActiveBlock()
 
     @property
@@ -179,8 +181,11 @@ class ScreenState:
     def is_on(self, key: SoftKey) -> bool:
         """Whether the switch, or the signal, of a soft key is on."""
         control = self.control
-        return bool(key.switch and getattr(control.switches, key.switch)) or bool(
-            key.signal and control.signals[key.signal]
+        chosen = bool(key.search) and key.search == self.search_mode
+        return (
+            chosen
+            or bool(key.switch and getattr(control.switches, key.switch))
+            or bool(key.signal and control.signals[key.signal])
         )
 
     def turn_over(self, key: SoftKey) -> None:

@@ -38,7 +38,7 @@ ARGUMENTS: dict[str, tuple[type, ...]] = {
     "size": _NUMBER, "feed": _NUMBER, "spindle": _NUMBER, "value": (int, float, str), "number": (str,), "keys": (list,),
     "key": (str,), "index": _WHOLE, "switch": (str,), "position": (str, int), "notches": _WHOLE, "unit": (str,),
     "single_block": (bool, str), "optional_stop": (bool,), "block_skip": (bool,), "dry_run": (bool,),
-    "machine_lock": (bool,), "z_lock": (bool,), "mst_lock": (bool,), "drf": (bool,),
+    "how": (str,), "machine_lock": (bool,), "z_lock": (bool,), "mst_lock": (bool,), "drf": (bool,),
 }  # fmt: skip
 #: Longest message, characters.
 LONGEST = 4_000_000
