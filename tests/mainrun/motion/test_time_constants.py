@@ -34,13 +34,15 @@ SEEDS = range(24)
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_plan_samples_and_main_run_are_one_motion(tmp_path: Path, seed: int) -> None:
+def test_plan_samples_and_main_run_are_one_motion(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, seed: int
+) -> None:
     written = writer(seed)
     file = tmp_path / "constants.toml"
     file.write_text(
         CONSTANTS.format(machine=written.machine, bell=0.05 * (seed % 2), after=0.064 * (seed % 3 > 0))
     )
-    written.machine = str(file)
+    monkeypatch.setattr(type(written), "machine", str(file))
     text = written.program()
     total, end, samples, machine = planned(text, written)
     threads = isinstance(written, Threads)
