@@ -271,3 +271,23 @@ def test_where_the_time_goes_is_told_where_one_asks(console: Console) -> None:
     ]
     assert sum(shares) == pytest.approx(100.0, abs=0.5)
     assert "where the time goes:" not in console("run", "good.nc", *FANUC).out
+
+
+BESIDE = """base = "mill3"
+[defaults.linear]
+after_interpolation_s = 0.064
+[magazine]
+place_time_s = 0.4
+[spindle.1]
+speed_wait = "cut"
+"""
+
+
+def test_where_the_time_goes_names_time_constants_and_what_went_on_beside(console: Console) -> None:
+    console.file("mine.toml", BESIDE)
+    console.file("part.nc", "O1\nG90 T9\nM3 S3000\nG0 X200.\nG1 X0 F6000\nM6\nM30\n")
+    said = console("run", "part.nc", "--explain-time", "--control", "fanuc-m", "--machine", "mine.toml")
+    assert "until axes have come to rest by their time constant after interpolation" in said.out
+    # 3000 rpm are reached after 0.5 s of 0.69 s; the cut takes 2 s and 0.064 s, eight places 3.2 s.
+    assert "and 0:00.5 in which a spindle went to its speed beside that" in said.out
+    assert "and 0:02.8 in which the magazine turned beside that" in said.out

@@ -31,7 +31,7 @@ ON_A_LINE = replace(SOFT, rapid_by_axis=False)
 T = 0.064
 
 
-def mill(**times: float) -> Machine:
+def mill(**times: Any) -> Machine:
     """The mill with time constants of all axes."""
     return replace(MILL, axes=tuple(replace(axis, **times) for axis in MILL.axes))
 

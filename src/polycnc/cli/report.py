@@ -108,7 +108,7 @@ def explained(parts: Mapping[Cause, Part], times: Times, hidden_s: Mapping[str, 
             )
     for name, seconds in hidden_s.items():
         if seconds > 0.0:
-            lines.append(text("run.explained.hidden", time=clock(seconds), what=text(f"run.{name}")))
+            lines.append(text(f"run.explained.beside.{name}", time=clock(seconds)))
     return "\n".join(lines)
 
 

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from random import Random
 from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
 
+from polycnc.mainrun import State
 from tests.mainrun.motion.random_programs import Threads, writer
+from tests.mainrun.motion.test_disturbed import disturb, joints_of, play
 from tests.mainrun.motion.test_one_motion import PLACES, executed, planned
+from tests.mainrun.support import power_on
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -23,18 +27,22 @@ after_interpolation_s = {after}
 [defaults.rotary]
 rapid_time_s = 0.2
 """
+T = 0.064
+CUTS = "O1\nG1 X20. F6000\nG2 X30. Y10. R10.\nG1 Y14.\nX-10. Y14.\nX-10. Y0\nM30\n"
 #: Seeds of programs of the word-address controls.
 SEEDS = range(24)
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_plan_samples_and_main_run_are_one_motion(tmp_path: Path, seed: int) -> None:
+def test_plan_samples_and_main_run_are_one_motion(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, seed: int
+) -> None:
     written = writer(seed)
     file = tmp_path / "constants.toml"
     file.write_text(
         CONSTANTS.format(machine=written.machine, bell=0.05 * (seed % 2), after=0.064 * (seed % 3 > 0))
     )
-    written.machine = str(file)
+    monkeypatch.setattr(type(written), "machine", str(file))
     text = written.program()
     total, end, samples, machine = planned(text, written)
     threads = isinstance(written, Threads)
@@ -44,3 +52,45 @@ def test_plan_samples_and_main_run_are_one_motion(tmp_path: Path, seed: int) -> 
     time = executed(text, written, samples.position[:compared], rotary)
     assert time == pytest.approx(total, abs=0.001)
     assert np.isfinite(samples.position).all()
+
+
+def test_scripts_of_an_operator_lead_to_the_same_end_along_the_same_rows(tmp_path: Path) -> None:
+    file = tmp_path / "constants.toml"
+    file.write_text(CONSTANTS.format(machine="mill3", bell=0.03, after=T))
+
+    def run(seed: int | None) -> tuple[list[tuple[float, ...]], list[float]]:
+        virtual = power_on(machine=str(file))
+        joints = joints_of(virtual)
+        if seed is None:
+            virtual.cycle_start()
+            virtual.run()
+        else:
+            for _ in play(virtual, Random(seed), 12):
+                pass
+        return joints, virtual.machine_position
+
+    path, end = run(None)
+    for seed in range(100):
+        assert run(seed) == (path, end), seed
+
+
+def test_whatever_an_operator_does_a_cut_takes_its_time_constant_to_change_its_speed(tmp_path: Path) -> None:
+    file = tmp_path / "constants.toml"
+    file.write_text(CONSTANTS.format(machine="mill3", bell=0.03, after=T))
+    feed, step = 6000.0 / 60.0, 0.004
+    for seed in range(20):
+        virtual = power_on(CUTS, machine=str(file))
+        random = Random(seed)
+        places = [virtual.machine_position]
+        virtual.cycle_start()
+        for _ in range(4000):
+            if random.random() < 0.05:
+                disturb(virtual, random)
+            virtual.step(step)
+            places.append(virtual.machine_position)
+            if virtual.state is State.READY:
+                break
+        velocity = np.diff(np.array(places), axis=0) / step
+        # Turned round, a speed changes by twice itself; the feed override is 200 % at most.
+        most = 2.0 * 2.0 * feed / (0.5 * T)
+        assert np.abs(np.diff(velocity, axis=0)).max() / step <= most * 1.01, seed

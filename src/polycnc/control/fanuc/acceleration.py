@@ -29,7 +29,8 @@ def accelerated(
     for name in names:
         of = parameters.of(name)
         rapid = Ramp(_seconds(of.rapid_time), _seconds(of.rapid_bell_time))
-        cut = Ramp(bell_s=bell_s, acceleration=of.cutting_acceleration or None)
+        most = of.cutting_acceleration or 0.0
+        cut = Ramp(bell_s=bell_s, acceleration=most if most > 0.0 else None)
         if rapid != Ramp():
             rapids[name] = rapid
         if cut != Ramp():
