@@ -9,13 +9,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from polycnc.compensation.runs.kernels import RAPID, STRAIGHT, Offset, corner, lead, measure
+from polycnc.compensation.runs import kernels
+from polycnc.compensation.runs.kernels import RAPID, STRAIGHT, Offset
 from polycnc.geometry import offset
 from polycnc.geometry.offset import Outer
 from polycnc.toolpath.kinds import Kind
-from tests.kernels.strict import FromTheStart
+from tests.kernels.strict import strict
 
 OUTER = Outer()
+corner, lead, measure = strict(kernels.corner), strict(kernels.lead), strict(kernels.measure)
 
 
 def at(distance: float, window: int = 2, checks: bool = True) -> Offset:
@@ -24,16 +26,16 @@ def at(distance: float, window: int = 2, checks: bool = True) -> Offset:
     )
 
 
-def two_lines(turn: float, way: float) -> FromTheStart:
+def two_lines(turn: float, way: float) -> array[float]:
     angle = radians(turn)
-    return FromTheStart(array("d", (1.25, 0.0, 1.25 + way * cos(angle), way * sin(angle))))
+    return array("d", (1.25, 0.0, 1.25 + way * cos(angle), way * sin(angle)))
 
 
 @settings(deadline=None)
 @given(st.floats(-89.0, 130.0), st.floats(0.1, 30.0), st.sampled_from((0.2, 5.0)))
 def test_a_corner_is_that_of_two_edges(turn: float, way: float, distance: float) -> None:
-    ends, ways = two_lines(turn, way), FromTheStart(array("d", bytes(48)))
-    how, kinds = at(distance), FromTheStart(array("B", (STRAIGHT, RAPID)))
+    ends, ways = two_lines(turn, way), array("d", bytes(48))
+    how, kinds = at(distance), array("B", (STRAIGHT, RAPID))
     assert measure(how, kinds, ends, ways, 0)
     assert measure(how, kinds, ends, ways, 1)
     middle, last = (ends[0], ends[1]), (ends[2], ends[3])
@@ -46,16 +48,16 @@ def test_a_corner_is_that_of_two_edges(turn: float, way: float, distance: float)
 
 @pytest.mark.parametrize("turn", [-91.0, -150.0, 180.0])
 def test_a_corner_with_several_vectors_or_none_is_the_stages(turn: float) -> None:
-    ends, ways = two_lines(turn, 5.0), FromTheStart(array("d", bytes(48)))
+    ends, ways = two_lines(turn, 5.0), array("d", bytes(48))
     for i in range(2):
-        assert measure(at(1.0), FromTheStart(array("B", (STRAIGHT, STRAIGHT))), ends, ways, i)
+        assert measure(at(1.0), array("B", (STRAIGHT, STRAIGHT)), ends, ways, i)
     assert not corner(at(1.0), ends, ways, 1)[0]
 
 
 @pytest.mark.parametrize("kind", [Kind.CW, Kind.EVENT, Kind.SPLINE])
 def test_what_is_no_line_is_the_stages(kind: Kind) -> None:
-    ends, ways = two_lines(0.0, 5.0), FromTheStart(array("d", bytes(48)))
-    assert not measure(at(1.0), FromTheStart(array("B", (kind, kind))), ends, ways, 0)
+    ends, ways = two_lines(0.0, 5.0), array("d", bytes(48))
+    assert not measure(at(1.0), array("B", (kind, kind)), ends, ways, 0)
 
 
 @pytest.mark.parametrize(("distance", "checks", "read"), [(-5.0, True, 3), (-5.0, False, 6), (5.0, True, 6)])

@@ -9,6 +9,7 @@ import pytest
 
 from polycnc.channel.channel import Channel
 from polycnc.control.registry import control
+from polycnc.control.word_address.macro_b.custom_macro import CustomMacroControl
 from polycnc.control.word_address.macro_b.plain import MacroPlainBlocks
 from polycnc.language.bulk.layout import VARIABLES, Operation
 from polycnc.machine import load_machine
@@ -21,6 +22,7 @@ TEXT = "O1\n#1=1.5\n#33=-2\n#101=7\n#500=0.25\n#599=0\nM0\nM30\n"
 def stopped(control_id: str = "fanuc-m") -> tuple[MacroPlainBlocks, Channel]:
     """A channel that stands at M0, and what it tells of plain blocks."""
     built = control(control_id)
+    assert isinstance(built, CustomMacroControl)
     store = ProgramStore(form=built.form)
     program = store.add_text("MAIN", TEXT)
     channel = Channel(built, load_machine(built.default_machine), parse_setup({}), store)
