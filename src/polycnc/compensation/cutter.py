@@ -34,7 +34,6 @@ from polycnc.compensation.ends import blind_end, end_before, square_ends, starts
 from polycnc.compensation.interference import InterferenceCheck, Objections
 from polycnc.compensation.policy import Violation
 from polycnc.compensation.rows import RowWriter
-from polycnc.compensation.runs.window import Window, fits
 from polycnc.compensation.step import NO_VECTOR, Role, Step
 from polycnc.geometry import arcs, offset
 from polycnc.geometry.offset import Corner
@@ -209,6 +208,8 @@ class CutterCompensation(Stage):
         waits = self._place is not None or self._forced is not None or self._holds
         if waits or self.suspended or self._starts_square or self._role is not Role.CONTOUR or not window:
             return 0
+        from polycnc.compensation.runs.window import Window, fits  # for long programs only
+
         same = window[-1].distance == self._side * self._radius and window[-1].policy == self.policy
         if not (same and window[-1].shift == self._shift() and fits(window, run, self._read)):
             return 0

@@ -24,6 +24,8 @@ from tests.compensation.support import CODES, into
 from tests.kernels.strict import strict
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from polycnc.compensation.policy import Policy
 
 Row = tuple[Kind, str, int, tuple[str, ...]]
@@ -168,19 +170,23 @@ def waiting() -> CutterCompensation:
     return made
 
 
+#: What a program may command in front of a move.
+COMMANDS: tuple[Callable[[CutterCompensation], None], ...] = (
+    lambda stage: stage.change_radius(2.0),
+    lambda stage: stage.change_side(-1),
+    lambda stage: stage.forced_vector((1.0, 0.0)),
+    lambda stage: stage.hold_vector(),
+    lambda stage: stage.cancel(),
+    lambda stage: stage.event(PlacedEvent(Auxiliary(8), 0, 10, 0)),
+    lambda stage: stage.block(),
+    lambda stage: stage.flush(),
+)
+
+
 def test_what_a_program_commands_is_left_to_moves_one_by_one() -> None:
     rest = run_of(moves_of(circle(100))[10:])
     assert waiting().run(rest) == 90
-    for command in (
-        lambda stage: stage.change_radius(2.0),
-        lambda stage: stage.change_side(-1),
-        lambda stage: stage.forced_vector((1.0, 0.0)),
-        lambda stage: stage.hold_vector(),
-        lambda stage: stage.cancel(),
-        lambda stage: stage.event(PlacedEvent(Auxiliary(8), 0, 10, 0)),
-        lambda stage: stage.block(),
-        lambda stage: stage.flush(),
-    ):
+    for command in COMMANDS:
         made = waiting()
         command(made)
         assert made.run(rest) == 0

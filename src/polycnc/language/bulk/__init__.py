@@ -1,8 +1,9 @@
 """Bulk scanning: runs of plain blocks go from the bytes of the program straight into columns of the toolpath.
 
-`kernels` reads and works off blocks, `moves` holds what they do; both are pure functions on arrays (`layout`
-names the fields), also as machine code (`compiled`); `text` gives them the bytes. `recipe` is how a control
-declares that a block of some shape in some modal state is plain, `shapes` keeps what was declared in the
+`kernels` reads and works off blocks, `numerals` reads their numbers, `formulas` reads and calculates formulas in
+them, `moves` holds what they do; all are pure functions on arrays (`layout` names the fields), also as machine code
+(`compiled`); `text` gives them the bytes, `postfix` makes formulas of the code of expressions. `recipe` is how a
+control declares that a block of some shape in some modal state is plain, `shapes` keeps what was declared in the
 kernels' tables; `scanner` leads a channel through all that; `staged` hands scanned moves to stages of the path.
 Whatever is not plain goes to the interpreter, block by block. Both ways give the same table, bit for bit.
 """

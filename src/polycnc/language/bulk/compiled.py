@@ -3,6 +3,6 @@
 from __future__ import annotations
 
 from polycnc.kernels.library import Library
-from polycnc.language.bulk import kernels, moves
+from polycnc.language.bulk import formulas, kernels, moves, numerals
 
-LIBRARY = Library("bulk", (moves, kernels), (kernels.scan,), inline=True)
+LIBRARY = Library("bulk", (moves, numerals, formulas, kernels), (kernels.scan,), inline=True)

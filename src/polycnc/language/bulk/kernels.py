@@ -6,9 +6,6 @@ yet. The node at which the block ends tells in `leaves` which rule it follows; r
 own plans (see `recipe`), so that a block does here exactly what it would do there. Nothing is changed until it is
 certain that the whole block can be worked off: whatever could alarm, and whatever is in doubt, ends the scan in front
 of the block, and the interpreter decides.
-
-Numbers have up to 15 digits, so that mantissa and power of ten are exact and one division rounds correctly, as
-`float(text)` does.
 """
 
 from __future__ import annotations
@@ -16,13 +13,16 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from polycnc.kernels.layout import Bytes, Floats, Ints32
+from polycnc.language.bulk.formulas import begins_formula, calculate, read_formula
 from polycnc.language.bulk.layout import (
     CR_FORM,
     FIRST_CODE,
+    FIRST_FORMULA,
     FORMS,
     KEY_COUNT,
     LAST_CODE,
     MOST_KEYS,
+    MOST_WORDS,
     Grammar,
     Leaf,
     Outcome,
@@ -30,25 +30,15 @@ from polycnc.language.bulk.layout import (
     State,
 )
 from polycnc.language.bulk.moves import Columns, act, note
+from polycnc.language.bulk.numerals import BLANK, EXACT_DIGITS, NINE, POINT, TAB, ZERO, read_number
 
-NEWLINE, BLANK, TAB = 10, 32, 9
-ZERO, NINE, LETTER_A, LETTER_C, LETTER_G, LETTER_N, LETTER_R, LETTER_X, LETTER_Z = (
-    48,
-    57,
-    65,
-    67,
-    71,
-    78,
-    82,
-    88,
-    90,
-)
-PLUS, MINUS, POINT, EQUALS_SIGN, OPEN, CLOSE, SEMICOLON, SLASH, STAR = 43, 45, 46, 61, 40, 41, 59, 47, 42
+NEWLINE = 10
+LETTER_A, LETTER_C, LETTER_G, LETTER_M, LETTER_N, LETTER_O, LETTER_R, LETTER_X, LETTER_Z = (
+    65, 67, 71, 77, 78, 79, 82, 88, 90
+)  # fmt: skip
+EQUALS_SIGN, OPEN, CLOSE, SEMICOLON, SLASH, STAR = 61, 40, 41, 59, 47, 42
 #: Longer lines are for the interpreter, which has an alarm for them.
 LONGEST_LINE = 4096
-#: So many digits are exact.
-EXACT_DIGITS = 15
-POWERS = (1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15)
 #: What `read_word` gives instead of a key: not plain, a block number.
 NO_KEY, BLOCK_NUMBER = -1, -2
 #: What `read_block` gives instead of a node: a line without a block.
@@ -64,6 +54,7 @@ class Tables(NamedTuple):
         leaves: For each node the number of its rule.
         rules: `(rules, Rule.SIZE)`.
         factors: `(rules, Factor.SIZE)`.
+        formulas: What rules calculate, pairs of `Operation` and argument.
     """
 
     text: Bytes
@@ -71,6 +62,7 @@ class Tables(NamedTuple):
     leaves: Ints32
     rules: Ints32
     factors: Floats
+    formulas: Ints32
 
 
 def scan(tables: Tables, state: State, columns: Columns) -> int:
@@ -92,6 +84,9 @@ def scan(tables: Tables, state: State, columns: Columns) -> int:
             notes = rules[leaf * Rule.SIZE + Rule.LEAVES_NOTE]
             if notes and state.scan.notes >= state.scan.most_notes:
                 return Outcome.FULL
+            formulas = rules[leaf * Rule.SIZE + Rule.FORMULAS]
+            if formulas and not calculate(state, tables.formulas, formulas):
+                return Outcome.NOT_PLAIN
             if notes and not note(state, rules, factors, leaf, columns):
                 return Outcome.NOT_PLAIN
             if not act(state, rules, factors, leaf, columns):
@@ -109,11 +104,25 @@ def read_block(tables: Tables, state: State) -> tuple[int, int]:
     """Place of the line end behind the next block, -1 for one that is not plain, and the node of its shape."""
     text, nexts = tables.text, tables.nexts
     place, node = state.scan.place, state.scan.root
-    keys = values = 0
+    keys = values = literals = 0
     is_block = False
     while True:
         char = int(text[place])
-        if LETTER_A <= char <= LETTER_Z:
+        if has_formula(text, place, state.scan.grammar):
+            if keys == MOST_KEYS or values == MOST_WORDS:
+                return -1, 0
+            key = FIRST_FORMULA + char - LETTER_A
+            is_block = True
+            values += 1
+            state.keys[keys] = key
+            node = nexts[node * KEY_COUNT + key]
+            place, node, keys, literals = read_formula(
+                text, nexts, state, place + 1, node, keys + 1, literals
+            )
+            if place < 0:
+                return -1, 0
+            state.scan.keys = keys
+        elif LETTER_A <= char <= LETTER_Z:
             place, key, value = read_word(text, place, state.scan.grammar, state.scan.most_digits)
             if key == NO_KEY or keys == MOST_KEYS or (key == BLOCK_NUMBER and is_block):
                 return -1, 0
@@ -121,6 +130,8 @@ def read_block(tables: Tables, state: State) -> tuple[int, int]:
             if key == BLOCK_NUMBER:
                 continue
             if key < FIRST_CODE:
+                if values == MOST_WORDS:
+                    return -1, 0
                 state.values[values] = value
                 values += 1
             state.keys[keys] = key
@@ -139,6 +150,16 @@ def read_block(tables: Tables, state: State) -> tuple[int, int]:
             is_block = is_block or ends_block
     state.scan.keys = keys
     return place, node if is_block else NO_BLOCK
+
+
+def has_formula(text: Bytes, place: int, grammar: int) -> bool:
+    """Whether a word with a formula begins here; one that names a code is the interpreter's."""
+    letter = int(text[place])
+    if not grammar & Grammar.FORMULAS or letter < LETTER_A or letter > LETTER_Z:
+        return False
+    if letter in (LETTER_G, LETTER_M, LETTER_N, LETTER_O):
+        return False
+    return begins_formula(text, place + 1)
 
 
 def read_word(text: Bytes, place: int, grammar: int, most_digits: int) -> tuple[int, int, float]:
@@ -173,32 +194,6 @@ def read_word(text: Bytes, place: int, grammar: int, most_digits: int) -> tuple[
     if decimals >= 0 and grammar & Grammar.FORMS_COUNT:
         form = 1 if decimals <= 3 else 2 if decimals == 4 else 3
     return place, (letter - LETTER_A) * FORMS + form, value
-
-
-def read_number(text: Bytes, place: int, most_digits: int) -> tuple[int, float, int]:
-    """Place behind the number that begins here, -1 for none; its value, and its decimals, -1 without a point."""
-    negative = text[place] == MINUS
-    if negative or text[place] == PLUS:
-        place += 1
-    mantissa, digits, significant, decimals = 0, 0, 0, -1
-    while True:
-        char = int(text[place])
-        if ZERO <= char <= NINE:
-            mantissa = mantissa * 10 + char - ZERO
-            digits += 1
-            significant += mantissa > 0
-            decimals += decimals >= 0
-            if digits > EXACT_DIGITS:
-                return -1, 0.0, 0
-        elif char == POINT and decimals < 0:
-            decimals = 0
-        else:
-            break
-        place += 1
-    if digits == 0 or significant > most_digits:
-        return -1, 0.0, 0
-    value = mantissa / POWERS[min(max(decimals, 0), EXACT_DIGITS)]
-    return place, -value if negative else value, decimals
 
 
 def read_rest(text: Bytes, place: int, grammar: int) -> int:

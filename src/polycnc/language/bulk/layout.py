@@ -7,12 +7,17 @@ from __future__ import annotations
 
 from array import array
 from ctypes import Structure
+from math import inf
 from typing import NamedTuple
 
 from polycnc.kernels.layout import Floats, Ints, Places, place, record
 
-#: Words that a block may have.
-MOST_KEYS = 24
+#: Words that a block may have; numbers in their formulas, which stand behind the words' values; keys of both.
+MOST_WORDS, MOST_LITERALS, MOST_KEYS = 24, 72, 128
+#: Variables by their numbers. Vacant ones are no numbers; where no variable lies, it is infinite.
+VARIABLES = 1000
+#: Values that a formula may have at a time.
+STACK = 32
 
 # ---- what a scan carries along ------------------------------------------------------------------------------
 
@@ -74,7 +79,10 @@ class State(NamedTuple):
 
     Attributes:
         scan: Where it stands, and what holds.
-        keys: Keys of the words of the block that is being read; `values` likewise.
+        keys: Keys of the words of the block that is being read.
+        values: Values of its words, then the numbers in its formulas.
+        variables: Variables that formulas read, by number.
+        stack: What is being calculated.
         geometry: For X, Y, Z of the geometry their columns, or -1.
         last_center: Centre of the last arc less its start, on the geometry axes.
         programming: The programming frame: nine numbers by rows, then the shift.
@@ -93,6 +101,8 @@ class State(NamedTuple):
     scan: Scan
     keys: Ints
     values: Floats
+    variables: Floats
+    stack: Floats
     geometry: Ints
     last_center: Floats
     programming: Floats
@@ -119,7 +129,9 @@ def new_state(axes: int) -> State:
 
     fixed = (
         array("q", bytes(8 * MOST_KEYS)),
-        zeros(MOST_KEYS),
+        zeros(MOST_WORDS + MOST_LITERALS),
+        array("d", (inf,)) * VARIABLES,
+        zeros(STACK),
         array("q", bytes(24)),
         zeros(3),
         zeros(12),
@@ -159,12 +171,14 @@ class Rule(Places):
     RADIUS = place(2)
     #: Axis words: how many, and from where on.
     TARGETS = place()
-    FIRST_TARGET = place(TARGET_WIDTH * MOST_KEYS)
+    FIRST_TARGET = place(TARGET_WIDTH * MOST_WORDS)
     #: Whether a feed that is not above zero is the interpreter's.
     POSITIVE_FEED = place()
     #: Whether the block leaves a note, and the index of that note's value, or -1.
     LEAVES_NOTE = place()
     NOTE_WORD = place()
+    #: Where its formulas begin, 0 for none.
+    FORMULAS = place()
 
 
 class Factor(Places):
@@ -209,6 +223,59 @@ class Reading(Places):
     INCREMENTS = place()
     CUT = place()
     RATIO = place()
+    ROUNDED = place()
+
+
+#: Half an increment and a guard (`Reading.ROUNDED`): halves go away from zero as they do in the decimal arithmetic of
+#: controls.
+HALF = 0.5 + 1e-7
+
+
+# ---- formulas -----------------------------------------------------------------------------------------------
+
+
+class Token(Places):
+    """What a formula in a block is written with; `VARIABLE` and `NUMBER` have a number each."""
+
+    OPEN = place()
+    CLOSE = place()
+    VARIABLE = place()
+    NUMBER = place()
+    PLUS = place()
+    MINUS = place()
+    TIMES = place()
+    DIVIDED = place()
+    SIN = place()
+    COS = place()
+    SQRT = place()
+    ABS = place()
+    FIX = place()
+    FUP = place()
+
+
+class Operation(Places):
+    """What is done with a stack of values, with an argument each.
+
+    The end of a block's formulas; the value becomes that of a word. Onto the stack comes a number of the formula, or
+    the variable of such a number (0 while it is vacant, or the interpreter decides). Functions, then operators.
+    """
+
+    END = place()
+    STORE = place()
+    NUMBER = place()
+    VARIABLE = place()
+    VARIABLE_OR_ZERO = place()
+    NEGATIVE = place()
+    SIN = place()
+    COS = place()
+    SQRT = place()
+    ABS = place()
+    FIX = place()
+    FUP = place()
+    ADD = place()
+    SUBTRACT = place()
+    MULTIPLY = place()
+    DIVIDE = place()
 
 
 # ---- text ---------------------------------------------------------------------------------------------------
@@ -232,15 +299,20 @@ class Grammar(Places):
     CR_RADIUS = 256
     #: `(* … *)` may be a comment, which no other bracket ends.
     STARRED_COMMENTS = 512
+    #: `X[#1+2.]` and `X#1` are words.
+    FORMULAS = 1024
 
 
-#: Keys of words: letter and form (four each), then G codes below `LAST_CODE`.
+#: Keys of words: letter and form (four each), then G codes below `LAST_CODE`, letters of words with a formula, and what
+#: formulas are written with.
 FORMS = 4
 #: `CR=` as a form of C.
 CR_FORM = 2
 FIRST_CODE = 26 * FORMS
 LAST_CODE = 1000
-KEY_COUNT = FIRST_CODE + LAST_CODE
+FIRST_FORMULA = FIRST_CODE + LAST_CODE
+FIRST_TOKEN = FIRST_FORMULA + 26
+KEY_COUNT = FIRST_TOKEN + Token.SIZE
 
 # ---- outcome of a scan --------------------------------------------------------------------------------------
 

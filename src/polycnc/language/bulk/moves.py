@@ -11,7 +11,7 @@ from math import copysign, floor, nan, sqrt
 from typing import NamedTuple
 
 from polycnc.kernels.layout import Bytes, Floats, Ints, Ints32, Words32
-from polycnc.language.bulk.layout import TARGET_WIDTH, Factor, Motion, NoteRecord, Reading, Rule, State
+from polycnc.language.bulk.layout import HALF, TARGET_WIDTH, Factor, Motion, NoteRecord, Reading, Rule, State
 from polycnc.toolpath.kinds import Kind
 from polycnc.toolpath.table import CURVE_WIDTH, NO_CURVE
 
@@ -94,6 +94,10 @@ def converted(value: float, way: int, scale: float, unit: float) -> float:
         return copysign(float(floor(abs(value) * scale + 1e-6)), value) / scale * unit
     if way == Reading.RATIO:
         return value * unit / scale
+    if way == Reading.ROUNDED:
+        if value >= 0.0:
+            return float(floor(value * scale + HALF)) / scale * unit
+        return float(-floor(HALF - value * scale)) / scale * unit
     return value
 
 

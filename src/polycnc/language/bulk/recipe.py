@@ -37,6 +37,8 @@ class Scaling(IntEnum):
     CUT = layout.Reading.CUT
     #: `value * unit / scale`
     RATIO = layout.Reading.RATIO
+    #: To the nearest `1 / scale`, then `* unit`.
+    ROUNDED = layout.Reading.ROUNDED
 
 
 class Conversion(NamedTuple):
@@ -161,12 +163,14 @@ class Recipe(NamedTuple):
         feed: Sets the feed before it moves.
         motion: Its move.
         notes: What it does in front of that, in order, one with a value at the most.
+        formulas: What is calculated before all that: pairs of `layout.Operation` and argument.
     """
 
     next_state: Hashable
     feed: SetFeed | None = None
     motion: Straight | Arc | None = None
     notes: tuple[tuple[Step, Note], ...] = ()
+    formulas: tuple[int, ...] = ()
 
 
 class Conditions:
@@ -230,6 +234,7 @@ class Spelling:
         hexadecimal: `0X1` may be a hexadecimal number.
         cr_radius: `CR=` is an address.
         blank_lines_are_blocks: A line without a block counts as one.
+        formulas: `X[#1+2.]` is a word.
     """
 
     max_digits: int
@@ -243,6 +248,7 @@ class Spelling:
     hexadecimal: bool = False
     cr_radius: bool = False
     blank_lines_are_blocks: bool = True
+    formulas: bool = False
 
     @property
     def flags(self) -> int:
@@ -257,6 +263,7 @@ class Spelling:
             | self.forms_count * layout.Grammar.FORMS_COUNT
             | self.hexadecimal * layout.Grammar.HEXADECIMAL
             | self.cr_radius * layout.Grammar.CR_RADIUS
+            | self.formulas * layout.Grammar.FORMULAS
             | (not self.blank_lines_are_blocks) * layout.Grammar.BLANK_LINES_ARE_NONE
         )
 

@@ -121,6 +121,9 @@ class Dialect(Protocol):
     def tolerance(self, channel: Channel) -> float:
         """Allowed difference between the radii at an arc's start and end, mm."""
 
+    def put_variables(self, channel: Channel, variables: Floats) -> None:
+        """Give the kernel the variables that formulas may read, by number; not a number for a vacant one."""
+
     def moved(self, channel: Channel, last: LastMoves) -> None:
         """Blocks have moved the channel; for controls that remember how."""
 
@@ -253,7 +256,9 @@ class Scanner:
         at, shapes = self._state.scan, self._shapes
         if most_blocks is not None:
             at.most_blocks = min(at.most_blocks, most_blocks)
-        tables = Tables(self._window.text, shapes.nexts, shapes.leaves, shapes.rules, shapes.factors)
+        tables = Tables(
+            self._window.text, shapes.nexts, shapes.leaves, shapes.rules, shapes.factors, shapes.formulas
+        )
         return self._scan(tables, self._state, Columns(*self._columns, self._notes, self._said))
 
     def _go_on(self, channel: ScannedChannel, lines: int) -> None:
@@ -294,6 +299,8 @@ class Scanner:
         at.has_zero = _put_frame(state.zero, c.zero)
         at.direct, at.owes = c.direct, dialect.owes(channel)
         at.shifted, at.mirrors = c.shift is not None, c.programming.mirrors
+        if self._shapes.calculates:
+            dialect.put_variables(channel, state.variables)
         limits = dialect.limits(channel)
         at.limited = bool(limits)
         at.grammar, at.most_digits = spelling.flags, spelling.max_digits

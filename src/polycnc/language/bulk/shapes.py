@@ -26,6 +26,7 @@ class Shapes:
         leaves: For each node the number of its rule, or what is known instead.
         rules: Flat `(rules, Rule.SIZE)`.
         factors: Flat `(rules, Factor.SIZE)`.
+        formulas: What rules calculate; the first one is none.
         states: Modal states by the number of their root.
         notes: By the number of a rule, the steps that its blocks leave to the interpreter.
     """
@@ -35,6 +36,7 @@ class Shapes:
         self.leaves = array("i", [layout.Leaf.UNKNOWN])
         self.rules = array("i", bytes(4 * layout.Rule.SIZE * layout.Leaf.FIRST_RULE))
         self.factors = array("d", bytes(8 * layout.Factor.SIZE * layout.Leaf.FIRST_RULE))
+        self.formulas = array("i", (layout.Operation.END, 0))
         self.states: dict[int, Hashable] = {}
         self.notes: dict[int, tuple[tuple[Step, Note], ...]] = {}
         self._roots: dict[Hashable, int] = {}
@@ -72,6 +74,9 @@ class Shapes:
         _put_word(rule, factors, layout.Rule.FEED_WORD, recipe.feed.word if recipe.feed else None)
         rule[layout.Rule.POSITIVE_FEED] = recipe.feed is not None and recipe.feed.positive
         _put_notes(rule, factors, recipe.notes)
+        if recipe.formulas:
+            rule[layout.Rule.FORMULAS] = len(self.formulas)
+            self.formulas.extend((*recipe.formulas, layout.Operation.END, 0))
         if isinstance(recipe.motion, Straight):
             _put_straight(rule, recipe.motion)
         elif isinstance(recipe.motion, Arc):
@@ -86,6 +91,11 @@ class Shapes:
         number = len(self.rules) // layout.Rule.SIZE - 1
         self.notes[number] = recipe.notes
         return number
+
+    @property
+    def calculates(self) -> bool:
+        """Whether any rule has formulas."""
+        return len(self.formulas) > 2
 
     def state_behind(self, rule: int) -> Hashable:
         """The modal state that blocks of a rule leave."""

@@ -124,7 +124,7 @@ def calculated(gives: type[ast.AST] | str, left: Code, right: Code) -> Code:
     """
     if gives not in _GROWING:
         return applied(gives, left, right)
-    chain = _asked(left)
+    chain = checked_value(left)
     result = applied(gives, chain or left, right)
     counts = gives in _COUNTING and (isinstance(left, Lifted) or isinstance(right, Lifted))
     return result if counts and chain is None else code.quoted(_IN_RANGE, result)
@@ -139,7 +139,7 @@ def overflow() -> None:
     raise OverflowError
 
 
-def _asked(value: Code) -> Code | None:
+def checked_value(value: Code) -> Code | None:
     """What is asked whether it is finite; None for any other code."""
     test = value[1] if value.kind is ast.IfExp and value[3] == _OVERFLOW else None
     if not isinstance(test, Code) or not isinstance(test[3], tuple):

@@ -21,7 +21,7 @@ from polycnc.language.word_address.words import ExpressionBlock, WordBlock, code
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from polycnc.channel.channel import Channel
     from polycnc.channel.steps import Step
@@ -357,9 +357,24 @@ class WordAddressProgram:
             self.grammar.patterns.learn(text, step, reader.spots, (digits_at,) if number else ())
         return SkippedBlock(levels, step, empty_block) if levels else step
 
+    def words_of(self, line: str) -> tuple[BlockWords, Sequence[Spot | None]] | None:
+        """The words of a line with one block of words, and where its numbers stand; None for any other line.
+
+        Raises:
+            AlarmError: What is wrong with the line.
+        """
+        reader = BlockReader(self.blank_comments(line).rstrip(" \t;"), self.grammar, line)
+        reader.match(_SEQUENCE_WORD)
+        words = BlockWords()
+        while reader.peek():
+            if reader.peek() == "/" or KEYWORD.match(reader.text, reader.pos):
+                return None
+            self._word(reader, words)
+        return words, reader.spots
+
     def _words(self, reader: BlockReader) -> Step:
         """The words of a block; a `/` between them skips the rest."""
-        words = _BlockWords()
+        words = BlockWords()
         while reader.peek():
             if reader.text[reader.pos] == "/":
                 levels = reader.skip_levels()
@@ -370,7 +385,7 @@ class WordAddressProgram:
             self._word(reader, words)
         return words.block(reader)
 
-    def _word(self, reader: BlockReader, words: _BlockWords) -> None:
+    def _word(self, reader: BlockReader, words: BlockWords) -> None:
         """Read one word."""
         start = reader.pos
         if KEYWORD.match(reader.text, start):
@@ -408,8 +423,15 @@ class WordAddressProgram:
         words.expression(address if address in ("G", "M") else address + "#", value)
 
 
-class _BlockWords:
-    """The words of one block as they are read."""
+class BlockWords:
+    """The words of one block as they are read.
+
+    Attributes:
+        keys: As in a signature.
+        codes: Code of the values, one for each key that is not a fixed code.
+        values: Those that are numbers.
+        computed: Whether a word holds a variable or an expression.
+    """
 
     def __init__(self) -> None:
         self.keys: list[str] = []

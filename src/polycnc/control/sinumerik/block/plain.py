@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from polycnc.channel.mode import Mode
     from polycnc.control.sinumerik.block.draft import Plan
     from polycnc.control.sinumerik.family import SinumerikChannel
+    from polycnc.kernels.layout import Floats
     from polycnc.language.bulk.scanner import LastMoves
     from polycnc.language.sinumerik.executable import SinumerikProgram
 
@@ -158,6 +159,9 @@ class SinumerikPlainBlocks:
     def tolerance(self, channel: SinumerikChannel) -> float:
         """MD21000, mm."""
         return float(channel.memory.data.number("$MC_CIRCLE_ERROR_CONST"))
+
+    def put_variables(self, _channel: SinumerikChannel, _variables: Floats) -> None:
+        """No formulas read any."""
 
     def moved(self, channel: SinumerikChannel, last: LastMoves) -> None:
         """Where the last move came from, for CT."""

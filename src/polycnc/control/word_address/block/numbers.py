@@ -13,9 +13,8 @@ from math import copysign, floor
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.bulk import Conversion, Scaling, declare, declared
+from polycnc.language.bulk.layout import HALF
 
-#: Half an increment and a guard: halves go away from zero as they do in the control's decimal arithmetic.
-ROUNDING = 0.5 + 1e-7
 Convert = Callable[[float], float]
 
 
@@ -53,10 +52,13 @@ def _converter(form: str, rules: NumberRules, decimals: int, unit: float) -> Con
     if form == "" and not rules.calculator:
         return declare(lambda value: value / scale * unit, Conversion(Scaling.INCREMENTS, scale, unit))
     if form == "#":
-        return lambda value: (
-            floor(value * scale + ROUNDING) / scale * unit
-            if value >= 0.0
-            else -floor(ROUNDING - value * scale) / scale * unit
+        return declare(
+            lambda value: (
+                floor(value * scale + HALF) / scale * unit
+                if value >= 0.0
+                else -floor(HALF - value * scale) / scale * unit
+            ),
+            Conversion(Scaling.ROUNDED, scale, unit),
         )
     written = {"": 0, ".": 3, ":": 4, ";": 99}[form]
     if written > decimals and rules.cuts_digits:

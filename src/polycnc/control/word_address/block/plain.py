@@ -12,15 +12,17 @@ from polycnc.control.machine_words import may_refuse_moves
 from polycnc.control.word_address.motion import arcs
 from polycnc.geometry.planes import PLANES
 from polycnc.language.bulk import Arc, Conditions, Recipe, Spelling
-from polycnc.language.bulk.layout import FIRST_CODE, FORMS
+from polycnc.language.bulk.layout import FIRST_CODE, FIRST_FORMULA, FORMS
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
     from collections.abc import Hashable, Sequence
 
+    from polycnc.channel.channel import Channel
     from polycnc.channel.mode import Mode
     from polycnc.control.word_address.block.plan import Plan
     from polycnc.control.word_address.family import WordAddressChannel
+    from polycnc.kernels.layout import Floats
     from polycnc.language.bulk.scanner import LastMoves
 
 #: How a number was written, as the scanner counts it; see `language.word_address.words`.
@@ -78,18 +80,33 @@ class PlainBlocks:
         control = channel.control
         return min(float(control.arc_tolerance(channel)), float(control.spiral_tolerance(channel)))
 
+    def formulas(self, _channel: Channel, _line: str) -> tuple[tuple[str, ...], tuple[int, ...] | None]:
+        """Signature of a block with formulas, and what they calculate; None for what the interpreter must."""
+        return (), None
+
+    def put_variables(self, _channel: Channel, _variables: Floats) -> None:
+        """No formulas read any."""
+
     def moved(self, channel: WordAddressChannel, last: LastMoves) -> None:
         """Nothing is remembered of a move."""
 
-    def recipe(self, channel: WordAddressChannel, keys: Sequence[int], _line: str) -> Recipe | None:
+    def recipe(self, channel: WordAddressChannel, keys: Sequence[int], line: str) -> Recipe | None:
         """What the plan of a shape does, if all of it can be told."""
-        signature = tuple(_key(key) for key in keys)
+        calculated: tuple[int, ...] | None = ()
+        if any(key >= FIRST_FORMULA for key in keys):
+            signature, calculated = self.formulas(channel, line)
+        else:
+            signature = tuple(_key(key) for key in keys)
+        if calculated is None:
+            return None
         plan: Plan | None = channel.mode.plans.get(signature)
         try:
             plan = plan or channel.control.plan(channel, signature)
         except AlarmError:
             return None  # the interpreter comes to the same block and raises it
         recipe = self._conditions.recipe(channel, plan.steps, plan.mode)
+        if recipe is not None:
+            recipe = recipe._replace(formulas=calculated)
         if recipe is None or not isinstance(recipe.motion, Arc):
             return recipe
         geometry = channel.coordinates.geometry

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.channel.stack import LevelKind
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.codes import ContextStep, GCode, Handler, MRow
+    from polycnc.control.word_address.block.plain import PlainBlocks
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.block.single_block import Halts
     from polycnc.control.word_address.family import MacroChannel
@@ -127,6 +129,13 @@ class CustomMacroControl(WordAddressControl):
         if shown is None:
             return super().reference_point(channel, axis, number)
         return self.from_display(channel, axis, shown)
+
+    def plain_blocks(self, channel: Channel) -> PlainBlocks | None:
+        """What a scanner must know of plain blocks, formulas of variables among them."""
+        from polycnc.control.word_address.macro_b.plain import MacroPlainBlocks  # for long programs only
+
+        plain = super().plain_blocks(channel)
+        return None if plain is None else MacroPlainBlocks(replace(plain.spelling, formulas=True))
 
     # ---- programs ------------------------------------------------------------------------------------
 
