@@ -404,7 +404,7 @@ def finish_edges(pocket: ContourPocket, levels: Sequence[float]) -> Iterator[Mil
     for loop in found:
         begun = _start_of(pocket, loop)
         first = begun[0]
-        middle = _half(first)
+        middle = region.middle_of(first)
         begun = _begun_at(begun, middle)
         beside = _beside_wall(pocket, begun[0].start)
         yield rapid(w=pocket.retract)
@@ -417,12 +417,6 @@ def finish_edges(pocket: ContourPocket, levels: Sequence[float]) -> Iterator[Mil
                 yield _stroke(pocket, edge)
             yield cut(pocket.feed, beside)
     yield rapid(w=pocket.retract)
-
-
-def _half(edge: Edge) -> Point:
-    if edge.center is None:
-        return 0.5 * (edge.start[0] + edge.end[0]), 0.5 * (edge.start[1] + edge.end[1])
-    return arcs.point_on_arc(edge.start, edge.end, edge.center, edge.ccw, 0.5)
 
 
 def _beside_wall(pocket: ContourPocket, point: Point) -> Point:

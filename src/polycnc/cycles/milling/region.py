@@ -206,7 +206,7 @@ def loops_at(loops: Sequence[Loop], away: float) -> list[Loop]:
     near = _Nearby([edge for loop in loops for edge in loop], away)
     pieces = []
     for piece in _split(_raw(loops, away)):
-        middle = _middle(piece)
+        middle = middle_of(piece)
         if all(distance.of_point(middle, edge) >= away - NEARER_MM for edge in near.to((*middle, *middle))):
             pieces.append(piece)
     for piece in pieces:
@@ -307,7 +307,8 @@ def _along(edge: Edge, point: Point) -> float:
     return abs(arcs.sweep_angle(edge.start, point, edge.center, edge.ccw))
 
 
-def _middle(edge: Edge) -> Point:
+def middle_of(edge: Edge) -> Point:
+    """The point half way along an edge."""
     if edge.center is None:
         return 0.5 * (edge.start[0] + edge.end[0]), 0.5 * (edge.start[1] + edge.end[1])
     return arcs.point_on_arc(edge.start, edge.end, edge.center, edge.ccw, 0.5)
