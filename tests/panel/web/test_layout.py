@@ -81,6 +81,7 @@ async def look(page: Browser, control: str, width: int, height: int) -> list[str
     where = f"{control} {width} × {height}"
     await page.sized(width, height)
     await page.until(f"innerWidth === {width} && innerHeight === {height}")
+    wide = high = 0
     for _ in range(30):  # the page is laid out anew a moment later
         wide, high = await page.evaluate(_OVERFLOW)
         if wide <= 0 and (width < 1280 or high <= 0):

@@ -13,7 +13,7 @@ from polycnc.geometry.tolerances import NO_WAY
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from polycnc.mainrun.axes.channel_axes import ChannelAxes
+    from polycnc.mainrun.axes.axis import Axis
     from polycnc.mainrun.reading.display import MainRunDisplay
     from polycnc.toolpath import Context
 
@@ -38,7 +38,12 @@ class AboutTip:
     """
 
     def __init__(
-        self, axes: ChannelAxes, display: MainRunDisplay, context: Context, here: Sequence[float], time: float
+        self,
+        axes: Sequence[Axis],
+        display: MainRunDisplay,
+        context: Context,
+        here: Sequence[float],
+        time: float,
     ) -> None:
         self._axes, self._display, self._context = axes, display, context
         self.leads = False

@@ -5,6 +5,7 @@ What is confirmed lasts: each command ends with a `commit` of the retained memor
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from polycnc.control.parameters import known_parameters
@@ -104,6 +105,9 @@ class DataCommands:
         key, given = parameter_key(number), channel.setup.parameters
         known = next((each for each in self.parameters if each.key == key._replace(axis=None)), None)
         delivered = known.delivered if known is not None else None
+        if variable := self._machine_datum(number):
+            with suppress(KeyError, ValueError, AlarmError):
+                return channel.control.read_variable(channel, variable)
         if key.bit is not None:
             bit = given.bit(key.id, key.bit, key.axis, default=-1)
             return delivered if bit < 0 else bit
@@ -122,12 +126,25 @@ class DataCommands:
                 raise CommandRefused("setup.no-variable", name=number) from None
         if not any(plain in map(str, each.ids) for each in self.parameters):
             raise CommandRefused("setup.no-variable", name=number)
+        variable = number if number.startswith("$") else self._machine_datum(number)
         for run in self._operation.runs:
-            if number.startswith("$"):
-                run.channel.control.write_variable(run.channel, number, value)
+            if variable:
+                try:
+                    run.channel.control.write_variable(run.channel, variable, value)
+                except (KeyError, ValueError, AlarmError):
+                    raise CommandRefused("setup.no-variable", name=number) from None
             else:
                 set_parameter(run.channel, parameter_key(number), value)
         self._retained.commit()
+
+    def _machine_datum(self, number: str) -> str:
+        """The variable of a machine datum by its number (`20110`, `32020 X`); empty where it has no such name."""
+        key = parameter_key(number)
+        known = next((each for each in self.parameters if each.key == key._replace(axis=None)), None)
+        if known is None or not known.name.startswith("$") or key.bit is not None:
+            return ""
+        axis = key.axis or self._operation.runs.first.channel.axes[0]
+        return f"{known.name}[{axis}]" if known.by_axis else known.name
 
     # ---- programs ------------------------------------------------------------------------------------------
 

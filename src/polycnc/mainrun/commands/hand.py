@@ -130,7 +130,7 @@ class HandCommands:
         if leading is None or not leading.turns:
             if any(each.hand.moves for each in run.axes):
                 raise CommandRefused("mainrun.moving")
-            leading = AboutTip(run.axes, run.display, run.execution.context, here, self._clock.time)
+            leading = AboutTip(tuple(run.axes), run.display, run.execution.context, here, self._clock.time)
             leading.lead()
             run.axes.about_tip = leading
         return leading

@@ -115,6 +115,20 @@ class WorkOffsets(Variables):
         control.write_variable(column.name(row), before + control.positions.work[column.axis] - measured)
 
 
+class SettableFrames(Variables):
+    """Settable work offsets of SINUMERIK: rows are G54 to G57, then G505 on."""
+
+    def measure(
+        self, control: VirtualControl, column: Column, row: int, measured: float, latched: Latched
+    ) -> None:
+        """The axis would read the measured value where it stands, if the offset of the row were chosen."""
+        code = control.modal.get("wcs", "G500")
+        active = 0 if code == "G500" else int(code[1:]) - (500 if len(code) == len("G505") else 53)
+        now = self.read(control, column, active)
+        before = float(now) if isinstance(now, int | float) else 0.0
+        control.write_variable(column.name(row), before + control.positions.work[column.axis] - measured)
+
+
 class LatheOffsets(Source):
     """A list of the lathe's offsets (III.2.1); the column's variable is an axis, `R` or `T`."""
 
@@ -244,6 +258,7 @@ SOURCES: dict[str, Source] = {
     "work-shift": WorkShift(),
     "chuck": Barrier("chuck"),
     "tailstock": Barrier("tailstock"),
+    "settable": SettableFrames(),
     "work-turn": WorkTurn(),
     "conditions": ConditionSets(),
 }
