@@ -6,7 +6,21 @@ from functools import cache
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.kernels.library import Library
-from polycnc.motion.kernels import alone, arcs, columns, corners, feeds, hold, jerk, lay, rounding, speeds
+from polycnc.motion.kernels import (
+    alone,
+    arcs,
+    columns,
+    corners,
+    demands,
+    feeds,
+    hold,
+    jerk,
+    lay,
+    led,
+    rounding,
+    speeds,
+)
+from polycnc.transformation.orientation import linkage
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -16,8 +30,22 @@ from polycnc.motion.kernels.columns import Limits, Rows, State
 
 LIBRARY = Library(
     "motion",
-    (alone, arcs, columns, corners, feeds, hold, jerk, lay, rounding, speeds),
-    (lay.lay, speeds.backward, speeds.forward),
+    (
+        linkage,
+        alone,
+        arcs,
+        columns,
+        corners,
+        demands,
+        feeds,
+        hold,
+        jerk,
+        lay,
+        led,
+        rounding,
+        speeds,
+    ),
+    (lay.lay, speeds.backward, speeds.forward, demands.share_rows),
 )
 
 
@@ -30,6 +58,12 @@ class Kernels(NamedTuple):
 
 
 PLAIN = Kernels(lay.lay, speeds.backward, speeds.forward)
+
+
+@cache
+def share_rows() -> Callable[..., None]:
+    """The kernel that bounds rows of a tool's tip, compiled; the plain one where there is none."""
+    return LIBRARY.compiled(demands.share_rows) or demands.share_rows
 
 
 @cache

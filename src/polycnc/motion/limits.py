@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 #: Deviation that counts as none: what a control resolves.
 EXACT_MM = 0.001
+#: That of columns which are axes of the machine.
+NO_LINKAGE = array("d")
 #: RAMP_S in terms of the time in which an axis builds up its acceleration.
 RAMPS = 1.0
 
@@ -39,8 +41,11 @@ def axis_limits(
     names: tuple[str, ...],
     settings: Settings,
     made: Geometry | None = None,
+    linkage: array[float] = NO_LINKAGE,
 ) -> Limits:
     """The kernels' `limits` for the columns of a toolpath; `made` are X, Y and Z of a transformation that acts.
+
+    `linkage` is how it leads the axes, in the form that kernels read.
 
     An axis that a transformation makes is taken to be as slow as the slowest linear one.
     """
@@ -88,6 +93,7 @@ def axis_limits(
             min(settings.corner_speed, 1e9),
             machine.block_time_s,
         ),
+        linkage=linkage,
     )
 
 
@@ -141,6 +147,7 @@ def context_fields(
         context.tolerance_mm or inf if context.corner_mode is CornerMode.ROUNDED_FROM else inf,
         context.turn_tolerance_deg,
         context.turn_distance_mm,
+        is_led(context, settings),
         *(a, b, c, d, e, f, g, h, i),
         *context.frame.t,
         *(context.offsets or [0.0] * axes),
@@ -162,6 +169,23 @@ def averages(context: Context, machine: Machine, settings: Settings) -> tuple[fl
     jerk = min((axis.jerk for axis in axes if not axis.rotary), default=axes[0].jerk)
     blend = (6.0 * DEVIATION_CORNER * tolerance / (JERK_CORNER * jerk)) ** (1.0 / 3.0)
     return ramp, min(blend, ramp)
+
+
+def is_led(context: Context, settings: Settings) -> bool:
+    """Whether straight rows are laid out under the limits of the axes behind a tip, where it has a linkage.
+
+    Not with limited jerk, nor where something else bounds speed or acceleration along the path: DRIVE, overrides of the
+    program for single axes, a lag, a constant surface speed.
+    """
+    acceleration = context.acceleration or settings.acceleration
+    return (
+        context.transformation is not None
+        and acceleration is AccelerationMode.CONSTANT
+        and context.frame.is_identity
+        and context.pace is None
+        and context.lag_s == 0.0
+        and not context.surface_speed
+    )
 
 
 class AxisRapid(NamedTuple):
