@@ -26,7 +26,7 @@ BRISK = Settings(acceleration=AccelerationMode.CONSTANT)
 WORST, COARSE = 1.05, 0.995
 
 
-def planned(path: TipPath, **options: object) -> float:
+def planned(path: TipPath, **options: Any) -> float:
     """Seconds that the planner gives the rows of a path, each from rest to rest."""
     build = Build(
         path.axes.tip.axes, Context(transformation=path.axes.tip, corner_mode=CornerMode.EXACT_STOP)
@@ -49,7 +49,7 @@ def test_rows_of_a_tip_take_little_longer_than_their_axes_need() -> None:
 @pytest.mark.parametrize("corners", [CornerMode.EXACT_STOP, CornerMode.CONTINUOUS, CornerMode.ROUNDED])
 def test_at_every_sample_axes_keep_their_limits_and_the_tip_is_on_its_lines(corners: CornerMode) -> None:
     for path in random_paths(12, seed=7):
-        tip, tolerance = path.axes.tip, 0.05 if corners is CornerMode.ROUNDED else 0.0
+        tip, tolerance = path.axes.tip, 0.0 if corners is CornerMode.EXACT_STOP else 0.05
         context = Context(transformation=tip, corner_mode=corners, tolerance_mm=tolerance)
         run = run_of(path, context)
         times = np.linspace(0.0, run.seconds, 4000)
@@ -85,4 +85,4 @@ def off_lines(tips: Numbers, points: Numbers) -> Numbers:
         way = b - a
         share = np.clip((tips - a) @ way / max(float(way @ way), 1e-12), 0.0, 1.0)
         distances.append(np.linalg.norm(tips - a - share[:, None] * way, axis=1))
-    return np.min(distances, axis=0)
+    return np.asarray(np.min(distances, axis=0))

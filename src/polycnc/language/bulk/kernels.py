@@ -18,6 +18,7 @@ from typing import NamedTuple
 from polycnc.kernels.layout import Bytes, Floats, Ints32
 from polycnc.language.bulk.layout import (
     CR_FORM,
+    DIRECTION_FORM,
     FIRST_CODE,
     FORMS,
     KEY_COUNT,
@@ -31,7 +32,7 @@ from polycnc.language.bulk.layout import (
 )
 from polycnc.language.bulk.moves import Columns, act, note
 
-NEWLINE, BLANK, TAB = 10, 32, 9
+NEWLINE, BLANK, TAB, THREE = 10, 32, 9, 51
 ZERO, NINE, LETTER_A, LETTER_C, LETTER_G, LETTER_N, LETTER_R, LETTER_X, LETTER_Z = (
     48,
     57,
@@ -155,7 +156,15 @@ def read_word(text: Bytes, place: int, grammar: int, most_digits: int) -> tuple[
             return place, NO_KEY, 0.0
         return place, BLOCK_NUMBER if letter == LETTER_N else FIRST_CODE + number, 0.0
     form = 0
-    if text[place] == EQUALS_SIGN and grammar & Grammar.EQUALS:
+    if (
+        letter <= LETTER_C
+        and grammar & Grammar.DIRECTIONS
+        and text[place] == THREE
+        and text[place + 1] == EQUALS_SIGN
+    ):
+        form = DIRECTION_FORM
+        place += 2
+    elif text[place] == EQUALS_SIGN and grammar & Grammar.EQUALS:
         form = 1
         place += 1
     elif letter == LETTER_C and text[place] == LETTER_R and grammar & Grammar.CR_RADIUS:

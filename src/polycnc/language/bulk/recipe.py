@@ -89,6 +89,7 @@ class Straight(NamedTuple):
         absolute: No word is an increment: where programmed point and display are one, the end point is worked
             out from the display.
         skips_tiny: A way below rounding noise is none, and the position stays.
+        direction: Indices of the values of the direction in which the tool stands at its end, -1 for zero.
     """
 
     rapid: bool
@@ -97,6 +98,7 @@ class Straight(NamedTuple):
     needs_feed: bool = True
     absolute: bool = True
     skips_tiny: bool = False
+    direction: tuple[int, int, int] | None = None
 
 
 class Arc(NamedTuple):
@@ -229,6 +231,7 @@ class Spelling:
         forms_count: How a number was written is part of a block's shape.
         hexadecimal: `0X1` may be a hexadecimal number.
         cr_radius: `CR=` is an address.
+        directions: `A3=`, `B3=` and `C3=` are words.
         blank_lines_are_blocks: A line without a block counts as one.
     """
 
@@ -242,6 +245,7 @@ class Spelling:
     forms_count: bool = True
     hexadecimal: bool = False
     cr_radius: bool = False
+    directions: bool = False
     blank_lines_are_blocks: bool = True
 
     @property
@@ -257,6 +261,7 @@ class Spelling:
             | self.forms_count * layout.Grammar.FORMS_COUNT
             | self.hexadecimal * layout.Grammar.HEXADECIMAL
             | self.cr_radius * layout.Grammar.CR_RADIUS
+            | self.directions * layout.Grammar.DIRECTIONS
             | (not self.blank_lines_are_blocks) * layout.Grammar.BLANK_LINES_ARE_NONE
         )
 

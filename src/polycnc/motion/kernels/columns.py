@@ -374,8 +374,8 @@ def new_state(n: int, start: Sequence[float] = ()) -> State:
     position = zeros(n)
     position[: len(start)] = array("d", start)
     shares = zeros(SHARES), zeros(SHARES), zeros(SHARES)
-    vectors = (zeros(n) for _ in range(7))
-    return State(*records, zeros(9), *shares, position, *vectors, zeros(room_for(n)))
+    vectors = [*(zeros(n) for _ in range(7)), zeros(room_for(n))]
+    return State(*records, zeros(9), *shares, position, *vectors)
 
 
 def zeros(count: int) -> array[float]:
