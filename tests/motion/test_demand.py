@@ -1,4 +1,4 @@
-"""Rows that are looked at together are bounded as one by one, to the bit."""
+"""Rows of a tip are bounded as each of them is alone, to the bit, however they are cut into chunks."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from polycnc.geometry.frames import rotation
 from polycnc.machine import load_machine
 from polycnc.machine.kinematics import Kinematics
-from polycnc.motion import Settings, transformed
+from polycnc.motion import Settings
 from polycnc.motion.planner import Planner
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.modes import AccelerationMode
@@ -44,22 +44,20 @@ def test_many_rows_are_bounded_as_each_of_them_is(
         Context(transformation=tip(100.0), offsets=(1.5, -2.25, 3.1, 0.0, 10.0)),
         Context(transformation=tip(55.5), frame=rotation(2, 33.3), offsets=(0.1, 0.2, 0.3, 0.0, 0.0)),
     )
-    build = Build(AXES, chunk_rows=5)
-    for kind, *end, number in rows:
-        build.context = contexts[number]
-        build.row(
-            kind,
-            *end,
-            feed=nan if kind is Kind.RAPID else 50.0,
-            curve=(0.5, 0.0) if kind is Kind.DWELL else (),
-        )
-        build.row(Kind.FEED, *end, feed=50.0)
-        build.row(Kind.FEED, *(value + 0.01 for value in end), feed=50.0)
 
-    def planned(fewest: int) -> bytes:
-        with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(transformed, "FEWEST", fewest)
-            lead = Settings(acceleration=acceleration)
-            return Planner(build.toolpath, HEAD, settings=lead).finish().row_s.tobytes()
+    def planned(chunk_rows: int) -> bytes:
+        build = Build(AXES, chunk_rows=chunk_rows)
+        for kind, *end, number in rows:
+            build.context = contexts[number]
+            build.row(
+                kind,
+                *end,
+                feed=nan if kind is Kind.RAPID else 50.0,
+                curve=(0.5, 0.0) if kind is Kind.DWELL else (),
+            )
+            build.row(Kind.FEED, *end, feed=50.0)
+            build.row(Kind.FEED, *(value + 0.01 for value in end), feed=50.0)
+        lead = Settings(acceleration=acceleration)
+        return Planner(build.toolpath, HEAD, settings=lead).finish().row_s.tobytes()
 
-    assert planned(1) == planned(1_000_000)
+    assert planned(1) == planned(5) == planned(1000)

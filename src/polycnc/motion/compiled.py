@@ -12,13 +12,16 @@ from polycnc.motion.kernels import (
     chords,
     columns,
     corners,
+    demands,
     feeds,
     hold,
     jerk,
     lay,
+    led,
     rounding,
     speeds,
 )
+from polycnc.transformation.orientation import linkage
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -28,8 +31,23 @@ from polycnc.motion.kernels.columns import Limits, Rows, State
 
 LIBRARY = Library(
     "motion",
-    (alone, arcs, chords, columns, corners, feeds, hold, jerk, lay, rounding, speeds),
-    (lay.lay, speeds.backward, speeds.forward),
+    (
+        linkage,
+        alone,
+        arcs,
+        chords,
+        columns,
+        corners,
+        demands,
+        feeds,
+        hold,
+        jerk,
+        lay,
+        led,
+        rounding,
+        speeds,
+    ),
+    (lay.lay, speeds.backward, speeds.forward, demands.share_rows),
 )
 
 
@@ -42,6 +60,12 @@ class Kernels(NamedTuple):
 
 
 PLAIN = Kernels(lay.lay, speeds.backward, speeds.forward)
+
+
+@cache
+def share_rows() -> Callable[..., None]:
+    """The kernel that bounds rows of a tool's tip, compiled; the plain one where there is none."""
+    return LIBRARY.compiled(demands.share_rows) or demands.share_rows
 
 
 @cache

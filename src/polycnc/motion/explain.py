@@ -11,7 +11,7 @@ from enum import StrEnum
 from math import inf, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
-from polycnc.motion.kernels.columns import PLACES, Form, PieceRecord, piece_width
+from polycnc.motion.kernels.columns import PLACES, UNEVEN_FORMS, Form, PieceRecord, piece_width
 from polycnc.motion.time_constants import Use
 from polycnc.toolpath import Kind
 from polycnc.toolpath.modes import FeedMode
@@ -139,7 +139,7 @@ class TimeAccount:
             for field in (PieceRecord.SPEED2, PieceRecord.PEAK2, PieceRecord.END2, PieceRecord.RATE)
         )
         up = down = 0.0
-        curved = records[at + PieceRecord.FORM] == Form.CURVED
+        curved = records[at + PieceRecord.FORM] in UNEVEN_FORMS
         # Along a curve the speed that it allows changes from piece to piece.
         if rate > 0.0 and not (curved and min(start2, end2) >= (1.0 - EVEN) * peak2):
             up = min(0.5 * (peak2 - start2) / rate, length)

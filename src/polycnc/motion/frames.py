@@ -64,15 +64,6 @@ def real_rows(on_path: Table, context: Context, geometry: Geometry) -> Table:
     return mapped_rows(context.frame, machine_rows(context.transformation, work), geometry) + offsets
 
 
-def returned_rows(work: Table, context: Context, geometry: Geometry) -> Table:
-    """A table (n, axes) of points as `work_of` gives them back from machine coordinates, to the same bits."""
-    offsets = context.offsets or (0.0,) * work.shape[1]
-    if context.frame.is_identity:
-        return work + offsets - offsets
-    machine = mapped_rows(context.frame, work, geometry) + offsets
-    return mapped_rows(context.frame.inverse(), machine - offsets, geometry)
-
-
 def path_of(real: Sequence[float], context: Context, geometry: Geometry) -> list[float]:
     """The position of the path at which the real axes are."""
     if context.transformation is None:

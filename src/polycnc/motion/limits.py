@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 
 #: Deviation that counts as none: what a control resolves.
 EXACT_MM = 0.001
+#: That of columns which are axes of the machine.
+NO_LINKAGE = array("d")
 #: RAMP_S in terms of the time in which an axis builds up its acceleration.
 RAMPS = 1.0
 
@@ -41,8 +43,11 @@ def axis_limits(
     settings: Settings,
     made: Geometry | None = None,
     use: Use = Use.CUT,
+    linkage: array[float] = NO_LINKAGE,
 ) -> Limits:
     """The kernels' `limits` for the columns of a toolpath; `made` are X, Y and Z of a transformation that acts.
+
+    `linkage` is how it leads the axes, in the form that kernels read.
 
     An axis that a transformation makes is taken to be as slow as the slowest linear one.
     """
@@ -97,6 +102,7 @@ def axis_limits(
             min(settings.corner_speed, 1e9),
             machine.block_time_s,
         ),
+        linkage=linkage,
     )
 
 
@@ -153,6 +159,7 @@ def context_fields(
         context.tolerance_mm or inf if context.corner_mode is CornerMode.ROUNDED_FROM else inf,
         context.turn_tolerance_deg,
         context.turn_distance_mm,
+        is_led(context, settings),
         *(a, b, c, d, e, f, g, h, i),
         *context.frame.t,
         *(context.offsets or [0.0] * axes),
@@ -223,6 +230,23 @@ class ContextTables:
             after = len(smoothing) > len(own)
             times = (smoothing[2], smoothing[3]) if after else own
             self.after.extend(context_fields(context, axes, spindle, station, settings, times, after=after))
+
+
+def is_led(context: Context, settings: Settings) -> bool:
+    """Whether straight rows are laid out under the limits of the axes behind a tip, where it has a linkage.
+
+    Not with limited jerk, nor where something else bounds speed or acceleration along the path: DRIVE, overrides of the
+    program for single axes, a lag, a constant surface speed.
+    """
+    acceleration = context.acceleration or settings.acceleration
+    return (
+        context.transformation is not None
+        and acceleration is AccelerationMode.CONSTANT
+        and context.frame.is_identity
+        and context.pace is None
+        and context.lag_s == 0.0
+        and not context.surface_speed
+    )
 
 
 class AxisRapid(NamedTuple):

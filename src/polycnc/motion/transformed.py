@@ -19,7 +19,6 @@ point next to the centre of polar interpolation.
 from __future__ import annotations
 
 from array import array
-from itertools import pairwise, zip_longest
 from math import hypot, inf, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -32,12 +31,14 @@ from polycnc.motion.demand import (
     TWIST,
     UNEVEN,
     Demand,
-    Straights,
-    even,
+    asked_of,
+    bound_tip,
+    runs_of,
+    share_ends,
 )  # fmt: skip
-from polycnc.motion.frames import carried, machine_of, path_of, real_of, real_rows, returned_rows, work_of
+from polycnc.motion.frames import carried, machine_of, path_of, real_of, real_rows, work_of
 from polycnc.motion.kernels.columns import AT_END, AT_START, SHARES, Limits, Rows
-from polycnc.motion.limits import averages, axis_limits, channel_axes, rotary_weight
+from polycnc.motion.limits import NO_LINKAGE, averages, axis_limits, channel_axes, is_led, rotary_weight
 from polycnc.motion.pace import Travel, following_top, pace_of
 from polycnc.motion.pole import RING_MM, Turn, is_at, legs_of, turn_records
 from polycnc.motion.row_path import arc_path, line_path
@@ -46,6 +47,7 @@ from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS, RAPID_KINDS
 from polycnc.toolpath.modes import AccelerationMode, FeedMode
 from polycnc.toolpath.table import CURVE_WIDTH
+from polycnc.transformation.orientation.linked import linkage_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -61,8 +63,8 @@ if TYPE_CHECKING:
 _STANDING = bytes((Kind.DWELL, Kind.EVENT))
 #: Derivatives by time are differences over so many seconds.
 SHORT_S = 1e-4
-#: Shares become shorter by this factor towards the worst place, or by a smaller one; steps of the search for it.
-SHORTER, SEARCH = 0.5, 40
+#: Steps of the search for the worst place of a row.
+SEARCH = 40
 #: Parts of the share around the worst place that are looked at.
 WITHIN = 8
 #: Part of the share next to a corner that the corner may reach; no share of a way to the pole is much shorter, mm.
@@ -73,10 +75,10 @@ FREE_SHARE = (1.0, inf, 1.0)
 LEGGED = frozenset((Kind.RAPID, Kind.FEED, *ARC_KINDS))
 #: Nothing within a leg lets the axes stand.
 NO_STOPS = array("B")
-#: Kinds of rows of which many are looked at together; how many are worth that, and how many are at most.
-STRAIGHT, FEWEST, TOGETHER = frozenset((Kind.RAPID, Kind.FEED)), 64, 4096
-#: Shorter rows are looked at one by one: their shares of the way would be no numbers.
-SHORT = 1e-9
+#: Kinds of rows that kernels lay out under a tip without being told more, and those that do not move.
+LED_ALONE = frozenset((Kind.RAPID, Kind.FEED, Kind.REF, Kind.DWELL, Kind.EVENT))
+#: From kinds to whether a row is such.
+LED_KINDS = bytes(kind in LED_ALONE for kind in range(256))
 #: An axis along which an arc's unit normal has more than this does not take part in the arc.
 ACROSS = 0.999
 
@@ -169,113 +171,122 @@ class RealAxes:
         self._geometry = machine.geometry_indices(channel)
         self._on_path, self._context = list(start) or [0.0] * len(names), Context()
         self._limits: dict[tuple[Geometry | None, Use], Limits] = {}
+        self._linked: tuple[Transformation, Limits] | None = None
+        #: The last row's context and its end, as it was written.
+        self._behind: tuple[Context, list[float]] | None = None
 
     def limits(self, transformation: Transformation | None, use: Use = Use.CUT) -> Limits:
         """The kernels' `limits` while a transformation acts, which knows no time constants of rapids, or none."""
+        if self._linked is not None and transformation is self._linked[0]:
+            return self._linked[1]
         key = (None, use) if transformation is None else (transformation.geometry, Use.CUT)
-        if key not in self._limits:
-            self._limits[key] = axis_limits(self._machine, self._channel, self._names, self._settings, *key)
-        return self._limits[key]
+        linkage = NO_LINKAGE if None in self._axes else linkage_of(transformation)
+        if not linkage and key in self._limits:
+            return self._limits[key]
+        found = axis_limits(self._machine, self._channel, self._names, self._settings, *key, linkage)
+        if linkage and transformation is not None:
+            self._linked = transformation, found
+        else:
+            self._limits[key] = found
+        return found
 
     def stand(self, on_path: Sequence[float]) -> None:
         """The axes stand elsewhere, without a transformation."""
-        self._on_path, self._context = list(on_path), Context()
+        self._on_path, self._context, self._behind = list(on_path), Context(), None
 
     def go_on_from(self, on_path: Sequence[float]) -> None:
         """The path goes on from a position."""
-        self._on_path = list(on_path)
+        self._on_path, self._behind = list(on_path), None
 
     def bounds(self, chunk: Chunk, contexts: Sequence[Context]) -> Bounds:
         """Look at the rows of a chunk."""
         n, bounds = len(self._axes), Bounds(Shares(array("d"), array("d"), array("d")), array("d"), {}, {})
         used = [contexts[number] for number in set(chunk.context)]
         paced = any(context.pace is not None for context in used)
-        transformed = any(context.transformation is not None for context in used)
-        if self._context.transformation is None and not transformed and not paced:
-            moves = _last_move(chunk)
-        else:
-            moves = [row for row, kind in enumerate(chunk.kind) if kind < Kind.DWELL]
+        if self._context.transformation is None and not paced and not any(c.transformation for c in used):
+            for row in _last_move(chunk):
+                self._context = contexts[chunk.context[row]]
+                end = list(chunk.end[row * n : (row + 1) * n])
+                self._on_path = machine_of(end, self._context, self._geometry)
+            return bounds
+        if paced or not LED_ALONE.issuperset(chunk.kind) or not all(map(self._needs_no_shares, used)):
             for column, free in zip(bounds.shares, FREE_SHARE, strict=True):
                 column.extend(array("d", (free,)) * (SHARES * len(chunk)))
             bounds.feed.extend(array("d", (1.0,)) * len(chunk))
-        done = self._even(chunk, moves, contexts, bounds.shares) if transformed else frozenset[int]()
-        for row, following in zip_longest(moves, moves[1:]):
-            if row in done and following in done:
-                continue
-            context = contexts[chunk.context[row]]
-            end = list(chunk.end[row * n : (row + 1) * n])
-            if row in done:
-                self._on_path = machine_of(end, context, self._geometry)
-                continue
-            if context.transformation is not self._context.transformation:
-                self._on_path = self._carried(context)
-                bounds.enters[row] = self._on_path
-            if context.transformation is not None and chunk.kind[row] != Kind.REF:
-                start = work_of(self._on_path, context, self._geometry)
-                legs = self._legs(chunk, row, start, end, context)
-                if legs:
-                    bounds.legs[row] = legs
-                    self._on_path, self._context = legs[-1].end, context
-                    continue
-                path, length = self._path(chunk, row, start, end, context)
-                shares = self._shares(context, path, length, chunk.kind[row])
-                top = following_top(context, path, length, rapid=chunk.kind[row] in RAPID_KINDS)
-                _set_shares(bounds.shares, row * SHARES, shares, top)
-            goal = machine_of(end, context, self._geometry)
-            if context.pace is not None:
-                self._pace(chunk, row, goal, context, bounds)
-            self._on_path, self._context = goal, context
+        for number, first, last in runs_of(chunk):
+            moves = [row for row in range(first, last) if chunk.kind[row] < Kind.DWELL]
+            if moves:
+                self._run(chunk, moves, contexts[number], bounds)
         return bounds
 
-    def _even(
-        self, chunk: Chunk, moves: Sequence[int], contexts: Sequence[Context], shares: Shares
-    ) -> frozenset[int]:
-        """Set the shares of straight rows along which the demand hardly changes, where there are many; gives them."""
-        followers: dict[int, list[tuple[int, int]]] = {}
-        for before, row in pairwise(moves):
-            number = chunk.context[row]
-            if chunk.kind[row] in STRAIGHT and chunk.context[before] == number:
-                followers.setdefault(number, []).append((before, row))
-        found: list[int] = []
-        for number, pairs in followers.items():
-            context = contexts[number]
-            made = context.transformation
-            if len(pairs) >= FEWEST and made is not None and made.pole is None and context.pace is None:
-                for first in range(0, len(pairs), TOGETHER):
-                    found += self._set_even(chunk, pairs[first : first + TOGETHER], context, made, shares)
-        return frozenset(found)
+    def _needs_no_shares(self, context: Context) -> bool:
+        """Whether the kernels find out themselves what bounds straight rows."""
+        if context.transformation is None:
+            return True
+        return is_led(context, self._settings) and len(self.limits(context.transformation).linkage) > 0
 
-    def _set_even(
-        self,
-        chunk: Chunk,
-        pairs: Sequence[tuple[int, int]],
-        context: Context,
-        transformation: Transformation,
-        shares: Shares,
-    ) -> list[int]:
-        """The same for rows of one context, each with the row before it."""
-        import numpy as np
+    def _run(self, chunk: Chunk, moves: Sequence[int], context: Context, bounds: Bounds) -> None:
+        """Look at moves of one context after each other."""
+        if context.transformation is not self._context.transformation:
+            self._on_path = self._carried(context)
+            bounds.enters[moves[0]] = self._on_path
+        is_done = self._bounded(chunk, moves, context, bounds)
+        for before, row in zip((-1, *moves), moves, strict=False):
+            if is_done[row]:
+                continue
+            if before >= 0 and is_done[before]:
+                self._on_path = self._end_of(chunk, before, context)
+            self._row(chunk, row, context, bounds)
+        if is_done[moves[-1]]:
+            self._on_path = self._end_of(chunk, moves[-1], context)
+        n, self._context = len(self._axes), context
+        self._behind = context, list(chunk.end[moves[-1] * n : (moves[-1] + 1) * n])
 
-        columns, (before, rows) = chunk.numpy(), np.array(pairs).T
-        start, end = returned_rows(columns.end[before], context, self._geometry), columns.end[rows]
+    def _bounded(self, chunk: Chunk, moves: Sequence[int], context: Context, bounds: Bounds) -> bytes:
+        """Which rows need no look of their own: 1 for each; those of a tip are bounded all at once."""
+        made = context.transformation
+        if context.pace is not None:
+            return bytes(len(chunk))
+        if made is None:
+            return b"\1" * len(chunk)
+        if self._needs_no_shares(context):
+            return chunk.kind.tobytes().translate(LED_KINDS)
+        limits = self.limits(made)
+        if not limits.linkage:
+            return bytes(len(chunk))
+        if self._behind is not None and self._behind[0] is context:
+            start = self._behind[1]
+        else:
+            start = work_of(self._on_path, context, self._geometry)
         weight = rotary_weight(context, self._settings)
-        turned = [
-            weight if self._rotary(i) and i not in transformation.geometry else 1.0 for i in range(chunk.axes)
-        ]
-        length = np.array(list(map(hypot, *((end - start) * turned).T.tolist())))
-        moves = length > SHORT
-        rows = rows[moves]
-        straights = Straights(
-            transformation, list(start[moves].T), list(end[moves].T), length[moves],
-            columns.kind[rows] == Kind.RAPID, self._axes, self.limits(transformation), self._is_soft(context),
-        )  # fmt: skip
-        is_even, top, ease = even(straights)
-        first = SHARES * rows[is_even]
-        np.frombuffer(shares.top)[first] = top[is_even]
-        for place in (0, AT_START, AT_END):
-            np.frombuffer(shares.ease)[first + place] = ease[is_even]
-        found: list[int] = rows[is_even].tolist()
-        return found
+        shares = bounds.shares.top, bounds.shares.ease
+        soft = self._is_soft(context)
+        return bound_tip(chunk, (moves[0], moves[-1] + 1), start, weight, limits, shares, soft=soft)
+
+    def _row(self, chunk: Chunk, row: int, context: Context, bounds: Bounds) -> None:
+        """Look at one row, behind the one on whose end `_on_path` is."""
+        n = len(self._axes)
+        end = list(chunk.end[row * n : (row + 1) * n])
+        if context.transformation is not None and chunk.kind[row] != Kind.REF:
+            start = work_of(self._on_path, context, self._geometry)
+            legs = self._legs(chunk, row, start, end, context)
+            if legs:
+                bounds.legs[row] = legs
+                self._on_path = legs[-1].end
+                return
+            path, length = self._path(chunk, row, start, end, context)
+            shares = self._shares(context, path, length, chunk.kind[row])
+            top = following_top(context, path, length, rapid=chunk.kind[row] in RAPID_KINDS)
+            _set_shares(bounds.shares, row * SHARES, shares, top)
+        goal = machine_of(end, context, self._geometry)
+        if context.pace is not None:
+            self._pace(chunk, row, goal, context, bounds)
+        self._on_path = goal
+
+    def _end_of(self, chunk: Chunk, row: int, context: Context) -> list[float]:
+        """Machine position of the path at the end of a row."""
+        n = len(self._axes)
+        return machine_of(chunk.end[row * n : (row + 1) * n], context, self._geometry)
 
     def _pace(self, chunk: Chunk, row: int, goal: list[float], context: Context, bounds: Bounds) -> None:
         """What the program says about the speed of a row beside its feed is added to its bounds."""
@@ -406,7 +417,7 @@ class RealAxes:
             return self._demand(context, path, length, place, kind, step, lateral=lateral)
 
         shares, begin = [], 0.0
-        for f in _ends(worst, extent):
+        for f in share_ends(worst, extent):
             places = [begin, f, 0.5 * (begin + f)]
             if begin <= worst <= f:
                 places.append(worst)
@@ -520,17 +531,17 @@ class RealAxes:
                 top = min(top, velocity / fastest)
             if axis.acceleration:
                 bend = max(bend, steepest / axis.acceleration)
-                asked = _sum(here[i], pulls, columns) if lateral else fastest * along[0]
+                asked = asked_of(here[i], pulls, columns) if lateral else fastest * along[0]
                 pull = max(pull, asked / axis.acceleration)
             if soft and axis.jerk:
                 twist = abs(bends[1] - bends[0]) / step
                 top = min(top, (TWIST * axis.jerk / twist) ** (1.0 / 3.0)) if twist > NOTHING else top
-                asked = _sum(here[i], jerks, columns) if lateral else fastest * along[1]
+                asked = asked_of(here[i], jerks, columns) if lateral else fastest * along[1]
                 jerk = max(jerk, asked / axis.jerk)
                 change = steepest * along[0]
                 if lateral:
                     changes = [abs(b - a) / step for a, b in zip(here[i], there[i], strict=True)]
-                    change = _sum(changes, pulls, columns)
+                    change = asked_of(changes, pulls, columns)
                 turn = max(turn, change / axis.jerk)
         return Demand(top, bend, pull, jerk, turn, along[0])
 
@@ -572,26 +583,7 @@ class RealAxes:
         return (way + 180.0) % 360.0 - 180.0 if self._rotary(column) else way
 
 
-def _ends(worst: float, extent: float) -> list[float]:
-    """Where shares end that become shorter towards a place, down to its extent."""
-    ends, most = {1.0}, AT_START // 2 - 1
-    for span in (-worst, 1.0 - worst):
-        if abs(span) > extent:
-            shorter = min(SHORTER, (extent / abs(span)) ** (1.0 / most))
-            parts = [span * shorter**k for k in range(1, most + 1)]
-            ends.update(worst + part for part in parts if abs(part) >= 0.99 * extent)
-    return sorted(ends)
-
-
 def _set_shares(columns: Shares, first: int, found: RowShares, top: float = inf) -> None:
     for at, (end, most, ease) in enumerate(found.shares, first):
         columns.end[at], columns.top[at], columns.ease[at] = end, min(most, top), ease
     columns.ease[first + AT_START], columns.ease[first + AT_END] = found.at_start, found.at_end
-
-
-def _sum(slopes: list[float], limits: Sequence[float], columns: list[int]) -> float:
-    """How much of an axis the columns can ask for together."""
-    total = 0.0
-    for slope, j in zip(slopes, columns, strict=True):
-        total += abs(slope) * limits[j]
-    return total

@@ -98,10 +98,69 @@ def test_blocks_of_five_axes_are_scanned(control: str, start: str) -> None:
     assert scanned(f"{start}{BLOCKS}M30\n", control, {"machine": HEAD, **TOOLS}) >= 35
 
 
-@pytest.mark.parametrize(
-    ("control", "start"),
-    [("fanuc-m", "O1\nG90 G54 F1000.\nG43.4 H1\n"), ("sinumerik-840d", "G90 G54 F1000 T1 D1\nTRAORI\n")],
-)
-def test_where_axes_have_limits_the_interpreter_looks_along_the_way(control: str, start: str) -> None:
+STARTS = {"fanuc-m": "O1\nG90 G54 F1000.\nG43.4 H1\n", "sinumerik-840d": "G90 G54 F1000 T1 D1\nTRAORI\n"}
+PLACE = st.tuples(*[st.integers(-60, 60)] * 3, *[st.integers(-40, 40)] * 2, st.sampled_from(["G0", "G1"]))
+
+
+@pytest.mark.parametrize("control", STARTS)
+def test_far_from_limits_of_travel_blocks_are_scanned(control: str) -> None:
     setup = {"machine": HEAD, **TOOLS}
-    assert differences(f"{start}{BLOCKS}M30\n", control, setup, travel=85.0) == []
+    assert scanned(f"{STARTS[control]}{BLOCKS}M30\n", control, setup, travel=500.0) >= 35
+    assert differences(f"{STARTS[control]}{BLOCKS}M30\n", control, setup, travel=85.0) == []
+
+
+@pytest.mark.parametrize("control", STARTS)
+@pytest.mark.parametrize(("machine", "letters"), [(HEAD, "BC"), (TABLES, "AC")])
+@settings(max_examples=15, deadline=None)
+@given(st.lists(PLACE, min_size=3, max_size=12), st.integers(60, 140))
+def test_limits_of_travel_are_found_in_the_same_block(
+    control: str, machine: str, letters: str, places: list[tuple[int, int, int, int, int, str]], travel: int
+) -> None:
+    lines = [
+        f"{code} X{x}. Y{y}. Z{z}. {letters[0]}{a}. {letters[1]}{b}. (P)" if control == "fanuc-m" else
+        f"{code} X{x} Y{y} Z{z} {letters[0]}={a} {letters[1]}={b} S{100 + abs(a)}"
+        for x, y, z, a, b, code in places
+    ]  # fmt: skip
+    text = "\n".join([STARTS[control] + lines[0], *lines, "M30", ""])
+    assert differences(text, control, {"machine": machine, **TOOLS}, travel=float(travel)) == []
+
+
+#: Directions of the tool: near each other, far apart, at the pole, of any length, and none at all.
+DIRECTION = st.one_of(
+    st.tuples(*[st.floats(-0.02, 0.02).map(lambda v: round(v, 5))] * 2, st.just(1.0)),
+    st.tuples(st.floats(0.3, 0.32).map(lambda v: round(v, 5)), st.floats(-0.02, 0.02), st.just(1.0)),
+    st.tuples(*[st.floats(-1.0, 1.0).map(lambda v: round(v, 4))] * 3),
+    st.sampled_from([(0.0, 0.0, 1.0), (0.0, 0.0, 0.0), (0.0, 0.0, -1.0), (1.0, 0.0, 0.0), (3.0, 0.1, 10.0)]),
+)
+#: What stands in a block beside its direction, and what changes how directions are meant.
+BESIDE = st.sampled_from(
+    ["G1 X{}", "G1 X{} Y{} Z1", "G0 Z{}", "G1 F{}", "G1 X{} F700", "G2 X{} Y0 I1", "G1 X{} B=3"]
+)
+CHANGES = st.sampled_from([
+    "ORIAXES", "ORIVECT", "ORIMKS", "ORIWKS", "ROT X20", "ROT", "G91", "G90", "TRAFOOF", "TRAORI", "OSSE ORIS=5", "OSOF",
+    "ORICONTO A3=0.3 B3=0.1 C3=1 A6=0 B6=0.2 C6=1", "G1 B=10 C=20", "PTP", "CP", "G54", "TRANS X3", "M3 S200",
+    "ASPLINE", "G1", "A4=0 B4=0 C4=1",
+])  # fmt: skip
+
+
+@pytest.mark.parametrize(("machine", "angle"), [(HEAD, "B"), (TABLES, "A")])
+@settings(max_examples=40, deadline=None)
+@given(st.lists(st.one_of(st.tuples(BESIDE, DIRECTION, st.integers(0, 9)), CHANGES), min_size=2, max_size=14))
+def test_directions_of_the_tool(machine: str, angle: str, blocks: list[object]) -> None:
+    lines = [f"G90 G54 F1000 T1 D1\nTRAORI\nG1 X1 {angle}=17 C=5"]
+    for block in blocks:
+        if isinstance(block, str):
+            lines.append(block)
+        else:
+            beside, (x, y, z), number = block
+            lines.append(f"{beside.format(*[number] * 2)} A3={x} B3={y} C3={z}")
+    text = "\n".join([*lines, "M30", ""])
+    assert differences(text, "sinumerik-840d", {"machine": machine, **TOOLS}) == []
+    assert differences(text, "sinumerik-840d", {"machine": machine, **TOOLS}, travel=200.0) == []
+
+
+@pytest.mark.parametrize("machine", [HEAD, TABLES])
+def test_blocks_with_a_direction_are_scanned(machine: str) -> None:
+    lines = [f"N{i} G1 X{i} A3={0.3 + 0.001 * i:.4f} B3={0.1 - 0.002 * i:.4f} C3=1" for i in range(1, 41)]
+    text = "\n".join(["G90 G54 F1000 T1 D1\nTRAORI", *lines, "M30", ""])
+    assert scanned(text, "sinumerik-840d", {"machine": machine, **TOOLS}) >= 35

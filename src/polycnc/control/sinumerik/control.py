@@ -40,7 +40,7 @@ from polycnc.control.sinumerik.reset import reset, start_codes
 from polycnc.control.sinumerik.signals import interrupts, measuring, sections
 from polycnc.control.sinumerik.tools import sides, stages
 from polycnc.control.sinumerik.tools.memory import Tools
-from polycnc.control.sinumerik.transformations import seat, smoothing
+from polycnc.control.sinumerik.transformations import orientation, seat, smoothing
 from polycnc.control.sinumerik.transformations.point_to_point import PointToPoint
 from polycnc.control.sinumerik.variables import by_name, functions, part_counts, run_times
 from polycnc.control.sinumerik.variables.registry import SystemVariables
@@ -240,7 +240,7 @@ class Sinumerik:
 
     def plain_blocks(self, _channel: SinumerikChannel) -> SinumerikPlainBlocks:
         """What a scanner must know of plain blocks."""
-        return SinumerikPlainBlocks(self.plan)
+        return SinumerikPlainBlocks(self.plan, orientation.tool_record, orientation.note_turn)
 
     # ---- blocks
 

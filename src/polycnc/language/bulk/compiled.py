@@ -3,6 +3,12 @@
 from __future__ import annotations
 
 from polycnc.kernels.library import Library
-from polycnc.language.bulk import formulas, kernels, moves, numerals
+from polycnc.language.bulk import formulas, kernels, moves, numerals, reach
+from polycnc.transformation.orientation import linkage, standing
 
-LIBRARY = Library("bulk", (moves, numerals, formulas, kernels), (kernels.scan,), inline=True)
+LIBRARY = Library(
+    "bulk",
+    (linkage, standing, moves, numerals, formulas, kernels, reach),
+    (kernels.scan, reach.rows_within),
+    inline=True,
+)

@@ -16,6 +16,7 @@ from polycnc.kernels.layout import Bytes, Floats, Ints32
 from polycnc.language.bulk.formulas import begins_formula, calculate, read_formula
 from polycnc.language.bulk.layout import (
     CR_FORM,
+    DIRECTION_FORM,
     FIRST_CODE,
     FIRST_FORMULA,
     FORMS,
@@ -32,7 +33,7 @@ from polycnc.language.bulk.layout import (
 from polycnc.language.bulk.moves import Columns, act, note
 from polycnc.language.bulk.numerals import BLANK, EXACT_DIGITS, NINE, POINT, TAB, ZERO, read_number
 
-NEWLINE = 10
+NEWLINE, THREE = 10, 51
 LETTER_A, LETTER_C, LETTER_G, LETTER_M, LETTER_N, LETTER_O, LETTER_R, LETTER_X, LETTER_Z = (
     65, 67, 71, 77, 78, 79, 82, 88, 90
 )  # fmt: skip
@@ -176,7 +177,15 @@ def read_word(text: Bytes, place: int, grammar: int, most_digits: int) -> tuple[
             return place, NO_KEY, 0.0
         return place, BLOCK_NUMBER if letter == LETTER_N else FIRST_CODE + number, 0.0
     form = 0
-    if text[place] == EQUALS_SIGN and grammar & Grammar.EQUALS:
+    if (
+        letter <= LETTER_C
+        and grammar & Grammar.DIRECTIONS
+        and text[place] == THREE
+        and text[place + 1] == EQUALS_SIGN
+    ):
+        form = DIRECTION_FORM
+        place += 2
+    elif text[place] == EQUALS_SIGN and grammar & Grammar.EQUALS:
         form = 1
         place += 1
     elif letter == LETTER_C and text[place] == LETTER_R and grammar & Grammar.CR_RADIUS:

@@ -11,6 +11,7 @@ from math import inf
 from typing import NamedTuple
 
 from polycnc.kernels.layout import Floats, Ints, Places, place, record
+from polycnc.transformation.orientation.standing import StandRecord
 
 #: Words that a block may have; numbers in their formulas, which stand behind the words' values; keys of both.
 MOST_WORDS, MOST_LITERALS, MOST_KEYS = 24, 72, 128
@@ -43,6 +44,7 @@ class Scan(Structure):
         grammar: What the control's text looks like, flags of `Grammar`.
         most_digits: Digits that a number may have.
         keys: Keys of the block that is being read.
+        turned: Blocks that have stood the tool along a direction.
         feed: The channel's feed.
         tolerance: Allowed difference between the radii at an arc's start and end, mm.
     """
@@ -70,6 +72,7 @@ class Scan(Structure):
     grammar: int
     most_digits: int
     keys: int
+    turned: int
     feed: float
     tolerance: float
 
@@ -96,6 +99,8 @@ class State(NamedTuple):
         new_position: The same behind the block that is being worked out; `new_programmed`, `new_pending` likewise.
         machine: Its machine position without offsets.
         came_from: Where the last move began.
+        turned_from: Where the last block began that stood the tool along a direction; `turned_to` where it ended.
+        tool: What must be known for that (`transformation.orientation.standing`).
     """
 
     scan: Scan
@@ -119,6 +124,9 @@ class State(NamedTuple):
     new_pending: Floats
     machine: Floats
     came_from: Floats
+    turned_from: Floats
+    turned_to: Floats
+    tool: Floats
 
 
 def new_state(axes: int) -> State:
@@ -139,7 +147,8 @@ def new_state(axes: int) -> State:
     )
     standing = zeros(axes), zeros(axes), zeros(axes), zeros(axes), zeros(axes), zeros(axes), zeros(axes)
     moving = zeros(axes), zeros(axes), zeros(axes), zeros(axes), zeros(axes)
-    return State(Scan(axes=axes), *fixed, *standing, *moving)
+    turning = zeros(axes), zeros(axes), zeros(StandRecord.SIZE)
+    return State(Scan(axes=axes), *fixed, *standing, *moving, *turning)
 
 
 # ---- what a block of a shape does ---------------------------------------------------------------------------
@@ -179,6 +188,9 @@ class Rule(Places):
     NOTE_WORD = place()
     #: Where its formulas begin, 0 for none.
     FORMULAS = place()
+    #: Whether the block names a direction of the tool, and the indices of its values, -1 for zero.
+    HAS_DIRECTION = place()
+    DIRECTION = place(3)
 
 
 class Factor(Places):
@@ -301,6 +313,8 @@ class Grammar(Places):
     STARRED_COMMENTS = 512
     #: `X[#1+2.]` and `X#1` are words.
     FORMULAS = 1024
+    #: `A3=`, `B3=` and `C3=` are words.
+    DIRECTIONS = 2048
 
 
 #: Keys of words: letter and form (four each), then G codes below `LAST_CODE`, letters of words with a formula, and what
@@ -308,6 +322,8 @@ class Grammar(Places):
 FORMS = 4
 #: `CR=` as a form of C.
 CR_FORM = 2
+#: `A3=` and its like as a form of their letters.
+DIRECTION_FORM = 3
 FIRST_CODE = 26 * FORMS
 LAST_CODE = 1000
 FIRST_FORMULA = FIRST_CODE + LAST_CODE

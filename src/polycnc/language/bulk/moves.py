@@ -14,6 +14,7 @@ from polycnc.kernels.layout import Bytes, Floats, Ints, Ints32, Words32
 from polycnc.language.bulk.layout import HALF, TARGET_WIDTH, Factor, Motion, NoteRecord, Reading, Rule, State
 from polycnc.toolpath.kinds import Kind
 from polycnc.toolpath.table import CURVE_WIDTH, NO_CURVE
+from polycnc.transformation.orientation.standing import StandRecord, stand
 
 RAPID, STRAIGHT = int(Kind.RAPID), int(Kind.FEED)
 CIRCLE_CW, CIRCLE_CCW = int(Kind.CW), int(Kind.CCW)
@@ -55,6 +56,9 @@ def act(state: State, rules: Ints32, factors: Floats, number: int, columns: Colu
         if rules[rule + Rule.NEEDS_FEED] and not feed > 0.0:
             return False
         find_target(state, rules, factors, rule, factor)
+        turns, rows = rules[rule + Rule.HAS_DIRECTION] != 0, state.scan.rows
+        if turns and not stood(state, rules, rule):
+            return False
         if motion == Motion.ARC:
             done = arc(state, rules, factors, rule, factor, feed, columns)
         else:
@@ -63,8 +67,32 @@ def act(state: State, rules: Ints32, factors: Floats, number: int, columns: Colu
             done = straight(state, kind, row_feed, rules[rule + Rule.SKIPS_TINY] != 0, columns)
         if not done:
             return False
+        if turns:
+            note_turn(state, state.scan.rows > rows)
     state.scan.feed = feed
     return True
+
+
+def stood(state: State, rules: Ints32, rule: int) -> bool:
+    """Stand the tool at the target along the direction that the block names; false where the interpreter must."""
+    at = rule + Rule.DIRECTION
+    x = state.values[rules[at]] if rules[at] >= 0 else 0.0
+    y = state.values[rules[at + 1]] if rules[at + 1] >= 0 else 0.0
+    z = state.values[rules[at + 2]] if rules[at + 2] >= 0 else 0.0
+    if not stand(state.tool, state.position, x, y, z, state.new_position):
+        return False
+    for k in range(2):
+        column = int(state.tool[StandRecord.OUTER + k])
+        state.new_programmed[column], state.new_pending[column] = state.new_position[column], 0.0
+    return True
+
+
+def note_turn(state: State, moves: bool) -> None:
+    """Remember from where to where a block has turned the tool."""
+    state.scan.turned += 1
+    for i in range(state.scan.axes):
+        state.turned_to[i] = state.position[i]
+        state.turned_from[i] = state.came_from[i] if moves else state.position[i]
 
 
 def note(state: State, rules: Ints32, factors: Floats, number: int, columns: Columns) -> bool:

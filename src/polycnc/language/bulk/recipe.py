@@ -91,6 +91,7 @@ class Straight(NamedTuple):
         absolute: No word is an increment: where programmed point and display are one, the end point is worked
             out from the display.
         skips_tiny: A way below rounding noise is none, and the position stays.
+        direction: Indices of the values of the direction in which the tool stands at its end, -1 for zero.
     """
 
     rapid: bool
@@ -99,6 +100,7 @@ class Straight(NamedTuple):
     needs_feed: bool = True
     absolute: bool = True
     skips_tiny: bool = False
+    direction: tuple[int, int, int] | None = None
 
 
 class Arc(NamedTuple):
@@ -233,6 +235,7 @@ class Spelling:
         forms_count: How a number was written is part of a block's shape.
         hexadecimal: `0X1` may be a hexadecimal number.
         cr_radius: `CR=` is an address.
+        directions: `A3=`, `B3=` and `C3=` are words.
         blank_lines_are_blocks: A line without a block counts as one.
         formulas: `X[#1+2.]` is a word.
     """
@@ -247,6 +250,7 @@ class Spelling:
     forms_count: bool = True
     hexadecimal: bool = False
     cr_radius: bool = False
+    directions: bool = False
     blank_lines_are_blocks: bool = True
     formulas: bool = False
 
@@ -264,6 +268,7 @@ class Spelling:
             | self.hexadecimal * layout.Grammar.HEXADECIMAL
             | self.cr_radius * layout.Grammar.CR_RADIUS
             | self.formulas * layout.Grammar.FORMULAS
+            | self.directions * layout.Grammar.DIRECTIONS
             | (not self.blank_lines_are_blocks) * layout.Grammar.BLANK_LINES_ARE_NONE
         )
 

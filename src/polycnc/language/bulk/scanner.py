@@ -9,9 +9,11 @@ from polycnc.channel.stack import Executable
 from polycnc.channel.states.snapshot import unchanging
 from polycnc.deferred.records import dataclass
 from polycnc.language.bulk import layout
+from polycnc.language.bulk.guard import Guard, notes_before
 from polycnc.language.bulk.kernels import Tables
 from polycnc.language.bulk.layout import State, new_state
 from polycnc.language.bulk.moves import Columns
+from polycnc.language.bulk.reach import rows_within
 from polycnc.language.bulk.shapes import Shapes
 from polycnc.language.bulk.staged import FEWEST_AHEAD, StagedRun, leading_moves
 from polycnc.language.bulk.text import Window
@@ -60,15 +62,17 @@ class Bulk:
         dialect: Dialect | None = channel.control.plain_blocks(channel)
         if dialect is None:
             return None
-        scan = self.scan
+        scan, within = self.scan, rows_within
         if scan is None:
             from polycnc.language.bulk import kernels
             from polycnc.language.bulk.compiled import LIBRARY
 
-            scan = LIBRARY.compiled(kernels.scan)
-            if scan is None:
+            scan, compiled = LIBRARY.compiled(kernels.scan), LIBRARY.compiled(rows_within)
+            if scan is None or compiled is None:
                 return None
-        return Scanner(dialect, scan, len(channel.axes), self)
+            within = compiled
+        axes = len(channel.axes)
+        return Scanner(dialect, scan, axes, self, Guard(axes, within))
 
 
 class Scannable(Executable, Protocol):
@@ -124,6 +128,12 @@ class Dialect(Protocol):
     def put_variables(self, channel: Channel, variables: Floats) -> None:
         """Give the kernel the variables that formulas may read, by number; not a number for a vacant one."""
 
+    def tool(self, channel: Channel) -> Sequence[float]:
+        """What must be known to stand the tool along a direction; nothing where no block names one."""
+
+    def turned(self, channel: Channel, start: list[float], end: list[float]) -> None:
+        """Blocks have stood the tool along directions, the last one between two positions."""
+
     def moved(self, channel: Channel, last: LastMoves) -> None:
         """Blocks have moved the channel; for controls that remember how."""
 
@@ -153,14 +163,21 @@ class Scanner:
         scan: The kernel.
         axes: Number of the channel's axes.
         settings: Rooms and patience.
+        guard: Watches the travel of the axes behind a tip.
     """
 
     def __init__(
-        self, dialect: Dialect, scan: Callable[[Tables, State, Columns], int], axes: int, settings: Bulk
+        self,
+        dialect: Dialect,
+        scan: Callable[[Tables, State, Columns], int],
+        axes: int,
+        settings: Bulk,
+        guard: Guard,
     ) -> None:
         rooms = settings.rooms
         self._dialect = dialect
         self._scan = scan
+        self._guard = guard
         self._axes = axes
         self._rooms = rooms
         self._shapes = Shapes()
@@ -197,9 +214,16 @@ class Scanner:
     def run(self, channel: ScannedChannel) -> int:
         """Work off plain blocks from where the channel stands; gives their number."""
         blocks = channel.blocks
-        while self._dialect.ready(channel) and self._some(channel):
+        while self._is_ready(channel) and self._some(channel):
             pass
         return channel.blocks - blocks
+
+    def _is_ready(self, channel: ScannedChannel) -> bool:
+        """Whether blocks may be scanned now: the control allows it, and limits of travel can be looked at."""
+        if not self._dialect.ready(channel):
+            return False
+        guard = self._guard
+        return not guard.is_needed(channel) or (channel.path.is_idle and guard.is_able(channel))
 
     def _some(self, channel: ScannedChannel) -> bool:
         """One call of the kernel; true if it may be called again at once."""
@@ -218,11 +242,25 @@ class Scanner:
     def _scanned(self, channel: ScannedChannel) -> int:
         """Rows of plain blocks straight into the table."""
         outcome = self._call(channel)
+        if self._guard.is_needed(channel):
+            outcome = self._guarded(channel, outcome)
         taken = self._state.scan.line - channel.level.code.program.first_line - self._window.line
         if taken:
             self._take_rows(channel)
             self._go_on(channel, taken)
         return outcome
+
+    def _guarded(self, channel: ScannedChannel, outcome: int) -> int:
+        """The same blocks once more, up to the first row that could lead beyond the travel of the axes."""
+        at = self._state.scan
+        rows = self._guard.rows(channel, self._columns[0], self._columns[3], at.rows)
+        if rows == at.rows:
+            return outcome
+        most = rows + notes_before(rows, self._notes, at.notes)
+        self._put_state(channel)
+        if rows:
+            self._call(channel, most_rows=most)
+        return layout.Outcome.NOT_PLAIN
 
     def _staged(self, channel: ScannedChannel) -> int:
         """Moves of plain blocks through the stages of the path.
@@ -250,12 +288,16 @@ class Scanner:
         self._go_on(channel, moves)
         return outcome if is_all else layout.Outcome.NOT_PLAIN
 
-    def _call(self, channel: ScannedChannel, most_blocks: int | None = None) -> int:
+    def _call(
+        self, channel: ScannedChannel, most_blocks: int | None = None, most_rows: int | None = None
+    ) -> int:
         """Let the kernel work off blocks from where the channel stands; gives how it ended."""
         self._put_state(channel)
         at, shapes = self._state.scan, self._shapes
         if most_blocks is not None:
             at.most_blocks = min(at.most_blocks, most_blocks)
+        if most_rows is not None:
+            at.most_rows = most_rows
         tables = Tables(
             self._window.text, shapes.nexts, shapes.leaves, shapes.rules, shapes.factors, shapes.formulas
         )
@@ -301,10 +343,12 @@ class Scanner:
         at.shifted, at.mirrors = c.shift is not None, c.programming.mirrors
         if self._shapes.calculates:
             dialect.put_variables(channel, state.variables)
-        limits = dialect.limits(channel)
+        limits = () if self._guard.is_needed(channel) else dialect.limits(channel)
         at.limited = bool(limits)
         at.grammar, at.most_digits = spelling.flags, spelling.max_digits
         at.feed, at.tolerance = channel.feed, dialect.tolerance(channel)
+        at.turned, state.tool[0] = 0, -1.0
+        _put(state.tool, dialect.tool(channel))
         _put(state.position, c.position)
         _put(state.programmed, c.programmed)
         _put(state.pending, c.pending)
@@ -351,6 +395,8 @@ class Scanner:
         c.programmed = c.position if c.direct else list(state.programmed)
         if state.scan.owes:
             c.pending = list(state.pending)
+        if state.scan.turned:
+            self._dialect.turned(channel, list(state.turned_from), list(state.turned_to))
         if state.scan.rows:
             self._dialect.moved(channel, self._last_moves(state.scan.rows, state.scan.curves))
 

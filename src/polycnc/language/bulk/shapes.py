@@ -122,6 +122,9 @@ def _put_straight(rule: array[int], motion: Straight) -> None:
     rule[layout.Rule.NAMES_FEED] = motion.names_feed
     rule[layout.Rule.ABSOLUTE] = motion.absolute
     rule[layout.Rule.SKIPS_TINY] = motion.skips_tiny
+    rule[layout.Rule.HAS_DIRECTION] = motion.direction is not None
+    for i, slot in enumerate(motion.direction or ()):
+        rule[layout.Rule.DIRECTION + i] = slot
 
 
 def _put_arc(rule: array[int], factors: array[float], motion: Arc) -> None:

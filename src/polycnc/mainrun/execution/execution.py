@@ -24,7 +24,7 @@ from polycnc.mainrun.preparation.items import (
     Standing,
 )
 from polycnc.motion.frames import with_axis
-from polycnc.motion.kernels.columns import Form, PieceRecord
+from polycnc.motion.kernels.columns import UNEVEN_FORMS, Form, PieceRecord
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.events import Deed
 
@@ -509,7 +509,7 @@ class Execution:
         self._look_ahead()
         left = record[PieceRecord.LENGTH] - here
         reach2 = self.preprocessing.reach2 + 2.0 * record[PieceRecord.PULL] * left
-        if record[PieceRecord.FORM] != Form.CURVED and speed * speed > reach2 + REST2:
+        if record[PieceRecord.FORM] not in UNEVEN_FORMS and speed * speed > reach2 + REST2:
             self.preprocessing.queue.lay_back()
             self._cap2 = cap2
             return False

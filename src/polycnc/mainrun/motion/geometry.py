@@ -102,7 +102,7 @@ class Cubic:
 
 def piece_cubic(record: Sequence[float], axes: int) -> Cubic | None:
     """The curve of a piece from the planner's record; None for one that is straight."""
-    if record[PieceRecord.FORM] == Form.STRAIGHT:
+    if record[PieceRecord.FORM] in (Form.STRAIGHT, Form.LED):
         return None
     first = PieceRecord.VECTORS
     leave, arrive = record[first : first + axes], record[first + axes : first + 2 * axes]

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.motion.averaging import way_after
 from polycnc.motion.kernels.alone import level_peak
-from polycnc.motion.kernels.columns import Form, PieceRecord
+from polycnc.motion.kernels.columns import UNEVEN_FORMS, PieceRecord
 from polycnc.motion.kernels.columns import Limits as MachineLimits
 from polycnc.motion.kernels.speeds import bound2, curved_time
 from polycnc.motion.law import Phase
@@ -267,7 +267,7 @@ def profile_of(
     length = record[PieceRecord.LENGTH] - done
     if length <= NO_WAY_MM:
         return Profile((), start2, arrives=True)
-    if record[PieceRecord.FORM] != Form.CURVED:
+    if record[PieceRecord.FORM] not in UNEVEN_FORMS:
         return straight_profile(length, start2, aim2, cap2, record[PieceRecord.PULL], calm)
     return curved_profile(_rest_of(record, done, axes), start2, aim2, cap2, axes, limits)
 

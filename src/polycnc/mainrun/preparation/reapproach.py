@@ -52,6 +52,7 @@ def line_from(
     width, own = piece_width(n), fields[:]
     own[ContextRecord.HAS_FRAME] = own[ContextRecord.PER_REVOLUTION] = own[ContextRecord.INVERSE_TIME] = 0.0
     own[ContextRecord.OFFSETS : ContextRecord.OFFSETS + n] = array("d", bytes(8 * n))
+    own[ContextRecord.LED] = 0.0
     state = new_state(n, start)
     state.run.free = 1.0
     end = array("d", move.way.end)

@@ -7,6 +7,7 @@ such squares.
     lay       rows to pieces: length, tangents, curvature, caps on x inside      (`lay.py`, `arcs.py`)
     chord     the curve between the points of a spline, and what it allows         (`chords.py`)
     join      the cap on x where two rows meet, and how the path is bent there   (`corners.py`, `rounding.py`)
+    led       rows of a tool's tip, by what the axes behind it allow             (`led.py`, `demands.py`)
     feed      what a row asks for: the length that its feed counts, and the speed (`feeds.py`)
     jerk      what limited jerk allows: at one place, as far around it as the average reaches, and on a line from
               rest to rest                                                       (`jerk.py`, `hold.py`, `alone.py`)

@@ -13,10 +13,12 @@ from math import inf
 from typing import NamedTuple
 
 from polycnc.kernels.layout import Bytes, Floats, Ints, Ints32, Places, Words32, place, record
+from polycnc.transformation.orientation.linkage import room_for
 
 # Numbers of the row kinds (`toolpath.Kind`), as plain integers that a compiler can fold.
-RAPID, CW, CCW, HELIX_CW, HELIX_CCW, SPLINE, THREAD, TAP, REF, SKIP, DWELL, EVENT = (
+RAPID, FEED, CW, CCW, HELIX_CW, HELIX_CCW, SPLINE, THREAD, TAP, REF, SKIP, DWELL, EVENT = (
     0,
+    1,
     2,
     3,
     4,
@@ -83,6 +85,8 @@ class Limits(NamedTuple):
         jerk: Highest jerk.
         geometry: The columns of X, Y, Z, -1 for a missing one.
         path: Along the path.
+        linkage: How the axes follow the tip that the columns stand for (`transformation.orientation.linkage`); empty
+            where they do not, or in no such form.
     """
 
     top_rapid: Floats
@@ -93,6 +97,7 @@ class Limits(NamedTuple):
     jerk: Floats
     geometry: Ints
     path: PathLimits
+    linkage: Floats
 
 
 class ContextRecord(Places):
@@ -135,6 +140,8 @@ class ContextRecord(Places):
     #: both: the corner's own tolerance counts for them; for one of them: it bounds nothing.
     TURN_TOLERANCE = place()
     TURN_DISTANCE = place()
+    #: Straight rows are laid out under the limits of the axes behind the tip (1; `led.py`).
+    LED = place()
     #: Nine numbers by rows, then the shift.
     FRAME = place(12)
     OFFSETS = place(0)
@@ -194,13 +201,18 @@ class Form(Places):
     """Forms of a piece.
 
     A line; a part of a curve under the limits of a line (with limited jerk); a part of a curve under limits that change
-    along it; a rapid of every axis by itself.
+    along it; a rapid of every axis by itself; a line of the tip, whose q' and q'' are those of the axes behind it.
     """
 
     STRAIGHT = place()
     BENT = place()
     CURVED = place()
     TIMED = place()
+    LED = place()
+
+
+#: Forms of pieces whose limits change along them.
+UNEVEN_FORMS = (Form.CURVED, Form.LED)
 
 
 @record
@@ -236,6 +248,7 @@ class RunState(Structure):
         chord_mm: Length of the chord that was closed last, 0 where a row that is none came behind it.
         chord_ease: Factor on the limits along the last chord.
         tolerance: Contour tolerance along it.
+        corner_top2: Highest x at a corner behind the row before, where that is led by a tip; 0 for no bound.
     """
 
     stop: float
@@ -268,13 +281,14 @@ class RunState(Structure):
     chord_mm: float
     chord_ease: float
     tolerance: float
+    corner_top2: float
 
 
 @record
 class JointState(Structure):
     """The joint at hand: pull around it, seconds of rest, averages of a run that begins there, factor on the limits.
 
-    `bend_way` is the way before and behind it on which the path is bent (`rounding.py`), mm.
+    `bend_way` is the way before and behind it on which the path is bent (`rounding.py`), mm; `top2` bounds x there.
     """
 
     pull: float
@@ -283,6 +297,7 @@ class JointState(Structure):
     blend: float
     ease: float
     bend_way: float
+    top2: float
 
 
 @record
@@ -341,6 +356,7 @@ class State(NamedTuple):
         bend: Room for one q''.
         bent_before: q'' at the end of the last piece; with limited jerk its mean over the last chord of a spline.
         turn: What q' changes by at the joint at hand.
+        room: For what `linkage` works out.
     """
 
     run: RunState
@@ -359,16 +375,17 @@ class State(NamedTuple):
     bend: Floats
     bent_before: Floats
     turn: Floats
+    room: Floats
 
 
 def new_state(n: int, start: Sequence[float] = ()) -> State:
     """The state before the first row of n axes that stand at a machine position, at zero where it is left out."""
     run = RunState(stop=1.0, low2=inf, low_pull=inf)
-    records = run, JointState(), RowState(), ArcState()
+    records = run, JointState(top2=inf), RowState(), ArcState()
     position = zeros(n)
     position[: len(start)] = array("d", start)
     shares = zeros(SHARES), zeros(SHARES), zeros(SHARES)
-    vectors = (zeros(n) for _ in range(7))
+    vectors = [*(zeros(n) for _ in range(7)), zeros(room_for(n))]
     return State(*records, zeros(9), *shares, position, *vectors)
 
 

@@ -151,17 +151,21 @@ def cut(pieces: Floats, p: int, n: int, state: State, first: float) -> bool:
     rest = at + width
     pieces[rest + PieceRecord.LENGTH] = pieces[at + PieceRecord.LENGTH] - first
     pieces[at + PieceRecord.LENGTH] = first
-    bent = pieces[at + PieceRecord.FORM] != Form.STRAIGHT
+    led = pieces[at + PieceRecord.FORM] == Form.LED
+    bent = pieces[at + PieceRecord.FORM] != Form.STRAIGHT and not led
     scale = (first + pieces[rest + PieceRecord.LENGTH]) / pieces[at + PieceRecord.MARGIN]
     for i in range(PieceRecord.VECTORS, PieceRecord.VECTORS + n):
         place = i + PLACES * n
         chord = pieces[at + place + n] - pieces[at + place]
         here, there = pieces[at + place] + share * chord, chord / scale
+        if led:
+            there = pieces[at + i] + share * (pieces[at + i + n] - pieces[at + i])
         if bent:
             leave, arrive = pieces[at + i] * scale - chord, pieces[at + i + n] * scale - chord
             here += share * (1.0 - share) * ((1.0 - share) * leave - share * arrive)
             slope = (1.0 - share) * (1.0 - 3.0 * share) * leave + share * (3.0 * share - 2.0) * arrive
             there = (chord + slope) / scale
+        if bent or led:
             bend = pieces[at + i + 2 * n]
             bend += share * (pieces[at + i + 3 * n] - bend)
             pieces[at + i + 3 * n] = pieces[rest + i + 2 * n] = bend

@@ -52,6 +52,7 @@ from polycnc.motion.kernels.feeds import (
 )
 from polycnc.motion.kernels.hold import hold
 from polycnc.motion.kernels.jerk import line_pull, window_s
+from polycnc.motion.kernels.led import is_led, lay_led
 from polycnc.motion.kernels.rounding import round_joint
 from polycnc.motion.kernels.speeds import straight_time
 
@@ -98,10 +99,15 @@ def lay(
             take_shares(rows, row, state)
             state.row.slot = 2 * rows.context[row] + (0 if is_rapid(state) else 1)
             aim(rows.end, row * n, contexts, record, n, limits, state)
+            state.joint.top2, led = inf, is_led(contexts, record, limits, state)
+            if not led and state.run.corner_top2 > 0.0:
+                state.joint.top2 = state.run.corner_top2
+                state.run.exit2 = min(state.run.exit2, state.run.corner_top2)
             if not lay_move(curves, contexts, record, n, limits, pieces, state):
                 return row
             state.run.ease = state.share_ease[max(state.row.shares - 1, 0)]
             state.run.corner_ease = state.share_ease[AT_END]
+            state.run.corner_top2 = state.run.corner_top2 if led else 0.0
     return len(rows.kind)
 
 
@@ -169,6 +175,8 @@ def lay_move(
         done = lay_arc(curves, contexts, record, n, limits, pieces, state)
     elif rapid and contexts[record + ContextRecord.RAPID_BY_AXIS] != 0.0:
         done = lay_rapid_by_axis(contexts, record, n, limits, pieces, state)
+    elif is_led(contexts, record, limits, state):
+        done = lay_led(curves, contexts, record, n, limits, pieces, state)
     else:
         done = lay_straight(curves, contexts, record, n, limits, pieces, state)
     if not done:

@@ -26,6 +26,8 @@ from polycnc.motion.kernels.hold import cut
 
 #: Directions that differ by less count as one; ways shorter than this (mm) are not bent.
 SAME_DIRECTION, NO_BEND_MM = 1e-9, 1e-9
+#: Of what corners leave the columns under a tip's row: the part for the bend; the rest is for acceleration along it.
+BENDS = 0.7
 #: Least MARGIN of a part of a curve that is bent.
 CHORD_MARGIN = 1.005
 
@@ -100,6 +102,8 @@ def add_bend(
     here, sense = at + PieceRecord.VECTORS, 1.0 if end > start else -1.0
     if int(pieces[at + PieceRecord.SLOT]) % 2 == 0:
         tops = limits.top_rapid
+    if pieces[at + PieceRecord.FORM] == Form.LED:
+        lead_bend(pieces, at, n, limits, state)
     if pieces[at + PieceRecord.FORM] == Form.STRAIGHT:
         pieces[at + PieceRecord.FORM], pieces[at + PieceRecord.PATH_PULL] = (
             Form.CURVED,
@@ -134,13 +138,32 @@ def add_bend(
         pieces[at + width + PieceRecord.ENTRY2] = min(pieces[at + width + PieceRecord.ENTRY2], cap2)
 
 
+def lead_bend(pieces: Floats, at: int, n: int, limits: Limits, state: State) -> None:
+    """Make a piece one that can be bent: its q' and q'' become those of the tip.
+
+    Along it the columns accelerate by the rest of what the bend leaves them.
+    """
+    here, length, pull = at + PieceRecord.VECTORS, pieces[at + PieceRecord.LENGTH], inf
+    for i in range(n):
+        place_of = here + PLACES * n + i
+        share = (pieces[place_of + n] - pieces[place_of]) / length
+        pieces[here + i] = pieces[here + n + i] = share
+        pieces[here + 2 * n + i] = pieces[here + 3 * n + i] = 0.0
+        if share != 0.0:
+            pull = min(pull, limits.acceleration[i] / abs(share))
+    pieces[at + PieceRecord.FORM], pieces[at + PieceRecord.MARGIN] = Form.CURVED, 1.0
+    pull *= state.joint.ease * (1.0 - BENDS) / BENDS
+    pieces[at + PieceRecord.PULL] = pieces[at + PieceRecord.PATH_PULL] = pull
+    pieces[at + PieceRecord.CAP2] = min(pieces[at + PieceRecord.CAP2], state.joint.top2)
+
+
 def keep_at_cut(pieces: Floats, p: int, n: int, limits: Limits, state: State) -> None:
     """Bound x at the start of piece p, the rest of an arc's part, by what it curves there without the bend.
 
     A bend that turns the other way curves less: what it allows is no bound for the arc beside it.
     """
     at = p * piece_width(n)
-    if pieces[at + PieceRecord.FORM] == Form.STRAIGHT:
+    if pieces[at + PieceRecord.FORM] == Form.STRAIGHT or pieces[at + PieceRecord.FORM] == Form.LED:
         return
     for i in range(n):
         curvature = abs(pieces[at + PieceRecord.VECTORS + 2 * n + i])

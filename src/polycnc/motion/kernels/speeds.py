@@ -31,7 +31,7 @@ def backward(pieces: Floats, count: int, n: int, limits: Limits) -> int:
         cap2 = pieces[at + PieceRecord.ENTRY2]
         if pieces[at + PieceRecord.FORM] <= Form.BENT:
             x2 += 2.0 * pieces[at + PieceRecord.PULL] * pieces[at + PieceRecord.LENGTH]
-        elif x2 < cap2 and pieces[at + PieceRecord.FORM] == Form.CURVED:
+        elif x2 < cap2 and pieces[at + PieceRecord.FORM] != Form.TIMED:
             x2 = max(x2, highest2(pieces, at, n, limits, x2))
         if x2 >= cap2:
             x2 = cap2
@@ -74,7 +74,7 @@ def forward(
             next2 = min(next2, x2 + 2.0 * rate * length)
             peak2 = straight_peak2(x2, next2, pieces[at + PieceRecord.CAP2], rate, length)
             seconds = straight_time(x2, next2, pieces[at + PieceRecord.CAP2], rate, length)
-        elif pieces[at + PieceRecord.FORM] == Form.CURVED:
+        elif pieces[at + PieceRecord.FORM] != Form.TIMED:
             next2 = min(next2, max(bound2(pieces, at, n, limits, x2, False)[0], 0.0))
             seconds, peak2, rate = curved_time(pieces, at, n, limits, x2, next2)
         else:

@@ -73,6 +73,11 @@ class ToolCentrePoint:
         )
 
     @property
+    def chains(self) -> tuple[tuple[Link, ...], tuple[Link, ...]]:
+        """Joints of the table and of the head, of each the one at its end first: in that order they turn a point."""
+        return self._table, self._head
+
+    @property
     def pole(self) -> Pole | None:
         """No place of the tip leaves an axis without a direction."""
         return None

@@ -56,6 +56,7 @@ class Draft:
         lead: Leads the end of the block to where its words of orientation stand the rotary axes; None without any.
             Who makes the move takes it by `take_lead`.
         is_led: Somebody has taken it.
+        direction: Where A3, B3 and C3 stand, where the block says no more of the direction; else None.
         by_axes: Its straight move goes with the axes of the machine (PTP).
     """
 
@@ -70,6 +71,7 @@ class Draft:
         self.opens_line = False
         self.lead: Lead | None = None
         self.is_led = False
+        self.direction: tuple[int, int, int] | None = None
         self.by_axes = False
         self._open = {i: _with_spindle(word) for i, word in enumerate(block.words)}
 

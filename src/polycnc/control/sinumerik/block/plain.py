@@ -24,13 +24,14 @@ from polycnc.language.bulk import (
     Target,
     Word,
 )
-from polycnc.language.bulk.layout import CR_FORM, FIRST_CODE, FORMS
+from polycnc.language.bulk.layout import CR_FORM, DIRECTION_FORM, FIRST_CODE, FORMS
 from polycnc.language.sinumerik.words import Block
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 from polycnc.toolpath.kinds import CCW_KINDS
 
 if TYPE_CHECKING:
+    from array import array
     from collections.abc import Callable, Hashable, Sequence
 
     from polycnc.channel.mode import Mode
@@ -41,7 +42,7 @@ if TYPE_CHECKING:
     from polycnc.language.sinumerik.executable import SinumerikProgram
 
 SPELLING = Spelling(
-    max_digits=15, semicolon_comments=True, equals=True, forms_count=False, cr_radius=True,
+    max_digits=15, semicolon_comments=True, equals=True, forms_count=False, cr_radius=True, directions=True,
     blank_lines_are_blocks=False,
 )  # fmt: skip
 
@@ -93,18 +94,26 @@ class SinumerikPlainBlocks:
 
     Args:
         plan: What a block does in the modal state that holds.
+        tool: What must be known to stand the tool along a direction (`transformation.orientation.standing`).
+        note_turn: Called behind blocks that have turned the tool, with the positions before and behind the last one.
     """
 
     spelling = SPELLING
 
-    def __init__(self, plan: Callable[[SinumerikChannel, Block], Plan]) -> None:
+    def __init__(
+        self,
+        plan: Callable[[SinumerikChannel, Block], Plan],
+        tool: Callable[[SinumerikChannel], array[float]],
+        note_turn: Callable[[SinumerikChannel, list[float], list[float]], None],
+    ) -> None:
         self._plan = plan
+        self.tool, self.turned = tool, note_turn
         self._conditions = Conditions()
 
     def ready(self, channel: SinumerikChannel) -> bool:
         """Nothing watches blocks, bends arcs or follows a block, and only runs are held back; the program is open.
 
-        Under a transformation no axis has limits: they hold all along the curves that the axes then take.
+        Under a transformation no working area acts beside limits of travel: they hold all along the curves of the axes.
         """
         c = channel.coordinates
         return (
@@ -112,7 +121,7 @@ class SinumerikPlainBlocks:
             and not channel.single_block
             and c.direct
             and is_even(c.zero)
-            and (c.transformation is None or not channel.limits)
+            and (c.transformation is None or not channel.limits or not Ranges.of(channel).limits)
             and channel.memory.language.modal_call is None
             and channel.level.code.whole.is_open
         )
@@ -211,4 +220,6 @@ _EMPTY = Block((), ())
 
 def _address(key: int) -> str:
     letter, form = divmod(key, FORMS)
+    if form == DIRECTION_FORM:
+        return f"{chr(ord('A') + letter)}3"
     return "CR" if form == CR_FORM else chr(ord("A") + letter)

@@ -28,7 +28,7 @@ from polycnc.deferred.records import dataclass
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.geometry.units import INCH_MM
-from polycnc.language.bulk import declare
+from polycnc.language.bulk import Straight, declare
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError
@@ -58,8 +58,7 @@ class OpenLine(State, lifetime=Lifetime.RESET):
 
 def rapid(draft: Draft) -> Step | None:
     """G0: rapid traverse; the row names a feed only if the block does."""
-    is_plain = draft.lead is None and not draft.by_axes and not draft.has("AP", "RP", "ANG")
-    straight = plain.straight(draft.axis_terms(), rapid=True) if is_plain else None
+    straight = _told(draft, rapid=True)
     goal = goal_of(draft)
     if goal is None:
         return None
@@ -77,6 +76,7 @@ def linear(draft: Draft) -> Step | None:
     is_plain = draft.lead is None and not draft.by_axes and not draft.has("AP", "RP", "ANG")
     if block_feed is None and is_plain:
         return _plain_linear(draft)
+    told = _told(draft) if block_feed is None else None
     goal = goal_of(draft)
     if goal is None:
         return None
@@ -86,7 +86,15 @@ def linear(draft: Draft) -> Step | None:
         feed = channel.feed if block_feed is None else number(values, block_feed) * factor
         go(channel, Kind.FEED, goal(channel, values), checked_feed(feed))
 
-    return run
+    return run if told is None else declare(run, told)
+
+
+def _told(draft: Draft, *, rapid: bool = False) -> Straight | None:
+    """A straight block as data, with the direction of the tool that it names; None for one that says more."""
+    if (draft.lead is not None and draft.direction is None) or draft.by_axes or draft.has("AP", "RP", "ANG"):
+        return None
+    straight = plain.straight(draft.axis_terms(), rapid=rapid)
+    return None if straight is None else straight._replace(direction=draft.direction)
 
 
 def _plain_linear(draft: Draft) -> Step | None:

@@ -6,6 +6,7 @@
     words          words of orientation: what a block says of the tool's direction
     posture        between work, basic system and rotary axes; what later blocks go on from
     orientation    where these words lead the rotary axes, at the end of a block and on the way
+    standing       blocks that name a direction and turn the tool by little, for the scanner as well
     directions     from the words to the way of the direction: great circle, cones, curves, relative to the path
     smoothing      how far OSD, OST and the compressors let the axes leave the programmed way
     history        ORISON

@@ -16,8 +16,9 @@ from polycnc.channel.moves.path import Move
 from polycnc.channel.moves.turning import TurningStage
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.motion.polynomial_groups import DIRECTION, PolynomialGroups
-from polycnc.control.sinumerik.transformations import data_sets, directions, seat, spin
+from polycnc.control.sinumerik.transformations import data_sets, directions, seat, spin, standing
 from polycnc.control.sinumerik.transformations.posture import Orienting, Posture
+from polycnc.control.sinumerik.transformations.standing import POLE_LIMIT
 from polycnc.control.sinumerik.transformations.words import (
     BY_PATH,
     CONES,
@@ -28,6 +29,8 @@ from polycnc.control.sinumerik.transformations.words import (
     Words,
     take,
 )
+from polycnc.control.sinumerik.transformations.words import DIRECTION as END_DIRECTION
+from polycnc.language.bulk import Idle, declare
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 from polycnc.transformation.orientation.choice import nearest
@@ -35,6 +38,8 @@ from polycnc.transformation.orientation.directions import angle_between, tangent
 from polycnc.transformation.orientation.turning import Course, Knot, Turning, follow
 
 if TYPE_CHECKING:
+    from array import array
+
     from polycnc.channel.mode import Mode
     from polycnc.control.sinumerik.block.draft import Draft, TipPath, Values
     from polycnc.control.sinumerik.family import SinumerikChannel
@@ -42,8 +47,6 @@ if TYPE_CHECKING:
     from polycnc.machine.kinematics import Angles
     from polycnc.transformation.orientation.directions import Way
 
-#: Half the opening of the cone about a pole in which the axes go evenly, degrees (MD24540 as delivered).
-POLE_LIMIT = 2.0
 #: Motions along which the direction has a way of its own; along splines and threads the axes go evenly.
 LEADS = ("G0", "G1", "POLY", "G2", "G3", "CIP", "CT", "INVCW", "INVCCW")
 #: Those that bend in a way that ORICURVE does not go along with, and that move even where they end where they began.
@@ -91,6 +94,7 @@ def plan(draft: Draft) -> None:
         return
     _check_polynomials(words, mode, interpolation(mode, draft.channel, by_axes=bool(words.columns)))
     draft.lead = lambda channel, values, end, path: turn(channel, words, mode, values, end, path)
+    draft.direction = standing.places_of(words, mode, interpolation(mode, draft.channel))
 
 
 def _check_polynomials(words: Words, mode: Mode, kind: str) -> None:
@@ -177,6 +181,9 @@ def finish(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 -
     state.first_normal = state.normal
 
 
+declare(finish, Idle())  # behind a block that the scanner takes all this is so already
+
+
 def turn(
     channel: SinumerikChannel,
     words: Words,
@@ -194,6 +201,9 @@ def turn(
     if path is None:
         path = MovePath(Move(Kind.FEED, start, end), channel.coordinates.geometry)
     words = words._replace(bends=DIRECTION in PolynomialGroups.of(channel).acting)
+    quick = _by_little(channel, words, mode, values, end)
+    if quick is not None:
+        return quick
     kind = interpolation(mode, channel, by_axes=bool(words.columns))
     target = directions.target_of(posture, state, words, mode, values, path, kind)
     near, way, angles = posture.angles(start), None, None
@@ -221,6 +231,35 @@ def turn(
         knots = knots[-1:]
     course = _course(posture, mode, near, knots, (start, end))
     return _placed(channel, posture, mode, knots, end, course)
+
+
+def _by_little(
+    channel: SinumerikChannel, words: Words, mode: Mode, values: Values, end: list[float]
+) -> list[float] | None:
+    """The end of a block that names a direction and turns the tool by little, as scanned ones have; None for others."""
+    kind = interpolation(mode, channel)
+    vector = words.vector(values, END_DIRECTION)
+    if vector is None or standing.places_of(words, mode, kind) is None:
+        return None
+    return standing.turned_end(channel, mode, kind, vector, end)
+
+
+def _straight_mode(channel: SinumerikChannel) -> Mode:
+    """The modal state for straight blocks."""
+    return channel.mode if channel.mode["motion"] in LEADS else channel.mode.with_code("motion", "G1")
+
+
+def tool_record(channel: SinumerikChannel) -> array[float]:
+    """What the scanner must know to turn the tool in straight blocks."""
+    mode = _straight_mode(channel)
+    return standing.record_of(channel, mode, interpolation(mode, channel))
+
+
+def note_turn(channel: SinumerikChannel, start: list[float], end: list[float]) -> None:
+    """The scanner has turned the tool: remember how the last block did, as `turn` does."""
+    mode = _straight_mode(channel)
+    if interpolation(mode, channel) == "ORIVECT":
+        standing.note_tangent(channel, mode, start, end)
 
 
 def _course(

@@ -97,18 +97,21 @@ class Posture(NamedTuple):
 
     def reaches(self, angles: Angles) -> bool:
         """Whether the travel of the axes allows these angles."""
-        data = self.channel.memory.data
-        for axis in self.point.kinematics.axes:
-            column = self.column(axis)
-            own, name = self.channel.axis_data[column], self.channel.axes[column]
-            low, high = own.limit_minus, own.limit_plus
-            if data.is_set("$MA_POS_LIMIT_MINUS", name):
-                low = max(low, data.number("$MA_POS_LIMIT_MINUS", name))
-            if data.is_set("$MA_POS_LIMIT_PLUS", name):
-                high = min(high, data.number("$MA_POS_LIMIT_PLUS", name))
-            if not is_within(angles[axis] - self.point.zero[column], low, high):
-                return False
-        return True
+        return all(
+            is_within(angles[axis] - self.point.zero[self.column(axis)], *self.travel(axis))
+            for axis in self.point.kinematics.axes
+        )
+
+    def travel(self, axis: str) -> tuple[float, float]:
+        """Lowest and highest position of a rotary axis."""
+        data, column = self.channel.memory.data, self.column(axis)
+        own, name = self.channel.axis_data[column], self.channel.axes[column]
+        low, high = own.limit_minus, own.limit_plus
+        if data.is_set("$MA_POS_LIMIT_MINUS", name):
+            low = max(low, data.number("$MA_POS_LIMIT_MINUS", name))
+        if data.is_set("$MA_POS_LIMIT_PLUS", name):
+            high = min(high, data.number("$MA_POS_LIMIT_PLUS", name))
+        return low, high
 
     def direction(self, angles: Angles) -> Vector:
         """The tool in the basic system at angles of the joints."""

@@ -41,15 +41,12 @@ class PlainBlocks:
         self._conditions = Conditions()
 
     def ready(self, channel: WordAddressChannel) -> bool:
-        """Single blocks are watched; forbidden zones, unrolled surfaces and most held moves are not.
-
-        Nor are limits under a transformation, for they hold all along the curves that the axes then take.
-        """
+        """Single blocks are watched; forbidden zones, unrolled surfaces and most held moves are not."""
         if channel.single_block or channel.boundary is not None:
             return False
         if not (channel.path.is_idle or channel.path.takes_runs):
             return False
-        if channel.coordinates.transformation is not None and (channel.limits or not channel.path.is_idle):
+        if channel.coordinates.transformation is not None and not channel.path.is_idle:
             return False
         if may_refuse_moves(channel):
             return False
@@ -86,6 +83,13 @@ class PlainBlocks:
 
     def put_variables(self, _channel: Channel, _variables: Floats) -> None:
         """No formulas read any."""
+
+    def tool(self, channel: WordAddressChannel) -> Sequence[float]:  # noqa: ARG002 - as the scanner asks
+        """No plain block names a direction."""
+        return ()
+
+    def turned(self, channel: WordAddressChannel, start: list[float], end: list[float]) -> None:
+        """No plain block names a direction."""
 
     def moved(self, channel: WordAddressChannel, last: LastMoves) -> None:
         """Nothing is remembered of a move."""

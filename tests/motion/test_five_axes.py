@@ -1,0 +1,88 @@
+"""Straight rows of a tool's tip take little longer than the axes need at least, and the tip stays on them."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+
+from polycnc.motion import Settings
+from polycnc.motion.kernels.columns import piece_width
+from polycnc.motion.planner import Planner
+from polycnc.motion.sampling.run import Run
+from polycnc.toolpath import Context, Kind
+from polycnc.toolpath.modes import AccelerationMode, CornerMode
+from tests.motion.five_axes import TipPath, least_time, random_paths
+from tests.motion.paths import Build
+from tests.motion.test_transformed import SLACK, real_motion
+
+if TYPE_CHECKING:
+    from tests.motion.five_axes import Numbers
+
+BRISK = Settings(acceleration=AccelerationMode.CONSTANT)
+#: Planned time over the least one, of the slowest path; the bound is found at so many places that it is this exact.
+WORST, COARSE = 1.05, 0.995
+
+
+def planned(path: TipPath, **options: Any) -> float:
+    """Seconds that the planner gives the rows of a path, each from rest to rest."""
+    build = Build(
+        path.axes.tip.axes, Context(transformation=path.axes.tip, corner_mode=CornerMode.EXACT_STOP)
+    )
+    for point in path.points:
+        build.row(Kind.FEED, *point, feed=path.feed)
+    start = path.axes.tip.to_machine(path.points[0])
+    plan = Planner(build.toolpath, path.axes.machine, settings=BRISK, start=start, **options).finish()
+    return float(np.sum(plan.row_s[1:]))
+
+
+def test_rows_of_a_tip_take_little_longer_than_their_axes_need() -> None:
+    pytest.importorskip("scipy", reason="scipy, which solves the linear programmes, is not installed")
+    ratios = {path.name: planned(path) / least_time(path) for path in random_paths(200, seed=5)}
+    assert len(ratios) == 200
+    assert max(ratios.values()) <= WORST, ratios
+    assert min(ratios.values()) >= COARSE, ratios
+
+
+@pytest.mark.parametrize("corners", [CornerMode.EXACT_STOP, CornerMode.CONTINUOUS, CornerMode.ROUNDED])
+def test_at_every_sample_axes_keep_their_limits_and_the_tip_is_on_its_lines(corners: CornerMode) -> None:
+    for path in random_paths(12, seed=7):
+        tip, tolerance = path.axes.tip, 0.0 if corners is CornerMode.EXACT_STOP else 0.05
+        context = Context(transformation=tip, corner_mode=corners, tolerance_mm=tolerance)
+        run = run_of(path, context)
+        times = np.linspace(0.0, run.seconds, 4000)
+        places, velocity, acceleration = real_motion(run, context, times, path.axes.machine)
+        for i, name in enumerate(tip.axes):
+            axis = path.axes.machine.axis[name]
+            assert np.abs(velocity[:, i]).max() <= axis.max_feed * SLACK, (path.name, name)
+            assert np.abs(acceleration[:, i]).max() <= axis.acceleration * SLACK, (path.name, name)
+        tips = np.stack(tip.to_work(list(places.T)), axis=1)[:, :3]
+        assert off_lines(tips, np.array(path.points)[:, :3]).max() <= tolerance + 1e-3, path.name
+
+
+def run_of(path: TipPath, context: Context) -> Run:
+    """What the axes do along a path."""
+    found, n = list[Any](), len(path.axes.tip.axes)
+    build, width = Build(path.axes.tip.axes, context), piece_width(n)
+    for point in path.points:
+        build.row(Kind.FEED, *point, feed=path.feed)
+    Planner(
+        build.toolpath,
+        path.axes.machine,
+        settings=BRISK,
+        start=path.axes.tip.to_machine(path.points[0]),
+        on_pieces=lambda pieces, count: found.append(np.array(pieces[: count * width]).reshape(count, width)),
+    ).finish()
+    return Run(np.concatenate(found), n)
+
+
+def off_lines(tips: Numbers, points: Numbers) -> Numbers:
+    """How far each of some points is from the nearest of the lines between others, mm."""
+    distances = []
+    for a, b in pairwise(points):
+        way = b - a
+        share = np.clip((tips - a) @ way / max(float(way @ way), 1e-12), 0.0, 1.0)
+        distances.append(np.linalg.norm(tips - a - share[:, None] * way, axis=1))
+    return np.asarray(np.min(distances, axis=0))
