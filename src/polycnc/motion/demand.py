@@ -9,6 +9,8 @@ from __future__ import annotations
 from math import inf
 from typing import TYPE_CHECKING, NamedTuple
 
+from polycnc.motion.kernels.columns import AT_START
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -32,6 +34,8 @@ PATH_STEP = 5e-3
 NOTHING = 1e-9
 #: Places at which a row is looked at first; a change of the demand by more than UNEVEN is worth shares.
 LOOKS, UNEVEN = 4, 1.3
+#: Shares become shorter by this factor towards the worst place, or by a smaller one.
+SHORTER = 0.5
 
 
 class Demand(NamedTuple):
@@ -196,3 +200,14 @@ def cube_root(values: Column) -> Column:
     import numpy as np
 
     return np.array([value ** (1.0 / 3.0) for value in values.tolist()])
+
+
+def share_ends(worst: float, extent: float) -> list[float]:
+    """Where shares end that become shorter towards a place, down to its extent."""
+    ends, most = {1.0}, AT_START // 2 - 1
+    for span in (-worst, 1.0 - worst):
+        if abs(span) > extent:
+            shorter = min(SHORTER, (extent / abs(span)) ** (1.0 / most))
+            parts = [span * shorter**k for k in range(1, most + 1)]
+            ends.update(worst + part for part in parts if abs(part) >= 0.99 * extent)
+    return sorted(ends)

@@ -34,12 +34,22 @@ from polycnc.motion.demand import (
     Demand,
     Straights,
     even,
+    share_ends,
 )  # fmt: skip
 from polycnc.motion.frames import carried, machine_of, path_of, real_of, real_rows, returned_rows, work_of
 from polycnc.motion.kernels.columns import AT_END, AT_START, SHARES, Limits, Rows
 from polycnc.motion.limits import averages, axis_limits, channel_axes, rotary_weight
 from polycnc.motion.pace import Travel, pace_of
-from polycnc.motion.pole import RING_MM, Turn, is_at, legs_of, turn_records
+from polycnc.motion.pole import (
+    RING_MM,
+    Turn,
+    is_at,
+    kink_legs,
+    legs_of,
+    runs_in_legs,
+    slope_steps,
+    turn_records,
+)
 from polycnc.motion.row_path import arc_path, line_path
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS, RAPID_KINDS
@@ -60,8 +70,8 @@ if TYPE_CHECKING:
 _STANDING = bytes((Kind.DWELL, Kind.EVENT))
 #: Derivatives by time are differences over so many seconds.
 SHORT_S = 1e-4
-#: Shares become shorter by this factor towards the worst place, or by a smaller one; steps of the search for it.
-SHORTER, SEARCH = 0.5, 40
+#: Steps of the search for the worst place of a row.
+SEARCH = 40
 #: Parts of the share around the worst place that are looked at.
 WITHIN = 8
 #: Part of the share next to a corner that the corner may reach; no share of a way to the pole is much shorter, mm.
@@ -238,7 +248,7 @@ class RealAxes:
         for number, pairs in followers.items():
             context = contexts[number]
             made = context.transformation
-            if len(pairs) >= FEWEST and made is not None and made.pole is None and context.pace is None:
+            if len(pairs) >= FEWEST and made is not None and not runs_in_legs(made) and context.pace is None:
                 for first in range(0, len(pairs), TOGETHER):
                     found += self._set_even(chunk, pairs[first : first + TOGETHER], context, made, shares)
         return frozenset(found)
@@ -316,13 +326,17 @@ class RealAxes:
     def _legs(
         self, chunk: Chunk, row: int, start: list[float], end: list[float], context: Context
     ) -> list[PathLeg]:
-        """The legs of a row that is at the pole somewhere."""
+        """The legs of a row that is at the pole somewhere, or at a kink of a curve that leads an axis."""
         assert context.transformation is not None
         pole, kind, own = context.transformation.pole, chunk.kind[row], slice(row, row + 1)
-        if pole is None or kind not in LEGGED:
+        if kind not in LEGGED or not runs_in_legs(context.transformation):
             return []
         curve, made = self._curve(chunk, row), context.transformation.geometry
-        legs = legs_of(pole, start, end, curve, made, ccw=kind in CCW_KINDS)
+        if pole is not None:
+            legs = legs_of(pole, start, end, curve, made, ccw=kind in CCW_KINDS)
+        else:
+            steps = slope_steps(self._axes, soft=self._is_soft(context))
+            legs = kink_legs(context.transformation, steps, start, end, curve, ccw=kind in CCW_KINDS)
         found = []
         total = sum(leg.length for leg in legs)
         for leg in legs:
@@ -404,7 +418,7 @@ class RealAxes:
             return self._demand(context, path, length, place, kind, step, lateral=lateral)
 
         shares, begin = [], 0.0
-        for f in _ends(worst, extent):
+        for f in share_ends(worst, extent):
             places = [begin, f, 0.5 * (begin + f)]
             if begin <= worst <= f:
                 places.append(worst)
@@ -568,17 +582,6 @@ class RealAxes:
     def _way(self, column: int, way: float) -> float:
         """The shorter way round of a rotary axis."""
         return (way + 180.0) % 360.0 - 180.0 if self._rotary(column) else way
-
-
-def _ends(worst: float, extent: float) -> list[float]:
-    """Where shares end that become shorter towards a place, down to its extent."""
-    ends, most = {1.0}, AT_START // 2 - 1
-    for span in (-worst, 1.0 - worst):
-        if abs(span) > extent:
-            shorter = min(SHORTER, (extent / abs(span)) ** (1.0 / most))
-            parts = [span * shorter**k for k in range(1, most + 1)]
-            ends.update(worst + part for part in parts if abs(part) >= 0.99 * extent)
-    return sorted(ends)
 
 
 def _set_shares(columns: Shares, first: int, found: RowShares) -> None:
