@@ -230,6 +230,103 @@ def test_short_lines_are_rounded_within_their_tolerance(
         assert stray(run, blend) <= tolerance * SLACK
 
 
+def off_lines(places: np.ndarray, points: np.ndarray) -> float:
+    """Largest distance of places from the lines through points, mm."""
+    nearest = np.full(len(places), np.inf)
+    for first, last in itertools.pairwise(points):
+        way = last - first
+        share = np.clip((places - first) @ way / max(float(way @ way), 1e-300), 0.0, 1.0)
+        nearest = np.minimum(nearest, ((places - first - share[:, None] * way) ** 2).sum(1))
+    return float(np.sqrt(nearest.max()))
+
+
+@settings(max_examples=200 if settings.get_current_profile_name() == "explore" else 25, deadline=None)
+@given(
+    st.floats(0.02, 2.0),
+    st.floats(-0.5, 0.5),
+    st.lists(st.tuples(st.floats(0.5, 1.5), st.floats(-1.0, 1.0)), min_size=3, max_size=40),
+    st.sampled_from([0.0, 0.05, 1.0]),
+    contexts,
+    machines,
+)
+def test_facets_keep_limits_and_stay_within_the_tolerance_of_the_programmed_lines(
+    length: float,
+    turn: float,
+    others: list[tuple[float, float]],
+    unevenness: float,
+    context: Context,
+    machine: Machine,
+) -> None:
+    """Facets of a curve between two longer lines, from even ones to any; a sharp corner in the middle of them."""
+    points, heading = [(0.0, 0.0, 0.0), (3.0, 0.0, 0.0)], 0.0
+    for k, (longer, more) in enumerate(others):
+        heading += (
+            turn + unevenness * more * abs(turn) + (1.5 if k == len(others) // 2 and turn > 0.3 else 0.0)
+        )
+        way = length * (1.0 + unevenness * (longer - 1.0))
+        x, y, z = points[-1]
+        points.append((x + way * cos(heading), y + way * sin(heading), z))
+    points.append((points[-1][0] + 3.0 * cos(heading), points[-1][1] + 3.0 * sin(heading), 0.0))
+    rows = Build(context=context)
+    for point in points[1:]:
+        rows.feed(*point, feed=400.0)
+    check(rows, machine)
+    for run in runs(rows, machine)[1]:
+        places = run.at(np.arange(0.0, min(run.seconds, 10.0), 5.0 * PERIOD))[0]
+        assert off_lines(places, np.array(points)) <= (context.tolerance_mm or EXACT_MM) * SLACK
+
+
+@pytest.mark.parametrize("tolerance", [0.005, 0.02, 0.1])
+def test_a_slow_corner_does_not_change_the_time_of_an_arc_far_behind_it(tolerance: float) -> None:
+    def arc_s(turn: float) -> float:
+        rows = Build(context=Context(corner_mode=CornerMode.ROUNDED, tolerance_mm=tolerance))
+        rows.feed(-60.0 - 20.0 * cos(turn), -20.0 * sin(turn), 0.0).feed(-60.0, 0.0, 0.0).feed(0.0, 0.0, 0.0)
+        rows.arc(0.0, 20.0, 0.0, center=(0.0, 10.0)).feed(-60.0, 20.0, 0.0)
+        return rows.plan(MILL, settings=SOFT).row_s[3]
+
+    assert arc_s(1.5) == pytest.approx(arc_s(0.0), rel=1e-6)
+
+
+def facet_circle(step: float, tolerance: float) -> float:
+    rows = Build(context=Context(corner_mode=CornerMode.ROUNDED, tolerance_mm=tolerance))
+    for k in range(1, round(60.0 / step) + 1):
+        rows.feed(10.0 * sin(0.1 * step * k), 10.0 * (1.0 - cos(0.1 * step * k)), 0.0, feed=1000.0)
+    return rows.plan(MILL, settings=SOFT).total_s
+
+
+def test_facets_of_a_circle_take_little_longer_than_the_circle() -> None:
+    arc = Build(context=Context(corner_mode=CornerMode.ROUNDED, tolerance_mm=0.01))
+    arc.arc(0.0, 0.0, 0.0, center=(0.0, 10.0), feed=1000.0)
+    assert facet_circle(0.2, 0.01) < 1.15 * arc.plan(MILL, settings=SOFT).total_s
+
+
+def short_zigzag(tolerance: float) -> float:
+    rows = Build(context=Context(corner_mode=CornerMode.ROUNDED, tolerance_mm=tolerance))
+    for k in range(1, 21):
+        rows.feed(1.4 * k, 1.4 * (k % 2), 0.0, feed=20.0)
+    return rows.plan(MILL, settings=SOFT).total_s
+
+
+@pytest.mark.parametrize(
+    ("seconds", "tolerances"),
+    [
+        (lambda tolerance: facet_circle(0.2, tolerance), (0.002, 0.005, 0.01, 0.02, 0.05)),
+        (short_zigzag, (0.002, 0.01, 0.05, 0.1)),
+        pytest.param(
+            short_zigzag,
+            (0.1, 0.2),
+            marks=pytest.mark.xfail(
+                strict=True, reason="the average becomes longer, and short lines rest no more"
+            ),
+        ),
+    ],
+)
+def test_a_larger_tolerance_never_takes_longer(seconds: Any, tolerances: tuple[float, ...]) -> None:
+    found = [seconds(tolerance) for tolerance in tolerances]
+    for less, more in itertools.pairwise(found):
+        assert more <= less * (1.0 + 1e-9)
+
+
 def test_a_corner_is_rounded_at_all() -> None:
     rows = Build(context=Context(corner_mode=CornerMode.ROUNDED, tolerance_mm=0.1))
     rows.feed(20.0, 0.0, 0.0).feed(36.0, 4.0, 0.0)

@@ -13,13 +13,14 @@ from hypothesis import strategies as st
 from polycnc.motion import Settings
 from polycnc.toolpath import Context
 from polycnc.toolpath.modes import CornerMode
-from tests.motion.paths import Build, mill
+from tests.motion.paths import MILL4, Build, mill
 from tests.motion.test_jerk import runs
 from tests.motion.test_limits import UNEVEN, arc, build, line, spiral
 
 #: Second differences of positions over a millisecond; sums of many terms.
 PERIOD, SLACK = 0.001, 1.0 + 1e-5
 BRISK = Settings()
+MILL4_AXES = tuple(axis.name for axis in MILL4.axes)
 contexts = st.sampled_from(
     [
         Context(corner_mode=CornerMode.CONTINUOUS),
@@ -52,6 +53,17 @@ def test_two_lines_leave_their_corner_by_the_tolerance(turn: float) -> None:
     (run,) = runs(rows, mill(), BRISK)[1]
     places = run.at(np.linspace(0.0, run.seconds, 200_000))[0]
     assert np.hypot(places[:, 0] - 20.0, places[:, 1]).min() == pytest.approx(tolerance, rel=1e-3)
+
+
+def test_a_rotary_axis_leaves_its_way_by_as_many_degrees_as_the_tolerance_has_mm() -> None:
+    """X goes straight on, and the pace of the rotary axis steps by 1.5 degrees for each mm."""
+    tolerance = 0.05
+    rows = Build(axes=MILL4_AXES, context=Context(corner_mode=CornerMode.ROUNDED, tolerance_mm=tolerance))
+    rows.feed(20.0, 0.0, 0.0, 0.0, feed=50.0).feed(40.0, 0.0, 0.0, 30.0, feed=50.0)
+    (run,) = runs(rows, MILL4, Settings(rotary_in_feed=False))[1]
+    places = run.at(np.linspace(0.0, run.seconds, 200_000))[0]
+    off = np.abs(places[:, 3] - 1.5 * np.maximum(places[:, 0] - 20.0, 0.0))
+    assert off.max() == pytest.approx(tolerance, rel=1e-3)
 
 
 def test_no_more_than_half_of_a_line_is_bent() -> None:

@@ -4,6 +4,9 @@ At the rotation centre the rotary axis has no direction: on a line through it, i
 row that begins at the pole, ends there or passes it is therefore run in legs, and between two of them the rotary axis
 turns. Legs end and begin on a ring around the pole, too small to be seen: so every position of the path has its
 direction, and a turn is a way along the ring.
+
+A row on which a curve leads an axis through a kink is run in legs as well: the path rests at the kink, where the axis
+would change its velocity at once.
 """
 
 from __future__ import annotations
@@ -17,18 +20,21 @@ from polycnc.motion.frames import machine_of
 from polycnc.motion.kernels.alone import best_ramp
 from polycnc.motion.kernels.columns import PLACES, Form, PieceRecord, piece_width
 from polycnc.motion.row_path import arc_path, line_path
+from polycnc.transformation.couplings.kinks import has_kinks, kinks
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from polycnc.machine import Axis
     from polycnc.motion.row_path import ArcPath, Path
     from polycnc.toolpath import Context
-    from polycnc.transformation.contract import Geometry
+    from polycnc.transformation.contract import Geometry, Transformation
     from polycnc.transformation.pole import Pole
 
 #: A path that comes so near to the pole (mm) leads through it; radius of the ring.
 POLE_MM, RING_MM = 1e-3, 1e-4
+#: A following axis may step by what it can do within its limits in this time: no sample shows it.
+KINK_S = 1e-3
 #: Turns smaller than this (radians) count as none; a turn by half a round, but for this, is one forward.
 NO_TURN, HALF = 1e-9, 1e-6
 #: Degrees of a piece of a turn, and the part of the rotary axis's limits that cubics so long leave.
@@ -80,6 +86,11 @@ def is_at(pole: Pole, point: Sequence[float]) -> bool:
     return pole.distance(point) <= POLE_MM
 
 
+def runs_in_legs(transformation: Transformation) -> bool:
+    """Whether rows under a transformation may have to be run in legs."""
+    return transformation.pole is not None or has_kinks(transformation)
+
+
 def legs_of(
     pole: Pole,
     start: list[float],
@@ -116,6 +127,51 @@ def legs_of(
         turn = _turn(pole, at, leg.start) if leg.rests[0] else None
         legs.append(leg._replace(turn=turn))
         at = leg.end
+    return legs
+
+
+def slope_steps(axes: Sequence[Axis | None], *, soft: bool) -> Callable[[int, int], float]:
+    """The step of a slope with which a following axis keeps its limits at any speed of the leading one (columns)."""
+
+    def most(following: int, leading: int) -> float:
+        own, other = axes[following], axes[leading]
+        if own is None or other is None:
+            return 0.0
+        step = KINK_S * (own.jerk * KINK_S if soft and own.jerk else own.acceleration or inf)
+        return 0.5 * step / max(other.rapid, other.max_feed)
+
+    return most
+
+
+def kink_legs(
+    transformation: Transformation,
+    steps: Callable[[int, int], float],
+    start: list[float],
+    end: list[float],
+    curve: Sequence[float],
+    *,
+    ccw: bool,
+) -> list[Leg]:
+    """Legs of a row from kink to kink of the curves that lead axes: there the path rests.
+
+    None where it has no kink, and where a leg would be a full circle or more. `steps` is that of `slope_steps`.
+    """
+    geometry = transformation.geometry
+    arc = arc_path(start, end, curve, geometry, ccw=ccw) if len(curve) else None
+    path = arc.at if arc is not None else line_path(start, end)
+    knots = kinks(transformation, path, steps)
+    if not knots:
+        return []
+    edges, legs = [0.0, *(f for f in knots if f < 1.0), 1.0], list[Leg]()
+    for low, high in pairwise(edges):
+        if arc is not None and (high - low) * arc.angle >= 2.0 * pi - NO_TURN:
+            return []
+        first, last = path(low), end if high == 1.0 else path(high)
+        inner, length = line_path(first, last), hypot(*(b - a for a, b in zip(first, last, strict=True)))
+        if arc is not None:
+            part = arc_path(first, last, [*curve[:6], 0.0], geometry, ccw=ccw)
+            inner, length = part.at, part.length
+        legs.append(Leg(first, last, inner, length, high - low, (False, False), None))
     return legs
 
 

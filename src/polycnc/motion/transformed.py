@@ -40,7 +40,16 @@ from polycnc.motion.frames import carried, machine_of, path_of, real_of, real_ro
 from polycnc.motion.kernels.columns import AT_END, AT_START, SHARES, Limits, Rows
 from polycnc.motion.limits import NO_LINKAGE, averages, axis_limits, channel_axes, is_led, rotary_weight
 from polycnc.motion.pace import Travel, following_top, pace_of
-from polycnc.motion.pole import RING_MM, Turn, is_at, legs_of, turn_records
+from polycnc.motion.pole import (
+    RING_MM,
+    Turn,
+    is_at,
+    kink_legs,
+    legs_of,
+    runs_in_legs,
+    slope_steps,
+    turn_records,
+)
 from polycnc.motion.row_path import arc_path, line_path
 from polycnc.motion.time_constants import Use
 from polycnc.toolpath import Context, Kind
@@ -329,13 +338,17 @@ class RealAxes:
     def _legs(
         self, chunk: Chunk, row: int, start: list[float], end: list[float], context: Context
     ) -> list[PathLeg]:
-        """The legs of a row that is at the pole somewhere."""
+        """The legs of a row that is at the pole somewhere, or at a kink of a curve that leads an axis."""
         assert context.transformation is not None
         pole, kind, own = context.transformation.pole, chunk.kind[row], slice(row, row + 1)
-        if pole is None or kind not in LEGGED:
+        if kind not in LEGGED or not runs_in_legs(context.transformation):
             return []
         curve, made = self._curve(chunk, row), context.transformation.geometry
-        legs = legs_of(pole, start, end, curve, made, ccw=kind in CCW_KINDS)
+        if pole is not None:
+            legs = legs_of(pole, start, end, curve, made, ccw=kind in CCW_KINDS)
+        else:
+            steps = slope_steps(self._axes, soft=self._is_soft(context))
+            legs = kink_legs(context.transformation, steps, start, end, curve, ccw=kind in CCW_KINDS)
         found = []
         total = sum(leg.length for leg in legs)
         for leg in legs:

@@ -65,7 +65,7 @@ class Before:
         return cls(
             contents_of(state.run),
             state.row.kind,
-            (state.position[:], state.tangent[:], state.bent_before[:]),
+            (state.position[:], state.tangent[:], state.bent_before[:], state.bow[:]),
         )
 
     def restore(self, state: State) -> None:
@@ -74,7 +74,7 @@ class Before:
         put_back(state.run, self.run)
         state.run.free, state.row.kind = free, self.kind
         for vector, then in zip(
-            (state.position, state.tangent, state.bent_before), self.vectors, strict=True
+            (state.position, state.tangent, state.bent_before, state.bow), self.vectors, strict=True
         ):
             vector[:] = then
 

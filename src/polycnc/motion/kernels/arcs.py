@@ -235,6 +235,7 @@ def lay_arc(
     for i in range(n):
         state.tangent[i] = state.unit[i]
         state.bent_before[i] = state.bend[i]
+        state.bow[i] = 0.0
     state.run.exit_pull = pull
     state.run.exit2, state.run.length, state.run.metric, state.run.smooth = entry2, length, weight, 0.0
     return True

@@ -28,6 +28,7 @@ from polycnc.motion.kernels.hold import hold
 from polycnc.motion.kernels.jerk import (
     DEVIATION_CURVE,
     JERK_BOTH,
+    JERK_ENTRY,
     bow_top2,
     left_across,
     step_top2,
@@ -145,7 +146,7 @@ def close_chord(pieces: Floats, at: int, n: int, limits: Limits, state: State) -
         if limits.rotary[i] == 0.0:
             first2, last2 = first2 + first * first, last2 + last * last
         mean, most = 0.5 * (first + last), max(abs(first), abs(last))
-        joint2 = min(joint2, step_top2(j, blend, abs(mean - state.bent_before[i]), spacing))
+        joint2 = min(joint2, step_top2(j, blend, abs(mean - state.bent_before[i]), spacing, JERK_ENTRY))
         state.bent_before[i] = mean
         if most > NO_BEND:
             way = pieces[here + PLACES * n + n + i] - pieces[here + PLACES * n + i]

@@ -356,6 +356,8 @@ class State(NamedTuple):
         bend: Room for one q''.
         bent_before: q'' at the end of the last piece; with limited jerk its mean over the last chord of a spline.
         turn: What q' changes by at the joint at hand.
+        bow: With limited jerk: what q' has changed by at the last joint of two lines, over their mean length; zero
+            from rest and behind a curve.
         room: For what `linkage` works out.
     """
 
@@ -375,6 +377,7 @@ class State(NamedTuple):
     bend: Floats
     bent_before: Floats
     turn: Floats
+    bow: Floats
     room: Floats
 
 
@@ -385,7 +388,7 @@ def new_state(n: int, start: Sequence[float] = ()) -> State:
     position = zeros(n)
     position[: len(start)] = array("d", start)
     shares = zeros(SHARES), zeros(SHARES), zeros(SHARES)
-    vectors = [*(zeros(n) for _ in range(7)), zeros(room_for(n))]
+    vectors = [*(zeros(n) for _ in range(8)), zeros(room_for(n))]
     return State(*records, zeros(9), *shares, position, *vectors)
 
 

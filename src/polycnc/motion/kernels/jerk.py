@@ -59,21 +59,30 @@ def line_pull(contexts: Floats, record: int, n: int, limits: Limits, state: Stat
 def corner_hold2(
     contexts: Floats, record: int, n: int, limits: Limits, state: State, length: float, cap2: float
 ) -> float:
-    """Largest x up to `cap2` at the joint between two rows; lowers the joint's pull, the acceleration around it."""
-    unit, tangent = state.unit, state.tangent
+    """Largest x up to `cap2` at the joint between two rows; lowers the joint's pull, the acceleration around it.
+
+    Short lines make the axes accelerate like a curve, by the change of direction over the mean length, `bow`. What
+    of that is as it was at the joint before needs no jerk: `JERK_LINES` is for what changes.
+    """
+    unit, tangent, bow = state.unit, state.tangent, state.bow
     bend, before = state.bend, state.bent_before
-    blend, x2 = contexts[record + ContextRecord.BLEND_S], cap2
-    shorter, turn = min(length, state.run.length), 0.0
+    blend, x2, least = contexts[record + ContextRecord.BLEND_S], cap2, inf
+    shorter, mean, turn = min(length, state.run.length), 0.5 * (length + state.run.length), 0.0
     for i in range(n):
         a = state.joint.ease * limits.acceleration[i]
         j = state.joint.ease * limits.jerk[i]
-        step = abs(unit[i] - tangent[i])
+        step, bowed = abs(unit[i] - tangent[i]), (unit[i] - tangent[i]) / mean
         if limits.rotary[i] == 0.0:
             turn += step * step
         if step > NO_TURN:
             jump = min(JERK_CORNER * j * blend * blend, CORNER * a * blend) / step
-            x2 = min(x2, jump * jump, min(ACROSS * a, JERK_LINES * j * blend) * shorter / step)
+            begins2 = JERK_LINES * j * blend * shorter / step
+            goes_on2 = step_top2(j, blend, abs(bowed - bow[i]), mean, JERK_LINES)
+            x2 = min(x2, jump * jump, ACROSS * a * shorter / step, max(begins2, goes_on2))
+            if goes_on2 > begins2:
+                least = min(least, j / abs(bowed))
             state.joint.pull = min(state.joint.pull, JERK_TURN * j * blend / step)
+        bow[i] = bowed
         change = abs(bend[i] - before[i])
         if change > NO_TURN:
             x2 = min(x2, JERK_ENTRY * j * blend / change)
@@ -86,6 +95,8 @@ def corner_hold2(
             (6.0 * DEVIATION_CORNER * deviation) ** 2,
             (contexts[record + ContextRecord.ROUNDING] / blend) ** 2,
         )
+    if least < inf and x2 > 0.0:
+        state.joint.pull = min(state.joint.pull, JERK_BOTH * least / (3.0 * sqrt(x2)))
     return x2
 
 
@@ -95,15 +106,16 @@ def left_across(a: float, j: float, blend: float, along: float) -> float:
     return max(ACROSS * a, a - corner - along)
 
 
-def step_top2(j: float, blend: float, step: float, spacing: float) -> float:
+def step_top2(j: float, blend: float, step: float, spacing: float, part: float) -> float:
     """Largest x where the mean of an axis's q'' changes by a step from chord to chord, which are `spacing` mm apart.
 
-    On a way shorter than that the average of the positions sees one step, `x·step/τ`; on a longer one as many as lie
-    in it, which is `v³·step/spacing`.
+    `part` is that of the jerk for one step. On a way shorter than that the average of the positions sees one step,
+    `x·step/τ`; on a longer one as many as lie in it, which is `v³·step/spacing`.
     """
     if step <= NO_TURN:
         return inf
-    return min(JERK_ENTRY * j * blend / step, (JERK_CURVE * j * spacing / step) ** (2.0 / 3.0))
+    top2: float = min(part * j * blend / step, (JERK_CURVE * j * spacing / step) ** (2.0 / 3.0))
+    return top2
 
 
 def bow_top2(j: float, blend: float, bow: float, length: float) -> float:
@@ -117,7 +129,8 @@ def bow_top2(j: float, blend: float, bow: float, length: float) -> float:
         return inf
     long = JERK_BOW * j * blend * blend / (bow * length)
     short = min(0.5 * JERK_BOW * j * blend / bow, (0.5 * JERK_BOW * j * length / bow) ** (2.0 / 3.0))
-    return max(long * long, short)
+    top2: float = max(long * long, short)
+    return top2
 
 
 def arc_hold(

@@ -35,24 +35,28 @@ CHORD_MARGIN = 1.005
 def bend_corner(contexts: Floats, record: int, n: int, limits: Limits, state: State, shorter: float) -> float:
     """Largest x at the corner before the row at hand; sets `joint.bend_way` and `turn`.
 
-    Half of the shorter row is bent at most. Within a tolerance the path leaves the corner by no more than that, and
-    the bend reaches no farther than ROUNDING. Without one it takes as long as an axis needs for the step of
-    velocity that is allowed at a corner.
+    Half of the shorter row is bent at most. Within a tolerance the path leaves the corner by no more than that, a
+    rotary axis by as many degrees, and the bend reaches no farther than ROUNDING. Without one it takes as long as
+    an axis needs for the step of velocity that is allowed at a corner.
     """
     unit, tangent, turn = state.unit, state.tangent, state.turn
-    tolerance, turned, most = contexts[record + ContextRecord.TOLERANCE], 0.0, 0.0
+    tolerance, turned, swung, most = contexts[record + ContextRecord.TOLERANCE], 0.0, 0.0, 0.0
     way, x2 = 0.5 * shorter, inf
     for i in range(n):
         turn[i] = unit[i] - tangent[i]
         most = max(most, abs(turn[i]))
         if limits.rotary[i] == 0.0:
             turned += turn[i] * turn[i]
+        else:
+            swung = max(swung, abs(turn[i]))
     if most <= SAME_DIRECTION:
         return inf
     if tolerance > 0.0:
         way = min(way, contexts[record + ContextRecord.ROUNDING])
         if turned > SAME_DIRECTION * SAME_DIRECTION:
             way = min(way, 4.0 * tolerance / sqrt(turned))
+        if swung > SAME_DIRECTION:
+            way = min(way, 4.0 * tolerance / swung)
     else:
         for i in range(n):
             step = abs(turn[i])

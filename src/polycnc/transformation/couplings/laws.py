@@ -12,7 +12,7 @@ from polycnc.deferred.records import dataclass
 from polycnc.transformation.numbers import NUMBER, constant
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable, Iterator
 
     from polycnc.transformation.numbers import N
 
@@ -36,6 +36,9 @@ class Curve(Protocol):
 
     def followed(self, leading: float) -> tuple[float, float]:
         """The place, and its slope."""
+
+    def kinks(self, low: float, high: float) -> Iterable[float]:
+        """Places of the leading axis between two at which the slope may step."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,6 +89,16 @@ class ByCurve:
     def slope(self, leading: N) -> N:
         """The slope of the curve."""
         return _each(self._slope, leading)
+
+    def kinks(self, low: float, high: float) -> Iterator[float]:
+        """Places of the leading axis between two at which the slope may step."""
+        yield from self.curve.kinks(low, high)
+        if self.from_place is not None and low <= self.from_place <= high:
+            yield self.from_place
+
+    def step(self, place: float, beside: float) -> float:
+        """By how much the slope steps at a place: it is looked at so far before and behind."""
+        return abs(self._slope(place + beside) - self._slope(place - beside))
 
     def _share(self, leading: float) -> float:
         return self.curve.followed(leading)[0] - self.base if self._leads(leading) else 0.0

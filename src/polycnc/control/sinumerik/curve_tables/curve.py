@@ -163,6 +163,19 @@ class CurveTable:
             rise = -rise
         return Place(here.place + self.periods(leading) * rise, here.slope)
 
+    def kinks(self, low: float, high: float) -> Iterator[float]:
+        """Places of the leading axis between two at which segments meet or the table ends, in every period."""
+        first, last = self.domain
+        places = {first, last, *(place for segment in self.segments for place in segment.ends)}
+        period = last - first
+        once = self.period == ONCE or period <= NO_WAY
+        for k in range(
+            0 if once else floor((low - last) / period), 1 if once else floor((high - first) / period) + 1
+        ):
+            for place in places:
+                if low <= place + k * period <= high:
+                    yield place + k * period
+
     def inverse(self, following: float, near: float) -> tuple[float, float]:
         """Where the leading axis is while the following one is at a place, nearest to `near`, and the slope there.
 
