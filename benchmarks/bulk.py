@@ -44,7 +44,7 @@ def scanner() -> Iterator[Figure]:
     from polycnc.control.registry import control
     from polycnc.language.bulk.compiled import LIBRARY
     from polycnc.language.bulk.kernels import scan
-    from polycnc.language.bulk.scanner import Bulk
+    from polycnc.language.bulk.settings import Bulk
     from polycnc.machine import load_machine
     from polycnc.machine.setup.values import Setup
     from polycnc.program import ProgramStore

@@ -9,7 +9,7 @@ from polycnc.channel.group import ChannelGroup
 from polycnc.channel.states.passes import Passes
 from polycnc.channel.states.standstill import Standstill
 from polycnc.channel.waits import Why
-from polycnc.language.bulk.scanner import Bulk
+from polycnc.language.bulk.settings import Bulk
 from polycnc.machine.layout import axis_layout
 from polycnc.session.result import Lead, Result
 from polycnc.toolpath import Toolpath

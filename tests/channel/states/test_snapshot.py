@@ -25,7 +25,7 @@ from polycnc.control.registry import control
 from polycnc.control.word_address.auxiliary.functions import Clocks
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.language.bulk.kernels import scan
-from polycnc.language.bulk.scanner import Bulk
+from polycnc.language.bulk.settings import Bulk
 from polycnc.machine import load_machine, parse_setup
 from polycnc.program import Form, ProgramStore
 

@@ -13,7 +13,7 @@ from polycnc.control.registry import control
 from polycnc.language.bulk.kernels import Tables, scan
 from polycnc.language.bulk.layout import State
 from polycnc.language.bulk.moves import Columns
-from polycnc.language.bulk.scanner import Bulk
+from polycnc.language.bulk.settings import Bulk
 from polycnc.machine import load_machine
 from polycnc.machine.setup.file import parse_setup
 from polycnc.program import Form, ProgramStore

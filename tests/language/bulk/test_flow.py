@@ -14,7 +14,7 @@ from polycnc.language.bulk.compiled import LIBRARY
 from polycnc.language.bulk.kernels import Tables
 from polycnc.language.bulk.layout import State
 from polycnc.language.bulk.moves import Columns
-from polycnc.language.bulk.scanner import Bulk
+from polycnc.language.bulk.settings import Bulk
 from polycnc.program import long_text
 from polycnc.session import open_session
 from tests.language.bulk.both_ways import PLAIN, differences, outcome, plain_scan, run

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from polycnc.language.bulk.formulas import cosine, read_token, sine, variable
 from polycnc.language.bulk.layout import Token
-from polycnc.language.bulk.scanner import Bulk
+from polycnc.language.bulk.settings import Bulk
 from polycnc.language.word_address import functions
 from tests.language.bulk.both_ways import PLAIN, differences, run, scanned
 

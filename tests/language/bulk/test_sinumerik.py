@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from polycnc.language.bulk.scanner import Bulk
+from polycnc.language.bulk.settings import Bulk
 from tests.language.bulk.both_ways import PLAIN, differences, plain_scan, run
 from tests.language.bulk.programs import CODES, REPEATED_SINUMERIK, number, plain, program, words
 

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from polycnc.language.bulk.scanner import Bulk
+from polycnc.language.bulk.settings import Bulk
 from tests.language.bulk.both_ways import PLAIN, differences, plain_scan, run, scanned
 from tests.language.bulk.programs import CODES, REPEATED, any_arc, arc, plain, program
 from tests.language.bulk.test_word_address import SETUP

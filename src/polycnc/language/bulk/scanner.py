@@ -7,13 +7,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeAlias
 
 from polycnc.channel.stack import Executable
 from polycnc.channel.states.snapshot import unchanging
-from polycnc.deferred.records import dataclass
 from polycnc.language.bulk import layout
 from polycnc.language.bulk.guard import Guard, notes_before
 from polycnc.language.bulk.kernels import Tables
 from polycnc.language.bulk.layout import State, new_state
 from polycnc.language.bulk.moves import Columns
-from polycnc.language.bulk.reach import rows_within
 from polycnc.language.bulk.shapes import Shapes
 from polycnc.language.bulk.staged import FEWEST_AHEAD, StagedRun, leading_moves
 from polycnc.language.bulk.text import Window
@@ -30,49 +28,8 @@ if TYPE_CHECKING:
 
 #: A run of so many blocks is worth its beginning.
 WORTHWHILE = 16
-#: Rows, and notes, that one call of the kernel may give.
-ROOMS, MOST_NOTES = 4096, 4096
-#: Programs shorter than this are left to the interpreter.
-FEWEST_LINES = 1_000
-
-
-@unchanging
-@dataclass(frozen=True, slots=True)
-class Bulk:
-    """Whether and how plain blocks are scanned.
-
-    Attributes:
-        fewest_lines: Shorter programs are left to the interpreter.
-        scan: The kernel; None for the compiled one.
-        rooms: Rows that one call of the kernel may give.
-        most_patience: Blocks that are interpreted at the most between two tries.
-    """
-
-    fewest_lines: int = FEWEST_LINES
-    scan: Callable[[Tables, State, Columns], int] | None = None
-    rooms: int = ROOMS
-    most_patience: int = 4096
-
-    def pays(self, lines: int) -> bool:
-        """Whether a program is long enough."""
-        return lines >= self.fewest_lines
-
-    def scanner(self, channel: Channel) -> Scanner | None:
-        """What scans for a channel; None where its control has no plain blocks, or there is no compiled kernel."""
-        dialect: Dialect | None = channel.control.plain_blocks(channel)
-        if dialect is None:
-            return None
-        scan, within = self.scan, rows_within
-        if scan is None:
-            from polycnc.language.bulk import kernels
-            from polycnc.language.bulk.compiled import LIBRARY
-
-            scan, compiled = LIBRARY.compiled(kernels.scan), LIBRARY.compiled(rows_within)
-            if scan is None or compiled is None:
-                return None
-            within = compiled
-        axes = len(channel.axes)
-        return Scanner(dialect, scan, axes, self, Guard(axes, within))
+#: Notes that one call of the kernel may give.
+MOST_NOTES = 4096
 
 
 class Scannable(Executable, Protocol):
@@ -162,7 +119,8 @@ class Scanner:
         dialect: The control's part.
         scan: The kernel.
         axes: Number of the channel's axes.
-        settings: Rooms and patience.
+        rooms: Rows that one call of the kernel may give.
+        most_patience: Blocks that are interpreted at the most between two tries.
         guard: Watches the travel of the axes behind a tip.
     """
 
@@ -171,10 +129,10 @@ class Scanner:
         dialect: Dialect,
         scan: Callable[[Tables, State, Columns], int],
         axes: int,
-        settings: Bulk,
+        rooms: int,
+        most_patience: int,
         guard: Guard,
     ) -> None:
-        rooms = settings.rooms
         self._dialect = dialect
         self._scan = scan
         self._guard = guard
@@ -185,7 +143,7 @@ class Scanner:
         self._window = Window()
         self._patience = 1
         self._next_try = 0
-        self._most_patience = settings.most_patience
+        self._most_patience = most_patience
         self._ahead = FEWEST_AHEAD
         self._state = new_state(axes)
         self._columns = (

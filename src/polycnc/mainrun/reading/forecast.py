@@ -14,7 +14,7 @@ from polycnc.channel.channel import DEFAULT_BLOCK_LIMIT, Channel
 from polycnc.channel.states.passes import Passes
 from polycnc.channel.states.standstill import Standstill
 from polycnc.channel.waits import CHUNK, Why
-from polycnc.language.bulk.scanner import Bulk
+from polycnc.language.bulk.settings import Bulk
 from polycnc.memory.retained import copied
 from polycnc.toolpath import Toolpath
 

@@ -1,0 +1,66 @@
+"""Whether plain blocks are scanned: all that a short program needs to know of it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.channel.states.snapshot import unchanging
+from polycnc.deferred.records import dataclass
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from polycnc.channel.channel import Channel
+    from polycnc.language.bulk.kernels import Tables
+    from polycnc.language.bulk.layout import State
+    from polycnc.language.bulk.moves import Columns
+    from polycnc.language.bulk.scanner import Dialect, Scanner
+
+#: Rows that one call of the kernel may give.
+ROOMS = 4096
+#: Programs shorter than this are left to the interpreter.
+FEWEST_LINES = 1_000
+
+
+@unchanging
+@dataclass(frozen=True, slots=True)
+class Bulk:
+    """Whether and how plain blocks are scanned.
+
+    Attributes:
+        fewest_lines: Shorter programs are left to the interpreter.
+        scan: The kernel; None for the compiled one.
+        rooms: Rows that one call of the kernel may give.
+        most_patience: Blocks that are interpreted at the most between two tries.
+    """
+
+    fewest_lines: int = FEWEST_LINES
+    scan: Callable[[Tables, State, Columns], int] | None = None
+    rooms: int = ROOMS
+    most_patience: int = 4096
+
+    def pays(self, lines: int) -> bool:
+        """Whether a program is long enough."""
+        return lines >= self.fewest_lines
+
+    def scanner(self, channel: Channel) -> Scanner | None:
+        """What scans for a channel; None where its control has no plain blocks, or there is no compiled kernel."""
+        dialect: Dialect | None = channel.control.plain_blocks(channel)
+        if dialect is None:
+            return None
+        # For long programs only.
+        from polycnc.language.bulk.guard import Guard
+        from polycnc.language.bulk.reach import rows_within
+        from polycnc.language.bulk.scanner import Scanner
+
+        scan, within = self.scan, rows_within
+        if scan is None:
+            from polycnc.language.bulk import kernels
+            from polycnc.language.bulk.compiled import LIBRARY
+
+            scan, compiled = LIBRARY.compiled(kernels.scan), LIBRARY.compiled(rows_within)
+            if scan is None or compiled is None:
+                return None
+            within = compiled
+        axes = len(channel.axes)
+        return Scanner(dialect, scan, axes, self.rooms, self.most_patience, Guard(axes, within))
