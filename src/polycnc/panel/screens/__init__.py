@@ -4,6 +4,8 @@ pages     what a family has: pages, their windows, soft keys and function keys, 
 view      what is on the screen at one moment: windows with rows of cells, soft keys, status lines
 windows   what a window of each kind shows
 operate   windows of SINUMERIK and SYNTEC alone: alarms with date and time, messages, channels, the blank
+masks     input masks from text files: calls of user cycles, dialogs
+forms     windows and keys of user cycles, dialogs of the program, the step view
 sources   where the fields of tables come from
 tables    windows with fields that can be written: offsets, tools, variables
 actions   what soft keys and keys of the MDI unit do with the key-in buffer

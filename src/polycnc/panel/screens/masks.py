@@ -155,7 +155,8 @@ def _field_of(kind: str, text: str) -> MaskField:
     if len(parts) == 2:
         parts = [parts[0], "", parts[1]] if has_limits else ["", *parts]
     parts += [""] * (4 - len(parts))
-    limits, choices = None, ()
+    limits: tuple[float, float] | None = None
+    choices: tuple[str, ...] = ()
     if has_limits and parts[0].startswith("*"):
         choices = tuple(each for each in parts[0][1:] if not each.isspace())
     elif has_limits and (pair := _LIMITS.fullmatch(parts[0])):

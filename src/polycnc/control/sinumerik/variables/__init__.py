@@ -3,6 +3,7 @@
 row            what a variable is
 stored         values that only store
 blank          the blank of WORKPIECE, for pictures
+dialogs        what a program shows: dialogs (MMC), its section (SEFORM)
 clock          date and time
 block_types    type of the block in execution
 run_times      timers of programs
