@@ -10,6 +10,7 @@ programmes one after another lead to the optimum.
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
@@ -169,16 +170,16 @@ def _optimum(path: _Path, cap2: Numbers, pulls: Numbers, jerks: Numbers) -> floa
         worth = np.zeros(count + 1)
         worth[:-1] += step / sums / speed[:-1]
         worth[1:] += step / sums / speed[1:]
-        for method in ("highs-ipm", "highs-ds"):  # the first is quicker, and now and then finds nothing
-            found = linprog(
-                -worth * scale,
-                A_ub=vstack([*fixed, *bent]).tocsr() * scale,
-                b_ub=np.ones(len(fixed) * count + len(bent) * (count - 1)),
-                bounds=np.stack([np.zeros(count + 1), cap2 / scale], axis=1),
-                method=method,
-            )
-            if found.status == 0:
-                break
+        solve = partial(
+            linprog,
+            -worth * scale,
+            A_ub=vstack([*fixed, *bent]).tocsr() * scale,
+            b_ub=np.ones(len(fixed) * count + len(bent) * (count - 1)),
+            bounds=np.stack([np.zeros(count + 1), cap2 / scale], axis=1),
+        )
+        found = solve(method="highs-ipm")
+        if found.status != 0:  # now and then the quick method finds nothing
+            found = solve(method="highs-ds")
         assert found.status == 0, found.message
         aim = np.maximum(found.x * scale, 0.0)
         seconds, share = min((_seconds(step, x + share * (aim - x)), share) for share in (1.0, 0.6, 0.3))

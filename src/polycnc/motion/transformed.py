@@ -192,7 +192,8 @@ class RealAxes:
         linkage = NO_LINKAGE if None in self._axes else linkage_of(transformation)
         if not linkage and key in self._limits:
             return self._limits[key]
-        found = axis_limits(self._machine, self._channel, self._names, self._settings, *key, linkage)
+        made, own = key
+        found = axis_limits(self._machine, self._channel, self._names, self._settings, made, own, linkage)
         if linkage and transformation is not None:
             self._linked = transformation, found
         else:

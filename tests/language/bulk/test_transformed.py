@@ -146,7 +146,9 @@ CHANGES = st.sampled_from([
 @pytest.mark.parametrize(("machine", "angle"), [(HEAD, "B"), (TABLES, "A")])
 @settings(max_examples=40, deadline=None)
 @given(st.lists(st.one_of(st.tuples(BESIDE, DIRECTION, st.integers(0, 9)), CHANGES), min_size=2, max_size=14))
-def test_directions_of_the_tool(machine: str, angle: str, blocks: list[object]) -> None:
+def test_directions_of_the_tool(
+    machine: str, angle: str, blocks: list[str | tuple[str, tuple[float, float, float], int]]
+) -> None:
     lines = [f"G90 G54 F1000 T1 D1\nTRAORI\nG1 X1 {angle}=17 C=5"]
     for block in blocks:
         if isinstance(block, str):

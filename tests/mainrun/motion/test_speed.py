@@ -75,6 +75,7 @@ MACHINE = MachineLimits(
     jerk=array("d", [0.0, 0.0]),
     geometry=array("q", [0, 1, -1]),
     path=PathLimits(),
+    linkage=array("d"),
 )
 
 

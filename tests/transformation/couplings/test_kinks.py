@@ -19,9 +19,9 @@ def table(*points: tuple[float, float], period: int = ONCE) -> CurveTable:
     return CurveTable(1, period, tuple(Segment((a, c - a), (b, d - b)) for (a, b), (c, d) in pairs))
 
 
-def led(curve: CurveTable, **more: float) -> Coupled:
+def led(curve: CurveTable, from_place: float | None = None) -> Coupled:
     """Column 1 follows column 0."""
-    return Coupled.of({1: [ByCurve(0, curve, **more)]}, (0, -1, -1))
+    return Coupled.of({1: [ByCurve(0, curve, from_place=from_place)]}, (0, -1, -1))
 
 
 @pytest.mark.parametrize(

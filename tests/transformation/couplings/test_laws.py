@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 import pytest
 
@@ -11,6 +13,9 @@ class Parabola:
 
     def followed(self, leading: float) -> tuple[float, float]:
         return leading * leading, 2.0 * leading
+
+    def kinks(self, low: float, high: float) -> Iterable[float]:
+        return ()
 
 
 def test_a_ratio_counts_from_where_it_was_switched_on() -> None:

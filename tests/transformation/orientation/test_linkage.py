@@ -63,4 +63,4 @@ def test_derivatives_are_those_of_the_positions(
 
 def test_others_have_no_linkage() -> None:
     assert len(linkage_of(None)) == 0
-    assert len(linkage_of(PolarPlane(0, 1, 2))) == 0
+    assert len(linkage_of(PolarPlane(0, 2, (0, 2, 1)))) == 0
