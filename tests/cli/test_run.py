@@ -264,6 +264,7 @@ def test_where_the_time_goes_is_told_where_one_asks(console: Console) -> None:
     said = console("run", "good.nc", "--explain-time", *FANUC)
     assert "where the time goes:" in said.out
     assert "at the programmed feed, over" in said.out
+    assert said.out.endswith("\n")  # the prompt of a shell stands on a line of its own
     shares = [
         float(line.split("%")[0])
         for line in said.out.splitlines()

@@ -109,7 +109,7 @@ def explained(parts: Mapping[Cause, Part], times: Times, hidden_s: Mapping[str, 
     for name, seconds in hidden_s.items():
         if seconds > 0.0:
             lines.append(text(f"run.explained.beside.{name}", time=clock(seconds)))
-    return "\n".join(lines)
+    return "".join(f"{line}\n" for line in lines)
 
 
 def _shares(times: Times) -> str:
