@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.coordinates.diameters import DiameterState
 from polycnc.control.syntec.macros import functions
+from polycnc.control.syntec.macros.registers import check_register
 from polycnc.control.syntec.macros.system_variables import SYSTEM_VARIABLES
 from polycnc.control.syntec.macros.variables import GlobalState, Locals, LocalState, is_local, put
 from polycnc.control.syntec.units import decimals, least_unit
@@ -114,7 +115,7 @@ class SyntecMemory(Memory):
             raise KeyError(name)
         try:
             if family == "R":
-                return self.globals.registers.get(int(index), 0)
+                return self.globals.read_register(int(index))
             value = self.variable(int(index)) if family == "#" else self.register(int(index))
         except AlarmError as error:
             raise KeyError(name) from error
@@ -133,6 +134,7 @@ class SyntecMemory(Memory):
         if isinstance(value, int | float):
             typed = int(value) if isinstance(value, bool) else value
         if family == "R":
+            check_register(self.channel, int(index), int(float(str(value))))
             self.globals.registers[int(index)] = int(float(str(value)))
         elif family == "#":
             self.set_variable(int(index), typed)

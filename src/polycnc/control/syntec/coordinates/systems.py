@@ -8,6 +8,7 @@ from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.syntec.axis_groups.names import map_virtual_axis
 from polycnc.control.syntec.coordinates.turns import TurnState, renew_preset_frame, renew_work_turn
 from polycnc.control.syntec.five_axes.spatial import choose_corners
+from polycnc.control.syntec.macros.registers import write_register
 from polycnc.control.syntec.motion import conditions
 from polycnc.control.syntec.motion.polar import switch_polar
 from polycnc.control.syntec.units import least_unit
@@ -256,7 +257,7 @@ def input_data(channel: SyntecChannel, words: Words) -> None:
             raise words.fail("argument", "G10")
         if not 0 <= number <= LAST_REGISTER:
             raise words.fail("argument", "P")
-        channel.memory.globals.registers[int(number)] = to_long(value)
+        write_register(channel, int(number), to_long(value))
         return
     if kind == WORK_OFFSET:
         _input_work_offset(channel, words)

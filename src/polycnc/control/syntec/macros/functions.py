@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from polycnc.channel.waits import PREPROCESSING
 from polycnc.control.syntec.macros import diagnosis, records
 from polycnc.control.syntec.macros.machine_parameters import read_long, write_long
+from polycnc.control.syntec.macros.registers import write_register
 from polycnc.control.syntec.macros.system_variables import system_variable
 from polycnc.control.syntec.macros.variables import BitState, FunctionState
 from polycnc.deferred.regexes import regex
@@ -155,16 +156,16 @@ def _register_bit(register: Value, bit: Value) -> tuple[int, int]:
 def read_register_bit(memory: SyntecMemory, register: Value, bit: Value) -> Value:
     """READRREGBIT(r, b)."""
     r, b = _register_bit(register, bit)
-    return memory.globals.registers.get(r, 0) >> b & 1
+    return memory.globals.read_register(r) >> b & 1
 
 
 def write_register_bit(memory: SyntecMemory, register: Value, bit: Value, value: Value) -> Value:
     """SETRREGBIT(r, b, v)."""
     r, b = _register_bit(register, bit)
     mask = 1 << b
-    old = memory.globals.registers.get(r, 0) & 0xFFFFFFFF
+    old = memory.globals.read_register(r) & 0xFFFFFFFF
     new = old | mask if whole(value, WRONG_REGISTER_BIT) else old & ~mask
-    memory.globals.registers[r] = new - 2**32 if new >= 2**31 else new
+    write_register(memory.channel, r, new - 2**32 if new >= 2**31 else new)
     return VACANT
 
 

@@ -43,6 +43,10 @@ BIT_FAMILIES = "IOAC"
 WRITABLE_REGISTERS = (
     (50, 80), (101, 511), (1024, 4095), (5800, 7999), (10000, 10999), (15000, 65535),
 )  # fmt: skip
+#: What the control alone writes: speeds of G31.11 (2.77), angles of spindles (2.86.5). A setup may say it.
+SHOWN_REGISTERS = (range(700, 719), range(761, 777))
+#: What a register of the interface holds until somebody sets it: R19 is a feed override in percent.
+DELIVERED_REGISTERS = {19: 100}
 #: Windows of `@` on R registers: first `@`, last `@`, first R.
 REGISTER_WINDOWS = ((401, 655, 1), (10000, 14095, 0), (100000, 165535, 0))
 #: Other `@` variables that exist.
@@ -211,7 +215,7 @@ class GlobalState(State, lifetime=Lifetime.RETAINED):
             return VACANT
         register = register_of(at)
         if register is not None:
-            return self.registers.get(register, 0)
+            return self.read_register(register)
         _check_global(at)
         return self.values.get(at, VACANT)
 
@@ -227,6 +231,19 @@ class GlobalState(State, lifetime=Lifetime.RETAINED):
             return
         _check_global(at)
         put(self.values, at, storable(value))
+
+    def read_register(self, register: int) -> int:
+        """The value of an R register.
+
+        Raises:
+            AlarmError: It is one that the control shows something in, which polycnc does not know.
+        """
+        value = self.registers.get(register)
+        if value is not None:
+            return value
+        if any(register in shown for shown in SHOWN_REGISTERS):
+            raise AlarmError("PC0001", hint="hint.not-supported", code=f"R{register}")
+        return DELIVERED_REGISTERS.get(register, 0)
 
     def write_register(self, register: int, value: Value) -> None:
         """Set an R register, where a macro may."""

@@ -45,6 +45,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.words import Words
     from polycnc.language.bulk import Condition
+    from polycnc.machine.setup.values import SkipInput
     from polycnc.toolpath import Context
 
 #: Default feeds while none was programmed: mm/s and mm/rev (2.2).
@@ -151,7 +152,7 @@ def plan_rapid(builder: Builder, plan: Plan) -> Step | None:
     def move(channel: SyntecChannel, values: list[float]) -> None:
         way = None if overlap is None else to_mm(values[overlap])
         if speed is None or switch is None or values[switch] != 1:
-            with _rapid_as(channel, nan, way):
+            with rapid_as(channel, nan, way):
                 step(channel, values)
             return
         c = channel.coordinates
@@ -159,7 +160,7 @@ def plan_rapid(builder: Builder, plan: Plan) -> Step | None:
             programmed = channel.control.polar_target(channel, plan, values)
         else:
             programmed = path.reach(channel, plan.axis_words, values)
-        with _rapid_as(channel, values[speed] * unit, way) as feed:
+        with rapid_as(channel, values[speed] * unit, way) as feed:
             channel.straight(Kind.RAPID, c.to_position(programmed), feed, programmed)
 
     return move
@@ -181,13 +182,13 @@ def move_in_machine_system(channel: SyntecChannel, words: Words) -> None:
     axes = [axis for axis, _, _ in words.axes()]
     with (
         radius.suspended(channel, axes),
-        _rapid_as(channel, speed * unit, None, max(words.length("Q") or 0.0, STROKE)) as feed,
+        rapid_as(channel, speed * unit, None, max(words.length("Q") or 0.0, STROKE)) as feed,
     ):
         channel.straight(Kind.RAPID, c.from_machine(machine), feed)
 
 
 @contextmanager
-def _rapid_as(
+def rapid_as(
     channel: SyntecChannel, speed: float, rapid_overlap: float | None, overlap: Overlap = NO_OVERLAP
 ) -> Iterator[float]:
     """A rapid with a speed (mm/s; NaN for rapid traverse) and an overlap of its own."""
@@ -337,12 +338,19 @@ def skip_move(channel: SyntecChannel, words: Words) -> None:
     state.note(channel, int(stopped is not None))
 
 
+def default_input(channel: SyntecChannel) -> SkipInput:
+    """When C62 comes: where a setup names that bit, else what comes as the skip input of every control."""
+    switches = channel.setup.switches
+    as_bit = switches.signals_at.get("C62")
+    return switches.skip_input if as_bit is None else replace(switches.skip_input, at=as_bit)
+
+
 def skip_source(channel: SyntecChannel, words: Words) -> object:
-    """Where the signal comes: Q none is the skip input, 101 to 132 C bits, 201 to 218 inputs of drives."""
+    """Where the signal comes: Q none is C62, 101 to 132 C bits, 201 to 218 inputs of drives."""
     switches = channel.setup.switches
     source = words.typed("Q")
     if source is None:
-        return switches.skip_input
+        return default_input(channel)
     if source == int(source) and 101 <= source <= 132:
         return switches.signals_at.get(f"C{int(source)}")
     if source == int(source) and 201 <= source <= 218:

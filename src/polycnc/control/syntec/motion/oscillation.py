@@ -2,6 +2,7 @@
 
 The way to the R point is part of the path. The strokes run beside it (`word_address/motion/oscillation.py`), so the
 toolpath does not show them; on the path the axis stands at its R point, and behind the end where that has led it.
+R19 is the feed override of all that, in percent; the way to R is no faster than at 100 %.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, lasting
 from polycnc.control.syntec.axis_groups.names import CODES, axis_of_code
+from polycnc.control.syntec.motion.moves import rapid_as
 from polycnc.control.syntec.units import least_unit
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion.oscillation import Fixed, Oscillator, Read, Strokes
@@ -27,6 +29,8 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.motion.oscillation import Source
 
 OSCILLATION, OFF, SIMPLE, PRECISE = "oscillation", "G80.2", "G81.1", "G81.2"
+#: R register of the feed override of oscillation, percent, and what it may hold.
+OVERRIDE, PERCENTAGES = 19, (0, 150)
 #: What changes the coordinates of an axis that oscillates.
 FRAME_CODES = frozenset(
     {
@@ -197,12 +201,32 @@ def _begin(channel: SyntecChannel, oscillation: Oscillation, *, precise: bool = 
     state.precise = precise
     state.was_precise = state.was_precise or precise
     channel.modes.forget_plans()
-    c = channel.coordinates
+    _approach(channel, oscillation)
+    hold = _place_of_hold(channel, oscillation, precise=precise)
+    Oscillator.of(channel).begin(oscillation.axis, oscillation.source, hold, override(channel))
+
+
+def _approach(channel: SyntecChannel, oscillation: Oscillation) -> None:
+    """To the R point at rapid, with R19 up to 100 %."""
+    c, share = channel.coordinates, override(channel)
+    if share <= 0.0:  # it would never get there
+        raise channel.control.not_yet("R19 = 0")
     machine = c.machine
     machine[oscillation.axis] = oscillation.home
-    channel.straight(Kind.RAPID, c.from_machine(machine), nan)
-    hold = _place_of_hold(channel, oscillation, precise=precise)
-    Oscillator.of(channel).begin(oscillation.axis, oscillation.source, hold)
+    rapid = channel.axis_data[oscillation.axis].rapid
+    with rapid_as(channel, rapid * share if share < 1.0 else nan, None) as speed:
+        channel.straight(Kind.RAPID, c.from_machine(machine), speed)
+
+
+def override(channel: SyntecChannel) -> float:
+    """R19, 1 for 100 %; nobody has set it where it holds nothing."""
+    return float(channel.memory.globals.registers.get(OVERRIDE, 100)) / 100.0
+
+
+def override_set(channel: SyntecChannel) -> None:
+    """R19 holds another value: the axis of this axis group goes on at it."""
+    if OscillationState.of(channel).running is not None:
+        Oscillator.of(channel).change_override(override(channel))
 
 
 def _place_of_hold(channel: SyntecChannel, oscillation: Oscillation, *, precise: bool) -> float | None:

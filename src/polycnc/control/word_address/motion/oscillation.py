@@ -58,6 +58,8 @@ class Oscillator(State, lifetime=Lifetime.POWER):
         phase: What it does.
         toward: Vertex that it goes to, 0 or 1.
         last: Where it shall end, in phase ENDING; None for where it stops.
+        speed: That of its strokes, without override.
+        override: That of oscillation, 1 for 100 %; at 0 the axis waits.
     """
 
     channel: Channel
@@ -68,6 +70,7 @@ class Oscillator(State, lifetime=Lifetime.POWER):
     toward: int = 0
     last: float | None = None
     speed: float = 0.0
+    override: float = 1.0
 
     @classmethod
     def first(cls, channel: Channel) -> Oscillator:
@@ -76,8 +79,8 @@ class Oscillator(State, lifetime=Lifetime.POWER):
 
     # ---- commands of the program -----------------------------------------------------------------------------
 
-    def begin(self, column: int, source: Source, home: float | None) -> None:
-        """The strokes begin when the axes are there.
+    def begin(self, column: int, source: Source, home: float | None, override: float = 1.0) -> None:
+        """The strokes begin when the axes are there, at an override of theirs.
 
         Raises:
             AlarmError: A vertex lies beyond the travel of the axis.
@@ -89,7 +92,7 @@ class Oscillator(State, lifetime=Lifetime.POWER):
                 raise channel.control.over_travel(channel.axes[column], 1 if place > high else -1)
 
         def start() -> None:
-            self.column, self.source, self.home = column, source, home
+            self.column, self.source, self.home, self.override = column, source, home, override
             self.phase = Phase.STROKES
             clocked.watch(self)
             clocked.move_static(column, static=True)
@@ -105,6 +108,18 @@ class Oscillator(State, lifetime=Lifetime.POWER):
 
         def do() -> None:
             self.source, self.home = source, home
+
+        self.channel.event(Deed("OSCILLATION", None, do, is_silent=False))
+
+    def change_override(self, override: float) -> None:
+        """Another override holds at once when the axes are there, within a stroke too."""
+
+        def do() -> None:
+            self.override = override
+            if self.phase is not Phase.OFF:
+                clocked = self.channel.on_clock()
+                clocked.commanded(self.column).change_speed(self._speed)
+                clocked.wake()
 
         self.channel.event(Deed("OSCILLATION", None, do, is_silent=False))
 
@@ -144,8 +159,14 @@ class Oscillator(State, lifetime=Lifetime.POWER):
 
     @property
     def _own_speed(self) -> float:
-        """Speed of the strokes, else that of rapid traverse."""
-        return self.speed if self.speed > 0.0 else self.channel.axis_data[self.column].rapid
+        """Speed of the strokes, else that of rapid traverse, with the override."""
+        speed = self.speed if self.speed > 0.0 else self.channel.axis_data[self.column].rapid
+        return speed * self.override
+
+    @property
+    def _speed(self) -> float:
+        """Speed of what the axis does now, with the override."""
+        return self.speed * self.override if self.phase is Phase.STROKES else self._own_speed
 
     def _lies_ahead(self, axis: Commanded, place: float) -> bool:
         """Whether the axis can brake to a place on its way, without turning round."""
@@ -196,7 +217,7 @@ class Oscillator(State, lifetime=Lifetime.POWER):
         assert self.source is not None
         strokes = self.source.read()
         self.speed = strokes.speed
-        axis.move_to(strokes.vertices[self.toward], strokes.speed)
+        axis.move_to(strokes.vertices[self.toward], self._speed)
 
     def block_begins(self) -> None:
         """Oscillation knows no blocks."""
