@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.stack import LevelKind
 from polycnc.channel.states.state import Lifetime, State
+from polycnc.control.syntec.macros.interrupted_arcs import made_arc, share_at
 from polycnc.control.syntec.motion.polar import POLAR
 from polycnc.control.syntec.motion.smoothing import SmoothingState
 from polycnc.control.syntec.spindles import SpindleState
@@ -20,6 +21,8 @@ from polycnc.deferred.records import dataclass
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from polycnc.channel.stack import Level
     from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.codes import Step
@@ -110,7 +113,8 @@ def _with_interrupt(builder: Builder, plan: Plan, step: Step | None) -> Step | N
             step(channel, values)
             return
         if kind is None:
-            raise channel.control.not_yet(f"M96 {builder.mode['motion']}")
+            _curve(channel, step, values, interrupt, at)
+            return
         c = channel.coordinates
         end = c.to_position(path.target(channel, plan.axis_words, values))
         stopped = skip.signal_position(channel, c.position, end, at)
@@ -122,6 +126,32 @@ def _with_interrupt(builder: Builder, plan: Plan, step: Step | None) -> Step | N
         _call(channel, interrupt.program)
 
     return move
+
+
+def _curve(
+    channel: SyntecChannel, step: Step, values: list[float], interrupt: Interrupt, at: Mapping[str, float]
+) -> None:
+    """An arc, cut where the signal comes.
+
+    After the return its block is read from there: I, J and K count from the new start, as the manual warns (3.2.3, 7).
+    """
+    c, mark = channel.coordinates, channel.toolpath.mark()
+    start, programmed = c.position[:], c.programmed[:]
+    step(channel, values)
+    if channel.toolpath.mark() == mark and c.position == start:
+        return  # the first half of G02.4, a block without a way
+    arc = made_arc(channel, start, mark)
+    if arc is None:
+        raise channel.control.not_yet(f"M96 {channel.mode['motion']}")
+    share = share_at(channel, arc, at)
+    if share is None:
+        return
+    interrupt.armed = False
+    channel.toolpath.truncate(mark)
+    c.arrive(start, programmed)
+    if share > 0.0:
+        channel.curve(arc.kind, arc.position(share), arc.feed, center=arc.center, normal=arc.normal)
+    _call(channel, interrupt.program)
 
 
 def _is_deaf(channel: SyntecChannel) -> bool:
