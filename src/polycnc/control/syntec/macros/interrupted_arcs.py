@@ -93,10 +93,10 @@ def made_arc(channel: SyntecChannel, start: list[float], mark: int) -> MadeArc |
     cx, cy, cz, nx, ny, nz, turns = row.curve[:7]
     center, normal, plane = (cx, cy, cz), (nx, ny, nz), (geometry[u], geometry[v])
     middle, end = (center[u], center[v]), list(row.end)
-    ends = [(place[plane[0]], place[plane[1]]) for place in (start, end)]
-    if turns or normal != axis_vector(w) or abs(arcs.radius_mismatch(*ends, middle)) > SAME_RADIUS:
+    first, last = ((place[plane[0]], place[plane[1]]) for place in (start, end))
+    if turns or normal != axis_vector(w) or abs(arcs.radius_mismatch(first, last, middle)) > SAME_RADIUS:
         return None
-    sweep = arcs.sweep_angle(*ends, middle, row.kind in CCW_KINDS)
+    sweep = arcs.sweep_angle(first, last, middle, row.kind in CCW_KINDS)
     return MadeArc(row.kind, row.feed, start, end, center, normal, plane, middle, sweep)
 
 
