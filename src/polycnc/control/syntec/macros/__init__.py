@@ -2,5 +2,5 @@
 
 `machine_parameters` reads and writes parameters by their numbers (PARAM, SETPR), `records` are those of cycles
 (DBOPEN), `diagnosis` answers SYSDATA and DRVDATA, `single_block` says where macros do not halt, `registers` writes R
-registers as the PLC does, `interrupted_arcs` finds where the signal of M96 comes on an arc.
+registers as the PLC does.
 """

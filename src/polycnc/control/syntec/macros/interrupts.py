@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.stack import LevelKind
 from polycnc.channel.states.state import Lifetime, State
-from polycnc.control.syntec.macros.interrupted_arcs import made_arc, share_at
 from polycnc.control.syntec.motion.polar import POLAR
 from polycnc.control.syntec.motion.smoothing import SmoothingState
 from polycnc.control.syntec.spindles import SpindleState
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion import path, skip
+from polycnc.control.word_address.motion.arc_signals import made_arc, share_at
 from polycnc.deferred.records import dataclass
 from polycnc.toolpath import Kind
 

@@ -7,6 +7,7 @@ follows from what the interruption program does (FANUC macro B §6).
 from __future__ import annotations
 
 from dataclasses import field
+from math import dist
 from typing import TYPE_CHECKING
 
 from polycnc.channel.stack import LevelKind
@@ -14,30 +15,39 @@ from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.block.codes import MCode
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.macro_b.variables import LOCALS
+from polycnc.control.word_address.motion.arc_signals import made_arc, share_at
 from polycnc.control.word_address.motion.skip import signal_position
 from polycnc.deferred.records import dataclass
+from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from polycnc.channel.mode import Mode
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import MacroChannel
+    from polycnc.control.word_address.motion.arc_signals import MadeArc
     from polycnc.machine.setup.values import Interrupt
     from polycnc.program import Program
 
 
 @dataclass(frozen=True, slots=True)
 class Interrupted:
-    """What an interruption has cut off: the rest of the move, the modal state, the rows made until then."""
+    """What an interruption has cut off: the rest of the move, the modal state, the rows made until then.
+
+    `arc` is the arc that the rest lies on; None where it is straight.
+    """
 
     kind: Kind
     end: list[float]
     feed: float
     mode: Mode
     rows: int
+    arc: MadeArc | None = None
 
 
 @dataclass(slots=True)
@@ -107,24 +117,46 @@ def _interrupt(channel: MacroChannel, start: list[float], mark: int) -> None:
     chunk, end = channel.toolpath.chunk, channel.coordinates.position
     if state.program is None:
         return
+    arc = made_arc(channel, start, mark)
+    if arc is None and end == start:
+        return  # a whole circle ends where it starts, too
     for number, interrupt in enumerate(channel.setup.switches.interrupts):
-        if number in state.came or not _runs(channel, interrupt) or end == start:
+        if number in state.came or not _runs(channel, interrupt):
             continue
-        stop = signal_position(channel, start, end, dict(interrupt.at))
+        stop = _stop(channel, start, end, arc, interrupt.at)
         if stop is None:
             continue
-        if len(chunk) != mark + 1 or chunk.kind[-1] not in (Kind.RAPID, Kind.FEED):
+        plain = len(chunk) == mark + 1 and chunk.kind[-1] in (Kind.RAPID, Kind.FEED)
+        if not (plain if arc is None else end != start or dist(stop, start) > NO_WAY):
             raise AlarmError("PC0001", hint="hint.not-supported", code="M96")
         state.came.add(number)
         kind, feed = Kind(chunk.kind[-1]), chunk.feed[-1]
         if not channel.memory.parameters.MIN:
             channel.toolpath.truncate(mark)
             channel.coordinates.arrive(start)
-            channel.straight(kind, stop, feed)
-        cut = Interrupted(kind, end, feed, channel.mode, len(channel.toolpath))
+            _move(channel, kind, stop, feed, arc)
+        cut = Interrupted(kind, end, feed, channel.mode, len(channel.toolpath), arc)
         state.running.append(cut)
         _call(channel, state.program)
         return
+
+
+def _stop(
+    channel: MacroChannel, start: list[float], end: list[float], arc: MadeArc | None, at: Mapping[str, float]
+) -> list[float] | None:
+    """Where on the way just made an input comes."""
+    if arc is None:
+        return signal_position(channel, start, end, dict(at))
+    share = share_at(channel, arc, at)
+    return None if share is None else arc.position(share)
+
+
+def _move(channel: MacroChannel, kind: Kind, end: list[float], feed: float, arc: MadeArc | None) -> None:
+    """A part of the move; nothing where it has no way (a whole circle would be meant)."""
+    if arc is None:
+        channel.straight(kind, end, feed)
+    elif dist(channel.coordinates.position, end) > NO_WAY:
+        channel.curve(kind, end, feed, center=arc.center, normal=arc.normal)
 
 
 def _runs(channel: MacroChannel, interrupt: Interrupt) -> bool:
@@ -155,7 +187,7 @@ def finish(channel: MacroChannel, *, jumps: bool) -> None:
         return
     channel.mode = cut.mode
     if len(channel.toolpath) == cut.rows:
-        channel.straight(cut.kind, cut.end, cut.feed)
+        _move(channel, cut.kind, cut.end, cut.feed, cut.arc)
 
 
 #: What an interruption macro cuts.

@@ -1,4 +1,4 @@
-"""Where a signal comes on an arc, and the part of the arc in front of it (M96, manual 3.2.3).
+"""Where a signal comes on an arc, and the part of the arc in front of it (M96 of FANUC and SYNTEC).
 
 An arc is known when its row is made, so the row is looked at: that also fits G68, mirrors of the work and R in place
 of centre words. Spirals and arcs of several turns are not known here.
@@ -18,9 +18,9 @@ from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS, Kind
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from polycnc.control.syntec.family import SyntecChannel
+    from polycnc.control.word_address.family import WordAddressChannel
     from polycnc.geometry.arcs import Point
-    from polycnc.geometry.vectors import Vector
+    from polycnc.geometry.frames import Vector
 
 #: How far start and end of an arc may differ in radius and still be one circle, mm.
 SAME_RADIUS = 0.05
@@ -83,7 +83,7 @@ class MadeArc(NamedTuple):
                 yield min(turned / abs(self.sweep), 1.0)
 
 
-def made_arc(channel: SyntecChannel, start: list[float], mark: int) -> MadeArc | None:
+def made_arc(channel: WordAddressChannel, start: list[float], mark: int) -> MadeArc | None:
     """The arc that is all that a block has made since a mark; None where it is something else."""
     chunk = channel.toolpath.chunk
     if len(chunk) != mark + 1 or chunk.kind[-1] not in ARC_KINDS or channel.path.head is not None:
@@ -100,7 +100,7 @@ def made_arc(channel: SyntecChannel, start: list[float], mark: int) -> MadeArc |
     return MadeArc(row.kind, row.feed, start, end, center, normal, plane, middle, sweep)
 
 
-def share_at(channel: SyntecChannel, arc: MadeArc, at: Mapping[str, float]) -> float | None:
+def share_at(channel: WordAddressChannel, arc: MadeArc, at: Mapping[str, float]) -> float | None:
     """The share of an arc after which a signal comes: where all axes that it names are where it says.
 
     Where they never are so together, each has to have been there, as on a straight way.
