@@ -551,19 +551,9 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         line = level.code.line(level.current)
         start = self.coordinates.position
         move = Move(
-            kind,
-            start,
-            end,
-            feed,
-            level.program_number,
-            line,
-            self.context_number(),
-            center,
-            normal,
-            turns,
-            tuple(parameters),
-            self.turning,
-        )
+            kind, start, end, feed, level.program_number, line, self.context_number(), center, normal, turns,
+            tuple(parameters), self.turning,
+        )  # fmt: skip
         if self.path.head is None:
             check_travel(self, move)
             self.write(move)

@@ -69,19 +69,7 @@ def axis_limits(
         for axis, name in zip(axes, names, strict=True)
     ]
 
-    built = next((c for c in machine.channels if c.number == channel), machine.channels[0])
-    geometry = [
-        next(
-            (i for i, axis in enumerate(axes) if axis is not None and axis.name == built.geometry.get(name)),
-            -1,
-        )
-        for name in "XYZ"
-    ]
-    for i, name in enumerate("XYZ"):
-        if geometry[i] < 0 and name in built.virtual and name in names:
-            geometry[i] = names.index(name)
-    if made is not None:
-        geometry = list(made)
+    geometry = _geometry(machine, channel, names, axes) if made is None else list(made)
     acceleration = [pull for pull, _ in able]
     step = settings.overload * machine.interpolation_cycle_s
     rapid, feed = (
@@ -104,6 +92,20 @@ def axis_limits(
         ),
         linkage=linkage,
     )
+
+
+def _geometry(
+    machine: Machine, channel: int, names: tuple[str, ...], axes: tuple[Axis | None, ...]
+) -> list[int]:
+    """Columns of X, Y and Z without a transformation, -1 for one that the channel does not have."""
+    built = next((c for c in machine.channels if c.number == channel), machine.channels[0])
+    found = []
+    for name in "XYZ":
+        real = built.geometry.get(name)
+        column = next((i for i, axis in enumerate(axes) if axis is not None and axis.name == real), -1)
+        is_virtual = column < 0 and name in built.virtual and name in names
+        found.append(names.index(name) if is_virtual else column)
+    return found
 
 
 def _limit(axis: Axis, field: str) -> float:

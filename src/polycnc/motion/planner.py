@@ -30,9 +30,8 @@ if TYPE_CHECKING:
 
     from polycnc.machine import Machine
     from polycnc.motion.limits import AxisRapid
-    from polycnc.motion.pole import Turn
+    from polycnc.motion.pole import PathLeg, Turn
     from polycnc.motion.standing.beside import Begins
-    from polycnc.motion.transformed import PathLeg
     from polycnc.toolpath import Context, Toolpath
     from polycnc.toolpath.table import Chunk
 

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.motion.frames import machine_of
 from polycnc.motion.kernels.alone import best_ramp
-from polycnc.motion.kernels.columns import PLACES, Form, PieceRecord, piece_width
+from polycnc.motion.kernels.columns import PLACES, Form, PieceRecord, Rows, piece_width
 from polycnc.motion.row_path import arc_path, line_path
 from polycnc.transformation.couplings.kinks import has_kinks, kinks
 
@@ -79,6 +79,26 @@ class Leg(NamedTuple):
     part: float
     rests: tuple[bool, bool]
     turn: Turn | None
+
+
+class PathLeg(NamedTuple):
+    """A leg of a row through the pole, as the kernels take a row of its own.
+
+    Attributes:
+        turn: What the rotary axis turns before it, if it does.
+        rows: Its columns; `feed` is a factor on that of the whole row.
+        curves: Its curve parameters.
+        end: Machine position of the path at its end.
+    """
+
+    turn: Turn | None
+    rows: Rows
+    curves: array[float]
+    end: list[float]
+
+    def at_feed(self, feed: float) -> Rows:
+        """Its columns, where the whole row has this feed."""
+        return self.rows._replace(feed=array("d", [feed * self.rows.feed[0]]))
 
 
 def is_at(pole: Pole, point: Sequence[float]) -> bool:

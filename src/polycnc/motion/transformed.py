@@ -42,6 +42,7 @@ from polycnc.motion.limits import NO_LINKAGE, averages, axis_limits, channel_axe
 from polycnc.motion.pace import Travel, following_top, pace_of
 from polycnc.motion.pole import (
     RING_MM,
+    PathLeg,
     Turn,
     is_at,
     kink_legs,
@@ -106,26 +107,6 @@ class RowShares(NamedTuple):
     shares: list[tuple[float, float, float]]
     at_start: float
     at_end: float
-
-
-class PathLeg(NamedTuple):
-    """A leg of a row through the pole, as the kernels take a row of its own.
-
-    Attributes:
-        turn: What the rotary axis turns before it, if it does.
-        rows: Its columns; `feed` is a factor on that of the whole row.
-        curves: Its curve parameters.
-        end: Machine position of the path at its end.
-    """
-
-    turn: Turn | None
-    rows: Rows
-    curves: array[float]
-    end: list[float]
-
-    def at_feed(self, feed: float) -> Rows:
-        """Its columns, where the whole row has this feed."""
-        return self.rows._replace(feed=array("d", [feed * self.rows.feed[0]]))
 
 
 class Bounds(NamedTuple):
