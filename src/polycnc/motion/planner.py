@@ -151,7 +151,7 @@ class Planner:
         self._rows.frombytes(bytes(16 * len(chunk)))
         self._next_row = chunk.first + len(chunk)
         self._waits.take(chunk, self.facing)
-        stops = array("B", [self._waits.stands_for(event) for event in chunk.events])
+        stops = self._waits.stops(chunk)
         feed = chunk.feed if self._feed_profile is None else self._feed_profile(chunk)
         bounds = self._real.bounds(chunk, self._toolpath.contexts)
         feed = bounds.paced(feed)

@@ -108,6 +108,21 @@ def test_a_function_beside_a_long_motion_takes_nothing_and_stops_nothing() -> No
     assert rows.plan(machine).total_s == plain.plan(machine).total_s
 
 
+def test_a_function_in_a_block_without_motion_stops_the_axes_until_it_is_done() -> None:
+    machine = replace(MILL, m_functions={8: m_function(8, 0.2, "with")})
+    rows = Build().feed(100.0, 0.0, 0.0).event(Auxiliary(8)).feed(200.0, 0.0, 0.0)
+    stopped = replace(MILL, m_functions={8: m_function(8, 0.2, "before")})
+    assert rows.plan(machine).total_s == rows.plan(stopped).total_s
+    assert rows.plan(machine).times.auxiliary_s == pytest.approx(0.2)
+
+
+def test_a_function_that_takes_no_time_stops_nothing() -> None:
+    machine = replace(MILL, m_functions={8: m_function(8, 0.0, "with")})
+    rows = Build().feed(100.0, 0.0, 0.0).event(Auxiliary(8)).feed(200.0, 0.0, 0.0)
+    plain = Build().feed(100.0, 0.0, 0.0).feed(200.0, 0.0, 0.0)
+    assert rows.plan(machine).total_s == plain.plan(machine).total_s
+
+
 def test_messages_do_not_stop_the_axes() -> None:
     rows = Build().feed(50.0, 0.0, 0.0).event(Message("HALF")).feed(100.0, 0.0, 0.0)
     plain = Build().feed(50.0, 0.0, 0.0).feed(100.0, 0.0, 0.0)

@@ -360,7 +360,7 @@ class Preprocessing:
                 delays = without_function(delays, event)
             self.items.extend(self._standing(delay, context) for delay in delays)
             if event is not None:
-                stands = self._waits.stands_for(event)
+                stands = self._waits.stands_at(chunk, row)
                 self.items.append(Happening(event, context, stands))
                 if stands:
                     self.end_in_rest()

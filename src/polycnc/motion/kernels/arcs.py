@@ -188,7 +188,7 @@ def lay_arc(
         cap2, pull = arc_hold(contexts, record, limits, state, curvature(n, limits, weight, state), speed)
         entry2 = min(entry2, cap2)
     entry2 = join(contexts, record, n, limits, state, length, weight, min(entry2, speed * speed), 0.0)
-    if state.joint.rest > 0.0:
+    if state.joint.rest > 0.0 or state.run.window == 0.0:
         settle_alone(pieces, n, limits, state)
     state.run.alone = 0.0
     state.joint.pull = min(state.joint.pull, pull)

@@ -132,6 +132,9 @@ def take_shares(rows: Rows, row: int, state: State) -> None:
         state.share_ease[AT_START] = rows.ease[first + AT_START]
         state.share_ease[AT_END] = rows.ease[first + AT_END]
         state.row.top = state.share_top[0] if count == 1 else inf
+        eased = min(state.share_ease[0], state.share_ease[AT_START], state.share_ease[AT_END]) < 1.0
+        if count == 1 and state.row.top == inf and not eased:
+            state.row.shares = 0  # nothing bounds it: it only stands beside rows that something does
     own, before = state.share_ease[AT_START], state.run.corner_ease
     state.row.ease, state.joint.ease = state.share_ease[0], min(own, before) if before > 0.0 else own
 
@@ -315,7 +318,9 @@ def lay_straight(
                 speed, wanted, pull = state.run.wanted, state.run.wanted, state.run.exit_pull
             entry2 = join(contexts, record, n, limits, state, length, weight, speed * speed, wanted)
             state.joint.pull = min(state.joint.pull, pull)
-            if state.joint.rest > 0.0:
+            if (
+                state.joint.rest > 0.0 or state.run.window == 0.0
+            ):  # under BRISK no line goes on with one under SOFT
                 settle_alone(pieces, n, limits, state)
             goes_on = goes_on and state.joint.rest == 0.0
             state.run.straight_pieces = state.run.straight_pieces + 1 if goes_on else 1

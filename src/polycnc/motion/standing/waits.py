@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from array import array
 from itertools import groupby
 from math import pi
 from typing import TYPE_CHECKING, Literal, NamedTuple
@@ -131,6 +132,23 @@ class Waits:
         if isinstance(event, Deed):
             return not event.is_silent
         return isinstance(event, STANDING)
+
+    def stands_at(self, chunk: Chunk, row: int) -> bool:
+        """Whether the axes stand still for the event of a row, also for a function whose block has no motion."""
+        event = chunk.events[chunk.curve[row]]
+        if self.stands_for(event):
+            return True
+        if not isinstance(event, Auxiliary) or self.machine.m_functions[event.code].seconds <= 0.0:
+            return False
+        return not _moves(chunk, row)
+
+    def stops(self, chunk: Chunk) -> array[int]:
+        """For each event of a chunk whether the axes stand still for it."""
+        stops = array("B", map(self.stands_for, chunk.events))
+        if not all(stops):
+            for row in _places(chunk.kind.tobytes(), Kind.EVENT):
+                stops[chunk.curve[row]] = self.stands_at(chunk, row)
+        return stops
 
     def take(self, chunk: Chunk, facing: int) -> None:
         """Note the waits of a chunk's rows; `facing` is the column of X, -1 for none."""
@@ -288,7 +306,7 @@ class Waits:
         code, context = event.code, chunk.context[row]
         function = self.machine.m_functions.get(code)
         if function is not None and function.seconds > 0.0:
-            if function.timing == "with":
+            if function.timing == "with" and _moves(chunk, row):
                 last = _end_of_block(chunk, row)
                 self.parallel.append(
                     Parallel(chunk.first + row, chunk.first + last, context, function.seconds)
@@ -357,6 +375,15 @@ def _places(kinds: bytes, kind: Kind) -> Iterator[int]:
     while at >= 0:
         yield at
         at = kinds.find(kind, at + 1)
+
+
+def _moves(chunk: Chunk, row: int) -> bool:
+    """Whether the block of a row moves."""
+    first, last = row, _end_of_block(chunk, row)
+    place = chunk.line[row], chunk.program[row]
+    while first > 0 and (chunk.line[first - 1], chunk.program[first - 1]) == place:
+        first -= 1
+    return any(kind < Kind.DWELL for kind in chunk.kind[first : last + 1])
 
 
 def _end_of_block(chunk: Chunk, row: int) -> int:
