@@ -317,17 +317,25 @@ def pitch(a: Arguments, sizes: Mapping[int, float] = METRIC_PITCHES) -> float:
 
 
 def written_pitch(a: Arguments, name: str) -> float:
-    """PIT in the unit that _PITA names: of the program, mm, threads per inch, inch per revolution."""
+    """PIT in the unit that _PITA names: of the program, mm, threads per inch, inch per revolution.
+
+    Raises:
+        AlarmError: PC0001 for a pitch by module or in a unit that is not known.
+    """
     value = a.plain(name)
     match a.integer("_PITA"):
+        case 0:
+            return a[name]
         case 1:
             return value
         case 2:
             return INCH_MM / value if value else 0.0
         case 3:
             return value * INCH_MM
+        case _ if value:
+            raise not_supported(f"{a.cycle} _PITA")
         case _:
-            return a[name]
+            return 0.0
 
 
 def _directions(a: Arguments) -> int:

@@ -20,7 +20,6 @@ from polycnc.control.sinumerik.cycles.milling import (
     variant,
 )
 from polycnc.control.sinumerik.cycles.moves import require_tool
-from polycnc.control.sinumerik.errors import not_supported
 from polycnc.cycles.count import checked
 from polycnc.cycles.milling import contour as path_milling
 from polycnc.cycles.milling import facing, spigots
@@ -285,8 +284,6 @@ def thread(moves: Moves, a: Arguments) -> None:
 #: Tens of VARI of CYCLE70: where the thread begins; hundreds: its hand.
 DOWNWARDS, UPWARDS = 1, 2
 RIGHT_HAND, LEFT_HAND = 0, 1
-#: Module threads are told in another unit than a pitch.
-BY_MODULE = 4
 
 
 def thread_with_teeth(moves: Moves, a: Arguments) -> None:
@@ -294,7 +291,8 @@ def thread_with_teeth(moves: Moves, a: Arguments) -> None:
 
     Raises:
         AlarmError: As the other milling cycles; 61001 without pitch or depth of thread, 61002 for VARI or TYPTH, 61010
-            for an allowance of more than the thread's depth, 61105 for a cutter that does not go into the core hole;
+            for an allowance of more than the thread's depth, 61105 for a cutter that does not go into the core hole,
+            61601 for an external thread without core;
             PC0001 for a pitch by module.
     """
     radius = cutter(moves)
@@ -307,8 +305,6 @@ def thread_with_teeth(moves: Moves, a: Arguments) -> None:
         or a.integer("_TYPTH") not in (0, 1)
     ):
         raise AlarmError("61002")
-    if a.integer("_PITA") == BY_MODULE:
-        raise not_supported("CYCLE70 _PITA")
     lead, deep = abs(written_pitch(a, "_PIT")), abs(a["_H1"])
     if not lead or not deep:
         raise AlarmError("61001")
@@ -318,6 +314,8 @@ def thread_with_teeth(moves: Moves, a: Arguments) -> None:
     if found is None:
         return
     outer = 0.5 * abs(a["_DIATH"])
+    if not is_inside and deep >= outer:
+        raise AlarmError("61601")
     if is_inside and radius >= outer - deep:
         raise AlarmError("61105")
     cuts = steps(deep - abs(a["_FAL"]), abs(a["_MID"])) if kind == ROUGHING else [deep]

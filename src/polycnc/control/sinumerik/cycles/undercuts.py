@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from math import dist
 from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.cycles.moves import require_tool
 from polycnc.control.sinumerik.cycles.turning import Work
-from polycnc.control.sinumerik.tools.edges import DP_TIP
+from polycnc.control.sinumerik.tools import stages
 from polycnc.cycles.turning import undercut as shapes
 from polycnc.cycles.turning.contour import Contour, Piece
 from polycnc.cycles.turning.stroke import PlaneStroke
@@ -71,23 +72,23 @@ def undercut(moves: Moves, a: Arguments) -> None:
 
 
 def _corner(moves: Moves, a: Arguments, form: str) -> tuple[float, float]:
-    """Where the cylinder and the infeed lie, by `_VARI` or by the tool in the holder.
+    """Where the cylinder and the infeed lie, by the tool in the holder as the active frame shows it.
 
     Raises:
         AlarmError: 61002 for another `_VARI`, 61608 for a tool that does not lie so.
     """
-    edge = moves.memory.tools.edge
-    tip = int(edge.values[DP_TIP]) if edge is not None else 0
-    wanted = a.integer("_VARI") or tip
     if a.integer("_VARI") not in (0, *CORNERS):
         raise AlarmError("61002")
-    corner = CORNERS.get(tip)
-    if corner is None or wanted != tip:
+    along, across = stages.tip(moves.channel)
+    corner = (-along, across)
+    # A frame that turns the work leaves no tool point square to it; one that mirrors it makes another of them.
+    number = next((k for k, known in CORNERS.items() if dist(corner, known) <= _ROUNDING), None)
+    if number is None or a.integer("_VARI") not in (0, number):
         raise AlarmError("61608")
-    is_inside = corner[1] > 0.0
+    is_inside = across > 0.0
     if a.cycle == "CYCLE96" and (form in shapes.INSIDE) is not is_inside:
         raise AlarmError("61608")
-    return corner
+    return CORNERS[number]
 
 
 def _cut(moves: Moves, contour: Contour, home: Point, towards: float) -> None:

@@ -60,6 +60,8 @@ EDGES, HOLE, SHAFT, GROOVE, WEB = {1: 0, 2: 1, 3: 2}, 8, 9, 12, 13
 KINDS = frozenset((*EDGES, HOLE, SHAFT, GROOVE, WEB))
 #: Points of a hole that must differ, mm.
 _SAME_MM = 1e-9
+#: Factors of a frame that differ from 1 by less are rounding.
+_NO_SCALE = 1e-9
 _ROUNDS_OF_FIT = 10_000
 
 
@@ -100,7 +102,8 @@ class Measurement(State, lifetime=Lifetime.POWER):
 def measure(channel: SinumerikChannel, _args: Arguments) -> int:
     """MEASURE(): work out a measurement; 0 where there is a result.
 
-    PC0001: other kinds of measurement, a frame that is selected, axes that show diameters.
+    PC0001: other kinds of measurement, a frame that is selected, axes that show diameters, and a scale, which acts on
+    the points but not on the probe.
     """
     state = Measurement.of(channel)
     kind = state.number(TYPE)
@@ -121,6 +124,9 @@ def _refuse(channel: SinumerikChannel, state: Measurement, kind: int) -> None:
     for column in range(len(channel.axes)):
         if diameter_function(channel.mode, column, transverse) in SHOWS_DIAMETERS:
             raise not_supported("MEASURE DIAMON")
+    scales = channel.memory.frames.total().scales
+    if any(abs(abs(factor) - 1.0) > _NO_SCALE for factor in scales):
+        raise not_supported("MEASURE SCALE")
 
 
 class _Calculation:

@@ -27,6 +27,7 @@ from polycnc.cycles.milling.contour_pocket import ContourPocket, InsertionError
 from polycnc.cycles.milling.pockets import Insertion
 from polycnc.cycles.milling.region import RegionError
 from polycnc.cycles.milling.stroke import steps
+from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -101,11 +102,19 @@ def mill(moves: Moves, a: Arguments) -> None:
         pitch,
         angle,
     )
-    total = abs(found.depth - found.reference) - base_allowance
+    total = _above_allowance(found, base_allowance)
     levels = [found.depth]
     if kind != BASE:
         levels = [found.reference + found.down * below for below in steps(total, abs(a["_DZ"]))]
     read_chosen(moves, partial(_mill, moves, a, shape, levels))
+
+
+def _above_allowance(found: Levels, allowance: float) -> float:
+    """How deep the cutter goes where an allowance is left on the base; 61110 where nothing is above that."""
+    deep = abs(found.depth - found.reference) - allowance
+    if deep <= NO_WAY:
+        raise AlarmError("61110")
+    return deep
 
 
 def _refuse(a: Arguments, kind: int) -> None:
@@ -201,7 +210,7 @@ def _drill(moves: Moves, a: Arguments, found: Levels, shape: ContourPocket, cont
         places = contour_pocket.entries(_with_walls(a, shape, contours))
     except RegionError as error:
         raise AlarmError(REGION_ALARMS.get(str(error), "61606")) from None
-    bottom = found.depth - found.down * abs(a["_UZ"])
+    bottom = found.reference + found.down * _above_allowance(found, abs(a["_UZ"]))
     moves.rapid(w=found.retract)
     moves.end_block()
     for place in places:
