@@ -17,7 +17,7 @@ from polycnc.messages.catalogue import LANGUAGES
 HAN = re.compile(r"[\u4e00-\u9fff]")
 #: The marker of a test, and the ids in it.
 MARK = re.compile(r"pytest\.mark\.feature\(([^)]*)\)")
-FEATURE = re.compile(r'"([a-z]+\.[\w.]+)"')
+FEATURE = re.compile(r'"([a-z]+\.[\w.-]+)"')
 
 
 @pytest.mark.parametrize("control", ids())
