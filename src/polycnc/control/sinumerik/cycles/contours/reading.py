@@ -177,10 +177,23 @@ class _Reading:
         self._reading.begin(channel, moves.columns[:2])
 
     def end(self) -> None:
-        """The contour is through: everything is as before, and the cycle goes on with it."""
+        """The contour is through: everything is as before, and the cycle goes on with it.
+
+        Raises:
+            AlarmError: 61605 for a contour without moves, PC0001 for one that shifts or turns its own frame.
+        """
         moves, reading = self._moves, self._reading
         assert reading is not None
-        caught = reading.end(moves.channel)[1:]
+        channel = moves.channel
+        caught = reading.end(channel)
+        contexts = channel.toolpath.contexts
+        frames = {
+            contexts[number].frame
+            for number in (channel.context_number(), *(move.context for move in caught))
+        }
+        if len(frames) > 1:
+            raise not_supported("CYCLE62: TRANS, ROT, SCALE, MIRROR")
+        caught = caught[1:]
         if not caught:
             raise AlarmError("61605")
         moves.plan(partial(self._use, [_piece(moves, move) for move in caught]))
