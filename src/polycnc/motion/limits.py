@@ -238,7 +238,8 @@ def is_led(context: Context, settings: Settings) -> bool:
     """Whether straight rows are laid out under the limits of the axes behind a tip, where it has a linkage.
 
     Not with limited jerk, nor where something else bounds speed or acceleration along the path: DRIVE, overrides of the
-    program for single axes, a lag, a constant surface speed.
+    program for single axes, a lag, a constant surface speed. Nor where turns of the tool are rounded (OST, OSD): ends of
+    such rows are passed at what the rounding allows, of which the axes behind the tip leave a part only.
     """
     acceleration = context.acceleration or settings.acceleration
     return (
@@ -246,6 +247,8 @@ def is_led(context: Context, settings: Settings) -> bool:
         and acceleration is AccelerationMode.CONSTANT
         and context.frame.is_identity
         and context.pace is None
+        and context.turn_tolerance_deg == 0.0
+        and context.turn_distance_mm == 0.0
         and context.lag_s == 0.0
         and not context.surface_speed
     )
