@@ -76,8 +76,9 @@ def test_the_tip_keeps_to_its_line_at_every_sample(name: str) -> None:
         cut = beside[np.argmin(np.linalg.norm(beside, axis=1)) + 1 :]
         off = cut - np.outer(cut @ along, along)
         assert np.linalg.norm(off, axis=1).max() < 1e-3
-        # The last sample is up to a millisecond before the end, which the tip reaches at full deceleration.
-        assert tips[-1] == pytest.approx(end, abs=1e-2)
+        # The last sample is up to a millisecond before the end: braking, the tip has less left than it went before.
+        left, gone = hypot(*(end - tips[-1])), hypot(*(tips[-1] - tips[-2]))
+        assert left < max(1e-3, gone)
 
 
 @pytest.mark.parametrize("name", ["mill5-ca-head", "mill5-ac-table"])
