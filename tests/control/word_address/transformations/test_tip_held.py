@@ -15,13 +15,11 @@ from tests.support import run
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from numpy.typing import NDArray
-
 LENGTH, HOLDER = 100.0, 150.0
 PLANE = "G68.2 X5. Y0 Z0 I90. J60. K-90.\n"
 
 
-def turns(axis: int, angles: NDArray[np.float64]) -> NDArray[np.float64]:
+def turns(axis: int, angles: np.ndarray) -> np.ndarray:
     """Matrices of right-handed turns about X, Y or Z, one for each angle in degrees."""
     c, s = np.cos(np.radians(angles)), np.sin(np.radians(angles))
     found = np.tile(np.eye(3), (len(angles), 1, 1))
@@ -30,31 +28,29 @@ def turns(axis: int, angles: NDArray[np.float64]) -> NDArray[np.float64]:
     return found
 
 
-def on_work(
-    machine: str, positions: NDArray[np.float64], arm: float, holder: float = 0.0
-) -> NDArray[np.float64]:
+def on_work(machine: str, positions: np.ndarray, arm: float, holder: float = 0.0) -> np.ndarray:
     """Where a point of the tool is on the work, by the joints of the machine and nothing of polycnc."""
     linear, first, second = positions[:, :3], positions[:, 3], positions[:, 4]
     upright = np.tile([0.0, 0.0, 1.0], (len(positions), 1))
     if machine == "mill5-ac-table":
         table = turns(0, first) @ turns(2, second)
-        return np.einsum("nji,nj->ni", table, linear - arm * upright)
-    along = np.einsum("nij,nj->ni", turns(2, second) @ turns(1, first), upright)
-    return linear + holder * upright - (holder + arm) * along
+        return np.array(np.matmul(table.transpose(0, 2, 1), (linear - arm * upright)[:, :, None])[:, :, 0])
+    along = np.matmul(turns(2, second) @ turns(1, first), upright[:, :, None])[:, :, 0]
+    return np.array(linear + holder * upright - (holder + arm) * along)
 
 
-def positions_of(text: str, control: str, machine: str, **parameters: int) -> NDArray[np.float64]:
+def positions_of(text: str, control: str, machine: str, **parameters: int) -> np.ndarray:
     setup = {"tools": {1: {"length": LENGTH}}, "parameters": parameters}
     result = polycnc.run(text, control=control, machine=machine, setup=setup)
     assert not result.alarms, result.alarms
     return samples_of(result, load_machine(machine)).position
 
 
-def turning(positions: NDArray[np.float64]) -> NDArray[np.float64]:
+def turning(positions: np.ndarray) -> np.ndarray:
     """The samples in which rotary axes move."""
     moves = np.abs(np.diff(positions[:, 3:], axis=0)).max(axis=1) > 0.0
     assert moves.sum() > 20
-    return positions[1:][moves]
+    return np.array(positions[1:][moves])
 
 
 @pytest.mark.parametrize("machine", ["mill5-ac-table", "mill5-bc-head"])
