@@ -12,11 +12,13 @@ from typing import TYPE_CHECKING
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.coordinates import tip
+from polycnc.control.word_address.coordinates.on_table import OnTable
 from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero, work_frame
 from polycnc.control.word_address.motion.path import reach
 from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.tilted_plane import TiltState
+from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 from polycnc.transformation.orientation.solutions import angles_for
 from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
@@ -36,6 +38,8 @@ def start_following(channel: WordAddressChannel, words: Words) -> None:
         raise words.fail("tip_machine", "G43.4")
     if TiltState.of(channel).plane is not None or RadiusState.of(channel).side:
         raise words.fail("tip_mode", "G43.4")
+    if OnTable.of(channel).acts:
+        raise AlarmError("PC0001", hint="hint.not-supported", code="G43.4: G54.2, G54.4")
     number = words.integer("H") if "H" in words else None
     state.number = state.number if number is None else number
     value = channel.control.length_value(channel, state.number) if state.number else 0.0
