@@ -159,6 +159,16 @@ def shift_by_center_words(
     return data.amount("IJK"[plane[0]]), data.amount("IJK"[plane[1]])
 
 
+def shift_by_i_and_j(
+    channel: WordAddressChannel, data: CycleData, plane: tuple[int, int]
+) -> tuple[float, float]:
+    """I is the shift along X, J along Y (Hartford manual 3.3.3), where they belong to the plane."""
+    for axis, letter in enumerate("IJ"):
+        if data.amount(letter) and axis not in plane:
+            raise channel.control.fail("address", address=letter)
+    return shift_by_center_words(channel, data, plane)
+
+
 class Halts(Enum):
     """Where single block halts in a hole, besides its end."""
 
