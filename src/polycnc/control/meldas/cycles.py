@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.milling.cycles import CYCLES, MILLING_DRILLING, check_rigid_tapping
 from polycnc.control.meldas.parameters import MeldasParameters
-from polycnc.control.word_address.cycles.drilling import CycleState, shift_by_i_and_j, third_axis
+from polycnc.control.word_address.cycles.drilling import CycleState, third_axis
+from polycnc.control.word_address.cycles.shift import shift_by_i_and_j
 from polycnc.control.word_address.motion.path import FEED_MODES
 from polycnc.control.word_address.tools.radius import active_compensation
 from polycnc.toolpath.modes import FeedMode

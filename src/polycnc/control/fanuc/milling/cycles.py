@@ -10,11 +10,11 @@ from polycnc.control.word_address.cycles.drilling import (
     CycleState,
     DrillCycle,
     Drilling,
-    shift_by_i_and_j,
     third_axis,
     turn_by_m_code,
     turn_spindle,
 )
+from polycnc.control.word_address.cycles.shift import shift_by_i_and_j
 from polycnc.cycles.drilling import holes, lathe
 
 if TYPE_CHECKING:
