@@ -146,6 +146,7 @@ DATA: dict[str, tuple[int, bool | float | str]] = {
     "$MC_START_AC_FIFO": (28262, 0),
     "$MC_LEN_AC_FIFO": (28264, 0),
     "$MC_MODE_AC_FIFO": (28266, 0),
+    "$MC_MM_SHAPED_TOOLS_ENABLE": (28290, 0),
     "$MC_MM_ORISON_BLOCKS": (28590, 10),
     "$MA_NUM_ENCS": (30200, 1),
     "$MA_IS_ROT_AX": (30300, False),

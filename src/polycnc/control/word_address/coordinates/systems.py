@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import MacroChannel, WordAddressChannel
+    from polycnc.geometry.frames import Vector
 
 
 @dataclass(slots=True)
@@ -36,6 +37,7 @@ class ZeroState(State, lifetime=Lifetime.POWER):
         frame: Turn of the work coordinate system; identity on most controls.
         table: How the table has turned since the tilted plane was told, machine coordinates.
         plane: The tilted plane within the work.
+        carried: What makes good how far the head has taken the tool away while it stands on that plane; X, Y, Z, mm.
     """
 
     system: str = lasting(Lifetime.RESET, "G54")
@@ -45,6 +47,7 @@ class ZeroState(State, lifetime=Lifetime.POWER):
     frame: Frame = lasting(Lifetime.RESET, IDENTITY)
     table: Frame = lasting(Lifetime.RESET, IDENTITY)
     plane: Frame = lasting(Lifetime.RESET, IDENTITY)
+    carried: Vector = lasting(Lifetime.RESET, (0.0, 0.0, 0.0))
 
     @classmethod
     def first(cls, channel: Channel) -> Self:
@@ -75,13 +78,20 @@ def work_frame(channel: WordAddressChannel, offsets: list[float]) -> Frame:
     zero = ZeroState.of(channel)
     inner = zero.plane
     if not zero.table.is_identity:
-        place = [
-            offsets[axis] - zero.length[axis] if axis >= 0 else 0.0 for axis in channel.coordinates.geometry
-        ]
-        shift = translation(place[0], place[1], place[2])
+        shift = translation(*work_zero(channel, offsets))
         inner = shift.inverse() @ zero.table @ shift @ inner
     frame = zero.frame @ inner
     return IDENTITY if frame.is_identity else frame
+
+
+def work_zero(channel: WordAddressChannel, offsets: list[float]) -> Vector:
+    """The work zero on the machine, without the tool, mm."""
+    zero = ZeroState.of(channel)
+    x, y, z = (
+        offsets[axis] - zero.length[axis] - carried if axis >= 0 else 0.0
+        for axis, carried in zip(channel.coordinates.geometry, zero.carried, strict=True)
+    )
+    return (x, y, z)
 
 
 def zero_offsets(channel: WordAddressChannel) -> list[float]:
@@ -95,7 +105,11 @@ def zero_offsets(channel: WordAddressChannel) -> list[float]:
         zero.length,
         strict=True,
     )
-    return [sum(values) for values in parts]
+    offsets = [sum(values) for values in parts]
+    for axis, carried in zip(channel.coordinates.geometry, zero.carried, strict=True):
+        if axis >= 0:
+            offsets[axis] += carried
+    return offsets
 
 
 def select_work_offset(channel: MacroChannel, words: Words) -> None:

@@ -17,7 +17,6 @@ from polycnc.control.word_address.motion.path import reach
 from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.tilted_plane import TiltState
-from polycnc.machine.kinematics import Kinematics
 from polycnc.toolpath import Kind
 from polycnc.transformation.orientation.solutions import angles_for
 from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
@@ -32,7 +31,7 @@ def start_following(channel: WordAddressChannel, words: Words) -> None:
     """G43.4, G43.5 H: from here on positions are those of the tip. Without motion in its block nothing moves."""
     state = LengthState.of(channel)
     c = channel.coordinates
-    kinematics = Kinematics.of(channel.machine)
+    kinematics = channel.control.kinematics(channel)
     if not kinematics.axes or not set(kinematics.axes) <= set(channel.axes) or -1 in c.geometry:
         raise words.fail("tip_machine", "G43.4")
     if TiltState.of(channel).plane is not None or RadiusState.of(channel).side:
@@ -67,7 +66,7 @@ def plan_with_direction(builder: Builder, plan: Plan) -> Step | None:
         x, y, z = (words.typed(letter) or 0.0 for letter in "IJK")
         i, j, k = tip.direction(channel, (x, y, z))
         near = dict(zip(channel.axes, c.machine, strict=True))
-        angles = angles_for(Kinematics.of(channel.machine), (i, j, k), near) if i or j or k else None
+        angles = angles_for(channel.control.kinematics(channel), (i, j, k), near) if i or j or k else None
         if angles is None:
             raise words.fail("tip_direction", letters[0])
         for name, angle in angles.items():
