@@ -45,6 +45,7 @@ LIFT_MM = 1.0
 _ROUNDING = 1e-9
 #: Kinds of threads: outside, inside with equal depths of cuts, then both with equal cross-sections.
 KINDS = (1, 2, 3, 4)
+INSIDE_KINDS = (2, 4)
 #: Further coarse metric threads that can be cut, but not tapped, by their nominal diameter.
 LARGE_PITCHES = {52: 5.0, 56: 5.5, 60: 5.5}
 
@@ -68,9 +69,9 @@ def thread_chain(moves: Moves, a: Arguments) -> None:
     _thread(moves, a, corners, leads)
 
 
-#: CYCLE99: what its parameters must be, as far as it is executed: one pitch, lengthwise, absolute, in G18 or the plane.
+#: CYCLE99: what its parameters must be, as far as it is executed: one pitch, lengthwise, absolute.
 _ONLY_ZERO = "_GDEP _PIT1 _FDEP _GST _GUD _MID _AMODE".split()  # noqa: SIM905 - a table
-_PITCH_UNITS, _PLANES = (0, 1), (0, 2)
+_PITCH_UNITS = (0, 1)
 #: Digits of its VARI: how cuts go in, and whether it roughs and finishes.
 INFEED_PLACE, STAGE_PLACE, ALTERNATING = 2, 5, 2
 _COMPLETE = (0, 3)
@@ -85,9 +86,8 @@ def thread_of_plane(moves: Moves, a: Arguments) -> None:
     if not lead:
         raise AlarmError("61001")
     wrong = [name for name in _ONLY_ZERO if a.plain(name)]
-    wrong += [
-        name for name, known in (("_PITA", _PITCH_UNITS), ("_DMODE", _PLANES)) if a.integer(name) not in known
-    ]
+    if a.integer("_PITA") not in _PITCH_UNITS:
+        wrong.append("_PITA")
     if wrong or a.digit("_VARI", STAGE_PLACE) not in _COMPLETE or not a.integer("_NRC"):
         raise not_supported(f"CYCLE99 {wrong[0] if wrong else '_VARI'}")
     flank = a["_IANG"]
@@ -95,7 +95,8 @@ def thread_of_plane(moves: Moves, a: Arguments) -> None:
         flank = degrees(atan2(abs(a["_IFLANK"]), abs(a["_TDEP"])))
     if a.digit("_VARI", INFEED_PLACE) == ALTERNATING:
         flank = -abs(flank)
-    corners = [(a["_SPL"], a["_DM1"]), (a["_FPL"], a["_DM2"])]
+    # The editor leaves the second diameter out where the thread is none of a taper.
+    corners = [(a["_SPL"], a["_DM1"]), (a["_FPL"], a["_DM2"] or a["_DM1"])]
     _thread(moves, a, corners, [lead], prefix="_", kind=kind, flank=flank, lift=a["_SDIS"])
 
 
@@ -118,6 +119,8 @@ def _thread(
     for (a0, b0), (a1, b1) in pairwise(corners):
         if a0 == a1 or abs(b1 - b0) > abs(a1 - a0):
             raise not_supported(f"{a.cycle}: face thread")
+    if kind not in INSIDE_KINDS and min(radius for _, radius in corners) < abs(a[f"{prefix}TDEP"]):
+        raise AlarmError("61601")
     cutting = Thread(
         corners,
         leads,
@@ -127,7 +130,7 @@ def _thread(
         allowance=abs(a[f"{prefix}FAL"]),
         cuts=max(a.integer(f"{prefix}NRC"), 1),
         idle=max(a.integer(f"{prefix}NID"), 0),
-        inside=kind in (2, 4),
+        inside=kind in INSIDE_KINDS,
         degressive=kind in (3, 4),
         flank_deg=a[f"{prefix}IANG"] if flank is None else flank,
         start_angle_deg=a[f"{prefix}NSP"],
