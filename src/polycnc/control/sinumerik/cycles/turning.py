@@ -16,6 +16,7 @@ from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tools import stages
 from polycnc.cycles.count import parts
 from polycnc.cycles.turning import thread_chain as thread_turning
+from polycnc.cycles.turning.allowance import with_stock
 from polycnc.cycles.turning.contour import (
     Contour,
     Piece,
@@ -29,6 +30,7 @@ from polycnc.cycles.turning.stock_removal import Removal, remove, way_clear
 from polycnc.cycles.turning.stroke import PlaneStroke
 from polycnc.cycles.turning.thread_chain import Thread
 from polycnc.geometry import offset
+from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
@@ -38,6 +40,7 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.cycles.arguments import Arguments
     from polycnc.control.sinumerik.cycles.moves import Moves
     from polycnc.geometry.arcs import Point
+    from polycnc.geometry.offset import Edge
 
 #: Ways off the work where the call gives none.
 LIFT_MM = 1.0
@@ -171,10 +174,13 @@ class Work:
         """An amount along Z and one along X in the coordinates of the cuts."""
         return (radial, along) if self.across else (along, radial)
 
-    def tool_path(self, contour: Contour, allowance: float, *, roughs: bool = False) -> Contour:
+    def tool_path(
+        self, contour: Contour, allowance: float, *, roughs: bool = False, rounds_begin: bool = False
+    ) -> Contour:
         """Where the tool's point runs: the nose lies on the contour, or an allowance off it.
 
-        Roughing leaves stock in a rounding that is too narrow for both.
+        Roughing leaves stock in a rounding that is too narrow for both. `rounds_begin`: the nose comes round an open
+        end from which the contour goes down, for it passes over that end.
 
         Raises:
             AlarmError: 61606 where the nose does not fit the contour.
@@ -187,12 +193,27 @@ class Work:
             path = parallel(contour, off, leaves_fillets=roughs)
         except ValueError:
             raise AlarmError("61606") from None
+        if rounds_begin:
+            path = [*self._round_begin(contour[0].edge, path[0].edge.start, off, contour[-1].edge.end), *path]
         return shifted(path, *self.pair(radius * first, radius * second))
 
+    def _round_begin(self, first: Edge, onto: Point, off: float, end: Point) -> Contour:
+        """The nose's way round the open end of a contour that goes down from there; nothing else needs one."""
+        begin = first.start
+        is_open = self.towards * (begin[1] - end[1]) >= 0.0
+        if not is_open or self.towards * first.departing[1] <= NO_WAY or abs(off) <= NO_WAY:
+            return []
+        above = (begin[0], begin[1] - self.towards * abs(off))
+        return [Piece(offset.arc(above, onto, begin, off < 0.0))]
+
     def clear(self, contour: Contour, end: Point, lift: float) -> None:
-        """Go past the contour before a rapid to a place, where that would touch it."""
+        """Go past the contour before a rapid to a place, where that would touch it; 61606 where no way is clear."""
         start = self.pair(*self.moves.point)
-        for stroke in way_clear(contour, start, end, towards=self.towards, lift=lift):
+        try:
+            way = way_clear(contour, start, end, towards=self.towards, lift=lift)
+        except ValueError:
+            raise AlarmError("61606") from None
+        for stroke in way:
             self.perform(stroke, 0.0)
 
     def perform(self, stroke: PlaneStroke, feed: float) -> None:
@@ -208,7 +229,9 @@ class Work:
 
 
 def onwards(contour: Contour) -> float:
-    """The direction of a contour along the cuts."""
+    """The direction of a contour along the cuts; 61605 where it has none."""
+    if abs(contour[-1].edge.end[0] - contour[0].edge.start[0]) <= NO_WAY:
+        raise AlarmError("61605")
     return copysign(1.0, contour[-1].edge.end[0] - contour[0].edge.start[0])
 
 
@@ -249,9 +272,12 @@ def _rough(work: Work, a: Arguments, contour: Contour, *, follows: bool) -> None
         raise AlarmError("61610")
     if work.towards * (contour[0].edge.start[1] - contour[-1].edge.end[1]) < 0.0:
         contour = turned_round(contour)
-    path = work.tool_path(contour, abs(a["FAL"]), roughs=True)
+    path = work.tool_path(contour, abs(a["FAL"]), roughs=True, rounds_begin=True)
     off_a, off_b = work.pair(abs(a["FALZ"]), abs(a["FALX"]))
-    path = shifted(path, -onwards(contour) * off_a, -work.towards * off_b)
+    try:
+        path = with_stock(path, (-onwards(contour) * off_a, -work.towards * off_b), work.towards)
+    except ValueError:
+        raise AlarmError("61606") from None
     straight = feed_of(a, "FF1")
     relief = a["FF2"] or straight
     for cut in remove(path, Removal(a["MID"], _lift(a), work.towards, follows)):
@@ -281,7 +307,7 @@ def steps_of(total: float, step: float) -> list[float]:
 
 def _finish(work: Work, a: Arguments, contour: Contour) -> None:
     """The contour once, in its own direction, at the finished size."""
-    path = work.tool_path(contour, 0.0)
+    path = work.tool_path(contour, 0.0, rounds_begin=True)
     feed, lift = feed_of(a, "FF3"), _lift(a)
     start, end = path[0].edge.start, path[-1].edge.end
     before = _beside(start, path[0].edge.departing, onwards(contour), work.towards, lift)
