@@ -44,6 +44,7 @@ CHANGED_BY = {
     "BitState": "syntec-lang-bits-io",
     "BlockStart": "syn-polar-pair-of-a-diameter-axis",
     "ChosenContour": "sin-cyc-62",
+    "IsoState": "sin-iso-drilling",
     "ClampState": "fanuc-0i-tf-clamp-of-both-sets-the-same",
     "Clock": "sin-clock-is-read-only",
     "Clocks": "meldas-m-clock",

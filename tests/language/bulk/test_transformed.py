@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tests.examples import examples
 from tests.language.bulk.both_ways import differences, scanned
 from tests.language.bulk.programs import plain, program
 from tests.language.bulk.test_sinumerik import COMMENTS
@@ -27,7 +28,7 @@ SINUMERIK = (
 
 
 @pytest.mark.parametrize(("machine", "letters"), [(HEAD, "XYZBC"), (TABLES, "XYZAC")])
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(12), deadline=None)
 @given(st.data())
 def test_tool_centre_point_control(machine: str, letters: str, data: st.DataObject) -> None:
     start = f"O0001\nG90 G54 G1 F1000.\nG43.4 H1 Z20.\nG1 X1. {letters[3]}5."
@@ -39,7 +40,7 @@ def test_tool_centre_point_control(machine: str, letters: str, data: st.DataObje
 
 
 @pytest.mark.parametrize(("machine", "letters"), [(HEAD, "XYZBC"), (TABLES, "XYZAC")])
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(12), deadline=None)
 @given(st.data())
 def test_orientation_transformation(machine: str, letters: str, data: st.DataObject) -> None:
     start = f"G90 G54 G1 F1000 T1 D1\nTRAORI\nG1 X1 {letters[3]}5"
@@ -59,7 +60,7 @@ POLAR = (
 )  # fmt: skip
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(12), deadline=None)
 @given(
     program(
         plain("XZC", FANUC_COMMENTS),
@@ -76,7 +77,7 @@ def test_polar_and_cylindrical_interpolation(text: str) -> None:
 FACE = ("TRANSMIT", "TRAFOOF", "TRACYL(40)", "G0 X30", "G17", "G19", "G90", "G91", "TRANS X1", "S100 M3")
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(12), deadline=None)
 @given(
     program(
         plain("XYZ", COMMENTS, equals=True), st.sampled_from(FACE), st.just("GOTOF NIRGENDS"),
@@ -111,7 +112,7 @@ def test_far_from_limits_of_travel_blocks_are_scanned(control: str) -> None:
 
 @pytest.mark.parametrize("control", STARTS)
 @pytest.mark.parametrize(("machine", "letters"), [(HEAD, "BC"), (TABLES, "AC")])
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=examples(15), deadline=None)
 @given(st.lists(PLACE, min_size=3, max_size=12), st.integers(60, 140))
 def test_limits_of_travel_are_found_in_the_same_block(
     control: str, machine: str, letters: str, places: list[tuple[int, int, int, int, int, str]], travel: int
@@ -144,7 +145,7 @@ CHANGES = st.sampled_from([
 
 
 @pytest.mark.parametrize(("machine", "angle"), [(HEAD, "B"), (TABLES, "A")])
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(20), deadline=None)
 @given(st.lists(st.one_of(st.tuples(BESIDE, DIRECTION, st.integers(0, 9)), CHANGES), min_size=2, max_size=14))
 def test_directions_of_the_tool(
     machine: str, angle: str, blocks: list[str | tuple[str, tuple[float, float, float], int]]

@@ -62,7 +62,7 @@ from polycnc.toolpath.modes import CornerMode, FeedMode
 from polycnc.toolpath.motion_settings import MotionSettings
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from polycnc.channel.mode import Mode
     from polycnc.channel.stack import Executable, Level
@@ -72,6 +72,7 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.variables.registry import SystemVariable
     from polycnc.language.expressions.shapes import Shapes
     from polycnc.language.sinumerik.actions.code import ActionCode
+    from polycnc.language.sinumerik.iso_dialect import IsoBlock
     from polycnc.language.sinumerik.words import Block
     from polycnc.messages import Catalogue
     from polycnc.program import Program
@@ -408,10 +409,13 @@ class Sinumerik:
             raise not_supported("G291")
         channel.mode = channel.mode.with_code("language", "G291")
 
-    def check_iso(self, channel: SinumerikChannel) -> None:
+    def run_iso(self, channel: SinumerikChannel, block: IsoBlock, perform: Callable[[str], None]) -> None:
         """A block of the ISO dialect comes: PC0001 where the program has come there without G291."""
         if channel.mode["language"] != "G291":
             raise not_supported("G291")
+        from polycnc.control.sinumerik.iso import dialect
+
+        dialect.run(channel, block, perform)
 
     def halts(self, channel: SinumerikChannel, level: Level, step: ProgramStep) -> bool:  # noqa: ARG002 - levels decide
         """Whether single block operation halts behind the block that a level has run."""

@@ -159,7 +159,7 @@ def _rows_on_table() -> list[SystemRange]:
 #: Modal groups in the order of #4001 to #4030 (machining centres).
 MILLING_GROUPS = {1: "motion", 2: "plane", 3: "distance", 4: "stroke", 5: "feed", 6: "unit", 7: "compensation",
                   8: "length", 9: "cycle", 10: "return", 11: "scaling", 12: "macro", 13: "surface_speed", 14: "wcs",
-                  15: "path", 16: "rotation", 17: "polar", 22: "mirror"}  # fmt: skip
+                  15: "path", 16: "rotation", 17: "polar", 18: "normal_line", 22: "mirror"}  # fmt: skip
 
 
 def _modal(group: str) -> Read:

@@ -20,6 +20,7 @@ from polycnc.control.sinumerik.cycles.milling import (
     variant,
 )
 from polycnc.control.sinumerik.cycles.moves import require_tool
+from polycnc.control.sinumerik.errors import not_supported
 from polycnc.cycles.count import checked
 from polycnc.cycles.milling import contour as path_milling
 from polycnc.cycles.milling import facing, spigots
@@ -284,6 +285,8 @@ def thread(moves: Moves, a: Arguments) -> None:
 #: Tens of VARI of CYCLE70: where the thread begins; hundreds: its hand.
 DOWNWARDS, UPWARDS = 1, 2
 RIGHT_HAND, LEFT_HAND = 0, 1
+#: No digit of VARI of CYCLE70 is known from here on.
+HIGHEST_VARI = 1000
 
 
 def thread_with_teeth(moves: Moves, a: Arguments) -> None:
@@ -293,10 +296,13 @@ def thread_with_teeth(moves: Moves, a: Arguments) -> None:
         AlarmError: As the other milling cycles; 61001 without pitch or depth of thread, 61002 for VARI or TYPTH, 61010
             for an allowance of more than the thread's depth, 61105 for a cutter that does not go into the core hole,
             61601 for an external thread without core;
-            PC0001 for a pitch by module.
+            PC0001 for a pitch by module, a negative number of teeth and higher digits of VARI.
     """
     radius = cutter(moves)
     kind, way, hand = (a.digit("_VARI", place) for place in range(3))
+    teeth = a.integer("_NT")
+    if teeth < 0 or not 0 <= a.integer("_VARI") < HIGHEST_VARI:
+        raise not_supported("CYCLE70 _NT" if teeth < 0 else "CYCLE70 _VARI")
     is_inside = a.integer("_TYPTH") == 0
     if (
         kind not in (ROUGHING, FINISHING)
@@ -325,7 +331,7 @@ def thread_with_teeth(moves: Moves, a: Arguments) -> None:
         Place(reference_point(moves, a), a["_NSP"]),
         [outer - deep + cut - radius if is_inside else outer - cut + radius for cut in cuts],
         lead,
-        max(a.integer("_NT"), 1),
+        max(teeth, 1),
         found.reference,
         found.depth,
         rises,

@@ -358,7 +358,9 @@ class Builder:
         if any(row.handler is exact_stop_block for row in rows):
             steps.append(end_of_exact_stop)
         behind = [rule.after(self, plan) for rule in self.acting if rule.after is not None]
-        plan.steps = (*steps, *(step for step in behind if step is not None), *after)
+        last = [rule.last(self, plan) for rule in self.acting if rule.last is not None]
+        steps += [*(step for step in behind if step is not None), *after]
+        plan.steps = (*steps, *(step for step in last if step is not None))
         untaken = self._untaken()
         if untaken and not (self._is_open or any(row.open for row in rows)):
             raise self.control.untaken(untaken[0], self)

@@ -150,10 +150,14 @@ def set_local_system(channel: WordAddressChannel, words: Words) -> None:
 
 
 def set_position(channel: WordAddressChannel, words: Words) -> None:
-    """G92: the present position gets these coordinates; every work coordinate system shifts with it (Hartford 3.2)."""
-    position = channel.coordinates.position
+    """G92: the present position gets these coordinates; every work coordinate system shifts with it (Hartford 3.2).
+
+    A local system (G52) of these axes ends with it (macro B 10.3).
+    """
+    state, position = ZeroState.of(channel), channel.coordinates.position
     for axis, value, _ in words.axes():
-        ZeroState.of(channel).preset[axis] += position[axis] - value
+        state.preset[axis] += position[axis] + state.local[axis] - value
+        state.local[axis] = 0.0
     refresh_zero(channel)
 
 

@@ -51,9 +51,10 @@ class ModalCall:
 
 @dataclass(slots=True)
 class ModalCallState(State, lifetime=Lifetime.RESET):
-    """The modal calls that are active, the last one called first."""
+    """The modal calls that are active, the last one called first; `due` follows the block that runs."""
 
     calls: list[ModalCall] = field(default_factory=list)
+    due: ModalCall | None = None
 
 
 def arguments_of(words: Words, skip: str = "", *, without_m: int | None = None) -> list[float | None]:
@@ -178,7 +179,7 @@ def enter_macro(
 
 
 def plan_modal_call(builder: Builder, plan: Plan) -> Step | None:
-    """What follows the blocks of a shape while a modal call is active, or None.
+    """What finds the macro that follows the blocks of a shape while a modal call is active, or None.
 
     A move in a modal macro is followed by the macro that was called before it, and so on (nested G66).
     """
@@ -189,14 +190,24 @@ def plan_modal_call(builder: Builder, plan: Plan) -> Step | None:
     if not plan.axis_words or any(row.axis_words and row.code == "G4" for row in builder.codes):
         return None
 
-    def follow(channel: MacroChannel, _values: list[float]) -> None:
-        calls = ModalCallState.of(channel).calls
+    def find(channel: MacroChannel, _values: list[float]) -> None:
+        state = ModalCallState.of(channel)
         inside = sum(1 for level in channel.stack if level.kind in (LevelKind.MODAL, LevelKind.EVERY_BLOCK))
-        if inside < len(calls):
-            call = calls[-1 - inside]
-            enter_macro(channel, call.program, list(call.arguments), call.repeats, kind=LevelKind.MODAL)
+        state.due = state.calls[-1 - inside] if inside < len(state.calls) else None
 
-    return follow
+    return find
+
+
+def plan_following(builder: Builder, plan: Plan) -> Step | None:
+    """The macro begins when all of its block is done: an M99 of the block has left its program by then."""
+    return None if plan_modal_call(builder, plan) is None else _follow
+
+
+def _follow(channel: MacroChannel, _values: list[float]) -> None:
+    state = ModalCallState.of(channel)
+    call, state.due = state.due, None
+    if call is not None and not channel.finished:
+        enter_macro(channel, call.program, list(call.arguments), call.repeats, kind=LevelKind.MODAL)
 
 
 def plan_argument_block(builder: Builder, plan: Plan) -> Step | None:
@@ -251,4 +262,5 @@ RULE = Rule(
     modes={"macro": ("G66", "G66.1")},
     replace=plan_argument_block,
     after=plan_modal_call,
+    last=plan_following,
 )
