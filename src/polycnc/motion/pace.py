@@ -15,9 +15,9 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from polycnc.motion.kernels.columns import Limits
-    from polycnc.motion.row_path import Path
     from polycnc.toolpath import Context
     from polycnc.toolpath.context import Pace
+    from polycnc.toolpath.row_path import Path
 
 #: A contour radius below this part of the tool's is a corner, about which the tool turns at F.
 CORNER = 1e-6
