@@ -39,7 +39,7 @@ from polycnc.motion.demand import (
 from polycnc.motion.frames import carried, machine_of, path_of, real_of, real_rows, work_of
 from polycnc.motion.kernels.columns import AT_END, AT_START, SHARES, Limits, Rows
 from polycnc.motion.limits import NO_LINKAGE, averages, axis_limits, channel_axes, is_led, rotary_weight
-from polycnc.motion.pace import Travel, following_top, pace_of
+from polycnc.motion.pace import Travel, following_top, left_of, pace_of
 from polycnc.motion.pole import (
     RING_MM,
     PathLeg,
@@ -531,13 +531,14 @@ class RealAxes:
             ways = [self._way(i, real[k + 1][i] - real[k][i]) / step for k in range(3)]
             bends = [(ways[k + 1] - ways[k]) / step for k in range(2)]
             velocity, fastest = (axis.rapid if kind == Kind.RAPID else axis.max_feed), max(map(abs, ways))
+            velocity, acceleration = left_of(context, i, velocity, axis.acceleration)
             steepest = max(map(abs, bends))
             if velocity and fastest > 0.0:
                 top = min(top, velocity / fastest)
-            if axis.acceleration:
-                bend = max(bend, steepest / axis.acceleration)
+            if acceleration:
+                bend = max(bend, steepest / acceleration)
                 asked = asked_of(here[i], pulls, columns) if lateral else fastest * along[0]
-                pull = max(pull, asked / axis.acceleration)
+                pull = max(pull, asked / acceleration)
             if soft and axis.jerk:
                 twist = abs(bends[1] - bends[0]) / step
                 top = min(top, (TWIST * axis.jerk / twist) ** (1.0 / 3.0)) if twist > NOTHING else top
