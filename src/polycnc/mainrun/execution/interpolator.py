@@ -396,14 +396,17 @@ class ChannelInterpolator:
         self._run.execution.place_axis(column, place)
         return place
 
-    def overlay(self, name: str, column: int, value: float, speed: float) -> None:
-        """Shift an axis beside everything else, no faster than a speed; `name` says which of its shifts is meant."""
+    def overlay(self, name: str, column: int, value: float, speed: float, pull: float = 1.0) -> None:
+        """Shift an axis beside everything else, no faster than a speed and with a part of its acceleration.
+
+        `name` says which of its shifts is meant.
+        """
         found = self._overlays.get((name, column))
         if found is None:
             axis = self._run.axes[column]
             found = self._overlays[name, column] = Overlay(axis.data.acceleration)
             axis.add(found)
-        found.go(value, speed, self._clock.time)
+        found.go(value, speed, self._clock.time, pull)
         self._narrow_travel()
 
     def shift_by_hand(self, column: int, way: float, speed: float) -> None:

@@ -106,6 +106,7 @@ DATA: dict[str, tuple[int, bool | float | str]] = {
     "$MC_TOOL_GRIND_AUTO_TMON": (20350, False),
     "$MC_TOOL_TEMP_COMP_ON": (20390, True),
     "$MC_COMPRESSOR_MODE": (20482, 0),
+    "$MC_ADD_MOVE_ACCEL_RESERVE": (20610, 0.2),
     "$MC_SPF_END_TO_VDI": (20800, 1),
     "$MC_CTAB_ENABLE_NO_LEADMOTION": (20900, 0),
     "$MC_CTAB_DEFAULT_MEMORY_TYPE": (20905, 0),
