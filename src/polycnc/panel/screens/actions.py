@@ -8,14 +8,17 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from polycnc.control.fanuc.lathe.tools import screens as lathe
 from polycnc.control.fanuc.lathe.tools.screens import Page
+from polycnc.deferred.records import dataclass
 from polycnc.deferred.regexes import regex
 from polycnc.mainrun import CommandRefused
 from polycnc.panel.screens import forms
 from polycnc.panel.screens.sources import SOURCES
+from polycnc.panel.screens.state import Operation
 from polycnc.panel.screens.tables import Table
 from polycnc.panel.screens.transfer import Transfer, begin_transfer
 
 if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
     from polycnc.panel.screens.pages import Column
     from polycnc.panel.screens.state import ScreenState
 
@@ -270,11 +273,33 @@ def write_enable(screen: ScreenState) -> None:
     screen.writes_parameters = not screen.writes_parameters
 
 
+@dataclass
+class Clearing(Operation):
+    """CLEAR with ALL, WEAR or GEOM, which waits for [EXEC] on displays with keys at the side (III.2.1.8)."""
+
+    change: Callable[[Channel], object]
+    back: str
+
+    @property
+    def keys(self) -> str:
+        """[CAN] and [EXEC]."""
+        return "exec"
+
+    def execute(self, screen: ScreenState) -> bool:
+        """Clear."""
+        screen.control.change(self.change)
+        return True
+
+
 def clear_axes(screen: ScreenState, chosen: Sequence[Page]) -> None:
     """CLEAR with ALL, WEAR or GEOM: the offsets of the page's axes become 0 in all numbers (0i-TF Plus III.2.1.8)."""
     table, _, _ = _field(screen)
     axes = [column.axis for column in table.spec.columns]
-    screen.control.change(partial(lathe.clear_offsets, chosen=chosen, fields=axes))
+    clearing = Clearing(partial(lathe.clear_offsets, chosen=chosen, fields=axes), back=screen.page.menu)
+    if screen.side_rows:
+        screen.pending = clearing
+    else:
+        clearing.execute(screen)
 
 
 def switch_page(screen: ScreenState) -> None:

@@ -43,6 +43,11 @@ class Operation(ABC):
         """What blinks in the status line while it goes on; empty for nothing."""
         return ""
 
+    @property
+    def keys(self) -> str:
+        """The row of soft keys while it waits; empty for the one that its soft key opens."""
+        return ""
+
     @abstractmethod
     def execute(self, screen: ScreenState) -> bool:
         """Do it, or begin with it; gives whether it is done."""
@@ -63,7 +68,9 @@ class ScreenState:
         family: Its pages and keys.
         page: The page that is shown.
         rows: Soft keys that stand in a row: as many as the display has.
-        menu: Name of the row of soft keys; `turned` says how far it has been turned on by ▷.
+        side_rows: Soft keys at the side of a display that has a chapter's pages there; 0 for none.
+        menu: Name of the row of soft keys; `turned` says how far it has been turned on by ▷, `side_turned` how far
+            those at the side by [NEXT PAGE].
         buffer: What has been keyed in.
         shifted: SHIFT was pressed: the next key with two legends is the second one.
         refusal: Why the control has not done what the last key asked for; None where it has.
@@ -98,7 +105,7 @@ class ScreenState:
         self._pages = {name: page.of(axes) for name, page in self.family.pages.items()}
         self.page: Page = self._pages[self.family.start]
         self.menu, self.turned = self.page.menu, 0
-        self.rows = self.family.rows
+        self.rows, self.side_rows, self.side_turned = self.family.rows, 0, 0
         self.buffer = ""
         self.shifted = False
         self.refusal: UserError | None = None
@@ -132,9 +139,15 @@ class ScreenState:
         if self.pending is not None and not self.pending.status:
             self.pending = None
         self.listed = None
-        shown = self._pages[page]
+        shown, chapter = self._pages[page], self.page.menu
         self.page = self._present(shown if self.holds(shown.when) else self._pages[shown.instead])
         self.menu, self.turned = self.page.menu, 0
+        self.side_turned = self.side_turned if self.page.menu == chapter else 0
+
+    def use_display(self, rows: int, side_rows: int) -> None:
+        """Another display, with so many soft keys below and at its side."""
+        self.rows, self.side_rows = rows, side_rows
+        self.menu, self.turned, self.side_turned = self.page.menu, 0, 0
 
     def holds(self, condition: str) -> bool:
         """Whether parameters are as a condition says: `8136#6`, `!8136#6`, several with `&`; true for an empty one."""
@@ -169,7 +182,7 @@ class ScreenState:
             number = self.control.read_parameter(column.axis_of)
             if isinstance(number, int | float) and 1 <= number <= len(axes):
                 axis = axes[int(number) - 1]
-                yield replace(column, head=axis, axis=axis, variable=axis)
+                yield replace(column, head={"en": axis, "zh-TW": f"{axis}軸"}, axis=axis, variable=axis)
 
     def finish(self) -> None:
         """What was pending is done or given up; the soft keys in front of it come back."""
