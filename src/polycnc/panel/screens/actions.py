@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -10,12 +11,14 @@ from polycnc.control.fanuc.lathe.tools import screens as lathe
 from polycnc.control.fanuc.lathe.tools.screens import Page
 from polycnc.deferred.records import dataclass
 from polycnc.deferred.regexes import regex
-from polycnc.mainrun import CommandRefused
+from polycnc.mainrun import CommandRefused, Mode
+from polycnc.messages import UserError
 from polycnc.panel.screens import forms
 from polycnc.panel.screens.sources import SOURCES
 from polycnc.panel.screens.state import Operation
 from polycnc.panel.screens.tables import Table
 from polycnc.panel.screens.transfer import Transfer, begin_transfer
+from polycnc.panel.screens.words import END
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -24,6 +27,8 @@ if TYPE_CHECKING:
 
 Action: TypeAlias = Callable[["ScreenState"], None]
 
+#: The number of a program.
+_PROGRAM = regex(r"(?i)O\d{1,8}")
 #: An axis with a value behind it, which may be missing; a name with a number wants an equals sign (`Q1=5`).
 _AXIS_VALUE = regex(r"(?P<axis>[A-Z]+\d+(?==)|[A-Z])\s*=?\s*(?P<value>[+-]?\d*\.?\d*)")
 
@@ -255,7 +260,51 @@ def calculate(screen: ScreenState) -> None:
     screen.buffer = f"{sum(sums):.6f}".rstrip("0")
 
 
-def insert(screen: ScreenState) -> None:
+def edit_words(screen: ScreenState, key: str) -> None:
+    """INSERT, ALTER and DELETE of words in mode EDIT; the number of a program and INSERT begin a new one.
+
+    Raises:
+        CommandRefused: The mode is another one, or nothing is keyed in.
+        UserError: The memory has that program.
+    """
+    typed = screen.buffer.strip()
+    if not screen.page.edits or not (typed or key == "DELETE"):
+        raise CommandRefused("screen.no-field")
+    if not screen.edits:
+        raise CommandRefused("screen.mode", mode=screen.family.modes[Mode.EDIT])
+    if key == "INSERT" and _PROGRAM.fullmatch(typed):
+        _begin_program(screen, typed.upper())
+    else:
+        _change_program(screen, key, typed)
+    screen.buffer = ""
+
+
+def _begin_program(screen: ScreenState, name: str) -> None:
+    with suppress(CommandRefused):
+        screen.control.program_lines(name)
+        raise UserError("screen.program-exists", name=name)
+    screen.control.store_program(name, f"{name}\n")
+    screen.control.select_program(name)
+    screen.program_row, screen.program_word = 0, 0
+
+
+def _change_program(screen: ScreenState, key: str, typed: str) -> None:
+    control, edited = screen.control, screen.edited
+    if key == "INSERT":
+        edited.insert(typed)
+    elif key == "ALTER":
+        edited.alter(typed)
+    elif typed == END:
+        edited.delete_block()
+    elif not typed:
+        edited.delete()
+    else:
+        raise CommandRefused("screen.no-field")
+    control.store_program(control.program or "MAIN", edited.text)
+    screen.program_row, screen.program_word = edited.place.row, edited.place.word
+
+
+def insert(screen: ScreenState, _key: str = "INSERT") -> None:
     """INSERT on the MDI page: what has been keyed in is the next block."""
     if not screen.shows("mdi"):
         raise CommandRefused("screen.no-field")

@@ -147,6 +147,7 @@ class Page:
         data: What [READ] and [PUNCH] transfer (`card`).
         turns: The page that the page keys lead to; empty where they move the cursor.
         other: The page that the soft key SWITCH leads to.
+        edits: Keys change words of the program, in mode EDIT.
         when: Parameters under which it is there, as for soft keys; else `instead` is the page that is shown.
         instead: See `when`.
     """
@@ -159,6 +160,7 @@ class Page:
     data: str = ""
     turns: str = ""
     other: str = ""
+    edits: bool = False
     when: str = ""
     instead: str = ""
 
@@ -273,7 +275,7 @@ def family_of(control: str) -> Family:
 
 
 #: What a page may say beside its name, title and windows.
-_PAGE = ("menu", "operations", "data", "turns", "other", "when", "instead")
+_PAGE = ("menu", "operations", "data", "turns", "other", "edits", "when", "instead")
 
 
 def _page(row: Mapping[str, Any]) -> Page:

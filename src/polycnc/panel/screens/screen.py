@@ -17,8 +17,8 @@ from polycnc.deferred.regexes import regex
 from polycnc.mainrun import CommandRefused, Mode
 from polycnc.messages import UserError
 from polycnc.messages.catalogue import language
-from polycnc.panel.screens.actions import ACTIONS, calculate, insert, set_value
-from polycnc.panel.screens.forms import enter, follow_dialog
+from polycnc.panel.screens.actions import ACTIONS, calculate, edit_words, insert
+from polycnc.panel.screens.forms import follow_dialog
 from polycnc.panel.screens.operate import state_of
 from polycnc.panel.screens.pages import SoftKey, in_language
 from polycnc.panel.screens.state import ScreenState
@@ -32,6 +32,8 @@ if TYPE_CHECKING:
 LONGEST_LOOK = 500
 #: A block with its number.
 _NUMBERED = regex(r"\s*/?\d?\s*[Nn](\d+)")
+#: The number of a program.
+_NUMBER = regex(r"(?i)O\d+")
 #: Characters that the key-in buffer takes.
 LONGEST_BUFFER = 127
 #: Soft keys at the side of a screen that always has them.
@@ -78,10 +80,8 @@ class Screen(ScreenState):
         self.shifted = False
         if key in self.family.keys:
             self.show(self.family.keys[key])
-        elif key in _MOVES and key in ("UP", "DOWN") and self.buffer and self._reads_program:
-            self.find(self.buffer, _MOVES[key][0])
         elif key in _MOVES:
-            self.move(*_MOVES[key])
+            self._go(key)
         elif key in ("PAGE_UP", "PAGE_DOWN") and self.page.turns:
             self.show(self.page.turns)
         elif key in ("PAGE_UP", "PAGE_DOWN"):
@@ -94,6 +94,8 @@ class Screen(ScreenState):
         elif key == "RESET":
             self.control.reset()
             self.buffer = ""
+            if self.edits:
+                self.look_at(0)
         elif key in ("MENU", self.family.next_key):
             self._turn_menu()
         elif key == "RETURN":
@@ -102,6 +104,15 @@ class Screen(ScreenState):
             self.type(key)
         else:
             raise CommandRefused("panel.unknown", name=key, known=", ".join(self.family.keys))
+
+    def _go(self, key: str) -> None:
+        """A cursor key: it moves the cursor, or looks for what has been keyed in."""
+        if key == "DOWN" and self.page.edits and _NUMBER.fullmatch(self.buffer):
+            ACTIONS["search-program"](self)
+        elif key in ("UP", "DOWN") and self.buffer and self._reads_program:
+            self.find(self.buffer, _MOVES[key][0])
+        else:
+            self.move(*_MOVES[key])
 
     @property
     def _reads_program(self) -> bool:
@@ -117,13 +128,15 @@ class Screen(ScreenState):
         elif key == "CALC":
             calculate(self)
         elif key == "INPUT":
-            (insert if self.shows("mdi") else enter if self.shows("mask") else set_value)(self)
+            ACTIONS["insert" if self.shows("mdi") else "enter" if self.shows("mask") else "set"](self)
         elif key == "SELECT":
             ACTIONS["toggle"](self)
         elif key in ("INSERT", "ALTER"):
-            insert(self)
+            (insert if self.shows("mdi") else edit_words)(self, key)
         elif self.shows("mdi"):
             ACTIONS["erase-mdi"](self)
+        elif self.edits and not _NUMBER.fullmatch(self.buffer):
+            edit_words(self, key)
         elif key == "DELETE":
             ACTIONS["delete-program"](self)
 

@@ -8,12 +8,13 @@ from datetime import UTC, datetime
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from polycnc.mainrun import CommandRefused, State
+from polycnc.mainrun import CommandRefused, Mode, State
 from polycnc.mainrun.reading.snapshot import ActiveBlock
 from polycnc.messages import UserError
 from polycnc.panel.screens.card import Card
 from polycnc.panel.screens.measuring import SIGNALS, Measuring
 from polycnc.panel.screens.pages import family_of
+from polycnc.panel.screens.words import Edited, Place, spans
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -88,6 +89,7 @@ class ScreenState:
         dialog: The dialog of the program that is shown, since `dialog_since` (simulated time, s); the page that it lies
             upon is `behind_dialog`.
         program_row: Row of the cursor in the program; None where the window follows the block in execution.
+        program_word: The word of that row on which the cursor stands, where the page edits words.
         search_mode: The kind of block search that is chosen.
         interrupted: The block of the main program that was last in execution.
 
@@ -126,6 +128,7 @@ class ScreenState:
         self.dialog_since, self.behind_dialog = 0.0, self.page.id
         self._cursors: dict[str, tuple[int, int]] = {}
         self.program_row: int | None = None
+        self.program_word = 0
         self.search_mode = "contour"
         self.interrupted = ActiveBlock()
 
@@ -258,6 +261,10 @@ class ScreenState:
         (row, column), table = self.cursor, self.table
         if self.measuring is not None and self.measuring.leads_cursor:
             return
+        if self.edits and columns and not rows:
+            place = self.edited.move(columns)
+            self.program_row, self.program_word = place.row, place.word
+            return
         if self.shows("program") and table is None and not self.shows("mask"):
             self.look_at((self.program_row if self.program_row is not None else self.running_row) + rows)
             return
@@ -295,7 +302,7 @@ class ScreenState:
             self.program_row = None
             return
         lines = self.control.program_lines(self.control.program)
-        self.program_row = max(0, min(row, len(lines) - 1))
+        self.program_row, self.program_word = max(0, min(row, len(lines) - 1)), 0
 
     def find(self, text: str, step: int) -> None:
         """Put the cursor on the next row of the program that has a text, onwards (1) or backwards (-1).
@@ -311,6 +318,21 @@ class ScreenState:
         if found is None:
             raise CommandRefused("screen.not-found", text=text)
         self.look_at(found)
+        if self.edits:
+            at = lines[found].upper().index(wanted)
+            self.program_word = sum(1 for _, end in spans(lines[found]) if end <= at)
+
+    @property
+    def edits(self) -> bool:
+        """Whether keys change words of the program: on the page for it, in the mode for it."""
+        return self.page.edits and self.control.mode is Mode.EDIT
+
+    @property
+    def edited(self) -> Edited:
+        """The main program with the cursor in it; an empty one where none is loaded."""
+        name = self.control.program
+        place = Place(self.program_row if self.program_row is not None else 0, self.program_word)
+        return Edited(self.control.program_lines(name) if name else (), place)
 
     def _hear(self, record: Record) -> None:
         """The record button of the machine keeps where the axes are (III.2.1.2, PRC); a sensor measures (III.2.1.3)."""
