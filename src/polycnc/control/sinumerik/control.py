@@ -393,6 +393,7 @@ class Sinumerik:
             transformation=coordinates.transformation,
             names=seat.shown_names(channel),
             stop_delay=delays_stops,
+            search_lock=sections.locks_pointer(channel),
             feed_hold=not delays_stops,
             shown_by=PointToPoint.of(channel).shown_by or Couplings.of(channel).shown_by,
             pace=pace.pace(channel, side),

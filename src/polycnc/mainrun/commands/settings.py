@@ -32,12 +32,14 @@ class Switches:
         dials: Where the override switches stand.
         rates: What acts on the speeds: these, feed hold, dry run.
         locked_at: Where locked axes stand, by channel and their column in it.
+        tests: Number of a channel whose program is tested: its axes stand; 0 for none.
     """
 
     def __init__(self, start: SetupSwitches) -> None:
         self.panel = PanelSwitches(start.single_block, start.optional_stop, start.block_skip)
         self.dials, self.rates = Rates(), Rates()
         self.locked_at: dict[int, dict[int, float]] = {}
+        self.tests = 0
 
     def jog_speed(self, axis: Axis) -> float:
         """Speed of an axis in jog, mm/s or degrees/s."""
@@ -59,7 +61,8 @@ class Switches:
         position, before = run.machine_position, self.locked_at.get(run.number, {})
         z = run.channel.machine.geometry_indices(run.number)[2]
         panel = self.panel
-        wanted = range(len(position)) if panel.machine_lock else [z] if panel.z_lock and z >= 0 else []
+        all_stand = panel.machine_lock or self.tests == run.number
+        wanted = range(len(position)) if all_stand else [z] if panel.z_lock and z >= 0 else []
         self.locked_at[run.number] = {i: before.get(i, position[i]) for i in wanted}
         return {i: place for i, place in before.items() if i not in wanted}
 
@@ -75,5 +78,6 @@ class Switches:
         )
         channel.setup = replace(channel.setup, switches=switches)
         channel.skip_levels = switches.block_skip_mask(plain=1)
+        channel.is_tested = self.tests == channel.number
         # Whether to halt is decided when the block is executed, not when it is prepared.
         channel.single_block = channel.block_by_block = channel.optional_stop = True

@@ -217,11 +217,12 @@ def search_block(screen: ScreenState) -> None:
 
 
 def search_interruption(screen: ScreenState) -> None:
-    """The cursor goes to the block of the main program that was in execution last."""
-    block = screen.interrupted
-    if not block.program or block.program != screen.control.program:
+    """The cursor goes to the block at which the main program was given up."""
+    control = screen.control
+    line = control.snapshot.interruption
+    if not line:
         raise CommandRefused("screen.no-interruption")
-    screen.look_at(block.line - screen.control.first_line(block.program))
+    screen.look_at(line - control.first_line(control.program))
 
 
 def search_text(screen: ScreenState) -> None:

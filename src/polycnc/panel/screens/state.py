@@ -9,7 +9,6 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from polycnc.mainrun import CommandRefused, Mode, State
-from polycnc.mainrun.reading.snapshot import ActiveBlock
 from polycnc.messages import UserError
 from polycnc.panel.screens.card import Card
 from polycnc.panel.screens.measuring import SIGNALS, Measuring
@@ -91,7 +90,6 @@ class ScreenState:
         program_row: Row of the cursor in the program; None where the window follows the block in execution.
         program_word: The word of that row on which the cursor stands, where the page edits words.
         search_mode: The kind of block search that is chosen.
-        interrupted: The block of the main program that was last in execution.
 
     Raises:
         CommandRefused: polycnc knows no screens of this control.
@@ -130,7 +128,6 @@ class ScreenState:
         self.program_row: int | None = None
         self.program_word = 0
         self.search_mode = "contour"
-        self.interrupted = ActiveBlock()
 
     @property
     def message(self) -> str:
@@ -391,6 +388,3 @@ class ScreenState:
         self._note_alarms()
         if self.control.state is State.RUNNING:
             self.program_row = None
-            block = self.control.active_block
-            if block.program and block.program == self.control.program:
-                self.interrupted = block
