@@ -11,6 +11,7 @@ from polycnc.mainrun.reading.snapshot import PanelSwitches
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
+    from polycnc.control.interface import HandMotion
     from polycnc.machine.model import Axis
     from polycnc.machine.setup.values import Switches as SetupSwitches
     from polycnc.mainrun.execution.channel_run import ChannelRun
@@ -44,6 +45,21 @@ class Switches:
     def jog_speed(self, axis: Axis) -> float:
         """Speed of an axis in jog, mm/s or degrees/s."""
         return min(JOG_RATE / 60.0 * self.dials.feed, axis.max_feed or inf)
+
+    def hand_speed(
+        self, run: ChannelRun, column: int, what: HandMotion = "axis", place: int = 0, *, rapid: bool
+    ) -> float:
+        """Speed of an axis by hand, mm/s or degrees/s: that of the control, or else of the machine panel.
+
+        `what` and `place`: what it is while it moves, and which one, as `Control.hand_speed` has them.
+        """
+        axis, control = run.channel.axis_data[column], run.channel.control
+        own: float | None = control.hand_speed(run.channel, column, what, place, rapid=rapid)
+        if rapid:
+            return min(own or inf, axis.rapid or 1e9) * self.rates.rapid
+        if own is None:
+            return self.jog_speed(axis)
+        return min(own * self.dials.feed, axis.rapid or inf)
 
     def rapid_speed(self, axis: Axis) -> float:
         """Speed of an axis in rapid traverse, mm/s or degrees/s."""

@@ -132,7 +132,7 @@ class ChannelRun:
         execution, context, display = self.execution, self.execution.context, self.display
         axes, uncounted = self.machine_position, self.axes.uncounted()
         real = [(locked or {}).get(i, value) for i, value in enumerate(axes)]
-        if self.axes.by_hand and self.axes.about_tip is not None:
+        if self.axes.by_hand and self.axes.led is not None:
             here = display.on_path(self.axes.path_at(axes), context)
             shown = display.positions(here, here, real, context)
         elif self.axes.by_hand:

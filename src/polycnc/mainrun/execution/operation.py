@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from contextlib import suppress
+from functools import partial
 from math import inf
 from operator import attrgetter
 from typing import TYPE_CHECKING
@@ -226,7 +227,7 @@ class Operation:
             if run.axes.by_hand:
                 run.axes.settle()
                 for axis, target in zip(run.axes, run.without_hand, strict=True):
-                    axis.hand.towards(target, self.switches.jog_speed(axis.data), self.clock.time)
+                    axis.hand.towards(target, partial(self.switches.jog_speed, axis.data), self.clock.time)
 
     def hold(self) -> None:
         """Feed hold."""
