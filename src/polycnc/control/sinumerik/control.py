@@ -12,6 +12,7 @@ from polycnc.control.alarm_text import alarm_catalogue
 from polycnc.control.sinumerik import axis_names, gcodes, replaced, tables
 from polycnc.control.sinumerik.actions import actions, overlay
 from polycnc.control.sinumerik.actions.user_data import user_data
+from polycnc.control.sinumerik.axes import jogging
 from polycnc.control.sinumerik.block import positions, procedures, single_block
 from polycnc.control.sinumerik.block.plain import SinumerikPlainBlocks
 from polycnc.control.sinumerik.block.plan import ExactStop, make_plan
@@ -67,6 +68,7 @@ if TYPE_CHECKING:
     from polycnc.channel.mode import Mode
     from polycnc.channel.stack import Executable, Level
     from polycnc.channel.steps import Step as ProgramStep
+    from polycnc.control.interface import HandMotion
     from polycnc.control.sinumerik.block.draft import Plan, Values
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.variables.registry import SystemVariable
@@ -199,6 +201,12 @@ class Sinumerik:
     def handwheel_offset_speed(self, channel: SinumerikChannel, axis: int) -> float:
         """DRF: MD32020 by MD32090."""
         return overlay.handwheel_speed(channel, axis)
+
+    def hand_speed(
+        self, channel: SinumerikChannel, axis: int, what: HandMotion, place: int, *, rapid: bool
+    ) -> float | None:
+        """MD32010, MD32020 and their like."""
+        return jogging.speed(channel, axis, what, place, rapid=rapid)
 
     def language_memory(self, channel: SinumerikChannel) -> LanguageMemory:
         """What the language begins with: what machine data say, and values that are retained."""
@@ -394,6 +402,7 @@ class Sinumerik:
             transformation=coordinates.transformation,
             names=seat.shown_names(channel),
             stop_delay=delays_stops,
+            search_lock=sections.locks_pointer(channel),
             feed_hold=not delays_stops,
             shown_by=PointToPoint.of(channel).shown_by or Couplings.of(channel).shown_by,
             pace=pace.pace(channel, side),
