@@ -45,11 +45,37 @@ _MAY_BE_DIAMETER = 4
 SHOWN_ONLY = frozenset((62, 67, 68, 69))
 
 
+#: How many arguments a procedure takes at most, where it does not look itself.
+MOST_ARGUMENTS = {
+    "STOPRE": 0,
+    "NEWCONF": 0,
+    "DELAYFSTON": 0,
+    "DELAYFSTOF": 0,
+    "IPTRLOCK": 0,
+    "IPTRUNLOCK": 0,
+    "DIAMCHAN": 0,
+    "DZERO": 0,
+    "TRAFOOF": 0,
+    "ICYCON": 0,
+    "ICYCOF": 0,
+    "SETMS": 1,
+    "FPR": 1,
+    "GWPSON": 1,
+    "GWPSOF": 1,
+    "SETAL": 2,
+    "DELDL": 2,
+    "MSG": 3,
+    "COUPDEF": 6,
+}
+
+
 def run(channel: SinumerikChannel, name: str, args: Arguments) -> None:
-    """Run a procedure; PC0001 for one that is not executed."""
+    """Run a procedure; PC0001 for one that is not executed, 14020 for more arguments than it takes."""
     procedure = PROCEDURES.get(name)
     if procedure is None:
         raise not_supported(name)
+    if len(args) > MOST_ARGUMENTS.get(name, len(args)):
+        raise AlarmError("14020", text=name)
     procedure(channel, args)
 
 

@@ -57,6 +57,10 @@ Maker = Callable[["Draft", int, "WordShape"], "Step"]
 # ---- feed
 
 
+#: Values of FPO: at the end, quadratic, cubic.
+_MOST_FEEDS = 3
+
+
 def feed(draft: Draft, position: int, shape: WordShape) -> Step:
     """F: path feed in the units of the feed type; F0 is no feed. F2= to F7= are feeds that inputs choose."""
     if shape.index is not None:
@@ -67,9 +71,10 @@ def feed(draft: Draft, position: int, shape: WordShape) -> Step:
     polynomial = shape.modifier == "FPO"
 
     def run(channel: SinumerikChannel, values: Values) -> None:
-        value = (
-            _end_of_polynomial(channel, values[position], factor) if polynomial else number(values, position)
-        )
+        if polynomial:
+            value = _end_of_polynomial(channel, position, values[position], factor)
+        else:
+            value = number(values, position)
         if value < 0.0:
             raise WordAlarm("14800", position)
         channel.feed = value * factor or nan
@@ -77,8 +82,14 @@ def feed(draft: Draft, position: int, shape: WordShape) -> Step:
     return run if polynomial else declare(run, plain.feed(position, factor))
 
 
-def _end_of_polynomial(channel: SinumerikChannel, listed: Values, factor: float) -> float:
-    """FPO(end, quadratic, cubic): the feed at the end of the block is the modal one; what is left out is 0."""
+def _end_of_polynomial(channel: SinumerikChannel, position: int, listed: Values, factor: float) -> float:
+    """FPO(end, quadratic, cubic): the feed at the end of the block is the modal one; what is left out is 0.
+
+    Raises:
+        WordAlarm: 12340 for more than three values.
+    """
+    if len(listed) > _MOST_FEEDS:
+        raise WordAlarm("12340", position, text="FPO")
     quadratic, cubic = (
         number(listed, i) if i < len(listed) and listed[i] is not None else 0.0 for i in (1, 2)
     )
