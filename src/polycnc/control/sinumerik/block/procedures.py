@@ -234,6 +234,10 @@ def section_of_program(channel: SinumerikChannel, args: Arguments) -> None:
     dialogs.begin_section(channel, args[0])
 
 
+def of_technology_cycles(_channel: SinumerikChannel, _args: Arguments) -> None:
+    """ICYCOF, ICYCON: how the lines of a technology cycle run; a part program passes them over (job planning 10.5.4)."""
+
+
 def editor_mark(_channel: SinumerikChannel, _args: Arguments) -> None:
     """GROUP_BEGIN, GROUP_END, GROUP_ADDEND: marks of the editor."""
 
@@ -272,6 +276,8 @@ PROCEDURES: dict[str, Callable[[SinumerikChannel, Arguments], None]] = {
     "MMC": dialogs.call,
     "DIAMCHAN": diameters_of_channel,
     "WORKPIECE": workpiece,
+    "ICYCOF": of_technology_cycles,
+    "ICYCON": of_technology_cycles,
     "GROUP_BEGIN": editor_mark,
     "GROUP_END": editor_mark,
     "GROUP_ADDEND": editor_mark,
