@@ -64,7 +64,9 @@ class ActionRun(Running):
             self.changed = True
 
     def store_all(self, variable: SystemVariable, indices: tuple[Any, ...], values: tuple[Any, ...]) -> None:
-        """Fill an array from an element on."""
+        """Fill an array from an element on; alarm 12400 where the variable has no elements."""
+        if not indices or not isinstance(indices[0], int):
+            raise AlarmError("12400", text=variable.name)
         for place, value in enumerate(values, indices[0]):
             self.store(variable, (place, *indices[1:]), value)
 

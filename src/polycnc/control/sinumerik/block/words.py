@@ -368,10 +368,18 @@ def rounding_distance(draft: Draft, position: int, shape: WordShape) -> Step:
 
 #: Per cent of VELOLIM and JERKLIM (job planning 8.7).
 LIMITS_OF_PERCENT = {"VELOLIM": (1.0, 100.0), "JERKLIM": (1.0, 200.0)}
+#: Per cent of the path as a whole.
+OF_PATH = frozenset(("OVR", "OVRRAP"))
 
 
 def percentage(_draft: Draft, position: int, shape: WordShape) -> Step:
-    """OVR, OVRRAP, OVRA[axis], ACC[axis], VELOLIM[axis] …: per cent, for the motion planner (`pace.py`)."""
+    """OVR, OVRRAP, OVRA[axis], ACC[axis], VELOLIM[axis] …: per cent, for the motion planner (`pace.py`).
+
+    Raises:
+        AlarmError: 12040 without the axis or spindle that the others need, 12560 beyond the range.
+    """
+    if shape.address not in OF_PATH and not isinstance(shape.index, Axis):
+        raise WordAlarm("12040", position, text=str(shape.index or shape.address))
     name = str(shape.index) if shape.index is not None else ""
     least, most = LIMITS_OF_PERCENT.get(shape.address, (0.0, 200.0))
 
@@ -417,8 +425,10 @@ def path_feed_of_axis(draft: Draft, position: int, shape: WordShape) -> Step:
     return run
 
 
-def auxiliary_h(_draft: Draft, position: int, _shape: WordShape) -> Step:
-    """H: auxiliary function to the PLC."""
+def auxiliary_h(_draft: Draft, position: int, shape: WordShape) -> Step:
+    """H, H2=, H[n]=: auxiliary function to the PLC."""
+    if isinstance(shape.index, Axis):
+        raise WordAlarm("12400", position, text="H")
 
     def run(channel: SinumerikChannel, values: Values) -> None:
         value = number(values, position)

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 def _numbers(indices: Indices, name: str, count: int) -> list[int]:
     """The numbers in brackets; alarm 12400 for other indices."""
-    if len(indices) != count or any(isinstance(index, (Axis, str)) for index in indices):
+    if len(indices) != count or not all(isinstance(index, (int, float)) for index in indices):
         raise AlarmError("12400", text=name)
     return [int(index) for index in indices]
 

@@ -45,7 +45,7 @@ def _depth(channel: Channel, _: tuple[Any, ...]) -> int:
 def _given(channel: Channel, indices: tuple[Any, ...]) -> bool:
     """Whether a parameter of the call was written; they count from 1."""
     given = channel.level.data.get("given", ())
-    if len(indices) != 1 or not 1 <= indices[0] <= len(given):
+    if len(indices) != 1 or not isinstance(indices[0], int) or not 1 <= indices[0] <= len(given):
         raise AlarmError("17020", text="$P_SUBPAR", index=", ".join(map(str, indices)))
     return bool(given[indices[0] - 1])
 
