@@ -235,7 +235,7 @@ def section_of_program(channel: SinumerikChannel, args: Arguments) -> None:
 
 
 def of_technology_cycles(_channel: SinumerikChannel, _args: Arguments) -> None:
-    """ICYCOF, ICYCON: how the lines of a technology cycle run; a part program passes them over (job planning 10.5.4)."""
+    """ICYCOF, ICYCON: how the lines of a technology cycle run; part programs pass them over (job planning 10.5.4)."""
 
 
 def editor_mark(_channel: SinumerikChannel, _args: Arguments) -> None:

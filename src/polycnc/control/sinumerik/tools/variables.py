@@ -23,7 +23,7 @@ from polycnc.control.sinumerik.tools.holders.active import ActiveCarrier
 from polycnc.control.sinumerik.tools.memory import FLAT
 from polycnc.control.sinumerik.variables.row import Indices, Row
 from polycnc.control.sinumerik.variables.stored import Stored
-from polycnc.language.sinumerik.names.values import Axis, Type
+from polycnc.language.sinumerik.names.values import Type
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
