@@ -25,6 +25,7 @@ class LevelVariable(NamedTuple):
     goes_along: bool = False
     timed: bool = False
     of_actions: bool = False
+    unit: None = None
 
     def element_count(self, _channel: Channel) -> None:
         """It is no array that could be filled."""
