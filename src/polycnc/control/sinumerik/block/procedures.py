@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.sinumerik.actions import actions, overlay, polynomials
+from polycnc.control.sinumerik.actions import actions, fixed_stop, overlay, polynomials
 from polycnc.control.sinumerik.actions import axes as action_axes
 from polycnc.control.sinumerik.axes import geometry
 from polycnc.control.sinumerik.block import arguments
@@ -285,6 +285,7 @@ PROCEDURES: dict[str, Callable[[SinumerikChannel, Arguments], None]] = {
     "DRFOF": overlay.take_away_by_hand,
     **actions.PROCEDURES,
     **polynomials.PROCEDURES,
+    **fixed_stop.PROCEDURES,
     **interrupts.PROCEDURES,
     **coordination.PROCEDURES,
     **axis_exchange.PROCEDURES,

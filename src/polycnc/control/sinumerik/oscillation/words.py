@@ -13,7 +13,6 @@ from polycnc.control.sinumerik.actions import axes as action_axes
 from polycnc.control.sinumerik.actions.axes import ActionAxes
 from polycnc.control.sinumerik.block.draft import axis_column
 from polycnc.control.sinumerik.block.positions import number
-from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.oscillation import strokes
 from polycnc.control.sinumerik.oscillation.infeed import Infeed, PartialInfeeds
 from polycnc.control.sinumerik.oscillation.strokes import Oscillations
@@ -87,8 +86,6 @@ def options(draft: Draft, position: int, shape: WordShape) -> Step:
         if not 1 <= len(listed) <= 2 or any(value not in strokes.ALL_OPTIONS for value in listed):
             raise WordAlarm("12560", position, text="OSCTRL")
         on, off = (int(value) for value in (*listed, 0)[:2])
-        if on & strokes.SHORTEST and channel.memory.axes[column].modulo:
-            raise not_supported(f"OSCTRL {strokes.SHORTEST}")
 
         def write() -> None:
             data, axis = channel.memory.data, Axis(channel.axes[column])
