@@ -1,4 +1,4 @@
-"""Travel to fixed stop and torque from actions: FXS, FXST, FXSW, FOCON, FOCOF, the last two from programs too (10.4.27).
+"""Travel to fixed stop and torque from actions: FXS, FXST, FXSW, FOCON, FOCOF, these two from programs too (10.4.27).
 
 No machine of polycnc has a fixed stop: the selection is kept with its torque and window, and the stop never comes.
 """
