@@ -150,9 +150,9 @@ def spindle_number(shape: WordShape, position: int) -> int | None:
 
 
 def speed(draft: Draft, position: int, shape: WordShape) -> Step:
-    """S: rpm, or m/min under constant cutting speed; alarm 16763 below zero."""
+    """S: rpm, m/min under constant cutting speed (feet/min under G700), m/s of a wheel; alarm 16763 below zero."""
     wanted = spindle_number(shape, position)
-    surface = tables.feed_type(draft.mode).surface_speed
+    surface, metres = tables.feed_type(draft.mode).surface_speed, tables.metres_of_cutting_speed(draft.mode)
 
     def run(channel: SinumerikChannel, values: Values) -> None:
         spindle = channel.memory.spindles.get(wanted)
@@ -160,9 +160,9 @@ def speed(draft: Draft, position: int, shape: WordShape) -> Step:
         if value < 0.0:
             raise WordAlarm("16763", position, axis=f"S{spindle.number}")
         if spindle.has_wheel_speed:
-            wheels.set_wheel_speed(channel, spindle, value)
+            wheels.set_wheel_speed(channel, spindle, value * metres)
         elif surface and spindle.number == channel.memory.spindles.master:
-            spindle.cutting_speed = value
+            spindle.cutting_speed = value * metres
         else:
             before = turns(channel, spindle.number)
             spindle.speed = value
@@ -393,8 +393,9 @@ def percentage(_draft: Draft, position: int, shape: WordShape) -> Step:
     return run
 
 
-def cutting_rate(_draft: Draft, position: int, _shape: WordShape) -> Step:
-    """SVC: cutting rate of the tool, m/min; the speed follows from its radius. Alarm 10750 without one."""
+def cutting_rate(draft: Draft, position: int, _shape: WordShape) -> Step:
+    """SVC: cutting rate of the tool, m/min (feet/min under G700); 10750 without a radius of the tool."""
+    per_value = tables.metres_of_cutting_speed(draft.mode) * tables.MM_PER_M
 
     def run(channel: SinumerikChannel, values: Values) -> None:
         memory = channel.memory
@@ -402,7 +403,7 @@ def cutting_rate(_draft: Draft, position: int, _shape: WordShape) -> Step:
         if radius <= 0.0:
             raise AlarmError("10750")
         spindle = memory.spindles.get()
-        spindle.speed = number(values, position) * tables.MM_PER_M / (2.0 * pi * radius)
+        spindle.speed = number(values, position) * per_value / (2.0 * pi * radius)
         channel.context_changed()
         channel.event(SpindleSpeed(speed=spindle.speed, spindle=spindle.number))
 
