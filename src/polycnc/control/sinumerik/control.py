@@ -43,7 +43,7 @@ from polycnc.control.sinumerik.tools import sides, stages
 from polycnc.control.sinumerik.tools.memory import Tools
 from polycnc.control.sinumerik.transformations import orientation, seat, smoothing
 from polycnc.control.sinumerik.transformations.point_to_point import PointToPoint
-from polycnc.control.sinumerik.variables import by_name, functions, part_counts, run_times
+from polycnc.control.sinumerik.variables import by_name, functions, lengths, part_counts, run_times
 from polycnc.control.sinumerik.variables.registry import SystemVariables
 from polycnc.deferred.regexes import regex
 from polycnc.language.sinumerik import keywords
@@ -330,6 +330,10 @@ class Sinumerik:
     def reads_inches(self, channel: SinumerikChannel) -> bool:
         """Whether the program reads and writes values with units of length in inches now (G700)."""
         return channel.mode["unit"] == "G700"
+
+    def unit_of(self, channel: SinumerikChannel, axis: str) -> float:
+        """The mm that one unit of the program is for an axis: 25.4 for a linear one under G700, else 1."""
+        return lengths.of_axis(channel, axis)
 
     def restore_setting(self, channel: SinumerikChannel, name: str) -> None:
         """Give a setting or machine datum the values of the setup."""
