@@ -90,6 +90,8 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
             that look ahead it is no block.
         moved_by_hand: The last intervention in front of a block that was not prepared yet.
         block_by_block: With it, behind every other block too.
+        is_searched: The program is gone through without motion, to a block of it.
+        is_tested: It runs while the axes stand.
         main_run: What executes the rows while the channel runs; None where nobody waits for that.
         actual: Where its axes are now.
         move_times: How long single moves take; None where a clock runs, which knows.
@@ -106,6 +108,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         bulk: Whether and how plain blocks are scanned in bulk; None interprets every block.
     """
 
+    is_searched = is_tested = False
     #: A snapshot of the channel does not go on to these: they are none of its state.
     UNFOLLOWED: ClassVar = frozenset({
         "actual", "axis_data", "blocks", "bulk", "burst", "control", "machine", "main_run", "mark", "setup",

@@ -242,8 +242,11 @@ class Interpolator(Protocol):
     def take_back(self, column: int) -> float:
         """The program has a commanded axis again, which stands: gives its machine position."""
 
-    def overlay(self, name: str, column: int, value: float, speed: float) -> None:
-        """Shift an axis beside everything else, no faster than a speed; `name` says which of its shifts is meant."""
+    def overlay(self, name: str, column: int, value: float, speed: float, pull: float = 1.0) -> None:
+        """Shift an axis beside everything else, no faster than a speed and with a part of its acceleration.
+
+        `name` says which of its shifts is meant.
+        """
 
     def overlaid(self, name: str, column: int) -> float:
         """How far a shift of an axis has been asked to go, mm or degrees; 0 where there is none."""

@@ -405,10 +405,9 @@ class Toolpath:
         return machine
 
     def seen_from(
-        self, end: list[float], made_in: int, context: int, geometry: tuple[int, ...]
+        self, end: list[float], old: Context, new: Context, geometry: tuple[int, ...]
     ) -> list[float]:
         """Where the end of a row of one context stands in the coordinates of another one."""
-        old, new = self.contexts[made_in], self.contexts[context]
         if old.offsets == new.offsets and old.frame == new.frame and old.transformation is new.transformation:
             return end
         found = self.to_machine(end, old, geometry)

@@ -335,7 +335,8 @@ class TableStage(Sink):
         if not end:
             end = channel.coordinates.position
         elif self.context != event.context:
-            end = channel.toolpath.seen_from(end, self.context, event.context, channel.coordinates.geometry)
+            old, new = (channel.toolpath.contexts[number] for number in (self.context, event.context))
+            end = channel.toolpath.seen_from(end, old, new, channel.coordinates.geometry)
         channel.toolpath.append_event(event.event, event.program, event.line, event.context, end)
 
 

@@ -47,6 +47,7 @@ if TYPE_CHECKING:
     from polycnc.channel.mode import Mode
     from polycnc.channel.stack import Executable, Level
     from polycnc.channel.steps import Step as ProgramStep
+    from polycnc.control.interface import HandMotion
     from polycnc.control.parameters import AxisParameters, ControlParameters
     from polycnc.control.word_address.block.codes import (
         ContextStep,
@@ -278,6 +279,18 @@ class WordAddressControl:
     def handwheel_offset_speed(self, _channel: Channel, _axis: int) -> float:
         """No handwheel shifts an axis beside its program."""
         return 0.0
+
+    def hand_speed(
+        self,
+        _channel: Channel,
+        _axis: int,
+        _what: HandMotion,
+        _place: int,
+        *,
+        rapid: bool,  # noqa: ARG002
+    ) -> float | None:
+        """The machine says it."""
+        return None
 
     def stop_spindles(self, channel: Channel) -> None:
         """The drives are off."""

@@ -140,4 +140,5 @@ class Readings:
             parts=run.parts,
             channels=self.channels,
             notices=operation.interlocks.messages,
+            interruption=run.reached.get(self.program, 0),
         )

@@ -67,6 +67,8 @@ class Desk:
             self.panel.locked = lambda: measuring.locked
         self.speed = speed
         self._then = monotonic()
+        units = self.panel.description.mdi_units
+        self._unit = next((each.id for each in units if each.soft_keys == self.screen.rows), "")
         kept = control.panel_settings.get(_SWITCHES, {})
         for switch, position in kept.items():
             if switch in self.panel.positions:
@@ -78,14 +80,14 @@ class Desk:
     @property
     def unit(self) -> str:
         """Id of the display with its keys; another one has more or fewer soft keys. Empty where there is no choice."""
-        units = self.panel.description.mdi_units
-        return next((each.id for each in units if each.soft_keys == self.screen.rows), "")
+        return self._unit
 
     @unit.setter
     def unit(self, name: str) -> None:
         for each in self.panel.description.mdi_units:
             if each.id == name:
-                self.screen.rows, self.screen.turned = each.soft_keys, 0
+                self._unit = name
+                self.screen.use_display(each.soft_keys, each.side_keys)
                 self.control.panel_settings[_UNIT] = name
 
     @property

@@ -15,6 +15,7 @@ from polycnc.messages import text
 from polycnc.messages.catalogue import LANGUAGES
 from polycnc.panel.panel import Light
 from polycnc.panel.screens.pages import in_language
+from polycnc.panel.screens.screen import SIDE_KEYS
 from polycnc.panel.web.editor import Editor
 from polycnc.panel.web.markup import of_view
 from polycnc.panel.web.teacher import Teacher
@@ -115,15 +116,15 @@ class Page:
     # ---- the screen ----------------------------------------------------------------------------------------
 
     def _screen(self) -> None:
-        desk, family = self._desk, self._desk.screen.family
+        desk = self._desk
         with ui.element("div").classes("crt"):
             content = (
                 ui.html("", sanitize=False).classes("crt-body").props('role="region" aria-label="screen"')
             )
             side: list[ui.element] = []
-            if family.side:
+            if desk.screen.has_side:
                 with ui.element("div").classes("sidekeys"):
-                    side = [self._key("", partial(desk.do, "side_key", index=i)) for i in range(8)]
+                    side = [self._key("", partial(desk.do, "side_key", index=i)) for i in range(SIDE_KEYS)]
         self._picture_over(".window.graph")
         with ui.element("div").classes("softkeys"):
             below = [self._key("", partial(desk.do, "soft_key", index=i)) for i in range(desk.screen.rows)]

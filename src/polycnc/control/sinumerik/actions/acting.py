@@ -11,6 +11,7 @@ from polycnc.control.sinumerik.actions.run import Running
 from polycnc.control.sinumerik.actions.words import WORDS
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.errors import not_supported
+from polycnc.language.sinumerik.runtime import read_length, write_length
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -31,7 +32,7 @@ class LiveReference(NamedTuple):
     @property
     def value(self) -> Any:
         """The value now."""
-        return self.variable.read(self.run.channel, self.indices)
+        return read_length(self.run.channel, self.variable, self.indices)
 
     @value.setter
     def value(self, value: Any) -> None:
@@ -48,12 +49,12 @@ class ActionRun(Running):
         if not self.changed:
             name = variable.name
             if name.startswith("$A") and not name.startswith(_GOING):
-                self.changed = variable.read(self.channel, indices) != value
+                self.changed = read_length(self.channel, variable, indices) != value
             else:
                 self.changed = not name.startswith(("$AC_OVR", "$AA_OVR", "$AC_VC"))
         main_run, self.channel.main_run = self.channel.main_run, None  # it is written at once
         try:
-            variable.write(self.channel, indices, value)
+            write_length(self.channel, variable, indices, value)
         finally:
             self.channel.main_run = main_run
 
@@ -64,7 +65,9 @@ class ActionRun(Running):
             self.changed = True
 
     def store_all(self, variable: SystemVariable, indices: tuple[Any, ...], values: tuple[Any, ...]) -> None:
-        """Fill an array from an element on."""
+        """Fill an array from an element on; alarm 12400 where the variable has no elements."""
+        if not indices or not isinstance(indices[0], int):
+            raise AlarmError("12400", text=variable.name)
         for place, value in enumerate(values, indices[0]):
             self.store(variable, (place, *indices[1:]), value)
 

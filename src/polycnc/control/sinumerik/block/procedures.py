@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.sinumerik.actions import actions, overlay, polynomials
+from polycnc.control.sinumerik.actions import actions, fixed_stop, overlay, polynomials
 from polycnc.control.sinumerik.actions import axes as action_axes
 from polycnc.control.sinumerik.axes import geometry
 from polycnc.control.sinumerik.block import arguments
@@ -45,11 +45,37 @@ _MAY_BE_DIAMETER = 4
 SHOWN_ONLY = frozenset((62, 67, 68, 69))
 
 
+#: How many arguments a procedure takes at most, where it does not look itself.
+MOST_ARGUMENTS = {
+    "STOPRE": 0,
+    "NEWCONF": 0,
+    "DELAYFSTON": 0,
+    "DELAYFSTOF": 0,
+    "IPTRLOCK": 0,
+    "IPTRUNLOCK": 0,
+    "DIAMCHAN": 0,
+    "DZERO": 0,
+    "TRAFOOF": 0,
+    "ICYCON": 0,
+    "ICYCOF": 0,
+    "SETMS": 1,
+    "FPR": 1,
+    "GWPSON": 1,
+    "GWPSOF": 1,
+    "SETAL": 2,
+    "DELDL": 2,
+    "MSG": 3,
+    "COUPDEF": 6,
+}
+
+
 def run(channel: SinumerikChannel, name: str, args: Arguments) -> None:
-    """Run a procedure; PC0001 for one that is not executed."""
+    """Run a procedure; PC0001 for one that is not executed, 14020 for more arguments than it takes."""
     procedure = PROCEDURES.get(name)
     if procedure is None:
         raise not_supported(name)
+    if len(args) > MOST_ARGUMENTS.get(name, len(args)):
+        raise AlarmError("14020", text=name)
     procedure(channel, args)
 
 
@@ -208,6 +234,10 @@ def section_of_program(channel: SinumerikChannel, args: Arguments) -> None:
     dialogs.begin_section(channel, args[0])
 
 
+def of_technology_cycles(_channel: SinumerikChannel, _args: Arguments) -> None:
+    """ICYCOF, ICYCON: how the lines of a technology cycle run; part programs pass them over (job planning 10.5.4)."""
+
+
 def editor_mark(_channel: SinumerikChannel, _args: Arguments) -> None:
     """GROUP_BEGIN, GROUP_END, GROUP_ADDEND: marks of the editor."""
 
@@ -246,6 +276,8 @@ PROCEDURES: dict[str, Callable[[SinumerikChannel, Arguments], None]] = {
     "MMC": dialogs.call,
     "DIAMCHAN": diameters_of_channel,
     "WORKPIECE": workpiece,
+    "ICYCOF": of_technology_cycles,
+    "ICYCON": of_technology_cycles,
     "GROUP_BEGIN": editor_mark,
     "GROUP_END": editor_mark,
     "GROUP_ADDEND": editor_mark,
@@ -253,6 +285,7 @@ PROCEDURES: dict[str, Callable[[SinumerikChannel, Arguments], None]] = {
     "DRFOF": overlay.take_away_by_hand,
     **actions.PROCEDURES,
     **polynomials.PROCEDURES,
+    **fixed_stop.PROCEDURES,
     **interrupts.PROCEDURES,
     **coordination.PROCEDURES,
     **axis_exchange.PROCEDURES,

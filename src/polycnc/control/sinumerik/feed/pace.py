@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik import gcodes, tables
+from polycnc.control.sinumerik.actions.overlay import left_to_path
 from polycnc.control.sinumerik.tables import MINUTE
 from polycnc.deferred.records import dataclass
 from polycnc.toolpath.context import Pace
@@ -46,6 +47,7 @@ class Overrides(State, lifetime=Lifetime.RESET):
 def pace(channel: SinumerikChannel, side: int) -> Pace | None:
     """The pace that holds now; `side` is that of the radius compensation. None where F says everything."""
     overrides = Overrides.of(channel)
+    left, left_pull = left_to_path(channel)
     own = Pace(
         feed=overrides.percent.get(("OVR", ""), 100.0) / 100.0,
         rapid=overrides.percent.get(("OVRRAP", ""), 100.0) / 100.0,
@@ -58,6 +60,8 @@ def pace(channel: SinumerikChannel, side: int) -> Pace | None:
         jerk=_with_technology(channel, "JERKLIM", "$MA_MAX_AX_JERK", "jerk")
         if channel.mode["acceleration"] == "SOFT"
         else (),
+        left=left,
+        left_pull=left_pull,
     )
     return own if own != NOTHING else None
 

@@ -9,6 +9,7 @@ block_types    type of the block in execution
 run_times      timers of programs
 part_counts    workpiece counters
 surroundings   version, modal call, compensation
+lengths        values that are lengths: inches under G700
 known          names that exist and are not kept
 by_name        variables by name, for reports
 functions      functions that the control answers

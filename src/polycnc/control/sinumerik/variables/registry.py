@@ -9,6 +9,7 @@ Source: job planning 1.1.2 (prefixes), 5.1 (actual values), and the manual of sy
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import isnan
 from typing import TYPE_CHECKING, Any
 
@@ -49,6 +50,7 @@ from polycnc.control.sinumerik.transformations import smoothing
 from polycnc.control.sinumerik.variables.block_types import BLOCK_VARIABLES
 from polycnc.control.sinumerik.variables.clock import PARTS, part_of_clock
 from polycnc.control.sinumerik.variables.known import is_known
+from polycnc.control.sinumerik.variables.lengths import Unit, unit_of
 from polycnc.control.sinumerik.variables.part_counts import PART_COUNTS
 from polycnc.control.sinumerik.variables.row import Indices, Reader, Writer
 from polycnc.control.sinumerik.variables.run_times import KEPT_TIMES, RUN_TIMES
@@ -81,6 +83,7 @@ class SystemVariable:
         size: Number of its elements, or the machine datum that says it; empty where neither does.
         timed: Only a program that is executed in time can read or write it.
         of_actions: Synchronised actions alone can write it.
+        unit: For indices the mm, or mm/min, that one unit of the program is; None where no value is a length.
     """
 
     name: str
@@ -92,6 +95,7 @@ class SystemVariable:
     goes_along: bool = False
     timed: bool = False
     of_actions: bool = False
+    unit: Unit | None = None
 
     def element_count(self, channel: SinumerikChannel) -> int | None:
         """How many elements an array with one index has; None where that is not told."""
@@ -125,7 +129,7 @@ class SystemVariables:
         """
         variable = self._found.get(name)
         if variable is None:
-            variable = self._found[name] = self._make(name)
+            variable = self._found[name] = replace(self._make(name), unit=unit_of(name))
         return variable
 
     @staticmethod
@@ -325,9 +329,9 @@ _STATES = (
     SystemVariable("$P_PROG", Type.STRING, _program_name),
     SystemVariable("$P_LINENO", Type.INT, _line_number),
     SystemVariable("$P_CHANNO", Type.INT, lambda channel, _indices: channel.number),
-    SystemVariable("$P_SEARCH", Type.BOOL, _always(False)),
+    SystemVariable("$P_SEARCH", Type.BOOL, lambda channel, _indices: channel.is_searched),
     SystemVariable("$P_TECCYCLE", Type.BOOL, _always(False)),
-    SystemVariable("$P_ISTEST", Type.BOOL, _always(False)),
+    SystemVariable("$P_ISTEST", Type.BOOL, lambda channel, _indices: channel.is_tested),
     SystemVariable("$P_SIM", Type.BOOL, _always(False)),
     SystemVariable("$P_DRYRUN", Type.BOOL, _always(False)),
     SystemVariable("$P_PROG_EVENT", Type.INT, _always(0)),
