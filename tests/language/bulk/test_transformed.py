@@ -171,7 +171,17 @@ def test_blocks_with_a_direction_are_scanned(machine: str) -> None:
 
 #: Words beside a direction under G43.5, codes between, and what ends tip control.
 BESIDE_VECTOR = ("G1 X{0} Y{1}", "G0 Z{0}", "X{0}", "", "G1 F{0}00.")
-BETWEEN_VECTORS = ("G90", "G91", "G54", "G55", "G49\nG43.5 H1", "G0 X1.", "I0 J0 K0", "G43.4 H1 X2.", "G43.5 H1")
+BETWEEN_VECTORS = (
+    "G90",
+    "G91",
+    "G54",
+    "G55",
+    "G49\nG43.5 H1",
+    "G0 X1.",
+    "I0 J0 K0",
+    "G43.4 H1 X2.",
+    "G43.5 H1",
+)
 VECTOR = st.tuples(*[st.integers(-3, 3)] * 2, st.sampled_from([1, 2, 5, 0, -1]))
 
 

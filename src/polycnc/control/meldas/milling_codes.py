@@ -16,7 +16,8 @@ from polycnc.control.word_address.transformations import hypothetical_axis
 
 #: Codes of FANUC that the manual's table does not have.
 FOREIGN = frozenset({
-    "G5.4", "G10.9", "G25", "G26", "G43.5", "G53.6", "G54.2", "G54.4", "G68.3", "G68.4", "G84.2", "G84.3",
+    "G5.4", "G10.9", "G41.2", "G41.3", "G41.4", "G41.5", "G41.6", "G42.2", "G42.4", "G42.5", "G42.6", "G25",
+    "G26", "G43.5", "G53.6", "G54.2", "G54.4", "G68.3", "G68.4", "G84.2", "G84.3",
 })  # fmt: skip
 
 _ROWS = table(

@@ -159,7 +159,7 @@ ROWS = table(
     GCode("G98", "return"),
     GCode("G99", "return"),
     not_yet(
-        "G5.4", "G10.9",
+        "G5.4", "G10.9", "G41.2", "G41.3", "G41.4", "G41.5", "G41.6", "G42.2", "G42.4", "G42.5", "G42.6",
     ),
 )  # fmt: skip
 G_CODES = with_aliases(ROWS, ALIASES)

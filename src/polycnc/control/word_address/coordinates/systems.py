@@ -64,11 +64,11 @@ class ZeroState(State, lifetime=Lifetime.POWER):
 def refresh_zero(channel: WordAddressChannel, *, travelled: bool = False) -> None:
     """Work out the shift from display to machine anew: external + work + local + G92 offset + tool length."""
     offsets, leading = zero_offsets(channel), tip.TipState.of(channel)
-    frame = work_frame(channel, offsets)
-    if leading.active is not None and leading.is_leading(channel):
-        if not leading.lies_at(
-            frame, offsets
-        ):  # or the way to the machine and back would leave rounding noise
+    leads = leading.active is not None and leading.is_leading(channel)
+    frame = frame_on_table(channel, offsets) if leads else work_frame(channel, offsets)
+    if leading.active is not None and leads:
+        # Or the way to the machine and back would leave rounding noise.
+        if not leading.lies_at(frame, offsets):
             tip.lead(channel, leading.active, frame, offsets)
     else:
         channel.coordinates.set_zero(frame, offsets, travelled=travelled)
@@ -89,6 +89,12 @@ def work_frame(channel: WordAddressChannel, offsets: list[float]) -> Frame:
     elif zero.misplaced is not None:
         inner = zero.misplaced.seen(work_zero(channel, offsets)) @ inner
     frame = zero.frame @ inner
+    return IDENTITY if frame.is_identity else frame
+
+
+def frame_on_table(channel: WordAddressChannel, offsets: list[float]) -> Frame:
+    """From the display to axes counted from a work zero with the table at zero: tip control turns it by itself."""
+    frame = ZeroState.of(channel).frame @ plane_on_table(channel, offsets)
     return IDENTITY if frame.is_identity else frame
 
 

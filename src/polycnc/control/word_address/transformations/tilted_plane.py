@@ -15,6 +15,7 @@ from polycnc.control.word_address.coordinates import frames, on_table
 from polycnc.control.word_address.coordinates.on_table import OnTable
 from polycnc.control.word_address.coordinates.systems import (
     ZeroState,
+    frame_on_table,
     plane_on_table,
     refresh_zero,
     work_zero,
@@ -247,7 +248,7 @@ def turn_about_tip(channel: WordAddressChannel, angles: Angles, arm: float, abov
         arm: From the tip along the tool to the nose, mm.
         above: From the tip along the tool to the point, mm.
     """
-    c, zero = channel.coordinates, ZeroState.of(channel)
+    c = channel.coordinates
     channel.flush()
     offsets = c.offsets.copy()
     if "length" in channel.mode.codes:  # on lathes they do not count along the tool
@@ -255,7 +256,7 @@ def turn_about_tip(channel: WordAddressChannel, angles: Angles, arm: float, abov
             offsets[axis] = place
     kinematics = channel.control.kinematics(channel)
     led = ToolCentrePoint(kinematics, channel.axes, c.geometry, tuple(offsets), (0.0, 0.0, above - arm))
-    frame = zero.frame @ plane_on_table(channel, c.offsets) @ translation(0.0, 0.0, above)
+    frame = frame_on_table(channel, c.offsets) @ translation(0.0, 0.0, above)
     c.transform(Seated(led, frame), None, (IDENTITY, offsets))
     channel.context_changed()
     end = c.position.copy()

@@ -15,7 +15,7 @@ from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.block.words_as_data import targets_as_data
 from polycnc.control.word_address.coordinates import tip
 from polycnc.control.word_address.coordinates.on_table import OnTable
-from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero, work_frame
+from polycnc.control.word_address.coordinates.systems import ZeroState, frame_on_table, refresh_zero
 from polycnc.control.word_address.motion.path import reach
 from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.tools.radius import RadiusState
@@ -46,8 +46,7 @@ def start_following(channel: WordAddressChannel, words: Words) -> None:
         raise words.fail("tip_machine", "G43.4")
     if TiltState.of(channel).plane is not None or RadiusState.of(channel).side:
         raise words.fail("tip_mode", "G43.4")
-    if OnTable.of(channel).acts:
-        raise AlarmError("PC0001", hint="hint.not-supported", code="G43.4: G54.2, G54.4")
+    _check_work_zero(channel)
     number = words.integer("H") if "H" in words else None
     state.number = state.number if number is None else number
     value = channel.control.length_value(channel, state.number) if state.number else 0.0
@@ -55,8 +54,17 @@ def start_following(channel: WordAddressChannel, words: Words) -> None:
     ZeroState.of(channel).length = [0.0] * len(channel.axes)
     refresh_zero(channel)
     following = ToolCentrePoint(kinematics, channel.axes, c.geometry, tuple(c.offsets), (0.0, 0.0, -value))
-    tip.lead(channel, following, work_frame(channel, c.offsets), c.offsets)
+    tip.lead(channel, following, frame_on_table(channel, c.offsets), c.offsets)
     channel.context_changed()
+
+
+def _check_work_zero(channel: WordAddressChannel) -> None:
+    """PC0001 for a fixture offset, and for a workpiece error unless directions are vectors of the work (G43.5)."""
+    state, code = OnTable.of(channel), channel.mode["length"]
+    if state.fixture or (state.error and code != "G43.5"):
+        raise AlarmError(
+            "PC0001", hint="hint.not-supported", code=f"{code}: G54.{'2' if state.fixture else '4'}"
+        )
 
 
 def plan_with_direction(builder: Builder, plan: Plan) -> Step | None:

@@ -75,8 +75,8 @@ def _number(channel: MillingChannel, words: Words, code: str, last: int) -> int:
     number = words.integer("P")
     if number is None or not 0 <= number <= last:
         raise words.fail("offset_number", "P" if number is not None else code)
-    if TipState.of(channel).active is not None:
-        raise _not_yet(f"{code}: G43.4")
+    if TipState.of(channel).active is not None and number:
+        raise _not_yet(f"{code}: {channel.mode['length']}")
     check_compensation(channel, words, code)
     channel.flush()
     return number
@@ -106,6 +106,10 @@ def _turning(builder: Builder, plan: Plan) -> list[int]:
 def _plan(builder: Builder, plan: Plan) -> Step | None:
     """The work zero is that of the block's end; the axes go straight to where its words are then."""
     turning = _turning(builder, plan)
+    if TipState.of(builder.channel).active is not None:
+        if any(builder.channel.axis_data[word.axis].rotary for word in plan.axis_words):
+            raise _not_yet(f"{builder.mode['length']}: {builder.mode[ERROR]}")
+        return None
     if not turning:
         return None
     motion, words = builder.mode["motion"], plan.axis_words
