@@ -72,11 +72,9 @@ def align_about_tip(channel: SyntecChannel, words: Words) -> None:
     led, frame = state.active if is_led(channel) else None, state.frame
     arm = channel.control.length_value(channel, number)
     turn_about_tip(channel, angles, arm, above=words.length("R") or 0.0)
-    if led is None:
-        stand_on_plane(channel, angles)
-    else:
+    if led is not None:
         tip.lead(channel, led, frame, channel.coordinates.offsets)
-        LengthState.of(channel).direction = channel.control.kinematics(channel).tool_on_machine(angles)
+    stand_on_plane(channel, angles)
 
 
 def is_led(channel: SyntecChannel) -> bool:
@@ -105,8 +103,7 @@ def _stood(channel: SyntecChannel, angles: Angles) -> list[float]:
         end = _turned(channel, angles)
         stand_on_plane(channel, angles)
         return c.from_machine(end)
-    # The plane lies on the work, and tip control turns it with the table.
-    LengthState.of(channel).direction = channel.control.kinematics(channel).tool_on_machine(angles)
+    stand_on_plane(channel, angles)
     position = c.position.copy()
     for name, angle in angles.items():
         axis = channel.axis_index[name]
@@ -123,8 +120,14 @@ def _turned(channel: SyntecChannel, angles: Angles) -> list[float]:
 
 
 def stand_on_plane(channel: SyntecChannel, angles: Angles) -> None:
-    """The plane as the table has turned it, the length along the tool; the machine stays."""
+    """The plane as the table has turned it, the length along the tool; the machine stays.
+
+    Under tip control both are so already: the plane lies on the work there, and the table turns it.
+    """
     c, kinematics = channel.coordinates, channel.control.kinematics(channel)
+    if is_led(channel):
+        LengthState.of(channel).direction = kinematics.tool_on_machine(angles)
+        return
     TurnState.of(channel).table = table_turn(kinematics, angles, (0.0, 0.0, 0.0))
     renew_preset_frame(channel.memory)
     stand_along(channel, angles)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.coordinates.turns import TurnState, renew_preset_frame, renew_work_turn
-from polycnc.control.syntec.five_axes import mechanism
+from polycnc.control.syntec.five_axes import alignment, mechanism
 from polycnc.control.word_address.coordinates import frames as base_frames
 from polycnc.control.word_address.coordinates.systems import refresh_zero
 from polycnc.control.word_address.coordinates.tip import TipState
@@ -26,7 +26,6 @@ from polycnc.transformation.planes.tilted import by_euler, by_rotary_axes, squar
 if TYPE_CHECKING:
     from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.words import Words
-    from polycnc.geometry.frames import Vector
 
 
 def tilt_by_angles(channel: SyntecChannel, words: Words) -> None:
@@ -41,7 +40,7 @@ def tilt_by_tool(channel: SyntecChannel, words: Words) -> None:
     """G68.3 [P1] X Y Z R: the plane stands square on the tool; without X Y Z its origin is the present position.
 
     P1 turns the plane with the rotary axes; otherwise its X axis is square on the Z axes of work and tool, and R
-    turns it about the tool.
+    turns it about the tool. The tool stands on it as it is: no G53.1 is needed, G43 goes along the tool.
     """
     if not channel.memory.parameters.option_tilted_plane:
         raise channel.control.fail("option", address="G68.3", code="G68.3")
@@ -57,8 +56,12 @@ def tilt_by_tool(channel: SyntecChannel, words: Words) -> None:
     turn = tool_turn(channel)
     if words.typed("P") != 1:
         turn = square_on(turn.direct(0.0, 0.0, 1.0)) @ rotation(2, words.angle("R") or 0.0)
-    origin = named_point(channel, words, "argument") if given else _position_in_work_system(channel)
-    set_tilt(channel, translation(*origin) @ turn)
+    plane = translation(*named_point(channel, words, "argument")) @ turn
+    _set_stood(channel, plane)
+    if not given:
+        c = channel.coordinates
+        x, y, z = (c.position[axis] if axis >= 0 else 0.0 for axis in c.geometry)
+        _set_stood(channel, plane @ translation(x, y, z))
 
 
 def end_tilt(channel: SyntecChannel, words: Words) -> None:
@@ -91,12 +94,10 @@ def rotate_work_system(channel: SyntecChannel, *, on: bool) -> None:
         set_tilt(channel, state.tilt)
 
 
-def _position_in_work_system(channel: SyntecChannel) -> Vector:
-    c = channel.coordinates
-    here: Vector = TurnState.of(channel).tilt.apply(
-        *(c.position[axis] if axis >= 0 else 0.0 for axis in c.geometry)
-    )
-    return here
+def _set_stood(channel: SyntecChannel, tilt: Frame) -> None:
+    """A tilted plane on which the tool stands; the machine stays."""
+    set_tilt(channel, tilt)
+    alignment.stand_on_plane(channel, dict(zip(channel.axes, channel.coordinates.machine, strict=True)))
 
 
 def set_tilt(channel: SyntecChannel, tilt: Frame) -> None:
