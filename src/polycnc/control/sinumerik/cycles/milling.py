@@ -124,12 +124,24 @@ def reference_point(moves: Moves, a: Arguments) -> Point:
     return moves.point if moves.channel.level.kind is LevelKind.MODAL and given == (0.0, 0.0) else given
 
 
+#: Digits of _GMODE: how the shape is dimensioned (from 2 on from a corner), and whether all of a pocket is milled (1).
+_DIMENSIONING_PLACE, _PREMACHINED_PLACE = 3, 4
+FROM_MIDDLE, WHOLE = (0, 1), 1
+
+
+def check_dimensioning(a: Arguments) -> None:
+    """PC0001 for a pocket or spigot that is dimensioned from a corner."""
+    if a.digit("_GMODE", _DIMENSIONING_PLACE) not in FROM_MIDDLE:
+        raise not_supported(f"{a.cycle} _GMODE")
+
+
 # ---- pockets
 
 
 def pocket3(moves: Moves, a: Arguments) -> None:
     """POCKET3: rectangular pocket about its middle."""
     radius = cutter(moves)
+    check_dimensioning(a)
     length, width, corner = abs(a["_LENG"]), abs(a["_WID"]), abs(a["_CRAD"])
     if not length or not width:
         raise AlarmError("61118")
@@ -151,6 +163,8 @@ def _pocket(
     moves: Moves, a: Arguments, size: tuple[float, float, float], core: tuple[float, float], radius: float
 ) -> None:
     kind = variant(a, "_VARI", (ROUGHING, FINISHING, EDGE))
+    if a.digit("_GMODE", _PREMACHINED_PLACE) == WHOLE:
+        core = (0.0, 0.0)
     if kind == EDGE:
         kind, base_allowance = FINISHING, 0.0
     else:

@@ -11,6 +11,7 @@ from polycnc.control.sinumerik.cycles.levels import levels
 from polycnc.control.sinumerik.cycles.milling import (
     FINISHING,
     ROUGHING,
+    check_dimensioning,
     cutter,
     feed_of,
     is_ccw,
@@ -18,6 +19,7 @@ from polycnc.control.sinumerik.cycles.milling import (
     perform,
     reference_point,
     variant,
+    width_of_cut,
 )
 from polycnc.control.sinumerik.cycles.moves import require_tool
 from polycnc.control.sinumerik.errors import not_supported
@@ -199,6 +201,7 @@ def spigot(moves: Moves, a: Arguments) -> None:
     if radius < 0.0:
         raise AlarmError("61112")
     kind = variant(a, "_VARI", (ROUGHING, FINISHING))
+    check_dimensioning(a)
     circular = a.cycle == "CYCLE77"
     length = abs(a["_PRAD"]) if circular else abs(a["_LENG"])
     width, corner = (length, length / 2.0) if circular else (abs(a["_WID"]), abs(a["_CRAD"]))
@@ -245,7 +248,15 @@ def _mill_spigot(
         found.retract,
     )
     total = abs(found.depth - found.reference) - left_below
-    perform(moves, spigots.mill(shape, levels_below(found, total, a["_MID"])))
+    rounds = _rounds(a, radius, shape.blank - outline.reach - left) if a.has("_MIDA") else [0.0]
+    perform(moves, spigots.mill(shape, levels_below(found, total, a["_MID"]), rounds))
+
+
+def _rounds(a: Arguments, radius: float, stock: float) -> list[float]:
+    """How far outside of the outline the tool goes round, where the blank is more than one width of cut larger."""
+    if not a.plain("_MIDA") or stock <= NO_WAY:
+        return [0.0]
+    return [stock - part for part in steps(stock, width_of_cut(a, radius))]
 
 
 # ---- threads
