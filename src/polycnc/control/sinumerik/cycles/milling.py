@@ -85,13 +85,20 @@ def is_ccw(moves: Moves, direction: int, *, inside: bool) -> bool:
     return climb is (direction == 0)
 
 
-def variant(a: Arguments, name: str, allowed: tuple[int, ...]) -> int:
-    """Units of VARI; 61002 for one that the cycle does not have."""
+def variant(a: Arguments, name: str, allowed: tuple[int, ...], digits: int = 2) -> int:
+    """Units of VARI.
+
+    Raises:
+        AlarmError: 61002 for one that the cycle does not have, or below zero; PC0001 for chamfering, and for digits
+            that are not known.
+    """
     value = a.digit(name, 0)
     if value == CHAMFER and a.has("_ZFS"):
         raise not_supported(f"{a.cycle} {name}")
-    if value not in allowed:
+    if value not in allowed or a.integer(name) < 0:
         raise AlarmError("61002")
+    if a.integer(name) >= 10**digits:
+        raise not_supported(f"{a.cycle} {name}")
     return value
 
 
@@ -249,7 +256,7 @@ def perform_at_speed(moves: Moves, speed: float, strokes: Iterable[MillStroke]) 
 def older_pocket(moves: Moves, a: Arguments) -> None:
     """POCKET1 (rectangular), POCKET2 (circular): in with G1 in the middle; complete, roughing or finishing."""
     radius = cutter(moves)
-    kind = variant(a, "VARI", (COMPLETE, ROUGHING, FINISHING))
+    kind = variant(a, "VARI", (COMPLETE, ROUGHING, FINISHING), digits=1)
     found = levels(moves, a)
     if found is None:
         return
