@@ -167,3 +167,52 @@ def test_blocks_with_a_direction_are_scanned(machine: str) -> None:
     lines = [f"N{i} G1 X{i} A3={0.3 + 0.001 * i:.4f} B3={0.1 - 0.002 * i:.4f} C3=1" for i in range(1, 41)]
     text = "\n".join(["G90 G54 F1000 T1 D1\nTRAORI", *lines, "M30", ""])
     assert scanned(text, "sinumerik-840d", {"machine": machine, **TOOLS}) >= 35
+
+
+#: Words beside a direction under G43.5, codes between, and what ends tip control.
+BESIDE_VECTOR = ("G1 X{0} Y{1}", "G0 Z{0}", "X{0}", "", "G1 F{0}00.")
+BETWEEN_VECTORS = (
+    "G90",
+    "G91",
+    "G54",
+    "G55",
+    "G49\nG43.5 H1",
+    "G0 X1.",
+    "I0 J0 K0",
+    "G43.4 H1 X2.",
+    "G43.5 H1",
+)
+VECTOR = st.tuples(*[st.integers(-3, 3)] * 2, st.sampled_from([1, 2, 5, 0, -1]))
+
+
+@pytest.mark.parametrize("control", ["fanuc-m", "syntec-mill"])
+@pytest.mark.parametrize("machine", [HEAD, TABLES])
+@settings(max_examples=examples(10), deadline=None)
+@given(
+    st.lists(
+        st.one_of(
+            st.tuples(st.sampled_from(BESIDE_VECTOR), VECTOR, st.integers(1, 40)),
+            st.sampled_from(BETWEEN_VECTORS),
+        ),
+        min_size=8,
+        max_size=20,
+    )
+)
+def test_directions_of_the_tool_by_i_j_k(machine: str, control: str, blocks: list[object]) -> None:
+    lines = ["G90 G54 G1 F1000.", "G43.5 H1"]
+    for block in blocks:
+        if isinstance(block, tuple):
+            beside, (x, y, z), number = block
+            lines.append(f"{beside.format(number, number)} I{x}. J{y * 0.3:.3f} K{z}.")
+        else:
+            lines.append(str(block))
+    text = "\n".join([*lines, "M30", ""])
+    assert differences(text, control, {"machine": machine, **TOOLS}) == []
+
+
+@pytest.mark.parametrize("control", ["fanuc-m", "syntec-mill"])
+@pytest.mark.parametrize("machine", [HEAD, TABLES])
+def test_blocks_with_i_j_k_are_scanned(machine: str, control: str) -> None:
+    lines = [f"N{i} G1 X{i}. I{0.3 + 0.001 * i:.4f} J{0.1 - 0.002 * i:.4f} K1." for i in range(1, 41)]
+    text = "\n".join(["G90 G54 F1000.\nG43.5 H1", *lines, "M30", ""])
+    assert scanned(text, control, {"machine": machine, **TOOLS}) >= 35

@@ -11,12 +11,13 @@ from polycnc.control.word_address.coordinates import systems
 from polycnc.control.word_address.cycles import hole_patterns
 from polycnc.control.word_address.macro_b import subprograms
 from polycnc.control.word_address.motion import circle_cutting, path_modes, skip
-from polycnc.control.word_address.tools import measuring
+from polycnc.control.word_address.tools import data_input, measuring
 from polycnc.control.word_address.transformations import hypothetical_axis
 
 #: Codes of FANUC that the manual's table does not have.
 FOREIGN = frozenset({
-    "G5.4", "G10.9", "G25", "G26", "G43.5", "G53.6", "G54.2", "G54.4", "G68.3", "G68.4", "G84.2", "G84.3",
+    "G5.4", "G10.9", "G41.2", "G41.3", "G41.4", "G41.5", "G41.6", "G42.2", "G42.4", "G42.5", "G42.6", "G25",
+    "G26", "G43.5", "G53.6", "G54.2", "G54.4", "G68.3", "G68.4", "G84.2", "G84.3",
 })  # fmt: skip
 
 _ROWS = table(
@@ -24,6 +25,7 @@ _ROWS = table(
     moves("G2.1", circle_cutting.spiral_cw, "I J K P"),
     moves("G3.1", circle_cutting.spiral_ccw, "I J K P"),
     GCode("G5", handler=path_modes.high_speed_mode, takes="P"),
+    moves("G10", data_input.input_data, "L P R"),
     moves("G12", circle_cutting.cut_circle_cw, "I D"),
     moves("G13", circle_cutting.cut_circle_ccw, "I D"),
     moves("G28", systems.return_to_reference),

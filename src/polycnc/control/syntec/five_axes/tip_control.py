@@ -19,6 +19,7 @@ from polycnc.control.word_address.transformations import normal_line, tool_cente
 from polycnc.control.word_address.transformations.polar_interpolation import PolarState
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY
+from polycnc.language.bulk import declare, declared
 from polycnc.toolpath.context import Pace
 
 if TYPE_CHECKING:
@@ -128,7 +129,7 @@ def _plan_with_direction(builder: Builder, plan: Plan) -> Step | None:
             raise words.fail("tip_zero_direction", letters[0])
         step(channel, values)
 
-    return move
+    return declare(move, declared(step))
 
 
 #: Straight blocks that name the direction of the tool.

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.machine_words import may_refuse_moves
 from polycnc.control.word_address.motion import arcs
+from polycnc.control.word_address.transformations import tool_center_point
 from polycnc.geometry.planes import PLANES
 from polycnc.language.bulk import Arc, Conditions, Recipe, Spelling
 from polycnc.language.bulk.layout import FIRST_CODE, FIRST_FORMULA, FORMS
@@ -84,12 +85,13 @@ class PlainBlocks:
     def put_variables(self, _channel: Channel, _variables: Floats) -> None:
         """No formulas read any."""
 
-    def tool(self, channel: WordAddressChannel) -> Sequence[float]:  # noqa: ARG002 - as the scanner asks
-        """No plain block names a direction."""
-        return ()
+    def tool(self, channel: WordAddressChannel) -> Sequence[float]:
+        """Blocks of G43.5 name directions."""
+        by_vector = channel.mode.codes.get("length") == "G43.5"
+        return tool_center_point.record_of(channel) if by_vector else ()
 
     def turned(self, channel: WordAddressChannel, start: list[float], end: list[float]) -> None:
-        """No plain block names a direction."""
+        """How the tool has turned is not remembered."""
 
     def moved(self, channel: WordAddressChannel, last: LastMoves) -> None:
         """Nothing is remembered of a move."""

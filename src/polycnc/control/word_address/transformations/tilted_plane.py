@@ -11,14 +11,22 @@ from math import nan
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
-from polycnc.control.word_address.coordinates import frames
-from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero, work_zero
+from polycnc.control.word_address.coordinates import frames, on_table
+from polycnc.control.word_address.coordinates.on_table import OnTable
+from polycnc.control.word_address.coordinates.systems import (
+    ZeroState,
+    frame_on_table,
+    plane_on_table,
+    refresh_zero,
+    work_zero,
+)
 from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.tools import length
 from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, Frame, rotation, translation
+from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 from polycnc.transformation.orientation import choice
 from polycnc.transformation.orientation.solutions import angles_for, solutions_for
@@ -111,6 +119,11 @@ def _check_state(channel: WordAddressChannel, words: Words, code: str) -> None:
     """
     if TipState.of(channel).active is not None:
         raise words.fail("tip_mode", code)
+    state = OnTable.of(channel)
+    if state.fixture or (state.error and code == "G68.3"):
+        raise AlarmError(
+            "PC0001", hint="hint.not-supported", code=f"G54.{'2' if state.fixture else '4'}: {code}"
+        )
     check_compensation(channel, words, code)
 
 
@@ -202,7 +215,7 @@ def _align(channel: WordAddressChannel, words: Words, code: str, *, holds_tip: b
         raise words.fail("tilt_missing", code)
     kinematics = channel.control.kinematics(channel)
     near = dict(zip(channel.axes, c.machine, strict=True))
-    wanted = plane.direct(0.0, 0.0, 1.0)
+    wanted = plane_on_table(channel, c.offsets).direct(0.0, 0.0, 1.0)
     if not kinematics.axes and abs(wanted[2] - 1.0) < 1e-9:
         return
     angles = _angles(words, kinematics, wanted, near)
@@ -235,7 +248,7 @@ def turn_about_tip(channel: WordAddressChannel, angles: Angles, arm: float, abov
         arm: From the tip along the tool to the nose, mm.
         above: From the tip along the tool to the point, mm.
     """
-    c, zero = channel.coordinates, ZeroState.of(channel)
+    c = channel.coordinates
     channel.flush()
     offsets = c.offsets.copy()
     if "length" in channel.mode.codes:  # on lathes they do not count along the tool
@@ -243,7 +256,7 @@ def turn_about_tip(channel: WordAddressChannel, angles: Angles, arm: float, abov
             offsets[axis] = place
     kinematics = channel.control.kinematics(channel)
     led = ToolCentrePoint(kinematics, channel.axes, c.geometry, tuple(offsets), (0.0, 0.0, above - arm))
-    frame = zero.frame @ zero.plane @ translation(0.0, 0.0, above)
+    frame = frame_on_table(channel, c.offsets) @ translation(0.0, 0.0, above)
     c.transform(Seated(led, frame), None, (IDENTITY, offsets))
     channel.context_changed()
     end = c.position.copy()
@@ -291,6 +304,8 @@ def _renew(channel: WordAddressChannel, table: Frame, plane: Frame, angles: Angl
     state = ZeroState.of(channel)
     state.table, state.plane = table, plane
     stand_along(channel, angles)
+    if OnTable.of(channel).error:
+        on_table.follow(channel)
 
 
 def stand_along(channel: WordAddressChannel, angles: Angles | None) -> None:
