@@ -73,6 +73,10 @@ class Rule:
     after_s: float = 0.0
     latch: Latch = ""
 
+    def __getstate__(self) -> dict[str, object]:
+        """Without the condition, a function that is made again where it is asked for: in another process too."""
+        return {name: value for name, value in self.__dict__.items() if name != "condition"}
+
     @cached_property
     def condition(self) -> Condition:
         """The condition, asked with a function that gives the value of a signal.
