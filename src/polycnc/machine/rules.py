@@ -6,7 +6,7 @@ A condition joins signals with `&`, `|` and `!`, in brackets where needed; a sig
 from __future__ import annotations
 
 import re
-from functools import cached_property
+from functools import cache, cached_property
 from typing import TYPE_CHECKING, Literal
 
 from polycnc.deferred.records import dataclass
@@ -42,6 +42,7 @@ class ConditionError(ValueError):
         self.at = at
 
 
+@cache
 def condition_of(text: str) -> Condition:
     """A condition, asked with a function that gives the value of a signal.
 
