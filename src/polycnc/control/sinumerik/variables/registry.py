@@ -10,6 +10,7 @@ Source: job planning 1.1.2 (prefixes), 5.1 (actual values), and the manual of sy
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from math import isnan
 from typing import TYPE_CHECKING, Any
 
@@ -46,7 +47,8 @@ from polycnc.control.sinumerik.tools.management.monitoring import MONITORING_VAR
 from polycnc.control.sinumerik.tools.online import OVERLAY_VARIABLES
 from polycnc.control.sinumerik.tools.sides import Contour
 from polycnc.control.sinumerik.tools.variables import IN_MAIN_RUN, TOOL_VARIABLES
-from polycnc.control.sinumerik.transformations import smoothing
+from polycnc.control.sinumerik.transformations import seat, smoothing
+from polycnc.control.sinumerik.transformations.seat import Transformations
 from polycnc.control.sinumerik.variables.block_types import BLOCK_VARIABLES
 from polycnc.control.sinumerik.variables.clock import PARTS, part_of_clock
 from polycnc.control.sinumerik.variables.known import is_known
@@ -65,6 +67,8 @@ from polycnc.toolpath.events import ValueWrite
 from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.feed.spindles import Spindle
 
@@ -211,22 +215,42 @@ def _machine_datum(name: str) -> SystemVariable:
 
 
 def _work_frame(channel: SinumerikChannel, outer: str) -> list[float]:
-    """Positions of all axes in the system below `outer`: WCS, SZS (settable), BZS (base)."""
+    """Positions of all axes now in the system below `outer`: SZS (settable), BZS (base)."""
     memory = channel.memory
     coordinates = channel.coordinates
-    if outer == "work":
-        return coordinates.position
     state = memory.frames
     inner = NcFrame()
     for frame in state.inner() if outer == "settable" else [state.active_settable, *state.inner()]:
         inner = inner @ frame
-    point = coordinates.image(inner.frame, coordinates.position)
+    point = coordinates.image(inner.frame, links.shown(channel, channel.actual.work))
     for axis, part in inner.others.items():
         if axis not in memory.columns:  # a spindle
             continue
         column = memory.column(axis)
         point = [*point[:column], point[column] + part.coarse + part.fine, *point[column + 1 :]]
     return point
+
+
+def _basic(channel: SinumerikChannel) -> list[float]:
+    """Positions of all axes now in the basic system: those of the machine, but for what a transformation leads."""
+    machine, coordinates = list(channel.actual.machine), channel.coordinates
+    if Transformations.of(channel).seated is None:
+        return machine
+    point = coordinates.image(seat.frame_in_front(channel), list(channel.actual.work))
+    led = {column for column in coordinates.geometry if column >= 0}
+    return [point[i] if i in led else value for i, value in enumerate(machine)]
+
+
+_SYSTEMS: dict[str, Callable[[SinumerikChannel], list[float]]] = {
+    "machine": lambda channel: list(channel.actual.machine),
+    "basic": _basic,
+    "base": partial(_work_frame, outer="base"),
+    "settable": partial(_work_frame, outer="settable"),
+    "actual": lambda channel: links.shown(channel, channel.actual.work),
+    "programmed": lambda channel: channel.coordinates.position,
+}
+#: Systems in which positions are no diameters.
+_OF_AXES = frozenset(("machine", "basic"))
 
 
 def _position(name: str, system: str, *, stop: bool = True) -> SystemVariable:
@@ -236,12 +260,7 @@ def _position(name: str, system: str, *, stop: bool = True) -> SystemVariable:
         if spindle is not None:
             return spindle.position
         column = channel.memory.column(axis)
-        if system in ("machine", "basic"):
-            return shown(channel, column, channel.actual.machine[column], work=False)
-        position = channel.actual.work if system == "actual" else _work_frame(channel, system)
-        if system == "actual":
-            position = links.shown(channel, position)
-        return shown(channel, column, position[column])
+        return shown(channel, column, _SYSTEMS[system](channel)[column], work=system not in _OF_AXES)
 
     return SystemVariable(name, Type.REAL, read, stop=stop)
 
@@ -316,7 +335,7 @@ def _always(value: Any) -> Reader:
 
 _STATES = (
     SystemVariable("$P_GG", Type.INT, _group_number),
-    SystemVariable("$P_EP", Type.REAL, _position("$P_EP", "work").reader),
+    SystemVariable("$P_EP", Type.REAL, _position("$P_EP", "programmed").reader),
     SystemVariable("$P_AXN1", Type.AXIS, _geometry_axis(0)),
     SystemVariable("$P_AXN2", Type.AXIS, _geometry_axis(1)),
     SystemVariable("$P_AXN3", Type.AXIS, _geometry_axis(2)),
