@@ -49,6 +49,7 @@ from polycnc.control.sinumerik.tools.sides import Contour
 from polycnc.control.sinumerik.tools.variables import IN_MAIN_RUN, TOOL_VARIABLES
 from polycnc.control.sinumerik.transformations import seat, smoothing
 from polycnc.control.sinumerik.transformations.seat import Transformations
+from polycnc.control.sinumerik.variables import in_force
 from polycnc.control.sinumerik.variables.block_types import BLOCK_VARIABLES
 from polycnc.control.sinumerik.variables.clock import PARTS, part_of_clock
 from polycnc.control.sinumerik.variables.known import is_known
@@ -133,7 +134,10 @@ class SystemVariables:
         """
         variable = self._found.get(name)
         if variable is None:
-            variable = self._found[name] = replace(self._make(name), unit=unit_of(name))
+            variable = replace(self._make(name), unit=unit_of(name))
+            if name in in_force.NAMES:
+                variable = replace(variable, reader=in_force.live(name, variable.reader))
+            self._found[name] = variable
         return variable
 
     @staticmethod
@@ -214,15 +218,27 @@ def _machine_datum(name: str) -> SystemVariable:
 # ---- positions
 
 
-def _work_frame(channel: SinumerikChannel, outer: str) -> list[float]:
-    """Positions of all axes now in the system below `outer`: SZS (settable), BZS (base)."""
-    memory = channel.memory
-    coordinates = channel.coordinates
-    state = memory.frames
+def _inner_frame(channel: SinumerikChannel, _indices: Indices, *, settable: bool) -> NcFrame:
+    """From the work to the base system, or where a settable frame is none of them, to its zero system."""
+    state = channel.memory.frames
     inner = NcFrame()
-    for frame in state.inner() if outer == "settable" else [state.active_settable, *state.inner()]:
+    for frame in (*((state.active_settable,) if settable else ()), *state.inner()):
         inner = inner @ frame
-    point = coordinates.image(inner.frame, links.shown(channel, channel.actual.work))
+    return inner
+
+
+#: The frames between the work and a system: SZS, BZS.
+_INNER: dict[str, Reader] = {
+    "settable": in_force.live("$AA_IEN", partial(_inner_frame, settable=False)),
+    "base": in_force.live("$AA_IBN", partial(_inner_frame, settable=True)),
+}
+
+
+def _below_the_work(channel: SinumerikChannel, system: str) -> list[float]:
+    """Positions of all axes now in a system between the work and the basic one."""
+    memory = channel.memory
+    inner: NcFrame = _INNER[system](channel, ())
+    point = channel.coordinates.image(inner.frame, links.shown(channel, channel.actual.work))
     for axis, part in inner.others.items():
         if axis not in memory.columns:  # a spindle
             continue
@@ -244,8 +260,8 @@ def _basic(channel: SinumerikChannel) -> list[float]:
 _SYSTEMS: dict[str, Callable[[SinumerikChannel], list[float]]] = {
     "machine": lambda channel: list(channel.actual.machine),
     "basic": _basic,
-    "base": partial(_work_frame, outer="base"),
-    "settable": partial(_work_frame, outer="settable"),
+    "base": partial(_below_the_work, system="base"),
+    "settable": partial(_below_the_work, system="settable"),
     "actual": lambda channel: links.shown(channel, channel.actual.work),
     "programmed": lambda channel: channel.coordinates.position,
 }
