@@ -34,6 +34,8 @@ if TYPE_CHECKING:
 class Rank(IntEnum):
     """The place of a stage in the path, first to last; the path holds at most one stage of a rank."""
 
+    #: States of the program that are told to the main run, in order with the moves.
+    STATES = auto()
     #: What is noted of moves as the program means them (contour tables).
     NOTES = auto()
     #: Inputs that interrupt a block: they see moves as the program means them.
