@@ -325,9 +325,10 @@ class TableStage(Sink):
         count = len(run.kinds)
         if count:
             self.end, self.context = run.ends[-len(run.start) :].tolist(), run.context
-            columns = (run.kinds, run.lines, run.feeds, run.ends, run.curves)
+            programs = array("H", (run.program,)) * count
+            columns = (run.kinds, programs, run.lines, run.feeds, run.ends, run.curves)
             views = [memoryview(column).cast("B") for column in columns]
-            self._channel.toolpath.chunk.extend(0, count, run.program, run.context, views)
+            self._channel.toolpath.chunk.extend(0, count, run.context, views)
         return count
 
     def event(self, event: PlacedEvent) -> None:
