@@ -241,9 +241,11 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
 
     def _scanner_for(self, level: Level) -> Scanner | None:
         """What scans the plain blocks of a program; None where that does not pay."""
-        if self.bulk is None or not self.bulk.pays(len(level.steps)):
-            return None
-        if self._scanner is None:
+        return self.scanner() if self.bulk is not None and self.bulk.pays(len(level.steps)) else None
+
+    def scanner(self) -> Scanner | None:
+        """What scans plain blocks, if anything does."""
+        if self._scanner is None and self.bulk is not None:
             self._scanner = self.bulk.scanner(self)
         return self._scanner
 

@@ -220,8 +220,14 @@ class Interpolator(Protocol):
     def led_by(self, column: int) -> tuple[Law, ...]:
         """What leads an axis beside the path."""
 
-    def follow(self, column: int, laws: Sequence[Law]) -> None:
+    def follow(self, column: int, laws: Sequence[Law], spindles: Mapping[int, float] | None = None) -> None:
         """These lead an axis beside the path from now on, none lets it stay where it is.
+
+        Args:
+            column: The axis.
+            laws: By which other axes lead it.
+            spindles: Of a gear: degrees that it turns for one of each leading spindle, by number. The axis then
+                catches up with them, and brakes where nothing is left to lead it.
 
         Raises:
             CircularCouplingError: An axis would lead itself.

@@ -275,7 +275,7 @@ def test_second_geometry_is_typed_in_with_its_parameter(bench: Make) -> None:
     panel = opened(bench(setup={"parameters": {"3290#5": 1}}), ("2ND GEOM", "第2形狀"))
     assert panel.view.title == panel.says("OFFSET / 2ND GEOM", "刀具補正 / 第2形狀")
     assert [window.kind for window in panel.view.windows] == [
-        *("positions", "rates", "counters", "modal", "table")
+        *("positions", "rates", "modal", "table", "counters")
     ]
     assert heads(panel) == panel.says("NO. X Z", "編號 X軸 Z軸").split()
     assert len(panel.window("table").rows) == 12, "11 numbers on a page"

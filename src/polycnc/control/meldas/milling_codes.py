@@ -9,10 +9,11 @@ from polycnc.control.word_address.auxiliary.m_codes import MACHINING_CENTRE
 from polycnc.control.word_address.block.codes import GCode, MCode, Order, m_table, table, with_aliases
 from polycnc.control.word_address.coordinates import systems
 from polycnc.control.word_address.cycles import hole_patterns
-from polycnc.control.word_address.macro_b import subprograms
+from polycnc.control.word_address.macro_b import calls_as_data, subprograms
 from polycnc.control.word_address.motion import circle_cutting, path_modes, skip
 from polycnc.control.word_address.tools import data_input, measuring
 from polycnc.control.word_address.transformations import hypothetical_axis
+from polycnc.language.bulk import declare
 
 #: Codes of FANUC that the manual's table does not have.
 FOREIGN = frozenset({
@@ -48,6 +49,10 @@ _ROWS = table(
 G_CODES = with_aliases(_ROWS, ALIASES)
 #: H is the sequence number at which the subprogram begins.
 M98 = MCode(
-    98, after=True, handler=partial(subprograms.call_subprogram, begins_at="H"), takes="P H L", silent=True
+    98,
+    after=True,
+    handler=declare(partial(subprograms.call_subprogram, begins_at="H"), calls_as_data.subprogram),
+    takes="P H L",
+    silent=True,
 )
 M_CODES = m_table(*MACHINING_CENTRE, M98)

@@ -18,7 +18,7 @@ from polycnc.control.fanuc.lathe.cycles import grinding as turning_grinding
 from polycnc.control.fanuc.lathe.cycles import repetitive, single
 from polycnc.control.fanuc.lathe.cycles.drilling import NORMAL_CYCLES, SERIES_15_CYCLES
 from polycnc.control.fanuc.lathe.cycles.tapping import RIGID, RIGID_OFF, rigid_tapping
-from polycnc.control.fanuc.lathe.motion import beside, threads
+from polycnc.control.fanuc.lathe.motion import beside, retract, threads
 from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.fanuc.lathe.tools import data_input, measuring, nose_radius, offsets
 from polycnc.control.word_address.auxiliary import functions
@@ -93,7 +93,7 @@ ROWS: tuple[Row, ...] = (
     *same(GCode("G9", handler=path_modes.exact_stop_block)),
     *same(_point("G10", data_input.input_data, "L P R Q C E F")),
     *same(GCode("G11", handler=parameter_input.end)),
-    *same(_point("G10.6", threads.prepare_retract)),
+    *same(_point("G10.6", retract.prepare)),
     *same(GCode("G7.1", handler=cylinder.cylinder, axis_words=True, order=Order.MOTION), "G107"),
     *same(GCode("G12.1", polar_interpolation.GROUP, polar_interpolation.start_polar), "G112"),
     *same(GCode("G13.1", polar_interpolation.GROUP, polar_interpolation.end_polar), "G113"),

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.block import arguments
+from polycnc.control.sinumerik.variables import in_force
 from polycnc.deferred.records import dataclass
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.messages import AlarmError
@@ -52,6 +53,7 @@ def select(run: Running, index: Any, _modifier: str, value: float) -> None:
         selected.add(column)
     else:
         selected.discard(column)
+    in_force.refresh(run.channel)
 
 
 def datum(name: str) -> Callable[[Running, Any, str, Any], None]:
@@ -69,6 +71,7 @@ def limit_torque(*, on: bool) -> Callable[[Running, Any, str, Any], None]:
 
     def switch(run: Running, index: Any, _modifier: str, _value: Any) -> None:
         _limit(run.channel, index, on=on)
+        in_force.refresh(run.channel)
 
     return switch
 

@@ -28,7 +28,7 @@ from polycnc.control.sinumerik.tangential import definitions as tangential
 from polycnc.control.sinumerik.tools import d_numbers, online
 from polycnc.control.sinumerik.tools.management import lists, magazines, monitoring
 from polycnc.control.sinumerik.transformations import seat, selection, start
-from polycnc.control.sinumerik.variables import dialogs
+from polycnc.control.sinumerik.variables import dialogs, lengths
 from polycnc.control.sinumerik.variables.stored import Stored
 from polycnc.language.sinumerik.names.initialisation import NEW_CONFIGURATION, initialise
 from polycnc.messages import Alarm, AlarmError
@@ -137,6 +137,9 @@ def set_master_spindle(channel: SinumerikChannel, args: Arguments) -> None:
     number = arguments.spindle(args[0]) if args else None
     number = spindles.default_master if number is None else number
     spindles.get(number)
+    for spindle in spindles.all.values():
+        if spindle.number != number:
+            spindle.refuse_leading("SETMS")
     spindles.master = number
     channel.context_changed()
 
@@ -169,12 +172,11 @@ def preset(channel: SinumerikChannel, args: Arguments) -> None:
     if not args or len(args) % 2:
         raise AlarmError("14020", text="PRESETON")
     seat.refuse_transformed(channel, [arguments.column(channel, axis) for axis in args[::2]], "17600")
-    values = zip(args[::2], args[1::2], strict=True)
-    action_axes.call(
-        channel,
-        "PRESETON",
-        {arguments.column(channel, axis): arguments.real(value) for axis, value in values},
-    )
+    values = {
+        arguments.column(channel, axis): arguments.real(value) * lengths.of_axis(channel, axis.name)
+        for axis, value in zip(args[::2], args[1::2], strict=True)
+    }
+    action_axes.call(channel, "PRESETON", values)
 
 
 def dynamics(name: str) -> Callable[[SinumerikChannel, Arguments], None]:

@@ -233,8 +233,8 @@ def deep_hole_2(moves: Moves, a: Arguments) -> None:
 def deep_hole(moves: Moves, a: Arguments) -> None:
     """CYCLE83: strokes that become shorter, breaking chips (VARI=0) or clearing them (VARI=1)."""
     found = levels_of_drill(moves, a)
-    variant = a.digit("VARI", 0)
-    if variant in CHIPS_AND_SWARF:
+    variant = a.integer("VARI")
+    if variant in CHIPS_AND_SWARF or variant >= 10:
         raise not_supported(f"{a.cycle} VARI")
     if variant not in (0, 1):
         raise AlarmError("61002")

@@ -238,8 +238,8 @@ def onwards(contour: Contour) -> float:
 def stock_removal(moves: Moves, a: Arguments) -> None:
     """CYCLE95: remove stock along a contour, lengthwise or across, outside or inside."""
     require_tool(moves)
-    number, rounding = a.integer("VARI") % 100, a.digit("VARI", 2)
-    if not 1 <= number <= 12 or rounding > WITHOUT_ROUNDING:
+    rounding, number = divmod(a.integer("VARI"), 100)
+    if not 1 <= number <= 12 or not 0 <= rounding <= WITHOUT_ROUNDING:
         raise AlarmError("61002")
     kind, side = divmod(number - 1, len(SIDES))
     across, towards = SIDES[side]

@@ -4,7 +4,7 @@
 the table of the functions here, `running` is the block while it runs and what the dialect remembers.
 
     holes       drilling cycles G73 to G89, G98, G99
-    frames      G50, G51 (scale), G50.1, G51.1 (mirror), G68, G69 (rotation), G92 (position)
+    frames      G50, G51 (scale), G50.1, G51.1 (mirror), G52 (shift), G68, G69 (rotation), G92 (position)
     offsets     G43, G49 with H, D
     reference   G28, G30
     subprograms M98, M99

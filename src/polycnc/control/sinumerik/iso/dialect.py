@@ -24,6 +24,7 @@ FUNCTIONS: dict[str, Callable[[IsoRun, IsoWord], None]] = {
     "G51": frames.scale,
     "G50.1": frames.unmirror,
     "G51.1": frames.mirror,
+    "G52": frames.shift,
     "G68": frames.rotate,
     "G69": frames.unrotate,
     "G92": frames.set_position,

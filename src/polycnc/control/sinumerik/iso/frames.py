@@ -1,6 +1,7 @@
-"""Frames of the ISO dialect: scale, mirror, rotation, and the position that G92 sets.
+"""Frames of the ISO dialect: scale, mirror, rotation, shift, and the position that G92 sets.
 
-Scale, mirror and rotation are system frames behind the programmable one, G92 is a shift in `$P_SETFRAME`. A scale goes
+Scale, mirror and rotation are system frames behind the programmable one, in which G52 shifts; G92 is a shift in
+`$P_SETFRAME`. A scale goes
 into a rotation, as the dialect has it; a mirror beside either of them is refused, for dialects differ in their order.
 """
 
@@ -36,9 +37,14 @@ _SET = "$P_SETFRAME"
 
 
 def _put(running: IsoRun, name: str, frame: NcFrame) -> None:
-    """A system frame acts from here on; incremental words do not travel the change."""
+    """A system frame acts from here on."""
+    running.channel.memory.frames.system[name] = frame
+    _follow(running)
+
+
+def _follow(running: IsoRun) -> None:
+    """The frames act as they are now; incremental words do not travel the change."""
     channel = running.channel
-    channel.memory.frames.system[name] = frame
     active.apply(channel)
     if channel.path.head is not None:
         stages.changed_frame(channel)
@@ -198,7 +204,42 @@ def _rotate(running: IsoRun, word: IsoWord, words: list[IsoWord], angle_deg: flo
     _put(running, ISO_ROTATION, ctrans(center) @ crpl(third, angle_deg) @ back)
 
 
-# ---- position
+# ---- position and shift
+
+
+def shift(running: IsoRun, word: IsoWord) -> None:
+    """G52: the zero point lies there in the work system; other axes keep theirs, 0 takes the shift back.
+
+    Raises:
+        AlarmError: PC0001 without axes, behind G51, G51.1 and G68, and where the programmable frame is more than that.
+    """
+    _begin(running, word, (ISO_MIRROR, ISO_ROTATION, ISO_SCALE))
+    words = running.axis_words()
+    running.taken += words
+    if not words or running.channel.memory.frames.programmable.matrix != IDENTITY.m:
+        raise running.refused(word)
+    running.after.append(partial(_shift, running, words))
+
+
+def _shift(running: IsoRun, words: list[IsoWord]) -> None:
+    frames = running.channel.memory.frames
+    frame = frames.programmable
+    for name, _, value in _named(running, words):
+        frame = frame.with_component(name, "TR", value)
+    frames.programmable = frame
+    _follow(running)
+
+
+def _named(running: IsoRun, words: list[IsoWord]) -> list[tuple[str, int, float]]:
+    """Name in frames, column and value, mm or degrees, of words of axes."""
+    channel = running.channel
+    geometry = dict(zip(channel.coordinates.geometry, GEOMETRY_AXES, strict=True))
+    found = []
+    for word in words:
+        column = channel.memory.column(word.letter)
+        value = word.value if channel.axis_data[column].rotary else running.length(word)
+        found.append((geometry.get(column, channel.axes[column]), column, value))
+    return found
 
 
 def set_position(running: IsoRun, word: IsoWord) -> None:
@@ -224,10 +265,5 @@ def _set_position(running: IsoRun, word: IsoWord, words: list[IsoWord]) -> None:
     frames, coordinates = channel.memory.frames, channel.coordinates
     if frames.total().matrix != IDENTITY.m or coordinates.transformation is not None:
         raise running.refused(word)
-    geometry = {coordinates.geometry[i]: name for i, name in enumerate(GEOMETRY_AXES)}
-    shifts: dict[str, float] = {}
-    for each in words:
-        column = channel.memory.column(each.letter)
-        value = each.value if channel.axis_data[column].rotary else running.length(each)
-        shifts[geometry.get(column, channel.axes[column])] = coordinates.position[column] - value
+    shifts = {name: coordinates.position[column] - value for name, column, value in _named(running, words)}
     _put(running, _SET, ctrans(shifts) @ frames.system[_SET])

@@ -454,6 +454,8 @@ def special(
 ) -> None:
     """A straight move with curve parameters."""
     start = channel.coordinates.position
+    if kind is Kind.TAP:
+        channel.memory.spindles.get().refuse_leading("G331")
     if any(abs(a - b) > NO_WAY for a, b in zip(end, start, strict=True)):
         _begin(channel, start)
         channel.curve(kind, end, feed, parameters=parameters)

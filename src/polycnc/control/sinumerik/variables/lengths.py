@@ -67,7 +67,8 @@ def unit_of(name: str) -> Unit | None:
 def of_axis(channel: SinumerikChannel, axis: str) -> float:
     """The unit of positions of an axis; rotary axes and spindles count degrees."""
     memory = channel.memory
-    if axis not in memory.columns or memory.axes[memory.column(axis)].rotary:
+    name = memory.data.axes.get(axis, axis)  # machine axes by their own names too
+    if name not in memory.columns or memory.axes[memory.column(name)].rotary:
         return 1.0
     return _inch(channel, ())
 

@@ -13,7 +13,7 @@ from polycnc.control.word_address.motion import arcs
 from polycnc.control.word_address.transformations import tool_center_point
 from polycnc.geometry.planes import PLANES
 from polycnc.language.bulk import Arc, Conditions, Recipe, Spelling
-from polycnc.language.bulk.layout import FIRST_CODE, FIRST_FORMULA, FORMS
+from polycnc.language.bulk.layout import FIRST_CODE, FIRST_FORMULA, FIRST_M_CODE, FORMS
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.plan import Plan
     from polycnc.control.word_address.family import WordAddressChannel
     from polycnc.kernels.layout import Floats
+    from polycnc.language.bulk.routines.running import RoutineDialect
     from polycnc.language.bulk.scanner import LastMoves
 
 #: How a number was written, as the scanner counts it; see `language.word_address.words`.
@@ -35,7 +36,10 @@ class PlainBlocks:
 
     Attributes:
         spelling: How the control's text looks.
+        routines: What the scanner asks of programs that are called; None where the interpreter calls them.
     """
+
+    routines: RoutineDialect | None = None
 
     def __init__(self, spelling: Spelling) -> None:
         self.spelling = spelling
@@ -128,6 +132,8 @@ def _keeps_circles(channel: WordAddressChannel) -> bool:
 
 def _key(key: int) -> str:
     """The scanner's key as one of a signature."""
+    if key >= FIRST_M_CODE:
+        return f"M{key - FIRST_M_CODE}"
     if key >= FIRST_CODE:
         return f"G{key - FIRST_CODE}"
     letter, form = divmod(key, FORMS)
