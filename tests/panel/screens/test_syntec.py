@@ -121,6 +121,21 @@ def test_under_tip_control_the_tip_goes_by_the_turned_system() -> None:
     assert places[3][2:] == pytest.approx([53.0, 0.0], abs=1e-9)
 
 
+def test_in_a_turned_system_radius_compensation_in_space_sees_the_tool_as_it_stands_there() -> None:
+    tools = {"tools": {1: {"length": 50.0, "radius": 5.0}}}
+    bench = syntec("en", machine="mill5-ac-table", setup=tools)
+    bench.screen.show("rotation")
+    bench.typed("10", "INPUT")
+    control = bench.control
+    control.load(
+        "G90 G54.4 P1\nG43.4 H1\nG0 X0 Y0 Z0 A-10. C0\nG42.2 G1 X10. D1 F500\nX20.\nM0\nY10.\nG40 X0\nM30\n"
+    )
+    control.cycle_start()
+    control.run()
+    # The table stands the system upright under the tool: the corner of the offset lines as in the plane.
+    assert [control.positions.work[axis] for axis in "XYZ"] == pytest.approx([25.0, -5.0, 0.0], abs=1e-6)
+
+
 def test_a_posture_in_a_turned_system_is_not_executed() -> None:
     bench = syntec("en", machine="mill5-ac-table")
     bench.screen.show("rotation")
