@@ -427,6 +427,10 @@ class WordAddressControl:
         """The rotary joints of the machine, with what parameters add to them."""
         return Kinematics.of(channel.machine)
 
+    def rotary_ranges(self, _channel: Channel) -> Mapping[str, tuple[float, float]]:
+        """Lowest and highest machine position of rotary axes that stand the tool, degrees by name; none for any."""
+        return {}
+
     def reference_point(self, channel: Channel, axis: int, number: int) -> float:
         """Machine position of a reference point of an axis, from 1."""
         return channel.axis_data[axis].reference_points[number - 1]

@@ -47,3 +47,12 @@ class FanucMillingParameters(FanucParameters["FanucMillingAxisParameters"]):
     #: 11600#5: an axis that the block behind G68 does not name keeps its coordinate from before (0) or its
     #: position (1).
     AX1 = Bit(11600, 5, delivered=True)
+    #: 19741: G53.1, G53.6, G43.5: highest machine position of the first rotary axis; both 0 for any (19742)
+    #: [deg].
+    first_rotary_high = Number(19741, delivered=0.0)
+    #: 19742: lowest machine position of the first rotary axis [deg].
+    first_rotary_low = Number(19742, delivered=0.0)
+    #: 19743: highest machine position of the second rotary axis; both 0 for any (19744) [deg].
+    second_rotary_high = Number(19743, delivered=0.0)
+    #: 19744: lowest machine position of the second rotary axis [deg].
+    second_rotary_low = Number(19744, delivered=0.0)

@@ -29,7 +29,7 @@ from polycnc.geometry.frames import IDENTITY, Frame, rotation, translation
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 from polycnc.transformation.orientation import choice
-from polycnc.transformation.orientation.solutions import angles_for, solutions_for
+from polycnc.transformation.orientation.solutions import solutions_for
 from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
 from polycnc.transformation.planes.tilted import (
     by_directions,
@@ -47,7 +47,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import WordAddressChannel
     from polycnc.geometry.frames import Vector
-    from polycnc.machine.kinematics import Angles, Kinematics
+    from polycnc.machine.kinematics import Angles
 
 #: P of G68.2: how the plane is told.
 EULER, ROLL_PITCH_YAW, POINTS, VECTORS, PROJECTION = 0, 1, 2, 3, 4
@@ -218,7 +218,7 @@ def _align(channel: WordAddressChannel, words: Words, code: str, *, holds_tip: b
     wanted = plane_on_table(channel, c.offsets).direct(0.0, 0.0, 1.0)
     if not kinematics.axes and abs(wanted[2] - 1.0) < 1e-9:
         return
-    angles = _angles(words, kinematics, wanted, near)
+    angles = _angles(channel, words, wanted, near)
     if angles is None or not set(angles) <= set(channel.axes):
         raise words.fail("tilt_unreachable", code)
     table = table_turn(kinematics, angles, MACHINE_ZERO)
@@ -268,21 +268,33 @@ def turn_about_tip(channel: WordAddressChannel, angles: Angles, arm: float, abov
     c.transform(None)
 
 
-def _angles(words: Words, kinematics: Kinematics, wanted: Vector, near: Angles) -> dict[str, float] | None:
+def _angles(
+    channel: WordAddressChannel, words: Words, wanted: Vector, near: Angles
+) -> dict[str, float] | None:
     """Positions of the rotary axes: the nearest ones, by P1 and P2 those to which the first axis turns up or down.
 
     The first axis is the one that carries the other.
     """
+    kinematics = channel.control.kinematics(channel)
     way = words.integer("P") if "P" in words else NEAREST
     if way not in SENSES:
         raise words.fail("tilt_format", "P")
     if way == NEAREST or not kinematics.axes:
-        return angles_for(kinematics, wanted, near)
-    first = (kinematics.work or kinematics.tool)[0].axis
-    found = [
+        return nearest_angles(channel, wanted, near)
+    first, ranges = (kinematics.work or kinematics.tool)[0].axis, channel.control.rotary_ranges(channel)
+    led = [
         choice.led(solution, near, first, SENSES[way]) for solution in solutions_for(kinematics, wanted, near)
     ]
+    found = [solution for solution in led if choice.all_within(solution, ranges)]
     return next(iter(choice.by_way_of(found, near, first)), None)
+
+
+def nearest_angles(channel: WordAddressChannel, wanted: Vector, near: Angles) -> dict[str, float] | None:
+    """The nearest positions of the rotary axes within their ranges that stand the tool along a direction."""
+    ranges = channel.control.rotary_ranges(channel)
+    found = solutions_for(channel.control.kinematics(channel), wanted, near)
+    placed = (choice.on_turns_within(solution, near, ranges) for solution in found)
+    return choice.nearest([solution for solution in placed if solution is not None], near)
 
 
 def end_tilt(channel: WordAddressChannel, words: Words) -> None:

@@ -19,11 +19,10 @@ from polycnc.control.word_address.coordinates.systems import ZeroState, frame_on
 from polycnc.control.word_address.motion.path import reach
 from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.tools.radius import RadiusState
-from polycnc.control.word_address.transformations.tilted_plane import TiltState
+from polycnc.control.word_address.transformations.tilted_plane import TiltState, nearest_angles
 from polycnc.language.bulk import Straight, declare
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
-from polycnc.transformation.orientation.solutions import angles_for
 from polycnc.transformation.orientation.standing import StandRecord, stand
 from polycnc.transformation.orientation.stood import stand_record
 from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
@@ -99,9 +98,13 @@ def plan_with_direction(builder: Builder, plan: Plan) -> Step | None:
 
 
 def record_of(channel: WordAddressChannel) -> Sequence[float]:
-    """What the kernel must know that stands the tool along a direction, for scanner and interpreter alike."""
+    """What the kernel must know that stands the tool along a direction, for scanner and interpreter alike.
+
+    It knows of one turn of each axis only, so it decides nothing where the control bounds them.
+    """
     state = tip.TipState.of(channel)
-    return stand_record(state.active, frame=state.frame)
+    bounded = bool(channel.control.rotary_ranges(channel))
+    return stand_record(None if bounded else state.active, frame=state.frame)
 
 
 def _stood(channel: WordAddressChannel, vector: Vector, end: list[float]) -> list[float]:
@@ -115,10 +118,10 @@ def _stood(channel: WordAddressChannel, vector: Vector, end: list[float]) -> lis
 
 
 def _turned(channel: WordAddressChannel, vector: Vector, end: list[float]) -> list[float]:
-    """The same on machines with other joints; nothing for no direction, or one that none of them reaches."""
+    """The same on machines with other joints or with axes that are bounded; nothing for what none of them reaches."""
     c, (i, j, k) = channel.coordinates, tip.direction(channel, vector)
     near = dict(zip(channel.axes, c.machine, strict=True))
-    angles = angles_for(channel.control.kinematics(channel), (i, j, k), near) if i or j or k else None
+    angles = nearest_angles(channel, (i, j, k), near) if i or j or k else None
     if angles is None:
         return []
     for name, angle in angles.items():
