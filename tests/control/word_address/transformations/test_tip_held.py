@@ -1,4 +1,4 @@
-"""G53.6, and under tip control G53.1 and G53.3: where the tip is on the work at every sample of the motion."""
+"""G53.6, under tip control G53.1 and G53.3, CYCLE800: where the tip is on the work at every sample of the motion."""
 
 from __future__ import annotations
 
@@ -84,6 +84,13 @@ def test_under_tip_control_g53_3_leads_the_tip_straight_to_the_plane(machine: st
     along = (end - begin) / np.linalg.norm(end - begin)
     beside = tips - begin
     assert np.abs(beside - np.outer(beside @ along, along)).max() < 1e-3
+
+
+@pytest.mark.parametrize(("machine", "angles"), [("mill5-ac-table", "50,0,0"), ("mill5-bc-head", "0,60,0")])
+def test_cycle800_tracks_the_tip_on_the_work(machine: str, angles: str) -> None:
+    text = f'T1 D1\nTRAORI\nG0 X3 Y4 Z20\nCYCLE800(0,"",200010,57,0,0,0,{angles},0,0,0,1)\nM30\n'
+    tips = on_work(machine, turning(positions_of(text, "sinumerik-840d", machine)), LENGTH)
+    assert np.abs(tips - [3.0, 4.0, 20.0]).max() < 1e-3
 
 
 def test_the_holder_of_a_head_counts_along_the_tool() -> None:
