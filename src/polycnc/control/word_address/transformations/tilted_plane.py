@@ -321,10 +321,15 @@ def _renew(channel: WordAddressChannel, table: Frame, plane: Frame, angles: Angl
 
 
 def stand_along(channel: WordAddressChannel, angles: Angles | None) -> None:
-    """The length counts along the tool as the rotary axes turn it; without angles as they stand it at zero."""
-    kinematics = channel.control.kinematics(channel)
+    """The length counts along the tool as the rotary axes turn it; without angles as they stand it at zero.
+
+    The display follows: an incremental word travels what was owed to it before, and no other direction of the length.
+    """
+    c, kinematics = channel.coordinates, channel.control.kinematics(channel)
+    owed = c.pending.copy()
     ZeroState.of(channel).carried = (0.0, 0.0, 0.0) if angles is None else tool_carrier(kinematics, angles).t
     refresh_zero(channel)  # a change of the plane is not travelled, one of the length is
     LengthState.of(channel).direction = None if angles is None else kinematics.tool_on_machine(angles)
     length.renew_direction(channel)
     refresh_zero(channel)
+    c.pending, c.owes = owed, any(owed)
