@@ -149,7 +149,7 @@ def _rows_on_table() -> list[SystemRange]:
     ]
     numbers, last = range(1, on_table.FIXTURES + 1), on_table.ERROR_VALUES - 1
     fixtures = (SystemRange(5501 + 20 * n, 5520 + 20 * n, *_fixture(n)) for n in numbers)
-    firsts = ((26000 + 10 * n, n) for n in range(on_table.ERRORS + 1))
+    firsts = ((on_table.FIRST_VARIABLE + on_table.VARIABLES * n, n) for n in range(on_table.ERRORS + 1))
     errors = (SystemRange(first, first + last, *_workpiece_error(n)) for first, n in firsts)
     return [*rows, *fixtures, *errors]
 

@@ -27,6 +27,8 @@ COMMON_ERROR = 0
 #: Values of an error: along X, Y, Z (mm), about X, Y, Z, and where the rotary axes of the table stood (degrees).
 ERROR_VALUES, LINEAR, TURNS, TABLE = 8, slice(0, 3), slice(3, 6), slice(6, 8)
 ROUND_X_Y_Z = (0, 1, 2)
+#: The variables of error 0, and how many numbers lie between those of two errors.
+FIRST_VARIABLE, VARIABLES = 26000, 10
 
 
 @dataclass(slots=True)
