@@ -6,7 +6,7 @@ is aligned by G53.1, G53.3 or G53.6 (`alignment`).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.control.syntec.coordinates.turns import TurnState, renew_preset_frame, renew_work_turn
 from polycnc.control.syntec.five_axes import alignment, mechanism
@@ -26,6 +26,31 @@ from polycnc.transformation.planes.tilted import by_euler, by_rotary_axes, squar
 if TYPE_CHECKING:
     from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.words import Words
+
+
+class Kept(NamedTuple):
+    """The tilted plane as Pr3014 keeps it over a reset: with its code, and with the tool standing on it if it did."""
+
+    tilt: Frame
+    code: str
+    stands: bool
+
+    @classmethod
+    def of(cls, channel: SyntecChannel) -> Kept:
+        """What there is in front of a reset; no plane where Pr3014 keeps none."""
+        tilt = TurnState.of(channel).tilt if channel.memory.parameters.keeps_tilt else IDENTITY
+        return cls(tilt, channel.mode["rotation"], LengthState.of(channel).direction is not None)
+
+    def restore(self, channel: SyntecChannel) -> None:
+        """The plane acts again behind the reset, or none does; nothing moves."""
+        if self.tilt is IDENTITY:
+            set_tilt(channel, IDENTITY)
+            return
+        channel.mode = channel.mode.with_code("rotation", self.code)
+        if self.stands:
+            _set_stood(channel, self.tilt)
+        else:
+            set_tilt(channel, self.tilt)
 
 
 def tilt_by_angles(channel: SyntecChannel, words: Words) -> None:
