@@ -77,6 +77,10 @@ class SystemVariable(Protocol):
     def name(self) -> str:
         """With its `$`."""
 
+    @property
+    def unit(self) -> Callable[[Any, tuple[Any, ...]], float] | None:
+        """For indices the mm, or mm/min, that one unit of the program is; None where no value is a length."""
+
     def element_count(self, channel: Channel) -> int | None:
         """How many elements an array with one index has; None where that is not told."""
 
@@ -131,6 +135,9 @@ class LanguageControl(Protocol):
 
     def reads_inches(self, channel: Channel) -> bool:
         """Whether the program reads and writes values with units of length in inches now."""
+
+    def unit_of(self, channel: Channel, axis: str) -> float:
+        """The mm that one unit of the program is for an axis: 25.4 for a linear one in inches, else 1."""
 
     def restore_setting(self, channel: Channel, name: str) -> None:
         """Give a setting or machine datum the values that it had before any program."""

@@ -454,6 +454,8 @@ def special(
 ) -> None:
     """A straight move with curve parameters."""
     start = channel.coordinates.position
+    if kind is Kind.TAP:
+        channel.memory.spindles.get().refuse_leading("G331")
     if any(abs(a - b) > NO_WAY for a, b in zip(end, start, strict=True)):
         _begin(channel, start)
         channel.curve(kind, end, feed, parameters=parameters)
@@ -488,8 +490,16 @@ def reference_point(draft: Draft) -> Step | None:
     return run
 
 
+#: Fixed points of an axis.
+FIXED_POINTS = range(1, 5)
+
+
 def fixed_point(draft: Draft) -> Step | None:
-    """G75: machine axes go to fixed point FP (MD30600) in rapid; G751 over an intermediate point first."""
+    """G75: machine axes go to fixed point FP (MD30600) in rapid; G751 over an intermediate point first.
+
+    Raises:
+        AlarmError: 12560 for a fixed point beyond 1 to 4.
+    """
     number_position = draft.take("FP")
     columns = [column for _, column in draft.take_machine_axes()]
     via = goal_of(draft) if draft.codes.get("block_motion") == "G751" else None
@@ -500,6 +510,8 @@ def fixed_point(draft: Draft) -> Step | None:
         if via is not None:
             line(channel, Kind.RAPID, via(channel, values), nan)
         point = int(number(values, number_position)) if number_position is not None else 1
+        if point not in FIXED_POINTS:
+            raise WordAlarm("12560", number_position or 0, text="FP")
         points = {
             column: memory.data.number("$MA_FIX_POINT_POS", point - 1, channel.axes[column])
             for column in columns
