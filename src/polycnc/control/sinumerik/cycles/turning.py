@@ -280,7 +280,9 @@ def _rough(work: Work, a: Arguments, contour: Contour, *, follows: bool) -> None
         raise AlarmError("61606") from None
     straight = feed_of(a, "FF1")
     relief = a["FF2"] or straight
-    for cut in remove(path, Removal(a["MID"], _lift(a), work.towards, follows)):
+    for number, cut in enumerate(remove(path, Removal(a["MID"], _lift(a), work.towards, follows))):
+        if not number:
+            work.clear(path, cut.stroke.end, _lift(a))
         if cut.is_straight and a["DAM"] > 0.0:
             _in_steps(work, a, cut.stroke, straight)
         else:

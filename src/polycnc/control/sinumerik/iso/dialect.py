@@ -32,6 +32,9 @@ FUNCTIONS: dict[str, Callable[[IsoRun, IsoWord], None]] = {
     "G80": holes.cancel,
     "G98": holes.to_initial,
     "G99": holes.to_r,
+    "G65": subprograms.call_macro,
+    "G66": subprograms.call_modally,
+    "G67": subprograms.end_modal,
     "M98": subprograms.call,
     "M99": subprograms.return_,
 }

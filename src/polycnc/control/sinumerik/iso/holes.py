@@ -73,10 +73,11 @@ def choose(running: IsoRun, word: IsoWord) -> None:
     """G73 to G89: the cycle is modal from here on; what an earlier one remembers stays.
 
     Raises:
-        AlarmError: PC0001 beside another cycle or a motion function.
+        AlarmError: PC0001 beside another cycle, a motion function or a modal program (G66).
     """
     codes = running.block.codes
-    if sum(code in KINDS for code in codes) > 1 or any(code in MOTIONS for code in codes):
+    is_modal = running.channel.memory.language.modal_call is not None and "G67" not in codes
+    if is_modal or sum(code in KINDS for code in codes) > 1 or any(code in MOTIONS for code in codes):
         raise running.refused(word)
     before = running.state.cycle
     running.state.cycle = HoleCycle(word.code) if before is None else replace(before, code=word.code)

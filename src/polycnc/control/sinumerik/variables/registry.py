@@ -32,6 +32,7 @@ from polycnc.control.sinumerik.feed.axis_settings import AXIS_VARIABLES
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.feed.tolerances import TOLERANCE_VARIABLES
 from polycnc.control.sinumerik.frames.variables import FRAME_VARIABLES
+from polycnc.control.sinumerik.iso.macro_words import MACRO_VARIABLES
 from polycnc.control.sinumerik.limits import working_area
 from polycnc.control.sinumerik.motion.indexing import INDEX_VARIABLES
 from polycnc.control.sinumerik.motion.repositioning import REPOS_VARIABLES
@@ -463,6 +464,7 @@ VARIABLES: dict[str, SystemVariable] = {
     **{name: SystemVariable(name, *row) for name, row in DEFINITION_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in {**SURROUNDINGS, **BLOCK_VARIABLES}.items()},
     **{name: SystemVariable(name, *row) for name, row in REPLACED_VARIABLES.items()},
+    **{name: SystemVariable(name, *row) for name, row in MACRO_VARIABLES.items()},
     **{name: SystemVariable(name, Type.INT, part_of_clock(part), stop=True) for name, part in PARTS.items()},
     **{
         name: SystemVariable(name, *row, of_actions=name in OF_ACTIONS)
