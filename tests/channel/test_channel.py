@@ -88,6 +88,15 @@ def test_a_run_away_loop_of_moves_ends_too() -> None:
     assert len(moves(channel)) < 10_000
 
 
+@pytest.mark.parametrize("limit", [12, 17, 29])
+def test_the_limit_is_exact_behind_blocks_that_count_for_several(limit: int) -> None:
+    holes = "G83 X1. R1. Z-9. Q2.\n#1=#1+1\nG81 X2. R2. Z-3. K3\n#1=#1+1\n"
+    counts = "#1=#1+1\n" * 30
+    channel = run(f"O1\nG90 G54 G0 Z5. F90\n{holes}G80\n{counts}M30\n", block_limit=limit)
+    assert codes(channel) == ["PC0002"]
+    assert channel.blocks == limit
+
+
 def test_a_programmed_stop_hands_over_and_goes_on() -> None:
     channel = run("O1\nG0 X1.\nM0\nX2.\nM30\n")
     assert ends(channel) == [(1.0, 0.0, 0.0), (2.0, 0.0, 0.0)]

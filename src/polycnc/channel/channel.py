@@ -129,8 +129,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         retained: RetainedStore | None = None,
     ) -> None:
         self.control = control
-        self.machine = machine
-        self.setup, self.store = setup, store
+        self.machine, self.setup, self.store = machine, setup, store
         self.retained: RetainedStore = InMemoryStore() if retained is None else retained
         self.number = number
         definition = machine.channel(number)
@@ -430,10 +429,10 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
             AlarmError: The block limit is reached.
         """
         self.blocks += 1
-        if self.blocks >= self.block_limit:
-            raise self.control.block_limit()
+        self.attention |= self.blocks > self.joined_below  # those behind it run with the limit in sight
         rows = len(self.toolpath.chunk.kind)
-        if self.main_run is not None and rows >= MOST_ROWS_OF_A_BLOCK:
+        is_too_long = self.main_run is not None and rows >= MOST_ROWS_OF_A_BLOCK
+        if is_too_long or self.blocks >= self.block_limit:
             raise self.control.block_limit()
         if rows >= CHUNK_ROWS and self.main_run is None:
             self.keep_rows()

@@ -261,8 +261,10 @@ class Scanner:
         """Let the kernel work off blocks from where the channel stands; gives how it ended."""
         self._put_state(channel)
         at = self._state.scan
-        if calls and self._routines is not None:
+        blocks = self._blocks_at_once(channel)
+        if calls and blocks and self._routines is not None:
             self._routines.allow_calls(channel)
+            at.most_blocks = min(at.most_blocks, blocks)
         if most_blocks is not None:
             at.most_blocks = min(at.most_blocks, most_blocks)
         if most_rows is not None:
@@ -331,8 +333,7 @@ class Scanner:
             self._dialect.put_variables(channel, self._state.variables)
             routines.begin()
         routines.allow_calls(channel)
-        look = inf if channel.standstill is None else channel.standstill.next_look - channel.blocks
-        at.most_blocks = int(min(at.most_blocks, MOST_BLOCKS, max(look, 0)))
+        at.most_blocks = min(at.most_blocks, self._blocks_at_once(channel))
         outcome = self._run_kernel()
         if at.blocks:
             self._take_rows(channel)
@@ -346,6 +347,12 @@ class Scanner:
             learnt = outcome == layout.Outcome.FULL and at.blocks > 0
         room = len(channel.toolpath.chunk) < CHUNK_ROWS and channel.blocks < channel.block_limit
         return learnt and room and channel.level is level
+
+    @staticmethod
+    def _blocks_at_once(channel: ScannedChannel) -> int:
+        """Blocks that routines may run until the channel must look whether it waits for ever, or is interrupted."""
+        look = inf if channel.standstill is None else channel.standstill.next_look - channel.blocks
+        return int(min(MOST_BLOCKS, max(look, 0)))
 
     # ---- state ---------------------------------------------------------------------------------------------
 

@@ -8,8 +8,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from polycnc.channel.states import standstill
 from polycnc.language.bulk.compiled import LIBRARY
 from polycnc.language.bulk.settings import Bulk
+from polycnc.session import open_session
 from tests.language.bulk.both_ways import PLAIN, differences, run, scanned, variables
 
 HEAD = "O0001\nG21 G90 G54 G0 X0 Y0 Z5.\nG1 F500.\n#1=1.5\n#2=-0.01\n#7=0\n#100=33.3333\n#500=7.0005\n"
@@ -183,3 +185,22 @@ def test_a_macro_leaves_the_variables_of_its_caller_alone() -> None:
     text = text_of("G65P3A7.\n" * 30).replace("#100=#100+1", "#100=#100+#1\n#1=99\n#33=5")
     told = variables(run(text, "fanuc-m", SETUP, PLAIN))
     assert (told["#1"], told["#100"], "#33" in told) == ("1.5", repr(33.3333 + sum([7.0] * 30)), False)
+
+
+@pytest.mark.parametrize("body", ["#7=-#7", "#7=[#7*-1]", "#500=0\n#500=-#500", "#100=-0\n#100=-#100"])
+def test_zero_keeps_its_sign(body: str) -> None:
+    text = text_of(f"WHILE[#21LT51]DO1\n#21=#21+1\n{body}\nEND1")
+    assert differences(text, "fanuc-m", SETUP) == []
+
+
+WAITING = "#101=#101+1\nIF[#101LT30]GOTO9\nWHILE[1EQ1]DO1\nEND1\nN9M99\n"
+
+
+@pytest.mark.parametrize("call", ["M98P2", "G65P2"])
+def test_a_routine_that_waits_for_ever_is_found(call: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(standstill, "PATIENCE", 2_000)
+    text = f"O0001\nG90G1F500.\n#101=0\n{f'{call} X3. X4. '.replace(' ', chr(10)) * 60}M30\nO0002\n{WAITING}"
+    session = open_session(text, control="fanuc-m", block_limit=500_000)
+    session.channel.bulk = PLAIN
+    (alarm,) = session.run().alarms
+    assert (alarm.code, alarm.program) == ("PC0013", "O0002")

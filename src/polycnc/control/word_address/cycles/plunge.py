@@ -62,6 +62,7 @@ def plunges(channel: Channel, axis: int, cycle: Cycle, hole: Hole) -> bool:
     if channel.blocks + plunge.blocks >= channel.block_limit or not _is_free(channel, axis, plunge.levels):
         return False
     channel.blocks += plunge.blocks
+    channel.attention |= channel.blocks > channel.joined_below  # blocks behind it run with the limit in sight
     chunk.add_along(
         axis, plunge.levels, plunge.kinds, channel.level.program_number, channel.line,
         channel.context_number(), plunge.feeds, position,

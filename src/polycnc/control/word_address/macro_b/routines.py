@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from array import array
 from math import isnan
 from typing import TYPE_CHECKING
 
@@ -193,10 +194,15 @@ def _take(
     after: Sequence[float],
     numbers: range,
 ) -> None:
-    """Variables of some numbers whose values have changed."""
-    if before[numbers.start : numbers.stop] == after[numbers.start : numbers.stop]:
+    """Variables of some numbers whose values have changed, if only from 0 to -0."""
+    old, new = _bits(before, numbers), _bits(after, numbers)
+    if old == new:
         return
-    for number in numbers:
-        old, new = before[number], after[number]
-        if new != old and not (isnan(new) and isnan(old)):
-            target[number] = _value(new)
+    for place, number in enumerate(numbers):
+        if new[place] != old[place]:
+            target[number] = _value(after[number])
+
+
+def _bits(variables: Sequence[float], numbers: range) -> list[int]:
+    """Variables of some numbers as whole numbers, which are equal where nothing tells them apart."""
+    return array("q", array("d", variables[numbers.start : numbers.stop]).tobytes()).tolist()
