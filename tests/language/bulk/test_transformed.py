@@ -216,3 +216,14 @@ def test_blocks_with_i_j_k_are_scanned(machine: str, control: str) -> None:
     lines = [f"N{i} G1 X{i}. I{0.3 + 0.001 * i:.4f} J{0.1 - 0.002 * i:.4f} K1." for i in range(1, 41)]
     text = "\n".join(["G90 G54 F1000.\nG43.5 H1", *lines, "M30", ""])
     assert scanned(text, control, {"machine": machine, **TOOLS}) >= 35
+
+
+@pytest.mark.parametrize("machine", [HEAD, TABLES])
+def test_directions_within_a_rotated_program_keep_the_programmed_point(machine: str) -> None:
+    lines = [
+        f"X{i * 1.237 - 18.537:.3f} Y{-i * 0.128} I{-0.0281 + 0.003 * i:.4f} J-0.15 K1." for i in range(12)
+    ]
+    text = "\n".join(["G90 G54 G1 F1000.\nG43.5 H1\nG68 X0 Y0 R30.", *lines, "G69\nG91 X1.\nM30", ""])
+    setup = {"machine": machine, **TOOLS}
+    assert scanned(text, "fanuc-m", setup) >= 10
+    assert differences(text, "fanuc-m", setup) == []

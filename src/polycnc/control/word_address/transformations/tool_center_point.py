@@ -77,21 +77,29 @@ def plan_with_direction(builder: Builder, plan: Plan) -> Step | None:
     rapid = builder.mode["motion"] == "G0"
     places = tuple(builder.slot(letter) if letter in letters else None for letter in "IJK")
     absolute = not any(word.incremental for word in plan.axis_words)
+    polar = builder.mode.codes.get("polar") == "G16"
 
     def move(channel: WordAddressChannel, values: list[float]) -> None:
         words = Words(plan, values)
         if not rapid and not channel.feed > 0.0:
             raise words.fail("no_feed")
+        if polar:
+            programmed = channel.control.polar_target(channel, plan, values)
+        else:
+            programmed = reach(channel, plan.axis_words, values)
         c = channel.coordinates
-        end = c.to_position(reach(channel, plan.axis_words, values))
+        end = c.to_position(programmed)
         x, y, z = (words.typed(letter) or 0.0 for letter in "IJK")
-        end = _stood(channel, (x, y, z), end) or _turned(channel, (x, y, z), end)
-        if not end:
+        turned = _stood(channel, (x, y, z), end) or _turned(channel, (x, y, z))
+        if not turned:
             raise words.fail("tip_direction", letters[0])
-        channel.straight(Kind.RAPID if rapid else Kind.FEED, end, nan if rapid else channel.feed)
+        for axis, angle in turned.items():
+            end[axis] = programmed[axis] = angle
+            c.pending[axis] = 0.0
+        channel.straight(Kind.RAPID if rapid else Kind.FEED, end, nan if rapid else channel.feed, programmed)
 
     told = targets_as_data(plan.axis_words)
-    if told is None:
+    if told is None or polar:
         return move
     i, j, k = (-1 if place is None else place for place in places)
     return declare(move, Straight(rapid, told, absolute=absolute, direction=(i, j, k)))
@@ -107,27 +115,26 @@ def record_of(channel: WordAddressChannel) -> Sequence[float]:
     return stand_record(None if bounded else state.active, frame=state.frame)
 
 
-def _stood(channel: WordAddressChannel, vector: Vector, end: list[float]) -> list[float]:
-    """The end of a block whose tool stands along a programmed vector, by the kernel; nothing where that cannot say."""
+def _stood(channel: WordAddressChannel, vector: Vector, end: list[float]) -> dict[int, float]:
+    """Positions of the axes that stand the tool along a programmed vector, by the kernel; none where that cannot say.
+
+    They are programmed positions as well: the frames that words are mapped by turn and shift the basic axes only.
+    """
     c, tool, found = channel.coordinates, array("d", record_of(channel)), array("d", end)
     if not stand(tool, array("d", c.position), *vector, found):
-        return []
-    for place in (StandRecord.OUTER, StandRecord.INNER):
-        c.pending[int(tool[place])] = 0.0
-    return found.tolist()
+        return {}
+    return {int(tool[place]): found[int(tool[place])] for place in (StandRecord.OUTER, StandRecord.INNER)}
 
 
-def _turned(channel: WordAddressChannel, vector: Vector, end: list[float]) -> list[float]:
-    """The same on machines with other joints or with axes that are bounded; nothing for what none of them reaches."""
+def _turned(channel: WordAddressChannel, vector: Vector) -> dict[int, float]:
+    """The same on machines with other joints or with axes that are bounded; none for what none of them reaches."""
     c, (i, j, k) = channel.coordinates, tip.direction(channel, vector)
     near = dict(zip(channel.axes, c.machine, strict=True))
     angles = nearest_angles(channel, (i, j, k), near) if i or j or k else None
-    if angles is None:
-        return []
-    for name, angle in angles.items():
-        axis = channel.axis_index[name]
-        end[axis] = angle - c.offsets[axis]
-    return end
+    return {
+        channel.axis_index[name]: angle - c.offsets[channel.axis_index[name]]
+        for name, angle in (angles or {}).items()
+    }
 
 
 def end_following(channel: WordAddressChannel) -> None:
