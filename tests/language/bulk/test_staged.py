@@ -204,3 +204,15 @@ def test_an_alarm_within_a_run_stops_at_its_block() -> None:
     )
     assert run(text, "fanuc-m", SETUP).alarms
     assert differences(text, "fanuc-m", SETUP) == []
+
+
+@pytest.mark.parametrize("control_id", ["fanuc-m", "meldas-m"])
+def test_a_block_left_out_in_front_of_compensation_changes_nothing(control_id: str) -> None:
+    text = "G90G54G1F500.\n/X5.\nG41D1X9.Y1.\n;\n;\nX20.\nX20.Y20.\nG40X0Y0\nM30\n"
+    setup = {**SETUP, "switches": {"block_skip": True}}
+    assert differences(text, control_id, setup) == []
+    ways = [
+        [row.end for row in run(each, control_id, setup).toolpath.rows()]
+        for each in (text, text.replace("/X5.\n", ""))
+    ]
+    assert ways[0] == ways[1]

@@ -451,6 +451,8 @@ class Path:
             way = sorted([*stages, self._guard], key=lambda each: each.rank)
         for stage, after in pairwise([*way, self.table]):
             stage.after = after
+        if self.head is None:
+            self._channel.off_path = False  # an earlier block may have said so, when no stage asked
         self.head = way[0] if way else None
         self._channel.attention = True
         if self.head is None:
