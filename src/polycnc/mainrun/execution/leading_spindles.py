@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from polycnc.mainrun.axes.spindle_turning import DEGREES_S, SpindleTurning
 from polycnc.transformation.couplings.laws import Ratio
@@ -10,10 +10,28 @@ from polycnc.transformation.couplings.laws import Ratio
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from polycnc.channel.channel import Channel
+    from polycnc.mainrun.axes.channel_axes import ChannelAxes
     from polycnc.mainrun.axes.commanded import Leading
     from polycnc.mainrun.execution.clock import Clock
-    from polycnc.mainrun.execution.interpolator import Led
+    from polycnc.mainrun.execution.execution import Execution
+    from polycnc.mainrun.reading.snapshot import SpindleState
     from polycnc.transformation.couplings.laws import Law
+
+
+class Turning(Protocol):
+    """A channel, and what turns in it."""
+
+    execution: Execution
+    axes: ChannelAxes
+
+    @property
+    def channel(self) -> Channel:
+        """The channel."""
+
+    @property
+    def spindle(self) -> SpindleState:
+        """The spindle of the block in execution."""
 
 
 class LeadingSpindles:
@@ -24,7 +42,7 @@ class LeadingSpindles:
         clock: The time.
     """
 
-    def __init__(self, run: Led, clock: Clock) -> None:
+    def __init__(self, run: Turning, clock: Clock) -> None:
         self._run, self._clock = run, clock
         self._turning: dict[int, SpindleTurning] = {}
         self._led: dict[int, tuple[int, ...]] = {}
