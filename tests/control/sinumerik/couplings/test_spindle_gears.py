@@ -84,7 +84,6 @@ def test_a_spindle_is_held_to_what_the_axis_can_do() -> None:
 @pytest.mark.parametrize(
     "lines",
     [
-        ("EGDEF(S1,X,1)",),
         ("CTABDEF(A,X,1,0)", "G1 X0 A0 F100", "X9 A9", "CTABEND", DEFINITION, 'EGON(A,"NOC",S1,1,0)'),
         (DEFINITION, 'EGON(A,"NOC",S1,1,9)', "SPOS=90"),
         (DEFINITION, 'EGON(A,"NOC",S1,1,9)', "G1 A10 F100"),

@@ -5,7 +5,8 @@ switching  a coupling changes in its place on the path
 trailing   TRAILON, TRAILOF
 leading    LEADON, LEADOF
 stage      lets an axis wait for its place on a curve while the leading axis moves
-gears      EGDEF, EGON, EGONSYN, EGONSYNE, EGOFS, EGOFC, EGDEL
+gears      EGDEF, EGON, EGONSYN, EGONSYNE, EGOFS, EGDEL of axes
+gear_words the same and EGOFC of spindles that follow; which of both a word means
 approach   a following axis goes to its synchronous place first
 spindle_pairs  what spindles that follow others turn with, and where they stand
 synchronous    COUPDEF, COUPON, COUPOF …, WAITC

@@ -32,7 +32,9 @@ def _acts(channel: SinumerikChannel, indices: Indices) -> int:
     number = spindle_number(named) if isinstance(named, Axis) else None
     if number is not None:
         pair = SpindlePairs.of(channel).acting(channel.memory.spindles.get(number).number)
-        return 0 if pair is None or pair.is_slave else SYNCHRONOUS
+        if pair is None or pair.is_slave:
+            return 0
+        return Kind.GEAR if pair.is_gear else SYNCHRONOUS
     column = arguments.column(channel, named)
     kinds = {link.kind for link in Couplings.of(channel).links.get(column, ())}
     clocked, gear = channel.actual.clocked, Gears.of(channel).defined.get(column)
@@ -73,7 +75,7 @@ def _master(channel: SinumerikChannel, indices: Indices) -> int:
 
 def _gear(channel: SinumerikChannel, indices: Indices) -> Gear | None:
     """The gear of the following axis that a variable names."""
-    return Gears.of(channel).defined.get(arguments.column(channel, indices[0] if indices else None))
+    return Gears.of(channel).defined.get(key_of(channel, indices[0] if indices else None))
 
 
 def _of_wheel(attribute: str) -> Reader:
@@ -100,7 +102,7 @@ def _with_leading(read: Reader) -> Reader:
 
 def _leading_acts(channel: SinumerikChannel, indices: Indices) -> bool:
     """`$AA_EG_ACTIVE[following, leading]`: the leading axis moves the following one now."""
-    following, leading = arguments.column(channel, indices[0]), key_of(channel, indices[1])
+    following, leading = (key_of(channel, index) for index in indices)
     gear = Gears.of(channel).defined.get(following)
     if gear is not None and gear.beside:
         return leading in gear.wheels
