@@ -48,7 +48,7 @@ class ActionAxes(State, lifetime=Lifetime.RESET):
         states: Who has an axis, by column, where it is not the program.
         speeds: FA of actions, mm/s or degrees/s, by column.
         held: Columns of axes that oscillate: they are not free, though they rest at reversal points.
-        geared: Columns of axes that a spindle leads (EGON): the program does not move them.
+        geared: Columns of axes that a spindle leads (EGON), or a generated value: the program does not move them.
         along: Columns of what a positioned axis moves, by its column: several where a transformation makes it.
     """
 
@@ -100,11 +100,11 @@ def give_back(channel: SinumerikChannel, columns: Iterable[int]) -> None:
 
     Raises:
         PreprocessingStop: The main run is behind, or an axis moves.
-        AlarmError: PC0001 for an axis that a spindle leads.
+        AlarmError: PC0001 for an axis that a spindle leads, or a generated value.
     """
     axes, columns = ActionAxes.of(channel), tuple(columns)
     for column in sorted(axes.geared.intersection(columns)):
-        raise not_supported(f"EGON: {channel.axes[column]}")
+        raise not_supported(f"EGON LEADON: {channel.axes[column]}")
     taken = [column for column in columns if column in axes.may_move]
     clocked = channel.actual.clocked
     if not taken or clocked is None:
