@@ -13,6 +13,7 @@ from polycnc.toolpath import Context
 from polycnc.toolpath.modes import AccelerationMode, CornerMode
 from polycnc.transformation.couplings.coupled import Coupled
 from polycnc.transformation.couplings.laws import Ratio
+from tests.examples import examples
 from tests.motion.paths import MILL, Build
 from tests.motion.test_limits import arc, build, line, spiral, spline
 
@@ -33,7 +34,7 @@ def seconds(rows: Build, cause: Cause, lead: Settings | None = None) -> float:
     return account_of(rows, lead or Settings())[2].parts[cause].seconds
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=examples(30), deadline=None)
 @given(st.lists(st.one_of(line, arc, spiral, spline), min_size=1, max_size=5), MODES, st.booleans())
 def test_the_parts_add_up_to_time_and_way(
     steps: list[tuple[str, float, float, float, float]], mode: AccelerationMode, by_axis: bool

@@ -18,6 +18,7 @@ from polycnc.control.sinumerik.actions.action import Action
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.signals import measuring_actions
+from polycnc.control.sinumerik.variables import in_force
 from polycnc.deferred.records import dataclass
 from polycnc.language.sinumerik.errors import arithmetic
 from polycnc.messages import AlarmError
@@ -268,6 +269,7 @@ def define(channel: SinumerikChannel, code: ActionCode, number: int | None, froz
         overlay.expect(channel, shifted, is_static=code.word == "IDS")
     if code.needs.words.intersection(measuring_actions.WORDS):
         channel.event(Deed("PROBE", None, measuring_actions.beginning(channel)))
+    in_force.watch(channel, code.needs.reads)
     action = Action(code, number, frozen)
     channel.event(Deed(code.word or code.keyword or "DO", number, _beginning(actions, action)))
     if not code.word and "DELDTG()" in code.needs.words:
