@@ -125,3 +125,9 @@ def test_a_gear_outlives_a_reset() -> None:
     assert control.alarms == ()
     assert control.positions.real["A"] == pytest.approx(stood - 10.0 + 1.0, abs=0.5)
     assert control.positions.machine["A"] == pytest.approx(control.positions.real["A"])
+
+
+@pytest.mark.parametrize(("mask", "locked"), [(0, 0), (1, 1), (2, 0)])
+def test_a_search_cannot_enter_where_a_spindle_leads_if_the_machine_says_so(mask: int, locked: int) -> None:
+    lines = (DEFINITION, 'EGON(A,"NOC",S1,1,9)', "R1=$P_IPTRLOCK")
+    assert run(*lines, machine=MACHINE, parameters={"22680": mask}).variables["R1"] == locked

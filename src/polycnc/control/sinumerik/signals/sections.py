@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.block.arguments import Arguments, Procedure
+from polycnc.control.sinumerik.couplings.gears import Gears
+from polycnc.control.sinumerik.couplings.generated import MasterValues
 from polycnc.control.sinumerik.couplings.links import Couplings, Kind
 from polycnc.control.sinumerik.data.machine_data import MachineData
 from polycnc.control.sinumerik.variables.row import Indices, RowWithStop
@@ -91,8 +93,16 @@ def locks_pointer(channel: SinumerikChannel, _indices: Indices = ()) -> bool:
     """`$P_IPTRLOCK`: a search cannot enter, for IPTRLOCK or for couplings that MD22680 names (8.5)."""
     mask = MachineData.of(channel).integer(AUTOMATIC)
     kinds = {kind for bit, kind in LOCKING.items() if mask >> bit & 1}
-    every = Couplings.of(channel).links.values() if kinds else ()
-    return is_open(channel, POINTER_LOCK) or any(link.kind in kinds for links in every for link in links)
+    on = (
+        {link.kind for links in Couplings.of(channel).links.values() for link in links}
+        if kinds
+        else set[Kind]()
+    )
+    if kinds and any(gear.beside for gear in Gears.of(channel).defined.values()):
+        on.add(Kind.GEAR)
+    if kinds and MasterValues.of(channel).led:
+        on.add(Kind.LEAD)
+    return is_open(channel, POINTER_LOCK) or not kinds.isdisjoint(on)
 
 
 SECTION_VARIABLES: dict[str, RowWithStop] = {
