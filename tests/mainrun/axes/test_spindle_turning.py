@@ -27,9 +27,9 @@ def test_a_spindle_without_acceleration_is_at_its_speed_at_once() -> None:
     assert spindle.setpoint(2.0) == 60.0
 
 
-@given(st.lists(st.tuples(st.floats(-500, 500), st.floats(0.001, 3.0)), min_size=1, max_size=6))
+@given(st.lists(st.tuples(st.floats(-500, 500), st.floats(0.01, 3.0)), min_size=1, max_size=4))
 def test_neither_angle_nor_speed_ever_steps(changes: list[tuple[float, float]]) -> None:
-    spindle, time, step = SpindleTurning(0.0, 100.0, 0.0), 0.0, 1e-3
+    spindle, time, step = SpindleTurning(0.0, 100.0, 0.0), 0.0, 8e-3
     last, speed = 0.0, 0.0
     for rpm, seconds in changes:
         spindle.turn_with(rpm, time)

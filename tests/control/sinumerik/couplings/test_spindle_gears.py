@@ -43,7 +43,7 @@ def places(
     return np.array(found)
 
 
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=4, deadline=None)
 @given(
     st.sampled_from((3, 4)),
     st.integers(5, 2000),
@@ -61,7 +61,7 @@ def test_the_axis_keeps_its_limits(
         if overridden and cycle == 200:
             control.override(spindle=0.5)
 
-    places("\n".join((DEFINITION, *first, "G4 F1", "M5", "G4 F1", "EGOFS(A)", "M30\n")), override)
+    places("\n".join((DEFINITION, *first, "G4 F1", "M5", "G4 F0.5", "EGOFS(A)", "M30\n")), override)
 
 
 @pytest.mark.parametrize("turns", [False, True])
