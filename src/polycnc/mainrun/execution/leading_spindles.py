@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Protocol
 
+from polycnc.mainrun.axes.commanded import OWN_PULL
 from polycnc.mainrun.axes.spindle_turning import DEGREES_S, SpindleTurning
 from polycnc.transformation.couplings.laws import Ratio
 
@@ -79,6 +80,7 @@ class LeadingSpindles:
         """A spindle begins to lead: it gets to other speeds no faster than the axis can follow."""
         state, spindle = self._run.spindle, self._run.channel.machine.spindle[number]
         rpm = state.rpm * state.direction if state.number == number else 0.0
-        follows = self._run.axes[column].data.acceleration / (DEGREES_S * abs(ratio)) if ratio else 0.0
+        pull = (1.0 - OWN_PULL) * self._run.axes[column].data.acceleration
+        follows = pull / (DEGREES_S * abs(ratio)) if ratio else 0.0
         pulls = [pull for pull in (spindle.acceleration_rpm_s, follows) if pull > 0.0]
         return SpindleTurning(rpm, min(pulls, default=0.0), self._clock.time)

@@ -43,7 +43,7 @@ def places(
     return np.array(found)
 
 
-@settings(max_examples=4, deadline=None)
+@settings(max_examples=6, deadline=None)
 @given(
     st.sampled_from((3, 4)),
     st.integers(5, 2000),

@@ -41,8 +41,8 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.family import SinumerikChannel
 
 MOST_LEADING = 5
-#: Speed of an axis without limit, degrees/s.
-LARGE = 1e9
+#: Speed of an axis without limit, degrees/s; part of its speed at which a spindle may lead it: it has to catch up too.
+LARGE, LED_PART = 1e9, 0.8
 #: When the block of a gear ends.
 BLOCK_CHANGES = frozenset(("NOC", "FINE", "COARSE", "IPOSTOP"))
 #: Ways of approach: to the next tooth gap; to the place itself by the shorter way, downwards, upwards.
@@ -403,9 +403,8 @@ def _bound_spindles(channel: SinumerikChannel) -> None:
     for column, gear in Gears.of(channel).defined.items():
         for key, wheel in gear.wheels.items() if gear.beside and column >= 0 else ():
             if key < 0 and wheel.numerator:
-                degrees = (channel.axis_data[column].rapid or LARGE) * abs(
-                    wheel.denominator / wheel.numerator
-                )
+                top = LED_PART * (channel.axis_data[column].rapid or LARGE)
+                degrees = top * abs(wheel.denominator / wheel.numerator)
                 most[-key] = min(most[-key], degrees * tables.MINUTE / tables.TURN)
     for number, spindle in channel.memory.spindles.all.items():
         spindle.most = most[number]
