@@ -377,7 +377,7 @@ class Sinumerik:
         diameters = sum(1 << i for i, function in enumerate(shown) if function in positions.SHOWS_DIAMETERS)
         side = sides.SIDES.get(mode["compensation"], 0)
         turn = smoothing.turn(channel, mode)
-        delays_stops = sections.is_open(channel, sections.STOP_DELAY)
+        delays_stops = sections.delays_stops(channel)
         return Context(
             plane=mode["plane"],
             inch=False,

@@ -15,7 +15,7 @@ from polycnc.control.sinumerik.block.arguments import Arguments
 from polycnc.control.sinumerik.block.positions import DIAMETER_OF_AXIS, diameter_of_channel
 from polycnc.control.sinumerik.channels import axis_containers, axis_exchange, coordination
 from polycnc.control.sinumerik.contours import preparation, use
-from polycnc.control.sinumerik.couplings import gears, leading, masters, synchronous, trailing
+from polycnc.control.sinumerik.couplings import gear_words, leading, masters, synchronous, trailing
 from polycnc.control.sinumerik.curve_tables import administration, definition
 from polycnc.control.sinumerik.data import archive
 from polycnc.control.sinumerik.errors import not_supported
@@ -311,7 +311,7 @@ PROCEDURES: dict[str, Callable[[SinumerikChannel, Arguments], None]] = {
     **definition.PROCEDURES,
     **trailing.PROCEDURES,
     **leading.PROCEDURES,
-    **gears.PROCEDURES,
+    **gear_words.PROCEDURES,
     **synchronous.PROCEDURES,
     **masters.PROCEDURES,
     **administration.PROCEDURES,
