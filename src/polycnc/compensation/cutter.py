@@ -39,7 +39,7 @@ from polycnc.compensation.rows import RowWriter
 from polycnc.compensation.step import NO_VECTOR, Role, Step
 from polycnc.geometry import arcs, offset
 from polycnc.geometry.offset import Corner
-from polycnc.geometry.tolerances import NO_WAY, ROUNDED_MM
+from polycnc.geometry.tolerances import NO_WAY, ROUNDED_MM, SAME_POINT_MM
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -48,10 +48,6 @@ if TYPE_CHECKING:
     from polycnc.compensation.plane import Plane
     from polycnc.compensation.policy import Policy
     from polycnc.geometry.arcs import Point
-
-
-#: Up to where the end of a move and the start of the next one are the same point, mm.
-SAME_POINT_MM = 1e-6
 
 
 class CutterCompensation(Stage):

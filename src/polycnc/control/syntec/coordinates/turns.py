@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, lasting, retained
 from polycnc.control.word_address.coordinates.systems import ZeroState
+from polycnc.control.word_address.tools.radius import active_compensation
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, Frame
 from polycnc.machine.kinematics import turn_about
@@ -85,11 +86,18 @@ def renew_preset_frame(memory: SyntecMemory) -> None:
     zero.frame, zero.table, zero.plane = turn, state.table, state.plane
 
 
+def refuse_in_compensation(channel: SyntecChannel, code: str) -> None:
+    """A work system that turns while the radius is compensated: a corner would lie between two directions."""
+    if active_compensation(channel) is not None:
+        raise channel.control.not_yet(f"{code} {channel.mode['compensation']}", code)
+
+
 def renew_work_turn(channel: SyntecChannel) -> bool:
     """The angles of the chosen work system act from here on, with G54.4 P1; gives whether it turns otherwise now.
 
     Raises:
-        AlarmError: The tool's tip is led meanwhile, or a transformation is active: that is not executed.
+        AlarmError: The tool's tip is led meanwhile, a transformation is active, or the radius is compensated: that is
+            not executed.
     """
     state = TurnState.of(channel)
     turn = turn_of(channel, ZeroState.of(channel).system) if state.by_table else IDENTITY
@@ -97,6 +105,7 @@ def renew_work_turn(channel: SyntecChannel) -> bool:
         return False
     if channel.coordinates.transformation is not None:
         raise channel.control.not_yet("G54.4")
+    refuse_in_compensation(channel, "G54.4")
     state.work = turn
     renew_preset_frame(channel.memory)
     return True
