@@ -76,6 +76,7 @@ ROWS = table(
     moves("G4", functions.dwell, "X P U"),
     GCode("G5", handler=path_modes.high_speed_machining, takes="P"),
     GCode("G5.1", handler=path_modes.contour_control, takes="Q R"),
+    GCode("G5.4", handler=path_modes.select_current_loop, takes="Q"),
     GCode("G8", handler=path_modes.advance_preview, takes="P"),
     GCode("G9", handler=path_modes.exact_stop_block),
     moves("G10", data_input.input_data, "L P R"),
@@ -156,7 +157,7 @@ ROWS = table(
     GCode("G98", "return"),
     GCode("G99", "return"),
     not_yet(
-        "G5.4", "G54.2", "G54.4", "G10.9",
+        "G54.2", "G54.4", "G10.9",
     ),
 )  # fmt: skip
 G_CODES = with_aliases(ROWS, ALIASES)
