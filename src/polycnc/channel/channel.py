@@ -90,6 +90,8 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
             that look ahead it is no block.
         moved_by_hand: The last intervention in front of a block that was not prepared yet.
         block_by_block: With it, behind every other block too.
+        is_searched: The program is gone through without motion, to a block of it.
+        is_tested: It runs while the axes stand.
         main_run: What executes the rows while the channel runs; None where nobody waits for that.
         actual: Where its axes are now.
         move_times: How long single moves take; None where a clock runs, which knows.
@@ -106,6 +108,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         bulk: Whether and how plain blocks are scanned in bulk; None interprets every block.
     """
 
+    is_searched = is_tested = False
     #: A snapshot of the channel does not go on to these: they are none of its state.
     UNFOLLOWED: ClassVar = frozenset({
         "actual", "axis_data", "blocks", "bulk", "burst", "control", "machine", "main_run", "mark", "setup",
@@ -238,9 +241,11 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
 
     def _scanner_for(self, level: Level) -> Scanner | None:
         """What scans the plain blocks of a program; None where that does not pay."""
-        if self.bulk is None or not self.bulk.pays(len(level.steps)):
-            return None
-        if self._scanner is None:
+        return self.scanner() if self.bulk is not None and self.bulk.pays(len(level.steps)) else None
+
+    def scanner(self) -> Scanner | None:
+        """What scans plain blocks, if anything does."""
+        if self._scanner is None and self.bulk is not None:
             self._scanner = self.bulk.scanner(self)
         return self._scanner
 

@@ -9,7 +9,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, lasting, retained
+from polycnc.control.syntec.parameters import SyntecParameters
 from polycnc.control.word_address.coordinates.systems import ZeroState
+from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.tools.radius import active_compensation
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, Frame
@@ -18,6 +20,8 @@ from polycnc.memory.retained import WORK_TURNS
 from polycnc.transformation.planes.tilted import by_own_axes
 
 if TYPE_CHECKING:
+    from typing import Self
+
     from polycnc.channel.channel import Channel
     from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.syntec.memory import SyntecMemory
@@ -45,6 +49,18 @@ class TurnState(State, lifetime=Lifetime.RESET):
     def plane(self) -> Frame:
         """The tilted plane in the system of the work offset, before the table turns."""
         return self.work @ self.tilt
+
+
+@dataclass(slots=True)
+class PostureState(State, lifetime=Lifetime.RESET):
+    """Whether directions of the tool refer to the work system under G43.4 (#1848)."""
+
+    in_work: bool = False
+
+    @classmethod
+    def first(cls, channel: SyntecChannel) -> Self:
+        """As Pr3057 has it."""
+        return cls(SyntecParameters.naming(channel.setup.parameters).posture_in_work == 1)
 
 
 @dataclass(slots=True)
@@ -92,20 +108,29 @@ def refuse_in_compensation(channel: SyntecChannel, code: str) -> None:
         raise channel.control.not_yet(f"{code} {channel.mode['compensation']}", code)
 
 
+def check_posture(channel: SyntecChannel, turn: Frame) -> None:
+    """PC0001 where rotary words would tell the tool's direction in a work system that is turned (2.28.3, note 8)."""
+    if PostureState.of(channel).in_work and not turn.is_identity:
+        raise channel.control.not_yet("G54.4 Pr3057 = 1")
+
+
 def renew_work_turn(channel: SyntecChannel) -> bool:
     """The angles of the chosen work system act from here on, with G54.4 P1; gives whether it turns otherwise now.
 
     Raises:
-        AlarmError: The tool's tip is led meanwhile, a transformation is active, or the radius is compensated: that is
-            not executed.
+        AlarmError: A transformation is active that is no tip control, directions of the tool would turn along
+            (G43.4 Q1), or the radius is compensated: that is not executed.
     """
     state = TurnState.of(channel)
     turn = turn_of(channel, ZeroState.of(channel).system) if state.by_table else IDENTITY
     if turn == state.work:
         return False
-    if channel.coordinates.transformation is not None:
+    leads = TipState.of(channel).is_leading(channel)
+    if channel.coordinates.transformation is not None and not leads:
         raise channel.control.not_yet("G54.4")
     refuse_in_compensation(channel, "G54.4")
+    if leads:
+        check_posture(channel, turn)
     state.work = turn
     renew_preset_frame(channel.memory)
     return True

@@ -11,10 +11,11 @@ from polycnc.control.word_address.block.numbers import length_converter
 from polycnc.control.word_address.block.plan import Arguments
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words import Words
-from polycnc.control.word_address.macro_b import subprograms
+from polycnc.control.word_address.macro_b import calls_as_data, subprograms
 from polycnc.control.word_address.macro_b.variables import LOCALS
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.units import INCH_MM
+from polycnc.language.bulk import declare
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -64,6 +65,18 @@ def arguments_of(words: Words, skip: str = "", *, without_m: int | None = None) 
     closes when a letter comes that is not behind the last one. Of two words for one variable the later one
     counts.
     """
+    arguments = _arguments(words, skip, without_m)
+    local: list[float | None] = [None] * LOCALS
+    values = words.values
+    for variable, slot, convert in arguments.typed:
+        local[variable] = values[slot] if convert is None else convert(values[slot])
+    for variable, value in arguments.fixed:
+        local[variable] = value
+    return local
+
+
+def _arguments(words: Words, skip: str, without_m: int | None) -> Arguments:
+    """Which words of a block are arguments; known for all blocks of its shape once one has run."""
     plan = words.plan
     arguments = plan.arguments.get((skip, without_m))
     if arguments is None:
@@ -74,13 +87,7 @@ def arguments_of(words: Words, skip: str = "", *, without_m: int | None = None) 
         ]
         arguments = Arguments(tuple(_typed_arguments(words, skip)), tuple(fixed))
         plan.arguments[skip, without_m] = arguments
-    local: list[float | None] = [None] * LOCALS
-    values = words.values
-    for variable, slot, convert in arguments.typed:
-        local[variable] = values[slot] if convert is None else convert(values[slot])
-    for variable, value in arguments.fixed:
-        local[variable] = value
-    return local
+    return arguments
 
 
 def _typed_arguments(words: Words, skip: str) -> Iterator[tuple[int, int, Convert | None]]:
@@ -109,7 +116,7 @@ def _argument_converter(plan: Plan, form: str) -> Convert | None:
     if form or convert is None:
         return None
     unit = INCH_MM if plan.inch else 1.0
-    return lambda value: convert(value) / unit
+    return (lambda value: convert(value) / unit) if plan.inch else convert
 
 
 def call_macro(channel: MacroChannel, words: Words) -> None:
@@ -118,6 +125,9 @@ def call_macro(channel: MacroChannel, words: Words) -> None:
     refuse_g_behind(words, "G65")
     program, repeats = _macro(channel, words)
     enter_macro(channel, program, arguments_of(words, "PLG"), repeats)
+
+
+declare(call_macro, lambda plan: calls_as_data.macro(plan, _arguments(Words(plan, []), "PLG", None)))
 
 
 def start_modal_call(channel: MacroChannel, words: Words) -> None:
