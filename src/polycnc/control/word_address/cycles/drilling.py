@@ -20,6 +20,7 @@ from polycnc.control.word_address.auxiliary.overrides import OverrideState
 from polycnc.control.word_address.block.numbers import length_converter
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.whole_numbers import DecimalPoint
+from polycnc.control.word_address.coordinates.frames import scale_of
 from polycnc.control.word_address.cycles.plunge import STROKES_OF_A_BLOCK, plunges
 from polycnc.control.word_address.cycles.shift import shift_by_center_words, shift_off_axis
 from polycnc.control.word_address.motion.path import FEED_MODES, reach
@@ -431,8 +432,7 @@ def _hole(channel: WordAddressChannel, code: str, data: CycleData) -> Hole:
     r = data.level("R", data.initial)
     bottom = data.level(BOTTOM, data.initial if cycle.bottom_from_initial and BOTTOM in data else r)
     dwell = data.amount("P") if cycle.dwells else 0.0
-    w = channel.coordinates.geometry.index(data.axis) if data.axis in channel.coordinates.geometry else -1
-    scale = abs(channel.coordinates.programming.m[w][w]) if w >= 0 else 1.0
+    scale = scale_of(channel, data.axis)
     return Hole(
         data.initial,
         r,
