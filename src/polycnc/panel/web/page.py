@@ -239,7 +239,7 @@ class Page:
         names = {unit.id: in_language(unit.name, self._lang) for unit in units}
         if len(units) == KEYS_FOR_DISPLAYS:
             for unit in units:
-                self._key(f"{unit.inches:g}″", partial(self._display, unit.id), hint=names[unit.id])
+                self._key(unit.short, partial(self._display, unit.id), hint=names[unit.id])
         elif units[1:]:
             label = text("panel.display", self._lang)
             chosen = ui.element("select").classes("dial").props(f'aria-label="{_quoted(label)}"')
@@ -249,7 +249,7 @@ class Page:
                     option = ui.element("option").props(
                         f'value="{unit.id}" title="{_quoted(names[unit.id])}"{now}'
                     )
-                    option.add_slot("default", f"{unit.inches:g}″")
+                    option.add_slot("default", unit.short)
             chosen.on(
                 "change",
                 lambda event: self._display(str(event.args)),
