@@ -41,13 +41,20 @@ class {prefix}Parameters({base_class}[{axis}]):
     """The parameters of the control."""{axis_class}{of_control}
 '''
 _AXIS_CLASS = "\n\n    axis_class = {prefix}AxisParameters"
-_TABLE = '''"""Number and delivered value of every datum; written from {file} by `control/parameter_module.py`."""
+_TABLE = '''"""Numbers, delivered values, lengths of the data, from {file} by `control/parameter_module.py`."""
 
 from __future__ import annotations
 
 DATA: dict[str, tuple[int, bool | float | str]] = {{
 {rows}
 }}
+
+#: Data that are lengths, or feeds; those of an axis where it is no rotary one.
+LENGTHS = frozenset(
+    (
+{lengths}
+    )
+)
 '''
 #: Module of what all controls have.
 _COMMON = "polycnc.control.parameters"
@@ -92,7 +99,10 @@ def table_text(file: str) -> str:
         f"    {json.dumps(each.name)}: ({each.number}, {_literal(each.delivered)}),"
         for each in load_parameters(file)
     )
-    return _TABLE.format(file=Path(file).name, rows=rows)
+    lengths = "\n".join(
+        f"        {json.dumps(each.name)}," for each in load_parameters(file) if each.unit.startswith("mm")
+    )
+    return _TABLE.format(file=Path(file).name, rows=rows, lengths=lengths)
 
 
 def _literal(value: float | str | None) -> str:

@@ -40,6 +40,9 @@ class Pace:
             tool tip control, mm/s, in cuts (SYNTEC Pr3091); infinite for none.
         velocity: Factors on the highest velocity (`VELOLIM`); `acceleration` (`ACC`) and `jerk` (`JERKLIM`) likewise.
             Empty for none.
+        left: Highest velocity in all moves that motions over an axis leave to the path, mm/s or degrees/s, and
+            `left_pull` the part of its acceleration (`$AA_OFF`). Of the axes of the machine, whatever makes them of the
+            columns. Empty for none.
     """
 
     feed: float = 1.0
@@ -52,6 +55,8 @@ class Pace:
     velocity: tuple[float, ...] = ()
     acceleration: tuple[float, ...] = ()
     jerk: tuple[float, ...] = ()
+    left: tuple[float, ...] = ()
+    left_pull: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -43,7 +43,7 @@ from polycnc.control.sinumerik.tools import sides, stages
 from polycnc.control.sinumerik.tools.memory import Tools
 from polycnc.control.sinumerik.transformations import orientation, seat, smoothing
 from polycnc.control.sinumerik.transformations.point_to_point import PointToPoint
-from polycnc.control.sinumerik.variables import by_name, functions, part_counts, run_times
+from polycnc.control.sinumerik.variables import by_name, functions, lengths, part_counts, run_times
 from polycnc.control.sinumerik.variables.registry import SystemVariables
 from polycnc.deferred.regexes import regex
 from polycnc.language.sinumerik import keywords
@@ -63,7 +63,7 @@ from polycnc.toolpath.modes import CornerMode, FeedMode
 from polycnc.toolpath.motion_settings import MotionSettings
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from polycnc.channel.mode import Mode
     from polycnc.channel.stack import Executable, Level
@@ -74,6 +74,7 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.variables.registry import SystemVariable
     from polycnc.language.expressions.shapes import Shapes
     from polycnc.language.sinumerik.actions.code import ActionCode
+    from polycnc.language.sinumerik.iso_dialect import IsoBlock
     from polycnc.language.sinumerik.words import Block
     from polycnc.messages import Catalogue
     from polycnc.program import Program
@@ -330,6 +331,10 @@ class Sinumerik:
         """Whether the program reads and writes values with units of length in inches now (G700)."""
         return channel.mode["unit"] == "G700"
 
+    def unit_of(self, channel: SinumerikChannel, axis: str) -> float:
+        """The mm that one unit of the program is for an axis: 25.4 for a linear one under G700, else 1."""
+        return lengths.of_axis(channel, axis)
+
     def restore_setting(self, channel: SinumerikChannel, name: str) -> None:
         """Give a setting or machine datum the values of the setup."""
         channel.memory.data.restore(name)
@@ -417,10 +422,13 @@ class Sinumerik:
             raise not_supported("G291")
         channel.mode = channel.mode.with_code("language", "G291")
 
-    def check_iso(self, channel: SinumerikChannel) -> None:
+    def run_iso(self, channel: SinumerikChannel, block: IsoBlock, perform: Callable[[str], None]) -> None:
         """A block of the ISO dialect comes: PC0001 where the program has come there without G291."""
         if channel.mode["language"] != "G291":
             raise not_supported("G291")
+        from polycnc.control.sinumerik.iso import dialect
+
+        dialect.run(channel, block, perform)
 
     def halts(self, channel: SinumerikChannel, level: Level, step: ProgramStep) -> bool:  # noqa: ARG002 - levels decide
         """Whether single block operation halts behind the block that a level has run."""

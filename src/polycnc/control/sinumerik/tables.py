@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 TURN = 360.0
 MINUTE = 60.0
 MM_PER_M = 1000.0
+M_PER_FOOT = 0.3048
 
 
 class FeedType(NamedTuple):
@@ -73,6 +74,11 @@ KEEP_SPEED = frozenset(("G942", "G952"))
 def length_factor(mode: Mode) -> float:
     """From a programmed length to mm."""
     return INCH_MM if mode["unit"] in ("G70", "G700") else 1.0
+
+
+def metres_of_cutting_speed(mode: Mode) -> float:
+    """From a programmed cutting speed or peripheral speed to metres: feet under G700."""
+    return M_PER_FOOT if mode["unit"] == "G700" else 1.0
 
 
 def feed_type(mode: Mode) -> FeedType:

@@ -16,7 +16,7 @@ from polycnc.control.syntec.builder import SyntecBuilder
 from polycnc.control.syntec.codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
 from polycnc.control.syntec.coordinates import systems
 from polycnc.control.syntec.coordinates.turns import TurnState
-from polycnc.control.syntec.five_axes import normal_direction, spatial, tilted, tip_control
+from polycnc.control.syntec.five_axes import mechanism, normal_direction, spatial, tilted, tip_control
 from polycnc.control.syntec.macros import calls, interrupts, single_block
 from polycnc.control.syntec.macros.variables import SpaceState, locals_of
 from polycnc.control.syntec.memory import SyntecMemory
@@ -56,6 +56,7 @@ if TYPE_CHECKING:
     from polycnc.geometry.arcs import Point
     from polycnc.language.bulk import Condition
     from polycnc.language.word_address import Grammar
+    from polycnc.machine.kinematics import Kinematics
     from polycnc.program import Program
     from polycnc.toolpath.motion_settings import MotionSettings
 
@@ -332,6 +333,10 @@ class SyntecMill(WordAddressControl):
     def scale_factors(self, channel: SyntecChannel, words: Words) -> tuple[float, float, float]:
         """Factors of G51."""
         return systems.scale_factors(channel, words)
+
+    def kinematics(self, channel: SyntecChannel) -> Kinematics:
+        """The rotary joints of the machine, with the holder of Pr3013."""
+        return mechanism.kinematics_of(channel)
 
     def reference_point(self, channel: SyntecChannel, axis: int, number: int) -> float:
         """Machine position of a reference point: 1 the machine zero, 2 to 4 by Pr2801 on, in least units."""

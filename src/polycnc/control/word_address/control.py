@@ -33,6 +33,7 @@ from polycnc.control.word_address.transformations.polar_interpolation import Pol
 from polycnc.geometry.arcs import radius_mismatch
 from polycnc.language.bulk import Spelling
 from polycnc.language.word_address import Grammar, WordAddressProgram
+from polycnc.machine.kinematics import Kinematics
 from polycnc.messages import AlarmError, Catalogue, text
 from polycnc.program import Form
 from polycnc.toolpath import Context
@@ -421,6 +422,10 @@ class WordAddressControl:
         Otherwise it counts from where it stands.
         """
         return False
+
+    def kinematics(self, channel: Channel) -> Kinematics:
+        """The rotary joints of the machine, with what parameters add to them."""
+        return Kinematics.of(channel.machine)
 
     def reference_point(self, channel: Channel, axis: int, number: int) -> float:
         """Machine position of a reference point of an axis, from 1."""

@@ -332,7 +332,7 @@ class ExpressionReader(Cursor[Token], OperatorReader[Token, Expr]):
                 self.expect(",")
                 codes.append(self.value(Type.REAL))
         self.expect(")")
-        return Expr(quoted("frame_of({0}, {1})", kind, sequence(codes)), Type.FRAME)
+        return Expr(quoted("frame_of(channel, {0}, {1})", kind, sequence(codes)), Type.FRAME)
 
 
 #: How a value becomes one of another type; INT, BOOL and CHAR become REAL at once (`Emitter.as_real`).

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from polycnc.language.expressions.shapes import Shapes
     from polycnc.language.sinumerik.actions.code import ActionCode
     from polycnc.language.sinumerik.executable import SinumerikProgram
+    from polycnc.language.sinumerik.iso_dialect import IsoBlock
     from polycnc.language.sinumerik.names.initialisation import FirstValues
     from polycnc.language.sinumerik.names.values import Type
     from polycnc.language.sinumerik.names.variables import Variable
@@ -76,6 +77,10 @@ class SystemVariable(Protocol):
     def name(self) -> str:
         """With its `$`."""
 
+    @property
+    def unit(self) -> Callable[[Any, tuple[Any, ...]], float] | None:
+        """For indices the mm, or mm/min, that one unit of the program is; None where no value is a length."""
+
     def element_count(self, channel: Channel) -> int | None:
         """How many elements an array with one index has; None where that is not told."""
 
@@ -108,8 +113,8 @@ class LanguageControl(Protocol):
     def select_iso(self, channel: Channel) -> None:
         """G291 acts: blocks of the ISO dialect come."""
 
-    def check_iso(self, channel: Channel) -> None:
-        """A block of the ISO dialect comes; PC0001 where G291 does not act."""
+    def run_iso(self, channel: Channel, block: IsoBlock, perform: Callable[[str], None]) -> None:
+        """A block of the ISO dialect comes; PC0001 where G291 does not act. `perform` runs one of the language here."""
 
     def procedure(self, channel: Channel, name: str, args: tuple[Any, ...], column: int) -> None:
         """Run a predefined procedure or a cycle; an argument left out is None, VAR is a `Reference`."""
@@ -130,6 +135,9 @@ class LanguageControl(Protocol):
 
     def reads_inches(self, channel: Channel) -> bool:
         """Whether the program reads and writes values with units of length in inches now."""
+
+    def unit_of(self, channel: Channel, axis: str) -> float:
+        """The mm that one unit of the program is for an axis: 25.4 for a linear one in inches, else 1."""
 
     def restore_setting(self, channel: Channel, name: str) -> None:
         """Give a setting or machine datum the values that it had before any program."""

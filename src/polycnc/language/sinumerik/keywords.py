@@ -197,7 +197,7 @@ SPELLINGS = {"RMIBL": "RMI", "RMBBL": "RMB", "RMEBL": "RME", "RMNBL": "RMN"}
 SQUARE = frozenset({"DELDL"})
 
 #: Procedures whose axis may stand in brackets: `FINEA[X]`.
-BRACKETED = frozenset({"FINEA", "COARSEA", "IPOENDA"})
+BRACKETED = frozenset({"FINEA", "COARSEA", "IPOENDA", "FOCON", "FOCOF"})
 
 #: Machining cycles of the control; a program of the same name in a cycle directory comes first.
 CYCLES = _words(
@@ -280,8 +280,11 @@ NOT_EXECUTED = frozenset({"STRINGFELD", "STRINGVAR", "ENDPROC", "RETTOOL"})
 
 #: Single block off and on for the running level: the language keeps it.
 SINGLE_BLOCK = frozenset({"SBLOF", "SBLON"})
-#: Words that stand alone in their block (1.13, 1.25.2.5).
+#: Words that stand alone in their block (1.13, 1.25.2.5, 8.3, 8.4).
 OWN_BLOCK = SINGLE_BLOCK | {
+    "STOPRE",
+    "DELAYFSTON",
+    "DELAYFSTOF",
     "COMPLETE",
     "INITIAL",
     "INIT",

@@ -253,15 +253,34 @@ def set_system_elements(
     if place < 0:
         raise AlarmError("12430", text="SET")
     for step, value in enumerate(values):
-        variable.write(channel, (*indices[:place], indices[place] + step, *indices[place + 1 :]), value)
+        at = (*indices[:place], indices[place] + step, *indices[place + 1 :])
+        write_length(channel, variable, at, value)
 
 
-def frame_of(kind: str, pairs: tuple[Any, ...]) -> NcFrame:
+def read_length(channel: Channel, variable: SystemVariable, indices: tuple[Any, ...]) -> Any:
+    """The value of a system variable that may be a length, in the unit of the program."""
+    value, unit = variable.read(channel, indices), variable.unit(channel, indices) if variable.unit else 1.0
+    return value / unit if unit != 1.0 else value
+
+
+def write_length(channel: Channel, variable: SystemVariable, indices: tuple[Any, ...], value: Any) -> None:
+    """Set a system variable that may be a length, told in the unit of the program."""
+    unit = variable.unit(channel, indices) if variable.unit else 1.0
+    variable.write(channel, indices, value * unit if unit != 1.0 else value)
+
+
+#: Frame functions and components that are lengths.
+_SHIFTS = frozenset(("ctrans", "cfine", "TR", "FI"))
+
+
+def frame_of(channel: Channel, kind: str, pairs: tuple[Any, ...]) -> NcFrame:
     """CTRANS, CFINE, CROT, CSCALE with axis and value in turn, CMIRROR with axes."""
     try:
         if kind == "cmirror":
             return nc_frame.cmirror(axis.name for axis in pairs)
         values = {axis.name: float(value) for axis, value in zip(pairs[::2], pairs[1::2], strict=True)}
+        if kind in _SHIFTS:
+            values = {axis: value * channel.control.unit_of(channel, axis) for axis, value in values.items()}
         build: Callable[[dict[str, float]], NcFrame] = getattr(nc_frame, kind)
         return build(values)
     except ValueError:
@@ -273,14 +292,17 @@ def inverse_frame(frame: NcFrame) -> NcFrame:
     return frame.inverse()
 
 
-def frame_component(frame: NcFrame, axis: Axis, component: str) -> float:
+def frame_component(channel: Channel, frame: NcFrame, axis: Axis, component: str) -> float:
     """`FRAME[axis, component]`."""
-    return frame.component(axis.name, component)
+    value = frame.component(axis.name, component)
+    return value / channel.control.unit_of(channel, axis.name) if component in _SHIFTS else value
 
 
-def with_component(frame: NcFrame, axis: Axis, component: str, value: float) -> NcFrame:
+def with_component(channel: Channel, frame: NcFrame, axis: Axis, component: str, value: float) -> NcFrame:
     """The frame after `FRAME[axis, component] = value`."""
     try:
+        if component in _SHIFTS:
+            value *= channel.control.unit_of(channel, axis.name)
         return frame.with_component(axis.name, component, value)
     except ValueError:
         raise AlarmError("12560", text=f"{axis},{component}") from None
@@ -309,6 +331,7 @@ NAMESPACE: dict[str, Any] = {
         sind, cosd, tand, asind, acosd, atan2d, root, square, natural_log, power_of_e, bound, int_quotient,
         real_quotient, remainder, number_in, is_number, axis_named, first_of, part_of, char_at, with_char,
         fitting, limited, out_of_range, set_elements, repeat_element, set_system_elements, frame_of,
+        read_length, write_length,
         inverse_frame, frame_component, with_component, joined, real_text, round_half_up, checked_int,
         checked_char, char_of_text, trunc, floor, ceil, finite,
     )

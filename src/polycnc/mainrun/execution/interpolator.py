@@ -14,18 +14,22 @@ from polycnc.channel.moves.travel import limits_of
 from polycnc.mainrun.axes.commanded import CommandedAxis
 from polycnc.mainrun.axes.overlay import Overlay
 from polycnc.mainrun.execution.block_parts import BlockParts, direction
-from polycnc.mainrun.preparation.items import UNINFLUENCED, Happening, Move
+from polycnc.mainrun.execution.leading_spindles import LeadingSpindles
+from polycnc.mainrun.preparation.items import UNINFLUENCED, BlockEnd, Happening, Move
 from polycnc.transformation.couplings.graph import in_order
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
 
+    from polycnc.channel.channel import Channel
     from polycnc.channel.interpolator import Watcher
     from polycnc.mainrun.axes.channel_axes import ChannelAxes
+    from polycnc.mainrun.axes.commanded import Leading
     from polycnc.mainrun.execution.clock import Clock
     from polycnc.mainrun.execution.execution import Execution
     from polycnc.mainrun.execution.machinery import Machinery
-    from polycnc.mainrun.preparation.items import Block
+    from polycnc.mainrun.preparation.items import Block, Row
+    from polycnc.mainrun.reading.snapshot import SpindleState
     from polycnc.messages import AlarmError
     from polycnc.toolpath import Context, Event
     from polycnc.transformation.couplings.laws import Law as CouplingLaw
@@ -48,6 +52,14 @@ class Led(Protocol):
 
     def spindle_rpm(self, context: Context) -> float:
         """Speed of the spindle where a context holds, 1/min."""
+
+    @property
+    def spindle(self) -> SpindleState:
+        """The spindle of the block in execution."""
+
+    @property
+    def channel(self) -> Channel:
+        """The channel."""
 
 
 class ChannelInterpolator:
@@ -73,6 +85,7 @@ class ChannelInterpolator:
         self._commanded: dict[int, CommandedAxis] = {}
         self._overlays: dict[tuple[str, int], Overlay] = {}
         self._led: dict[int, tuple[CouplingLaw, ...]] = {}
+        self._turning = LeadingSpindles(run, clock)
         self._seen: tuple[float, list[float]] = (-1.0, [])
         self._before: tuple[float, list[float]] = (-1.0, [])
 
@@ -194,13 +207,26 @@ class ChannelInterpolator:
         return self._clock.cycle_s
 
     @property
+    def _current_row(self) -> Row | None:
+        """The move in execution; while a block begins, or the axes stand in it, the one that it comes to."""
+        execution = self._run.execution
+        if execution.motion is not None:
+            return execution.motion.piece
+        for item in execution.preprocessing.items:
+            if isinstance(item, Move):
+                return item
+            if isinstance(item, BlockEnd):
+                break
+        return None
+
+    @property
     def on_path(self) -> OnPath:
         """Where the block in execution is."""
         execution, time = self._run.execution, self._clock.time
         seconds, motion = time - self._block_since, execution.motion
         if motion is None:
-            front = execution.preprocessing.items[0] if execution.preprocessing.items else None
-            left = front.total * (1.0 - front.done) if isinstance(front, Move) else 0.0
+            coming = self._current_row
+            left = coming.total * (1.0 - coming.done) if isinstance(coming, Move) else 0.0
             return OnPath(seconds, 0.0, left, 0.0)
         piece = motion.piece
         length = piece.length / piece.share if piece.share else piece.length
@@ -247,13 +273,14 @@ class ChannelInterpolator:
         commanded = self._commanded.get(column)
         if commanded is not None and commanded.moves:
             return commanded.left
-        execution = self._run.execution
-        return execution.row_end[column] - execution.machine[column]
+        execution, row = self._run.execution, self._current_row
+        end = row.way.end if row is not None else execution.position
+        return end[column] - execution.machine[column]
 
     def is_on_path(self, column: int) -> bool:
         """Whether the move in execution moves an axis."""
-        motion = self._run.execution.motion
-        return motion is not None and motion.piece.way.start[column] != motion.piece.way.end[column]
+        row = self._current_row
+        return row is not None and row.way.start[column] != row.way.end[column]
 
     def speed(self, column: int) -> float:
         """Speed of an axis, mm/s or degrees/s, signed: what it has gone since the last look."""
@@ -265,12 +292,16 @@ class ChannelInterpolator:
 
     def corner_angle(self) -> float | None:
         """Angle between the end of the move in execution and the next one, degrees; None where none is prepared."""
-        execution = self._run.execution
-        ahead = next((item for item in execution.preprocessing.items if isinstance(item, Move)), None)
-        if execution.motion is None or ahead is None:
+        execution, row = self._run.execution, self._current_row
+        if row is None:
+            return None
+        # an arc stays the first item until its last piece begins
+        moves = (item for item in execution.preprocessing.items if isinstance(item, Move))
+        ahead = next((move for move in moves if move.row != row.row), None)
+        if ahead is None:
             return None
         axes = [axis for axis in execution.preprocessing.channel.coordinates.geometry if axis >= 0]
-        out, into = direction(execution.motion.piece.way, 1.0, axes), direction(ahead.way, 0.0, axes)
+        out, into = direction(row.way, 1.0, axes), direction(ahead.way, 0.0, axes)
         cosine = sum(a * b for a, b in zip(out, into, strict=True))
         return degrees(acos(min(max(cosine, -1.0), 1.0)))
 
@@ -350,7 +381,9 @@ class ChannelInterpolator:
         """What leads an axis beside the path."""
         return tuple(self._led.get(column, ()))
 
-    def follow(self, column: int, laws: Sequence[CouplingLaw]) -> None:
+    def follow(
+        self, column: int, laws: Sequence[CouplingLaw], spindles: Mapping[int, float] | None = None
+    ) -> None:
         """These lead an axis beside the path from now on, none lets it stay where it is.
 
         Raises:
@@ -359,7 +392,10 @@ class ChannelInterpolator:
         every = {**self._led, column: tuple(laws)}
         in_order(every)
         self._led = {each: of for each, of in every.items() if of}
-        self.commanded(column).follow([(self._run.axes[law.leading], law) for law in laws])
+        leading: list[tuple[Leading, CouplingLaw]] = [(self._run.axes[law.leading], law) for law in laws]
+        if spindles is not None:
+            leading += self._turning.led_by(column, spindles)
+        self.commanded(column).follow(leading, smoothly=spindles is not None)
         self.wake()
 
     def commanded_shares(self) -> dict[int, float]:
@@ -396,14 +432,17 @@ class ChannelInterpolator:
         self._run.execution.place_axis(column, place)
         return place
 
-    def overlay(self, name: str, column: int, value: float, speed: float) -> None:
-        """Shift an axis beside everything else, no faster than a speed; `name` says which of its shifts is meant."""
+    def overlay(self, name: str, column: int, value: float, speed: float, pull: float = 1.0) -> None:
+        """Shift an axis beside everything else, no faster than a speed and with a part of its acceleration.
+
+        `name` says which of its shifts is meant.
+        """
         found = self._overlays.get((name, column))
         if found is None:
             axis = self._run.axes[column]
             found = self._overlays[name, column] = Overlay(axis.data.acceleration)
             axis.add(found)
-        found.go(value, speed, self._clock.time)
+        found.go(value, speed, self._clock.time, pull)
         self._narrow_travel()
 
     def shift_by_hand(self, column: int, way: float, speed: float) -> None:

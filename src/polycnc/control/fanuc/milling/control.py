@@ -115,6 +115,10 @@ class FanucMilling(MillingControl):
         """11600#5 AX1 = 0."""
         return not _given(channel).AX1
 
+    def goes_with_fixture(self, channel: Channel) -> bool:
+        """7570#0 FTP = 0."""
+        return not _given(channel).FTP
+
     def measuring(self, channel: Channel, _words: Words) -> tuple[float, float, float]:
         """G37: way before the target at feed (6251), allowed difference (6254), feed (6241)."""
         of = _given(channel).of(channel.axes[channel.coordinates.geometry[2]])

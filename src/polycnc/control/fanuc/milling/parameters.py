@@ -42,6 +42,8 @@ class FanucMillingParameters(FanucParameters["FanucMillingAxisParameters"]):
     RIN = Bit(5400, 0, delivered=False)
     #: 5400#7: factors of scaling without a point count 0.00001 (0) or 0.001 (1).
     SCR = Bit(5400, 7, delivered=False)
+    #: 7570#0: G54.2: the tool goes along with the fixture offset (0) or stays (1).
+    FTP = Bit(7570, 0, delivered=False)
     #: 11600#5: an axis that the block behind G68 does not name keeps its coordinate from before (0) or its
     #: position (1).
     AX1 = Bit(11600, 5, delivered=True)

@@ -10,13 +10,17 @@ from polycnc.control.sinumerik.actions.procedures import PROCEDURES
 from polycnc.control.sinumerik.actions.run import Running
 from polycnc.control.sinumerik.actions.words import WORDS
 from polycnc.control.sinumerik.block import arguments
+from polycnc.control.sinumerik.block.positions import ModuloRange
 from polycnc.control.sinumerik.errors import not_supported
+from polycnc.language.sinumerik.runtime import read_length, write_length
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
     from polycnc.language.sinumerik.actions.code import Cycle
     from polycnc.language.sinumerik.interface import SystemVariable
 
+#: Positions by the systems of POSRANGE: machine, basic, settable zero, workpiece (10.4.13).
+POSITIONS = ("$AA_IM", "$AA_IB", "$AA_IEN", "$AA_IW")
 #: Variables that go on by themselves: writing the same value again is a change.
 _GOING = ("$AC_TIMER", "$AC_FIFO", "$AA_OFF", "$AC_OVR", "$AA_OVR", "$AC_VC", "$AC_PROG_NET_TIME")
 
@@ -31,7 +35,7 @@ class LiveReference(NamedTuple):
     @property
     def value(self) -> Any:
         """The value now."""
-        return self.variable.read(self.run.channel, self.indices)
+        return read_length(self.run.channel, self.variable, self.indices)
 
     @value.setter
     def value(self, value: Any) -> None:
@@ -48,12 +52,12 @@ class ActionRun(Running):
         if not self.changed:
             name = variable.name
             if name.startswith("$A") and not name.startswith(_GOING):
-                self.changed = variable.read(self.channel, indices) != value
+                self.changed = read_length(self.channel, variable, indices) != value
             else:
                 self.changed = not name.startswith(("$AC_OVR", "$AA_OVR", "$AC_VC"))
         main_run, self.channel.main_run = self.channel.main_run, None  # it is written at once
         try:
-            variable.write(self.channel, indices, value)
+            write_length(self.channel, variable, indices, value)
         finally:
             self.channel.main_run = main_run
 
@@ -64,7 +68,9 @@ class ActionRun(Running):
             self.changed = True
 
     def store_all(self, variable: SystemVariable, indices: tuple[Any, ...], values: tuple[Any, ...]) -> None:
-        """Fill an array from an element on."""
+        """Fill an array from an element on; alarm 12400 where the variable has no elements."""
+        if not indices or not isinstance(indices[0], int):
+            raise AlarmError("12400", text=variable.name)
         for place, value in enumerate(values, indices[0]):
             self.store(variable, (place, *indices[1:]), value)
 
@@ -92,10 +98,14 @@ class ActionRun(Running):
             return self.channel.control.function(self.channel, name, args, 0)
         column = arguments.column(self.channel, args[0])
         system = 0 if args[3] is None else arguments.whole(args[3])
-        if system not in range(4):
+        if system not in range(len(POSITIONS)):
             raise AlarmError("14020", text=name)
-        here = self.channel.actual.work[column] if system == 3 else self.clocked.machine(column)
-        return bool(abs(here - args[1]) <= abs(args[2]))
+        here = self.channel.control.system_variable(POSITIONS[system]).read(self.channel, (args[0],))
+        off, axis = here - args[1], self.channel.memory.axes[column]
+        if axis.modulo:
+            turn = ModuloRange.of(self.channel.memory.data, axis.name).length
+            off -= turn * round(off / turn)
+        return bool(abs(off) <= abs(args[2]))
 
     def reference(self, variable: SystemVariable, indices: tuple[Any, ...]) -> LiveReference:
         """A system variable that a function may change."""

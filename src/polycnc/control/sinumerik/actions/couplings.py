@@ -14,6 +14,7 @@ from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.couplings.links import Couplings
 from polycnc.control.sinumerik.curve_tables.memory import table_of
 from polycnc.control.sinumerik.errors import not_supported
+from polycnc.control.sinumerik.variables import in_force
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError
 from polycnc.transformation.couplings.graph import CircularCouplingError
@@ -49,6 +50,7 @@ def _follow(run: Running, following: int, laws: Sequence[Law]) -> None:
     except CircularCouplingError as error:
         raise AlarmError("16778", axis=run.channel.axes[error.column]) from None
     states[following] = action_axes.COMMANDED
+    in_force.refresh(run.channel)
     run.changed = True
 
 

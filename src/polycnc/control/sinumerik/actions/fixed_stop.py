@@ -1,4 +1,4 @@
-"""Travel to fixed stop and torque from actions: FXS, FXST, FXSW, FOCON, FOCOF (10.4.27).
+"""Travel to fixed stop and torque from actions: FXS, FXST, FXSW, FOCON, FOCOF, these two from programs too (10.4.27).
 
 No machine of polycnc has a fixed stop: the selection is kept with its torque and window, and the stop never comes.
 """
@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.block import arguments
+from polycnc.control.sinumerik.variables import in_force
 from polycnc.deferred.records import dataclass
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.messages import AlarmError
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from polycnc.control.sinumerik.actions.run import Running
+    from polycnc.control.sinumerik.block.arguments import Arguments, Procedure
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.variables.row import Indices, RowWithStop
 
@@ -51,6 +53,7 @@ def select(run: Running, index: Any, _modifier: str, value: float) -> None:
         selected.add(column)
     else:
         selected.discard(column)
+    in_force.refresh(run.channel)
 
 
 def datum(name: str) -> Callable[[Running, Any, str, Any], None]:
@@ -67,13 +70,29 @@ def limit_torque(*, on: bool) -> Callable[[Running, Any, str, Any], None]:
     """FOCON, FOCOF: the torque of an axis is limited, or no more."""
 
     def switch(run: Running, index: Any, _modifier: str, _value: Any) -> None:
-        column, limited = arguments.column(run.channel, index), FixedStops.of(run.channel).limited
-        if on:
-            limited.add(column)
-        else:
-            limited.discard(column)
+        _limit(run.channel, index, on=on)
+        in_force.refresh(run.channel)
 
     return switch
+
+
+def limit_torque_of_program(*, on: bool) -> Procedure:
+    """FOCON[axis], FOCOF[axis] of a program: nothing of the path changes, for no machine presses against anything."""
+
+    def switch(channel: SinumerikChannel, args: Arguments) -> None:
+        if len(args) != 1:
+            raise AlarmError("14020", text="FOCON" if on else "FOCOF")
+        _limit(channel, args[0], on=on)
+
+    return switch
+
+
+def _limit(channel: SinumerikChannel, axis: Any, *, on: bool) -> None:
+    column, limited = arguments.column(channel, axis), FixedStops.of(channel).limited
+    if on:
+        limited.add(column)
+    else:
+        limited.discard(column)
 
 
 def _state(channel: SinumerikChannel, indices: Indices) -> int:
@@ -81,4 +100,15 @@ def _state(channel: SinumerikChannel, indices: Indices) -> int:
     return SELECTED if column in FixedStops.of(channel).selected else OFF
 
 
-FIXED_STOP_VARIABLES: dict[str, RowWithStop] = {"$AA_FXS": (Type.INT, _state, None, True)}
+def _limited(channel: SinumerikChannel, indices: Indices) -> int:
+    return int(arguments.column(channel, indices[0] if indices else None) in FixedStops.of(channel).limited)
+
+
+FIXED_STOP_VARIABLES: dict[str, RowWithStop] = {
+    "$AA_FXS": (Type.INT, _state, None, True),
+    "$AA_FOC": (Type.INT, _limited, None, True),
+}
+PROCEDURES: dict[str, Procedure] = {
+    "FOCON": limit_torque_of_program(on=True),
+    "FOCOF": limit_torque_of_program(on=False),
+}

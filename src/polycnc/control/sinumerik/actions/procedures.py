@@ -124,7 +124,8 @@ def preset(run: Running, args: Arguments) -> None:
         column = arguments.column(run.channel, axis)
         if run.clocked.is_on_path(column):
             raise AlarmError("20141", axis=run.channel.axes[column])
-        run.clocked.commanded(column).preset(arguments.real(value))
+        unit = run.channel.control.unit_of(run.channel, run.channel.axes[column])
+        run.clocked.commanded(column).preset(arguments.real(value) * unit)
     run.changed = True
 
 

@@ -13,6 +13,7 @@ from polycnc.control.sinumerik.block.positions import Dimension, is_diameter
 from polycnc.control.sinumerik.m_functions import DIRECTIONS
 from polycnc.control.sinumerik.motion import indexing
 from polycnc.control.sinumerik.signals import measuring_actions
+from polycnc.control.sinumerik.variables import in_force
 from polycnc.geometry.units import INCH_MM
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import Auxiliary, HFunction, SpindleSpeed
@@ -98,6 +99,7 @@ def auxiliary_function(run: Running, index: Any, _modifier: str, value: float) -
         spindle = channel.memory.spindles.get(arguments.spindle(index))
         spindle.direction = DIRECTIONS[code]
         channel.context_changed()
+        in_force.refresh(channel)
     run.clocked.put_out(
         Auxiliary(code) if index is None else Auxiliary(code, spindle=arguments.spindle(index))
     )
@@ -118,6 +120,7 @@ def spindle_speed(run: Running, index: Any, _modifier: str, value: float) -> Non
     run.changed = run.changed or spindle.speed != value
     spindle.speed = float(value)
     run.channel.context_changed()
+    in_force.refresh(run.channel)
     run.clocked.put_out(SpindleSpeed(speed=float(value), spindle=spindle.number))
 
 
@@ -128,6 +131,7 @@ def spindle_position(run: Running, index: Any, modifier: str, value: float) -> N
     run.changed = run.changed or spindle.direction != 0 or spindle.position != place % tables.TURN
     spindle.position, spindle.direction, spindle.controlled = place % tables.TURN, 0, True
     run.channel.context_changed()
+    in_force.refresh(run.channel)
 
 
 WORDS: dict[str, Callable[[Running, Any, str, Any], None]] = {

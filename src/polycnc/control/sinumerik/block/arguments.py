@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.language.sinumerik.names.spindles import spindle_number
 from polycnc.language.sinumerik.names.values import Axis
+from polycnc.language.sinumerik.names.variables import Reference
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -46,6 +47,13 @@ def spindle(value: Any) -> int | None:
         return None
     number = spindle_number(value) if isinstance(value, Axis) else None
     return whole(value) if number is None else number
+
+
+def give_back(place: Any, value: int) -> None:
+    """Put a whole number into a variable that was handed over; alarm 12330 for what is none for a number."""
+    if not isinstance(place, Reference) or not place.variable.type.is_number:
+        raise AlarmError("12330", text=_shown(place))
+    place.value = value
 
 
 def _shown(value: Any) -> str:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.sinumerik.actions import actions, overlay, polynomials
+from polycnc.control.sinumerik.actions import actions, fixed_stop, overlay, polynomials
 from polycnc.control.sinumerik.actions import axes as action_axes
 from polycnc.control.sinumerik.axes import geometry
 from polycnc.control.sinumerik.block import arguments
@@ -28,7 +28,7 @@ from polycnc.control.sinumerik.tangential import definitions as tangential
 from polycnc.control.sinumerik.tools import d_numbers, online
 from polycnc.control.sinumerik.tools.management import lists, magazines, monitoring
 from polycnc.control.sinumerik.transformations import seat, selection, start
-from polycnc.control.sinumerik.variables import dialogs
+from polycnc.control.sinumerik.variables import dialogs, lengths
 from polycnc.control.sinumerik.variables.stored import Stored
 from polycnc.language.sinumerik.names.initialisation import NEW_CONFIGURATION, initialise
 from polycnc.messages import Alarm, AlarmError
@@ -45,11 +45,37 @@ _MAY_BE_DIAMETER = 4
 SHOWN_ONLY = frozenset((62, 67, 68, 69))
 
 
+#: How many arguments a procedure takes at most, where it does not look itself.
+MOST_ARGUMENTS = {
+    "STOPRE": 0,
+    "NEWCONF": 0,
+    "DELAYFSTON": 0,
+    "DELAYFSTOF": 0,
+    "IPTRLOCK": 0,
+    "IPTRUNLOCK": 0,
+    "DIAMCHAN": 0,
+    "DZERO": 0,
+    "TRAFOOF": 0,
+    "ICYCON": 0,
+    "ICYCOF": 0,
+    "SETMS": 1,
+    "FPR": 1,
+    "GWPSON": 1,
+    "GWPSOF": 1,
+    "SETAL": 2,
+    "DELDL": 2,
+    "MSG": 3,
+    "COUPDEF": 6,
+}
+
+
 def run(channel: SinumerikChannel, name: str, args: Arguments) -> None:
-    """Run a procedure; PC0001 for one that is not executed."""
+    """Run a procedure; PC0001 for one that is not executed, 14020 for more arguments than it takes."""
     procedure = PROCEDURES.get(name)
     if procedure is None:
         raise not_supported(name)
+    if len(args) > MOST_ARGUMENTS.get(name, len(args)):
+        raise AlarmError("14020", text=name)
     procedure(channel, args)
 
 
@@ -111,6 +137,9 @@ def set_master_spindle(channel: SinumerikChannel, args: Arguments) -> None:
     number = arguments.spindle(args[0]) if args else None
     number = spindles.default_master if number is None else number
     spindles.get(number)
+    for spindle in spindles.all.values():
+        if spindle.number != number:
+            spindle.refuse_leading("SETMS")
     spindles.master = number
     channel.context_changed()
 
@@ -143,12 +172,11 @@ def preset(channel: SinumerikChannel, args: Arguments) -> None:
     if not args or len(args) % 2:
         raise AlarmError("14020", text="PRESETON")
     seat.refuse_transformed(channel, [arguments.column(channel, axis) for axis in args[::2]], "17600")
-    values = zip(args[::2], args[1::2], strict=True)
-    action_axes.call(
-        channel,
-        "PRESETON",
-        {arguments.column(channel, axis): arguments.real(value) for axis, value in values},
-    )
+    values = {
+        arguments.column(channel, axis): arguments.real(value) * lengths.of_axis(channel, axis.name)
+        for axis, value in zip(args[::2], args[1::2], strict=True)
+    }
+    action_axes.call(channel, "PRESETON", values)
 
 
 def dynamics(name: str) -> Callable[[SinumerikChannel, Arguments], None]:
@@ -208,6 +236,10 @@ def section_of_program(channel: SinumerikChannel, args: Arguments) -> None:
     dialogs.begin_section(channel, args[0])
 
 
+def of_technology_cycles(_channel: SinumerikChannel, _args: Arguments) -> None:
+    """ICYCOF, ICYCON: how the lines of a technology cycle run; part programs pass them over (job planning 10.5.4)."""
+
+
 def editor_mark(_channel: SinumerikChannel, _args: Arguments) -> None:
     """GROUP_BEGIN, GROUP_END, GROUP_ADDEND: marks of the editor."""
 
@@ -246,6 +278,8 @@ PROCEDURES: dict[str, Callable[[SinumerikChannel, Arguments], None]] = {
     "MMC": dialogs.call,
     "DIAMCHAN": diameters_of_channel,
     "WORKPIECE": workpiece,
+    "ICYCOF": of_technology_cycles,
+    "ICYCON": of_technology_cycles,
     "GROUP_BEGIN": editor_mark,
     "GROUP_END": editor_mark,
     "GROUP_ADDEND": editor_mark,
@@ -253,6 +287,7 @@ PROCEDURES: dict[str, Callable[[SinumerikChannel, Arguments], None]] = {
     "DRFOF": overlay.take_away_by_hand,
     **actions.PROCEDURES,
     **polynomials.PROCEDURES,
+    **fixed_stop.PROCEDURES,
     **interrupts.PROCEDURES,
     **coordination.PROCEDURES,
     **axis_exchange.PROCEDURES,

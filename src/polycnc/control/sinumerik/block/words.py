@@ -57,6 +57,10 @@ Maker = Callable[["Draft", int, "WordShape"], "Step"]
 # ---- feed
 
 
+#: Values of FPO: at the end, quadratic, cubic.
+_MOST_FEEDS = 3
+
+
 def feed(draft: Draft, position: int, shape: WordShape) -> Step:
     """F: path feed in the units of the feed type; F0 is no feed. F2= to F7= are feeds that inputs choose."""
     if shape.index is not None:
@@ -67,9 +71,10 @@ def feed(draft: Draft, position: int, shape: WordShape) -> Step:
     polynomial = shape.modifier == "FPO"
 
     def run(channel: SinumerikChannel, values: Values) -> None:
-        value = (
-            _end_of_polynomial(channel, values[position], factor) if polynomial else number(values, position)
-        )
+        if polynomial:
+            value = _end_of_polynomial(channel, position, values[position], factor)
+        else:
+            value = number(values, position)
         if value < 0.0:
             raise WordAlarm("14800", position)
         channel.feed = value * factor or nan
@@ -77,8 +82,14 @@ def feed(draft: Draft, position: int, shape: WordShape) -> Step:
     return run if polynomial else declare(run, plain.feed(position, factor))
 
 
-def _end_of_polynomial(channel: SinumerikChannel, listed: Values, factor: float) -> float:
-    """FPO(end, quadratic, cubic): the feed at the end of the block is the modal one; what is left out is 0."""
+def _end_of_polynomial(channel: SinumerikChannel, position: int, listed: Values, factor: float) -> float:
+    """FPO(end, quadratic, cubic): the feed at the end of the block is the modal one; what is left out is 0.
+
+    Raises:
+        WordAlarm: 12340 for more than three values.
+    """
+    if len(listed) > _MOST_FEEDS:
+        raise WordAlarm("12340", position, text="FPO")
     quadratic, cubic = (
         number(listed, i) if i < len(listed) and listed[i] is not None else 0.0 for i in (1, 2)
     )
@@ -139,9 +150,9 @@ def spindle_number(shape: WordShape, position: int) -> int | None:
 
 
 def speed(draft: Draft, position: int, shape: WordShape) -> Step:
-    """S: rpm, or m/min under constant cutting speed; alarm 16763 below zero."""
+    """S: rpm, m/min under constant cutting speed (feet/min under G700), m/s of a wheel; alarm 16763 below zero."""
     wanted = spindle_number(shape, position)
-    surface = tables.feed_type(draft.mode).surface_speed
+    surface, metres = tables.feed_type(draft.mode).surface_speed, tables.metres_of_cutting_speed(draft.mode)
 
     def run(channel: SinumerikChannel, values: Values) -> None:
         spindle = channel.memory.spindles.get(wanted)
@@ -149,9 +160,9 @@ def speed(draft: Draft, position: int, shape: WordShape) -> Step:
         if value < 0.0:
             raise WordAlarm("16763", position, axis=f"S{spindle.number}")
         if spindle.has_wheel_speed:
-            wheels.set_wheel_speed(channel, spindle, value)
+            wheels.set_wheel_speed(channel, spindle, value * metres)
         elif surface and spindle.number == channel.memory.spindles.master:
-            spindle.cutting_speed = value
+            spindle.cutting_speed = value * metres
         else:
             before = turns(channel, spindle.number)
             spindle.speed = value
@@ -357,10 +368,18 @@ def rounding_distance(draft: Draft, position: int, shape: WordShape) -> Step:
 
 #: Per cent of VELOLIM and JERKLIM (job planning 8.7).
 LIMITS_OF_PERCENT = {"VELOLIM": (1.0, 100.0), "JERKLIM": (1.0, 200.0)}
+#: Per cent of the path as a whole.
+OF_PATH = frozenset(("OVR", "OVRRAP"))
 
 
 def percentage(_draft: Draft, position: int, shape: WordShape) -> Step:
-    """OVR, OVRRAP, OVRA[axis], ACC[axis], VELOLIM[axis] …: per cent, for the motion planner (`pace.py`)."""
+    """OVR, OVRRAP, OVRA[axis], ACC[axis], VELOLIM[axis] …: per cent, for the motion planner (`pace.py`).
+
+    Raises:
+        AlarmError: 12040 without the axis or spindle that the others need, 12560 beyond the range.
+    """
+    if shape.address not in OF_PATH and not isinstance(shape.index, Axis):
+        raise WordAlarm("12040", position, text=str(shape.index or shape.address))
     name = str(shape.index) if shape.index is not None else ""
     least, most = LIMITS_OF_PERCENT.get(shape.address, (0.0, 200.0))
 
@@ -374,8 +393,9 @@ def percentage(_draft: Draft, position: int, shape: WordShape) -> Step:
     return run
 
 
-def cutting_rate(_draft: Draft, position: int, _shape: WordShape) -> Step:
-    """SVC: cutting rate of the tool, m/min; the speed follows from its radius. Alarm 10750 without one."""
+def cutting_rate(draft: Draft, position: int, _shape: WordShape) -> Step:
+    """SVC: cutting rate of the tool, m/min (feet/min under G700); 10750 without a radius of the tool."""
+    per_value = tables.metres_of_cutting_speed(draft.mode) * tables.MM_PER_M
 
     def run(channel: SinumerikChannel, values: Values) -> None:
         memory = channel.memory
@@ -383,7 +403,7 @@ def cutting_rate(_draft: Draft, position: int, _shape: WordShape) -> Step:
         if radius <= 0.0:
             raise AlarmError("10750")
         spindle = memory.spindles.get()
-        spindle.speed = number(values, position) * tables.MM_PER_M / (2.0 * pi * radius)
+        spindle.speed = number(values, position) * per_value / (2.0 * pi * radius)
         channel.context_changed()
         channel.event(SpindleSpeed(speed=spindle.speed, spindle=spindle.number))
 
@@ -406,8 +426,10 @@ def path_feed_of_axis(draft: Draft, position: int, shape: WordShape) -> Step:
     return run
 
 
-def auxiliary_h(_draft: Draft, position: int, _shape: WordShape) -> Step:
-    """H: auxiliary function to the PLC."""
+def auxiliary_h(_draft: Draft, position: int, shape: WordShape) -> Step:
+    """H, H2=, H[n]=: auxiliary function to the PLC."""
+    if isinstance(shape.index, Axis):
+        raise WordAlarm("12400", position, text="H")
 
     def run(channel: SinumerikChannel, values: Values) -> None:
         value = number(values, position)

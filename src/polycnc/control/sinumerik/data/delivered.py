@@ -1,4 +1,4 @@
-"""Number and delivered value of every datum; written from machine_data.toml by `control/parameter_module.py`."""
+"""Numbers, delivered values, lengths of the data, from machine_data.toml by `control/parameter_module.py`."""
 
 from __future__ import annotations
 
@@ -106,6 +106,7 @@ DATA: dict[str, tuple[int, bool | float | str]] = {
     "$MC_TOOL_GRIND_AUTO_TMON": (20350, False),
     "$MC_TOOL_TEMP_COMP_ON": (20390, True),
     "$MC_COMPRESSOR_MODE": (20482, 0),
+    "$MC_ADD_MOVE_ACCEL_RESERVE": (20610, 0.2),
     "$MC_SPF_END_TO_VDI": (20800, 1),
     "$MC_CTAB_ENABLE_NO_LEADMOTION": (20900, 0),
     "$MC_CTAB_DEFAULT_MEMORY_TYPE": (20905, 0),
@@ -150,6 +151,7 @@ DATA: dict[str, tuple[int, bool | float | str]] = {
     "$MC_START_AC_FIFO": (28262, 0),
     "$MC_LEN_AC_FIFO": (28264, 0),
     "$MC_MODE_AC_FIFO": (28266, 0),
+    "$MC_MM_SHAPED_TOOLS_ENABLE": (28290, 0),
     "$MC_MM_ORISON_BLOCKS": (28590, 10),
     "$MA_NUM_ENCS": (30200, 1),
     "$MA_IS_ROT_AX": (30300, False),
@@ -245,3 +247,52 @@ DATA: dict[str, tuple[int, bool | float | str]] = {
     "$SA_OSCILL_IS_ACTIVE": (43780, 0),
     "$SA_OSCILL_START_POS": (43790, 0.0),
 }
+
+#: Data that are lengths, or feeds; those of an axis where it is no rotary one.
+LENGTHS = frozenset(
+    (
+        "$MN_INDEX_AX_POS_TAB_1",
+        "$MN_INDEX_AX_POS_TAB_2",
+        "$MC_ORISON_BLOCK_PATH_LIMIT",
+        "$MC_TOCARR_FINE_LIM_LIN",
+        "$MC_CIRCLE_ERROR_CONST",
+        "$MC_INVOLUTE_RADIUS_DELTA",
+        "$MC_JOG_VELO_RAPID_GEO",
+        "$MC_JOG_VELO_GEO",
+        "$MC_LIFTFAST_DIST",
+        "$MA_INDEX_AX_NUMERATOR",
+        "$MA_INDEX_AX_OFFSET",
+        "$MA_FIX_POINT_POS",
+        "$MA_MAX_AX_VELO",
+        "$MA_JOG_VELO_RAPID",
+        "$MA_JOG_VELO",
+        "$MA_POS_AX_VELO",
+        "$MA_COMPRESS_POS_TOL",
+        "$MA_REFP_SET_POS",
+        "$MA_POS_LIMIT_MINUS",
+        "$MA_POS_LIMIT_PLUS",
+        "$MA_POS_LIMIT_MINUS2",
+        "$MA_POS_LIMIT_PLUS2",
+        "$MA_AX_VELO_LIMIT",
+        "$MA_COUPLE_POS_TOL_COARSE",
+        "$SN_JOG_SET_VELO",
+        "$SC_THREAD_RAMP_DISP",
+        "$SC_DRY_RUN_FEED",
+        "$SC_DEFAULT_FEED",
+        "$SC_COMPRESS_CONTUR_TOL",
+        "$SC_ORI_SMOOTH_DIST",
+        "$SC_ORISON_DIST",
+        "$SC_TOOL_TEMP_COMP",
+        "$SC_TOFF_LIMIT",
+        "$SA_AA_OFF_LIMIT",
+        "$SA_WORKAREA_LIMIT_PLUS",
+        "$SA_WORKAREA_LIMIT_MINUS",
+        "$SA_FIXED_STOP_WINDOW",
+        "$SA_ADISPOSA_VALUE",
+        "$SA_OSCILL_REVERSE_POS1",
+        "$SA_OSCILL_REVERSE_POS2",
+        "$SA_OSCILL_VELO",
+        "$SA_OSCILL_END_POS",
+        "$SA_OSCILL_START_POS",
+    )
+)

@@ -1,9 +1,9 @@
 """REPOSL, REPOSA, REPOSQ, REPOSH …: back to the contour at the end of an interrupt routine (job planning 8.6).
 
 The point of the contour is that of RMI (where it was interrupted), RMB (start of the block), RME (its end) or RMN
-(nearest to the tool), moved by DISPR along the contour. The way there is a straight line, or a straight line and a
-quarter or half circle in the working plane that touches the contour on the side on which the tool is. After it the
-routine ends and the rest of the interrupted block is made from that point on.
+(nearest to the tool), moved by DISPR backwards along the contour, forwards where it is negative. The way there is a
+straight line, or a straight line and a quarter or half circle in the working plane that touches the contour on the side
+on which the tool is. After it the routine ends and the rest of the interrupted block is made from that point on.
 """
 
 from __future__ import annotations
@@ -36,8 +36,6 @@ LINES, QUARTERS, HALVES = ("REPOSL", "REPOSA"), ("REPOSQ", "REPOSQA"), ("REPOSH"
 FUNCTIONS = (*LINES, *QUARTERS, *HALVES)
 #: Of the G functions of group 26, in the order of `$AC_REPOS_PATH_MODE` from 1.
 POINTS = ("RMB", "RMI", "RME", "RMN")
-#: DISPR leads forwards from the start of the block, backwards from where it was interrupted or ends.
-_SENSE = {"RMB": 1.0, "RMI": -1.0, "RME": -1.0, "RMN": 0.0}
 Plane = tuple[int, int, int]
 
 
@@ -81,7 +79,7 @@ def reposition(draft: Draft) -> Step:
         way = interrupted.way
         part = _part(way, point, interrupted.part, channel.coordinates.position)
         if along is not None and way.length:
-            part += _SENSE[point] * number(values, along) * factor / way.length
+            part -= number(values, along) * factor / way.length
         part = min(max(part, 0.0), 1.0)
         radius = number(values, size) * factor if size is not None and code not in LINES else 0.0
         feed = nan if rapid else moves.checked_feed(channel.feed)

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.actions.axes import ActionAxes
+from polycnc.control.sinumerik.block.positions import ModuloRange
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.tolerances import NO_WAY
 
@@ -31,6 +32,7 @@ OPTIONS, ACTIVE = "$SA_OSCILL_CTRL_MASK", "$SA_OSCILL_IS_ACTIVE"
 #: shorter way; single sparking-out strokes, start position first.
 STOPS_AT, TO_END, ENDS_IF_BROKEN, REVERSES_IF_BROKEN, SPEED_WAITS, SHORTEST = 3, 4, 8, 16, 32, 128
 SINGLE_SPARKS, FROM_START = 256, 512
+ALL_OPTIONS = range(2 * FROM_START)
 AT_NEXT, AT_FIRST, AT_SECOND, AT_ONCE = range(4)
 
 
@@ -149,9 +151,15 @@ class Strokes:
                 axis.move_to(target, self.speed)
 
     def _target(self, channel: SinumerikChannel) -> float:
-        """Machine position of where it goes to."""
-        offset = channel.actual.machine[self.column] - channel.actual.work[self.column]
-        return self._number(channel, self.datum) + offset
+        """Machine position of where it goes to: of a modulo axis in its turn, or (128) by the shorter way."""
+        work = channel.actual.work[self.column]
+        place, offset = self._number(channel, self.datum), channel.actual.machine[self.column] - work
+        if channel.memory.axes[self.column].modulo:
+            turn = ModuloRange.of(channel.memory.data, channel.axes[self.column])
+            place = turn.below(work) + turn.shown(place)
+            if self._options(channel) & SHORTEST:
+                place += turn.length * round((work - place) / turn.length)
+        return place + offset
 
     def _number(self, channel: SinumerikChannel, datum: str) -> float:
         return channel.memory.data.number(datum, channel.axes[self.column])

@@ -1,4 +1,7 @@
-"""The words of oscillation: OS, OSP1, OSP2, OST1, OST2, OSNSC, OSE, OSB, OSCTRL, OSCILL with POSP (11.1, 11.2)."""
+"""The words of oscillation: OS, OSP1, OSP2, OST1, OST2, OSNSC, OSE, OSB, OSCTRL, OSCILL with POSP (11.1, 11.2).
+
+Their values go into setting data along with the path, when the axes are there (11.1).
+"""
 
 from __future__ import annotations
 
@@ -10,7 +13,6 @@ from polycnc.control.sinumerik.actions import axes as action_axes
 from polycnc.control.sinumerik.actions.axes import ActionAxes
 from polycnc.control.sinumerik.block.draft import axis_column
 from polycnc.control.sinumerik.block.positions import number
-from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.oscillation import strokes
 from polycnc.control.sinumerik.oscillation.infeed import Infeed, PartialInfeeds
 from polycnc.control.sinumerik.oscillation.strokes import Oscillations
@@ -37,6 +39,8 @@ POSITIONS = {
 NUMBERS = {"OST1": strokes.DWELL[0], "OST2": strokes.DWELL[1], "OSNSC": strokes.SPARKS}
 #: Axes that OSCILL feeds in at most.
 MOST_INFEEDS = 3
+#: Times at reversal points that are none: without a stop, with a coarse one.
+NO_STOP, COARSE_STOP = -2.0, -1.0
 
 
 def datum(draft: Draft, position: int, shape: WordShape) -> Step:
@@ -49,16 +53,28 @@ def datum(draft: Draft, position: int, shape: WordShape) -> Step:
     adds = shape.modifier == "IC" or (is_position and not shape.modifier and draft.mode["distance"] == "G91")
 
     def run(channel: SinumerikChannel, values: Values) -> None:
-        data, axis = channel.memory.data, Axis(channel.axes[column])
         value = number(values, position) * factor
-        if adds:
-            value += data.number(name, axis.name)
-        data.write(name, (axis,), value)
-        if shape.address == "OSE":
-            options = data.integer(strokes.OPTIONS, axis.name)
-            data.write(strokes.OPTIONS, (axis,), options | strokes.TO_END)
+        if name in strokes.DWELL and value < 0.0 and value not in (NO_STOP, COARSE_STOP):
+            raise WordAlarm("12560", position, text=shape.address)
+
+        def write() -> None:
+            data, axis = channel.memory.data, Axis(channel.axes[column])
+            data.write(name, (axis,), value + data.number(name, axis.name) if adds else value)
+            if shape.address == "OSE":
+                options = data.integer(strokes.OPTIONS, axis.name)
+                data.write(strokes.OPTIONS, (axis,), options | strokes.TO_END)
+
+        _along_with_the_path(channel, shape.address, write)
 
     return run
+
+
+def _along_with_the_path(channel: SinumerikChannel, word: str, write: Callable[[], None]) -> None:
+    """Write when the axes are there; at once where nothing runs on the clock yet, so that nothing looks."""
+    if channel.actual.clocked is None:
+        write()
+    else:
+        channel.event(Deed(word, None, write))
 
 
 def options(draft: Draft, position: int, shape: WordShape) -> Step:
@@ -67,13 +83,15 @@ def options(draft: Draft, position: int, shape: WordShape) -> Step:
 
     def run(channel: SinumerikChannel, values: Values) -> None:
         listed = list(values[position]) if isinstance(values[position], tuple) else [values[position]]
-        if not 1 <= len(listed) <= 2 or any(int(value) != value or value < 0 for value in listed):
+        if not 1 <= len(listed) <= 2 or any(value not in strokes.ALL_OPTIONS for value in listed):
             raise WordAlarm("12560", position, text="OSCTRL")
         on, off = (int(value) for value in (*listed, 0)[:2])
-        if on & strokes.SHORTEST and channel.memory.axes[column].modulo:
-            raise not_supported(f"OSCTRL {strokes.SHORTEST}")
-        data, axis = channel.memory.data, Axis(channel.axes[column])
-        data.write(strokes.OPTIONS, (axis,), data.integer(strokes.OPTIONS, axis.name) & ~off | on)
+
+        def write() -> None:
+            data, axis = channel.memory.data, Axis(channel.axes[column])
+            data.write(strokes.OPTIONS, (axis,), data.integer(strokes.OPTIONS, axis.name) & ~off | on)
+
+        _along_with_the_path(channel, "OSCTRL", write)
 
     return run
 
@@ -89,10 +107,11 @@ def switch(draft: Draft, position: int, shape: WordShape) -> Step:
         value = number(values, position)
         if value not in (0.0, 1.0):
             raise WordAlarm("12560", position, text="OS")
-        _begin(channel, column)
+        keep_speed = _begin(channel, column)
         oscillations = Oscillations.of(channel)
 
         def do() -> None:
+            keep_speed()
             (oscillations.switch_on if value else oscillations.switch_off)(column)
 
         channel.event(Deed("OS", None, do, is_silent=False))
@@ -109,14 +128,14 @@ def take_feed(channel: SinumerikChannel, column: int) -> None:
     channel.event(Deed("FA", None, lambda: channel.memory.data.write(*place, speed)))
 
 
-def _begin(channel: SinumerikChannel, column: int) -> None:
-    """An axis is about to leave the path; its velocity is FA."""
+def _begin(channel: SinumerikChannel, column: int) -> Callable[[], None]:
+    """An axis is about to leave the path; gives what makes FA its velocity then."""
     oscillations = Oscillations.of(channel)
     channel.on_clock().watch(oscillations)
     action_axes.expect(channel, (column,))
     name = channel.axes[column]
     speed = action_axes.speed_of(channel, column) * tables.MINUTE
-    channel.memory.data.write(strokes.VELOCITY, (Axis(name),), speed)
+    return partial(channel.memory.data.write, strokes.VELOCITY, (Axis(name),), speed)
 
 
 def oscillate(draft: Draft) -> Step | None:
@@ -138,7 +157,9 @@ def oscillate(draft: Draft) -> Step | None:
             raise WordAlarm("12560", position, text="OSCILL")
         if {channel.memory.column(axis.name) for axis in listed} != set(infeeds):
             raise WordAlarm("12560", position, text="POSP")
-        _begin(channel, column)
+        if column in infeeds:
+            raise WordAlarm("12560", position, text="OSCILL")
+        keep_speed = _begin(channel, column)
         action_axes.expect(channel, infeeds)
         action_axes.give_back(channel, infeeds)
         made, ends = _infeeds(channel, infeeds, values)
@@ -148,6 +169,7 @@ def oscillate(draft: Draft) -> Step | None:
             for infeed in made:
                 channel.on_clock().shift_path(infeed.column, ends[infeed.column])
             oscillations.infeeds.extend(made)
+            keep_speed()
             oscillations.switch_on(column)
 
         places = tuple(ends.items())

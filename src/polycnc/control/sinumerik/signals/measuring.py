@@ -237,6 +237,8 @@ def _job(
 ) -> Job | None:
     """The job of a word; None where it only ends one."""
     if word.address in OF_BLOCK:
+        if word.index is not None:
+            raise WordAlarm("12400", position, text=word.address)
         event = values[position]
         if event not in EVENTS:
             raise WordAlarm("12560", position, text=word.address)

@@ -23,7 +23,7 @@ from polycnc.control.sinumerik.tools.holders.active import ActiveCarrier
 from polycnc.control.sinumerik.tools.memory import FLAT
 from polycnc.control.sinumerik.variables.row import Indices, Row
 from polycnc.control.sinumerik.variables.stored import Stored
-from polycnc.language.sinumerik.names.values import Axis, Type
+from polycnc.language.sinumerik.names.values import Type
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 def _numbers(indices: Indices, name: str, count: int) -> list[int]:
     """The numbers in brackets; alarm 12400 for other indices."""
-    if len(indices) != count or any(isinstance(index, (Axis, str)) for index in indices):
+    if len(indices) != count or not all(isinstance(index, (int, float)) for index in indices):
         raise AlarmError("12400", text=name)
     return [int(index) for index in indices]
 

@@ -9,6 +9,8 @@ Source: job planning 1.1.2 (prefixes), 5.1 (actual values), and the manual of sy
 
 from __future__ import annotations
 
+from dataclasses import replace
+from functools import partial
 from math import isnan
 from typing import TYPE_CHECKING, Any
 
@@ -45,10 +47,13 @@ from polycnc.control.sinumerik.tools.management.monitoring import MONITORING_VAR
 from polycnc.control.sinumerik.tools.online import OVERLAY_VARIABLES
 from polycnc.control.sinumerik.tools.sides import Contour
 from polycnc.control.sinumerik.tools.variables import IN_MAIN_RUN, TOOL_VARIABLES
-from polycnc.control.sinumerik.transformations import smoothing
+from polycnc.control.sinumerik.transformations import seat, smoothing
+from polycnc.control.sinumerik.transformations.seat import Transformations
+from polycnc.control.sinumerik.variables import in_force
 from polycnc.control.sinumerik.variables.block_types import BLOCK_VARIABLES
 from polycnc.control.sinumerik.variables.clock import PARTS, part_of_clock
 from polycnc.control.sinumerik.variables.known import is_known
+from polycnc.control.sinumerik.variables.lengths import Unit, unit_of
 from polycnc.control.sinumerik.variables.part_counts import PART_COUNTS
 from polycnc.control.sinumerik.variables.row import Indices, Reader, Writer
 from polycnc.control.sinumerik.variables.run_times import KEPT_TIMES, RUN_TIMES
@@ -63,6 +68,8 @@ from polycnc.toolpath.events import ValueWrite
 from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.feed.spindles import Spindle
 
@@ -81,6 +88,7 @@ class SystemVariable:
         size: Number of its elements, or the machine datum that says it; empty where neither does.
         timed: Only a program that is executed in time can read or write it.
         of_actions: Synchronised actions alone can write it.
+        unit: For indices the mm, or mm/min, that one unit of the program is; None where no value is a length.
     """
 
     name: str
@@ -92,6 +100,7 @@ class SystemVariable:
     goes_along: bool = False
     timed: bool = False
     of_actions: bool = False
+    unit: Unit | None = None
 
     def element_count(self, channel: SinumerikChannel) -> int | None:
         """How many elements an array with one index has; None where that is not told."""
@@ -125,7 +134,10 @@ class SystemVariables:
         """
         variable = self._found.get(name)
         if variable is None:
-            variable = self._found[name] = self._make(name)
+            variable = replace(self._make(name), unit=unit_of(name))
+            if name in in_force.NAMES:
+                variable = replace(variable, reader=in_force.live(name, variable.reader))
+            self._found[name] = variable
         return variable
 
     @staticmethod
@@ -206,23 +218,55 @@ def _machine_datum(name: str) -> SystemVariable:
 # ---- positions
 
 
-def _work_frame(channel: SinumerikChannel, outer: str) -> list[float]:
-    """Positions of all axes in the system below `outer`: WCS, SZS (settable), BZS (base)."""
-    memory = channel.memory
-    coordinates = channel.coordinates
-    if outer == "work":
-        return coordinates.position
-    state = memory.frames
+def _inner_frame(channel: SinumerikChannel, _indices: Indices, *, settable: bool) -> NcFrame:
+    """From the work to the base system, or where a settable frame is none of them, to its zero system."""
+    state = channel.memory.frames
     inner = NcFrame()
-    for frame in state.inner() if outer == "settable" else [state.active_settable, *state.inner()]:
+    for frame in (*((state.active_settable,) if settable else ()), *state.inner()):
         inner = inner @ frame
-    point = coordinates.image(inner.frame, coordinates.position)
+    return inner
+
+
+#: The frames between the work and a system: SZS, BZS.
+_INNER: dict[str, Reader] = {
+    "settable": in_force.live("$AA_IEN", partial(_inner_frame, settable=False)),
+    "base": in_force.live("$AA_IBN", partial(_inner_frame, settable=True)),
+}
+
+
+def _below_the_work(channel: SinumerikChannel, system: str) -> list[float]:
+    """Positions of all axes now in a system between the work and the basic one."""
+    memory = channel.memory
+    inner: NcFrame = _INNER[system](channel, ())
+    point = channel.coordinates.image(inner.frame, links.shown(channel, channel.actual.work))
     for axis, part in inner.others.items():
         if axis not in memory.columns:  # a spindle
             continue
         column = memory.column(axis)
         point = [*point[:column], point[column] + part.coarse + part.fine, *point[column + 1 :]]
     return point
+
+
+def _basic(channel: SinumerikChannel) -> list[float]:
+    """Positions of all axes now in the basic system: those of the machine, but for what a transformation leads."""
+    machine, coordinates = list(channel.actual.machine), channel.coordinates
+    if Transformations.of(channel).seated is None:
+        return machine
+    point = coordinates.image(seat.frame_in_front(channel), list(channel.actual.work))
+    led = {column for column in coordinates.geometry if column >= 0}
+    return [point[i] if i in led else value for i, value in enumerate(machine)]
+
+
+_SYSTEMS: dict[str, Callable[[SinumerikChannel], list[float]]] = {
+    "machine": lambda channel: list(channel.actual.machine),
+    "basic": _basic,
+    "base": partial(_below_the_work, system="base"),
+    "settable": partial(_below_the_work, system="settable"),
+    "actual": lambda channel: links.shown(channel, channel.actual.work),
+    "programmed": lambda channel: channel.coordinates.position,
+}
+#: Systems in which positions are no diameters.
+_OF_AXES = frozenset(("machine", "basic"))
 
 
 def _position(name: str, system: str, *, stop: bool = True) -> SystemVariable:
@@ -232,12 +276,7 @@ def _position(name: str, system: str, *, stop: bool = True) -> SystemVariable:
         if spindle is not None:
             return spindle.position
         column = channel.memory.column(axis)
-        if system in ("machine", "basic"):
-            return shown(channel, column, channel.actual.machine[column], work=False)
-        position = channel.actual.work if system == "actual" else _work_frame(channel, system)
-        if system == "actual":
-            position = links.shown(channel, position)
-        return shown(channel, column, position[column])
+        return shown(channel, column, _SYSTEMS[system](channel)[column], work=system not in _OF_AXES)
 
     return SystemVariable(name, Type.REAL, read, stop=stop)
 
@@ -312,7 +351,7 @@ def _always(value: Any) -> Reader:
 
 _STATES = (
     SystemVariable("$P_GG", Type.INT, _group_number),
-    SystemVariable("$P_EP", Type.REAL, _position("$P_EP", "work").reader),
+    SystemVariable("$P_EP", Type.REAL, _position("$P_EP", "programmed").reader),
     SystemVariable("$P_AXN1", Type.AXIS, _geometry_axis(0)),
     SystemVariable("$P_AXN2", Type.AXIS, _geometry_axis(1)),
     SystemVariable("$P_AXN3", Type.AXIS, _geometry_axis(2)),

@@ -13,9 +13,12 @@ from polycnc.control.syntec.five_axes import mechanism
 from polycnc.control.word_address.coordinates import frames as base_frames
 from polycnc.control.word_address.coordinates.systems import refresh_zero
 from polycnc.control.word_address.coordinates.tip import TipState
-from polycnc.control.word_address.tools import length
 from polycnc.control.word_address.tools.length import LengthState
-from polycnc.control.word_address.transformations.tilted_plane import check_compensation, named_point
+from polycnc.control.word_address.transformations.tilted_plane import (
+    check_compensation,
+    named_point,
+    stand_along,
+)
 from polycnc.geometry.frames import IDENTITY, Frame, rotation, translation
 from polycnc.machine.kinematics import Kinematics
 from polycnc.transformation.planes.tilted import by_euler, by_rotary_axes, square_on
@@ -98,7 +101,6 @@ def _position_in_work_system(channel: SyntecChannel) -> Vector:
 
 def set_tilt(channel: SyntecChannel, tilt: Frame) -> None:
     """Another tilted plane, the tool not yet aligned with it; the machine stays."""
-    length_state = LengthState.of(channel)
     turn_state = TurnState.of(channel)
     memory = channel.memory
     c = channel.coordinates
@@ -106,10 +108,8 @@ def set_tilt(channel: SyntecChannel, tilt: Frame) -> None:
         raise channel.control.not_yet("G68.2 G12.1")
     turn_state.tilt, turn_state.table = tilt, IDENTITY
     renew_preset_frame(memory)
-    refresh_zero(channel)  # a change of the plane is not travelled, one of the length is
-    if length_state.direction is not None:
-        length_state.direction = None
-        length.renew_direction(channel)
+    if LengthState.of(channel).direction is not None:
+        stand_along(channel, None)
     refresh_zero(channel)
 
 

@@ -25,6 +25,7 @@ class LevelVariable(NamedTuple):
     goes_along: bool = False
     timed: bool = False
     of_actions: bool = False
+    unit: None = None
 
     def element_count(self, _channel: Channel) -> None:
         """It is no array that could be filled."""
@@ -45,7 +46,7 @@ def _depth(channel: Channel, _: tuple[Any, ...]) -> int:
 def _given(channel: Channel, indices: tuple[Any, ...]) -> bool:
     """Whether a parameter of the call was written; they count from 1."""
     given = channel.level.data.get("given", ())
-    if len(indices) != 1 or not 1 <= indices[0] <= len(given):
+    if len(indices) != 1 or not isinstance(indices[0], int) or not 1 <= indices[0] <= len(given):
         raise AlarmError("17020", text="$P_SUBPAR", index=", ".join(map(str, indices)))
     return bool(given[indices[0] - 1])
 

@@ -251,12 +251,14 @@ class ComponentPlace(_PartPlace):
     def read(self, reader: ExpressionReader) -> Expr:
         """Code of the component."""
         frame = self.base.read(reader).code
-        return Expr(quoted("frame_component({0}, {1}, {2})", frame, self.axis, self.component), Type.REAL)
+        code = quoted("frame_component(channel, {0}, {1}, {2})", frame, self.axis, self.component)
+        return Expr(code, Type.REAL)
 
     def write(self, reader: ExpressionReader, code: Code) -> None:
         """Replace the component."""
         frame = self.base.read(reader).code
-        changed = quoted("with_component({0}, {1}, {2}, {3})", frame, self.axis, self.component, code)
+        written = "with_component(channel, {0}, {1}, {2}, {3})"
+        changed = quoted(written, frame, self.axis, self.component, code)
         self.base.write(reader, changed)
 
 
@@ -347,16 +349,17 @@ class SystemPlace:
         if self.variable.stop:
             reader.emitter.uses_stop = True
         reader.emitter.uses_clock |= self.variable.timed
-        return _read(
-            self._user_data(reader), quoted("{0}.read(channel, {1})", self.code, self.indices), self.type
-        )
+        written = "{0}.read(channel, {1})" if self.variable.unit is None else "read_length(channel, {0}, {1})"
+        return _read(self._user_data(reader), quoted(written, self.code, self.indices), self.type)
 
     def write(self, reader: ExpressionReader, code: Code) -> None:
         """Code that tells the control."""
         rights.check(reader, self.name, reader.scope.memory.rights.get(self.name, {}), rights.WRITE)
         self.prepare_write(reader)
         stored = self.stored(reader, code)
-        reader.emitter.run(quoted("{0}.write(channel, {1}, {2})", self.code, self.indices, stored))
+        plain = self.variable.unit is None
+        written = "{0}.write(channel, {1}, {2})" if plain else "write_length(channel, {0}, {1}, {2})"
+        reader.emitter.run(quoted(written, self.code, self.indices, stored))
 
     def prepare_write(self, reader: ExpressionReader) -> None:
         """Say what writing asks for: a preprocessing stop, unless the value goes along with the path."""

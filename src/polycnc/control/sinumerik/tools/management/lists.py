@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.auxiliary import load_tool
+from polycnc.control.sinumerik.block import arguments
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import ToolSelection
@@ -94,18 +95,18 @@ def number_of(channel: SinumerikChannel, args: Arguments) -> int:
 
 def selected(channel: SinumerikChannel, args: Arguments) -> None:
     """GETSELT(VAR t[,holder]): the tool that is selected for the next change, else the one in the spindle."""
-    args[0].value = channel.memory.tools.selected
+    arguments.give_back(args[0], channel.memory.tools.selected)
 
 
 def loaded(channel: SinumerikChannel, args: Arguments) -> None:
     """GETEXET(VAR t[,holder]): the tool in the spindle as the program sees it, 0 for none."""
-    args[0].value = channel.memory.tools.active
+    arguments.give_back(args[0], channel.memory.tools.active)
 
 
 def active(channel: SinumerikChannel, args: Arguments) -> None:
     """GETACTT(VAR t, name): the tool of a name whose state is active; -1 for none."""
     found = [tool.number for tool in sisters(channel, str(args[1])) if state_of(tool) & ACTIVE]
-    args[0].value = found[0] if found else -1
+    arguments.give_back(args[0], found[0] if found else -1)
 
 
 def change_to(channel: SinumerikChannel, args: Arguments) -> None:

@@ -56,7 +56,8 @@ def free_place(channel: SinumerikChannel, args: Arguments) -> int:
     """
     tool, magazine, start = args[2:5]
     places = sorted(place for place in _values(channel, KIND) if magazine in (0, place[0]))
-    args[0].value = args[1].value = 0
+    arguments.give_back(args[0], 0)
+    arguments.give_back(args[1], 0)
     if tool not in channel.memory.tools.tools or not places:
         return NOTHING
     for found in (*(p for p in places if p[1] >= start), *(p for p in places if p[1] < start)):
@@ -64,7 +65,8 @@ def free_place(channel: SinumerikChannel, args: Arguments) -> int:
             _value(channel, KIND, *found) == IN_MAGAZINE and not _value(channel, STATE, *found) & DISABLED
         )
         if usable and not _value(channel, TOOL, *found):
-            args[0].value, args[1].value = found
+            arguments.give_back(args[0], found[0])
+            arguments.give_back(args[1], found[1])
             return DONE
     return TAKEN
 
@@ -76,12 +78,12 @@ def move(channel: SinumerikChannel, args: Arguments) -> None:
     source, goal = (tuple(map(arguments.whole, args[i : i + 2])) for i in (1, 3))
     values = Stored.of(channel).values
     if not _exists(channel, *source) or not _exists(channel, *goal):
-        args[0].value = NOTHING
+        arguments.give_back(args[0], NOTHING)
     elif not _value(channel, TOOL, *source) or _value(channel, TOOL, *goal):
-        args[0].value = TAKEN
+        arguments.give_back(args[0], TAKEN)
     else:
         values[TOOL, goal], values[TOOL, source] = values[TOOL, source], 0.0
-        args[0].value = DONE
+        arguments.give_back(args[0], DONE)
 
 
 def has_unique_edges(channel: SinumerikChannel, args: Arguments) -> int:

@@ -69,13 +69,13 @@ def renew(channel: SinumerikChannel, args: Arguments) -> None:
     tool = channel.memory.tools.tools.get(arguments.whole(args[1]))
     edge = arguments.whole(args[2]) if len(args) > 2 and args[2] is not None else 0
     if tool is None or (edge and edge not in tool.edges):
-        args[0].value = -3 if tool is None else -4
+        arguments.give_back(args[0], -3 if tool is None else -4)
         return
     for each in [edge] if edge else tool.edges:
         for actual, whole in _RENEWED.items():
             tool.values[_key(actual, each)] = _value(tool, whole, each)
     set_state(tool, state_of(tool) & ~(WARNED | DISABLED))
-    args[0].value = 0
+    arguments.give_back(args[0], 0)
 
 
 def _parameter(number: int) -> Row:
