@@ -1,4 +1,4 @@
-"""What changes the way of a program by hand: overrides, stops, locks, the emergency stop (Hartford 5.2.4.4 to 5.2.4.14)."""
+"""What changes the way of a program by hand: overrides, stops, locks, emergency stop (Hartford 5.2.4.4 to 5.2.4.14)."""
 
 from __future__ import annotations
 
