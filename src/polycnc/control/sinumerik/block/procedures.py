@@ -258,6 +258,7 @@ PROCEDURES: dict[str, Callable[[SinumerikChannel, Arguments], None]] = {
     "JERKA": dynamics("JERK"),
     "FGROUP": path_group,
     "FPR": spindle_speed.feed_source,
+    "SCC": spindle_speed.reference_axis,
     "FPRAON": spindle_speed.axis_feed_source,
     "FPRAOF": spindle_speed.axis_feed_source_off,
     **wheels.PROCEDURES,
