@@ -267,6 +267,8 @@ PROCEDURES: dict[str, Callable[[SinumerikChannel, Arguments], None]] = {
     "IPTRLOCK": sections.begin(sections.POINTER_LOCK),
     "IPTRUNLOCK": sections.end(sections.POINTER_LOCK),
     **{name: axis_settings.motion_end(name) for name in axis_settings.MOTION_ENDS},
+    "QECLRNON": axis_settings.learn_friction,
+    "QECLRNOF": axis_settings.end_learning,
     "SETDNO": renumber,
     "DZERO": d_numbers.invalidate,
     "DELDL": d_numbers.without_status(d_numbers.delete_additive),
