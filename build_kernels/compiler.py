@@ -145,7 +145,10 @@ def _signature(kernel: Callable[..., object]) -> Signature:
     from numba import from_dtype, types
     from numpy import dtype
 
-    items = {"B": types.uint8, "i": types.int32, "I": types.uint32, "q": types.int64, "d": types.float64}
+    items = {
+        "B": types.uint8, "H": types.uint16, "i": types.int32, "I": types.uint32, "q": types.int64,
+        "d": types.float64,
+    }  # fmt: skip
     taken: list[Type] = []
     for argument in flat(arguments(kernel)):
         if argument.kind is Kind.ARRAY:

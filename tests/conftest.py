@@ -1,7 +1,8 @@
 """What holds for all tests.
 
 Random examples are the same in every run of the same test, so that a run says something about the change and not
-about luck. `pytest --hypothesis-profile=explore` looks for new ones.
+about luck. `pytest --hypothesis-profile=explore` looks for new ones; `brief` draws a fifth of them, for a run that
+repeats tests in another way.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from polycnc.cases.features import PROPERTY
 # A slow machine is no failure.
 settings.register_profile("polycnc", deadline=None, derandomize=True)
 settings.register_profile("explore", deadline=None, derandomize=False)
+settings.register_profile("brief", deadline=None, derandomize=True, max_examples=20)
 settings.load_profile("polycnc")
 
 

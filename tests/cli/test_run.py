@@ -71,6 +71,20 @@ def test_the_report_tells_extents_speeds_feeds_and_offsets(console: Console) -> 
     assert "work offsets" not in console("run", "two.nc", *FANUC, "--no-time").out
 
 
+@pytest.mark.parametrize(
+    ("option", "name"), [(["--explain-time"], "--explain-time"), (["--sample", "1ms", "s.csv"], "--sample")]
+)
+def test_what_needs_the_cycle_time_is_refused_without_it(
+    console: Console, option: list[str], name: str
+) -> None:
+    said = console("run", "good.nc", "--control", "fanuc-m", "--no-time", *option)
+    assert (said.status, said.out) == (2, "")
+    assert (
+        said.err
+        == f"polycnc: --no-time leaves out the cycle time, which {name} needs: give one or the other\n"
+    )
+
+
 def test_an_alarm_in_the_report_says_what_to_do(console: Console) -> None:
     console.file("bad.nc", BAD)
     assert "\n  remedy: " in console("run", "bad.nc", *FANUC).out

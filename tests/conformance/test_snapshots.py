@@ -44,6 +44,7 @@ CHANGED_BY = {
     "BitState": "syntec-lang-bits-io",
     "BlockStart": "syn-polar-pair-of-a-diameter-axis",
     "ChosenContour": "sin-cyc-62",
+    "IsoState": "sin-iso-drilling",
     "ClampState": "fanuc-0i-tf-clamp-of-both-sets-the-same",
     "Clock": "sin-clock-is-read-only",
     "Clocks": "meldas-m-clock",
@@ -90,6 +91,7 @@ CHANGED_BY = {
     "ModalMacroState": "syntec-getarg",
     "OffsetMemory": "fanuc-0i-tf-g10-rules",
     "OffsetState": "fanuc-0i-tf-rotation-ended-allows-all",
+    "OnTable": "fanuc-m-workpiece-error",
     "OpenLine": "sin-contour-angle-without-end",
     "OverrideState": "fanuc-m-override-codes",
     "Overrides": "sin-acc",
@@ -147,6 +149,7 @@ CHANGED_BY = {
     "VirtualAxisState": "syntec-virtual-axis",
     "Wheels": "sin-tmon-size",
     "WorkOffsets": "fanuc-0i-tf-g10-without-point-and-inch",
+    "WorkpieceErrors": "fanuc-m-workpiece-error",
     "WrittenParameters": "syntec-setpr-of-user-parameters",
     "ZeroState": "fanuc-0i-tf-preset-value",
 }

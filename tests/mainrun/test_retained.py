@@ -40,7 +40,7 @@ def run(text: str, store: InMemoryStore, control: str = "fanuc-m") -> VirtualCon
     ("control", "text", "variable"),
     [
         ("fanuc-m", "O1\n#500=#500+1\nM30\n", "#500"),
-        ("syntec-mill", "%@MACRO\n@5 := @5 + 1;\nM30;\n", "@5"),
+        ("syntec-mill", "%@MACRO\n@700 := @700 + 1;\nM30;\n", "@700"),
         ("fanuc-0i-tf", "O1\n#500=#500+1\nM30\n", "#500"),
         ("sinumerik-840d", "R5=R5+1\nM30\n", "R5"),
     ],

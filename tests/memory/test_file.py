@@ -23,10 +23,10 @@ PROGRAMS_OF = {
     "fanuc-m": "#500=#500+1\nG10 L2 P1 X#500\nG10 L10 P3 R7.5\nM30\n",
     "meldas-m": "#500=#500+1\nG10 L2 P1 X#500\nG10 L10 P3 R7.5\nM30\n",
     "fanuc-0i-tf": "#500=#500+1\nG10 P3 X4. Z1. Q3\nM30\n",
-    "syntec-mill": "%@MACRO\n@5 := @5 + 1;\nG10 L2 P1 X5.;\nM30;\n",
+    "syntec-mill": "%@MACRO\n@700 := @700 + 1;\nG10 L2 P1 X5.;\nM30;\n",
     "sinumerik-840d": "R1=R1+1\n$P_UIFR[1]=CTRANS(X,5):CROT(Z,30)\n$TC_DP6[2,1]=4\n$MN_INT_INCR_PER_MM=100\nM30\n",
 }
-COUNTERS = {"syntec-mill": "@5", "sinumerik-840d": "R1"}
+COUNTERS = {"syntec-mill": "@700", "sinumerik-840d": "R1"}
 
 
 @pytest.fixture

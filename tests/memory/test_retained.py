@@ -51,8 +51,9 @@ def test_work_offsets_outlive_the_channel(control_id: str) -> None:
         ("fanuc-m", "O1\n#98001=[#98001]+1\n", "#98001"),
         ("meldas-m", "O1\n#999=#999+1\n", "#999"),
         ("fanuc-0i-tf", "O1\n#500=#500+1\n", "#500"),
-        ("syntec-mill", "%@MACRO\n@1 := @1 + 1;\n", "@1"),
-        ("syntec-mill", "%@MACRO\n@106000 := @106000 + 1;\n", "@106000"),
+        ("syntec-mill", "%@MACRO\n@656 := @656 + 1;\n", "@656"),
+        ("syntec-mill", "%@MACRO\n@100103 := @100103 + 1;\n", "@100103"),
+        ("syntec-mill", "%@MACRO\n@655 := @655 + 1;\n", "R255"),
     ],
 )
 def test_variables_of_the_table_outlive_the_channel(control_id: str, text: str, variable: str) -> None:
@@ -64,7 +65,13 @@ def test_variables_of_the_table_outlive_the_channel(control_id: str, text: str, 
 
 @pytest.mark.parametrize(
     ("control_id", "text", "variable"),
-    [("fanuc-m", "O1\n#100=#100+1\n", "#100"), ("syntec-mill", "%@MACRO\n#401 := #401 + 1;\n", "#401")],
+    [
+        ("fanuc-m", "O1\n#100=#100+1\n", "#100"),
+        ("syntec-mill", "%@MACRO\n#401 := #401 + 1;\n", "#401"),
+        ("syntec-mill", "%@MACRO\n@400 := @400 + 1;\n", "@400"),
+        ("syntec-mill", "%@MACRO\n@502 := @502 + 1;\n", "R102"),
+        ("syntec-mill", "%@MACRO\n@106000 := @106000 + 1;\n", "R6000"),
+    ],
 )
 def test_other_variables_begin_with_the_power(control_id: str, text: str, variable: str) -> None:
     store = InMemoryStore()

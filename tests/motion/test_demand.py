@@ -16,6 +16,7 @@ from polycnc.motion.planner import Planner
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.modes import AccelerationMode
 from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
+from tests.examples import examples
 from tests.motion.paths import Build
 
 HEAD = load_machine("mill5-bc-head")
@@ -34,7 +35,7 @@ def tip(length: float) -> ToolCentrePoint:
 
 
 @pytest.mark.parametrize("acceleration", [AccelerationMode.CONSTANT, AccelerationMode.JERK_LIMITED])
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=examples(15), deadline=None)
 @given(st.lists(ROW, min_size=2, max_size=8))
 def test_many_rows_are_bounded_as_each_of_them_is(
     acceleration: AccelerationMode, rows: list[tuple[Kind, float, float, float, float, float, int]]

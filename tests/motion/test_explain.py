@@ -11,6 +11,9 @@ from polycnc.motion.explain import Cause, TimeAccount
 from polycnc.motion.planner import Planner
 from polycnc.toolpath import Context
 from polycnc.toolpath.modes import AccelerationMode, CornerMode
+from polycnc.transformation.couplings.coupled import Coupled
+from polycnc.transformation.couplings.laws import Ratio
+from tests.examples import examples
 from tests.motion.paths import MILL, Build
 from tests.motion.test_limits import arc, build, line, spiral, spline
 
@@ -31,7 +34,7 @@ def seconds(rows: Build, cause: Cause, lead: Settings | None = None) -> float:
     return account_of(rows, lead or Settings())[2].parts[cause].seconds
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=examples(30), deadline=None)
 @given(st.lists(st.one_of(line, arc, spiral, spline), min_size=1, max_size=5), MODES, st.booleans())
 def test_the_parts_add_up_to_time_and_way(
     steps: list[tuple[str, float, float, float, float]], mode: AccelerationMode, by_axis: bool
@@ -73,3 +76,11 @@ def test_a_short_line_only_accelerates_and_its_axis_builds_up_jerk() -> None:
     parts = account_of(rows, Settings(acceleration=AccelerationMode.JERK_LIMITED))[2].parts
     assert parts[Cause.JERK].seconds > 0.01
     assert parts[Cause.FEED].seconds == 0.0
+
+
+def test_the_velocity_of_a_following_axis_is_that_of_an_axis() -> None:
+    led = Context(transformation=Coupled.of({1: [Ratio(0, 5.0)]}, (0, 1, 2)))
+    top = MILL.axis["Y"].max_feed
+    parts = account_of(Build(context=led).feed(2000.0, 0.0, 0.0, feed=10.0 * top), Settings())[2].parts
+    assert parts[Cause.AXES].seconds == pytest.approx(2000.0 / (top / 5.0), rel=0.1)
+    assert parts[Cause.CORNERS].seconds == 0.0

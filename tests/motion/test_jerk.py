@@ -19,6 +19,7 @@ from polycnc.motion.planner import Planner
 from polycnc.motion.sampling.run import Run
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.modes import AccelerationMode, CornerMode, FeedMode
+from tests.examples import examples
 from tests.motion.paths import MILL, Build
 from tests.motion.test_limits import UNEVEN, arc, build, line, spiral, spline
 
@@ -89,7 +90,7 @@ def test_axes_keep_their_limits_at_every_sample(
     check(build(steps, context), machine)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 @given(st.lists(st.tuples(short, short, short), min_size=1, max_size=40), contexts, machines)
 def test_axes_keep_their_limits_on_short_lines(
     ways: list[tuple[float, float, float]], context: Context, machine: Machine
@@ -100,7 +101,7 @@ def test_axes_keep_their_limits_on_short_lines(
     check(rows, machine)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 @given(st.floats(1.0, 30.0), st.floats(0.002, 0.3), st.floats(0.0, 0.02), st.integers(0, 9), contexts)
 def test_axes_keep_their_limits_on_facets_of_a_circle(
     radius: float, angle: float, noise: float, seed: int, context: Context
@@ -108,7 +109,7 @@ def test_axes_keep_their_limits_on_facets_of_a_circle(
     check(facets(radius, angle, noise, seed, context), UNEVEN)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 @given(
     st.floats(0.1, 30.0),
     st.floats(0.1, 0.6),
@@ -128,7 +129,7 @@ def test_axes_keep_their_limits_on_splines_of_few_points(
     check(rows, MILL)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 @given(
     st.lists(st.tuples(st.floats(0.2, 30.0), st.floats(-0.6, 0.6)), min_size=3, max_size=20),
     st.floats(0.0, 6.2),
@@ -206,7 +207,7 @@ def stray(run: Run, blend: float) -> float:
     return float(np.sqrt(((way - share[..., None] * chord) ** 2).sum(-1)).min(1).max())
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 @given(st.lists(st.one_of(line, arc, spiral, spline), min_size=2, max_size=6), contexts, machines)
 def test_a_rounded_path_never_leaves_its_tolerance(
     steps: list[tuple[str, float, float, float, float]], context: Context, machine: Machine
@@ -217,7 +218,7 @@ def test_a_rounded_path_never_leaves_its_tolerance(
         assert stray(run, blend) <= tolerance * SLACK
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 @given(st.lists(st.tuples(short, short, short), min_size=2, max_size=30), st.sampled_from([0.002, 0.02, 0.2]))
 def test_short_lines_are_rounded_within_their_tolerance(
     ways: list[tuple[float, float, float]], tolerance: float
@@ -334,7 +335,7 @@ def test_a_corner_is_rounded_at_all() -> None:
     assert 0.005 < stray(run, averages(rows.context, MILL, SOFT)[1]) <= 0.1
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 @given(st.lists(st.one_of(line, arc, spiral), min_size=1, max_size=6), contexts)
 def test_limited_jerk_never_saves_time(
     steps: list[tuple[str, float, float, float, float]], context: Context
@@ -460,7 +461,7 @@ def test_a_line_from_rest_to_rest_takes_the_least_time(
     )
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 @given(st.tuples(st.floats(-60.0, 60.0), st.floats(-60.0, 60.0), st.floats(-60.0, 60.0)))
 def test_a_rapid_of_each_axis_alone_takes_as_long_as_its_slowest_axis(
     way: tuple[float, float, float],
@@ -489,7 +490,7 @@ def test_short_lines_in_one_direction_take_as_long_as_one_line(
     assert seconds(pieces) == pytest.approx(seconds(1), rel=1e-9)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 @given(
     st.lists(
         st.tuples(st.floats(0.001, 5.0), st.sampled_from([0, 0, 0, 1]), st.booleans()),

@@ -16,6 +16,7 @@ from polycnc.motion.kernels.columns import Limits
 from polycnc.motion.limits import axis_limits
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.modes import AccelerationMode, CornerMode
+from tests.examples import examples
 from tests.motion.paths import MILL, MILL4, Build, Piece, pieces_of
 
 coordinate = st.floats(-50.0, 50.0).map(lambda x: round(x, 3))
@@ -73,7 +74,7 @@ contexts = st.sampled_from(
 )
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 @given(st.lists(st.one_of(line, arc, spiral), min_size=1, max_size=8), contexts)
 def test_axes_keep_their_velocity_and_acceleration(
     steps: list[tuple[str, float, float, float, float]], context: Context
@@ -83,7 +84,7 @@ def test_axes_keep_their_velocity_and_acceleration(
     check_limits(pieces, axis_limits(UNEVEN, 1, ("X", "Y", "Z"), Settings()), 3, 1.0107 * 1.001)
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=examples(30), deadline=None)
 @given(st.lists(st.one_of(line, spline), min_size=1, max_size=4), contexts)
 def test_axes_keep_their_limits_on_splines(
     steps: list[tuple[str, float, float, float, float]], context: Context
@@ -93,7 +94,7 @@ def test_axes_keep_their_limits_on_splines(
     check_limits(pieces, axis_limits(UNEVEN, 1, ("X", "Y", "Z"), Settings()), 3, 1.0 + 1e-6, steps=1)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 @given(st.floats(0.2, 30.0), st.floats(0.0, 6.2), st.floats(0.05, 6.2), speed)
 def test_on_the_true_circle_axes_keep_their_acceleration(
     radius: float, start: float, angle: float, feed: float
@@ -117,7 +118,7 @@ def test_on_the_true_circle_axes_keep_their_acceleration(
         way += piece.length
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 @given(st.lists(st.one_of(line, arc, spiral, spline), min_size=1, max_size=8), contexts)
 def test_no_plan_is_quicker_than_the_feed_and_the_slowest_axis(
     steps: list[tuple[str, float, float, float, float]], context: Context
@@ -133,7 +134,7 @@ def test_no_plan_is_quicker_than_the_feed_and_the_slowest_axis(
     assert planned.times.cutting_s >= planned.times.cutting_mm / 5000.0
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 @given(st.lists(st.one_of(line, arc), min_size=2, max_size=6), st.floats(1.1, 3.0))
 def test_a_stronger_machine_is_never_slower(
     steps: list[tuple[str, float, float, float, float]], factor: float
@@ -145,7 +146,7 @@ def test_a_stronger_machine_is_never_slower(
     assert rows.plan(strong).total_s <= rows.plan(UNEVEN).total_s * (1.0 + 1e-9)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 @given(
     st.lists(st.tuples(coordinate, coordinate, coordinate, st.floats(-90.0, 90.0)), min_size=2, max_size=8),
     st.floats(0.001, 1.0),
@@ -160,7 +161,7 @@ def test_rotary_axes_keep_their_limits_in_mixed_moves(
     check_limits(pieces, axis_limits(MILL4, 1, ("X", "Y", "Z", "A"), Settings()), 4, 1.0 + 1e-9)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 @given(st.lists(line, min_size=2, max_size=10))
 def test_no_axis_jumps_further_than_allowed_at_a_corner(
     steps: list[tuple[str, float, float, float, float]],

@@ -13,11 +13,11 @@ from polycnc.machine.load import load_machine
 from polycnc.motion import plan
 from polycnc.motion.kernels.columns import Limits, PathLimits
 from polycnc.motion.pace import Travel, edge_factor, following_top, pace_of
-from polycnc.motion.row_path import line_path
 from polycnc.motion.settings import Settings
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.context import Pace
 from polycnc.toolpath.modes import AccelerationMode
+from polycnc.toolpath.row_path import line_path
 from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
 from tests.motion.paths import Build, mill
 

@@ -19,6 +19,7 @@ from polycnc.motion.planner import Planner
 from polycnc.toolpath import Context, Kind, Toolpath
 from polycnc.toolpath.events import Auxiliary
 from polycnc.toolpath.modes import AccelerationMode, CornerMode
+from tests.examples import examples
 from tests.kernels.strict import strict
 from tests.motion.paths import MILL, Build
 
@@ -206,7 +207,7 @@ ARC = st.tuples(
 )
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 @given(st.lists(ARC, min_size=1, max_size=8))
 def test_an_even_arc_takes_as_long_unseen(arcs: list[tuple[float, float, float, float, float]]) -> None:
     """Where nobody asks for places, an arc of the same limits is laid in three pieces."""

@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 
 from polycnc.motion import Settings
 from polycnc.toolpath.modes import AccelerationMode
+from tests.examples import examples
 from tests.motion.paths import MILL, Build
 from tests.motion.test_limits import UNEVEN
 
@@ -46,7 +47,7 @@ def planned_s(end: tuple[float, float, float], machine: Machine, *, by_axis: boo
     return Build().rapid(*end).plan(machine, settings=lead).total_s
 
 
-@settings(max_examples=200)
+@settings(max_examples=examples(200))
 @given(ways, machines)
 def test_a_rapid_on_a_line_takes_the_least_time(end: tuple[float, float, float], machine: Machine) -> None:
     length = hypot(*end)
@@ -58,7 +59,7 @@ def test_a_rapid_on_a_line_takes_the_least_time(end: tuple[float, float, float],
     assert least * (1.0 - ROUNDING) <= planned_s(end, machine, by_axis=False) <= WORST * least
 
 
-@settings(max_examples=200)
+@settings(max_examples=examples(200))
 @given(ways, machines)
 def test_a_rapid_of_axes_alone_takes_as_long_as_the_slowest(
     end: tuple[float, float, float], machine: Machine

@@ -21,6 +21,7 @@ from polycnc.motion.planner import Planner
 from polycnc.motion.sampling.run import Run
 from polycnc.motion.transformed import RealAxes
 from polycnc.toolpath import Context, Kind, Toolpath
+from tests.examples import examples
 from tests.mainrun.support import power_on
 
 POLAR = """O1
@@ -122,7 +123,7 @@ def polar_program(points: list[tuple[float, float]], arcs: list[bool], feed: int
     return "\n".join([*lines, "G13.1", "M30", ""])
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 @example([(-5.75, 0.0)], [False] * 6, 3000)
 @example([(-4.0, 0.0)], [False] * 6, 3000)
 @given(
@@ -147,7 +148,7 @@ TIP = st.tuples(
 )
 
 
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=examples(12), deadline=None)
 @given(
     st.sampled_from([("mill5-bc-head", "B", "C"), ("mill5-ac-table", "A", "C")]),
     st.lists(TIP, min_size=1, max_size=5),

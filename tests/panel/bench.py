@@ -55,6 +55,17 @@ class Bench(Desk):
             self.screen.press("MENU")
         raise AssertionError(f"no soft key {wanted}, there is {below}")
 
+    def side(self, *texts: str) -> None:
+        """A soft key at the side by its text in each language; the last one is pressed until it is there."""
+        wanted, shown = self.says(*texts), [""]
+        for _ in range(4):
+            shown = [key.text for key in self.view.side_keys]
+            if wanted in shown:
+                self.screen.side(shown.index(wanted))
+                return
+            self.screen.side(len(shown) - 1)
+        raise AssertionError(f"no soft key {wanted} at the side, there is {shown}")
+
     def typed(self, text: str, *keys: str) -> None:
         """Type something, then press keys of the MDI unit."""
         self.screen.type(text)

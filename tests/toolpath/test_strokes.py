@@ -10,6 +10,8 @@ from polycnc.geometry.frames import translation
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.events import Auxiliary
 from polycnc.toolpath.strokes import arc_points, strokes
+from polycnc.transformation.couplings.coupled import Coupled, Shown
+from polycnc.transformation.couplings.laws import Ratio
 from polycnc.transformation.kinematic.parallel import ParallelAxes
 from tests.toolpath.paths import Z_UP, Draft
 
@@ -92,3 +94,14 @@ def test_the_points_of_a_helix_lie_on_its_cylinder_and_climb_evenly(
     for k, (x, y, z) in enumerate(points, 1):
         assert (x * x + y * y) ** 0.5 == pytest.approx(radius)
         assert z == pytest.approx(rise * k / len(points), abs=1e-9)
+
+
+def test_a_following_axis_is_drawn_where_it_is() -> None:
+    led, bare = Coupled.of({1: [Ratio(0, 0.5)]}, XYZ), Coupled((), XYZ)
+    coupled = Context(transformation=led, shown_by=Shown(led, bare))
+    draft = Draft().move(Kind.RAPID, 10, 5, 0).under(coupled).move(Kind.FEED, 20, 0, 0)
+    draft.under(Context()).move(Kind.FEED, 20, 0, 0)
+    assert [stroke.points for stroke in strokes(draft.toolpath, XYZ)] == [
+        [(10, 5, 0), (10, 5, 0)],
+        [(10, 5, 0), (20, 10, 0), (20, 0, 0)],
+    ]

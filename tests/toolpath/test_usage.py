@@ -12,10 +12,10 @@ from hypothesis import strategies as st
 
 import polycnc
 from polycnc.session import Result
-from polycnc.toolpath import compiled
+from polycnc.toolpath import Kind, compiled
 from polycnc.toolpath.compiled import LIBRARY
 from polycnc.toolpath.survey import Moves, empty_box, survey, widen
-from polycnc.toolpath.usage import Extents, Usage
+from polycnc.toolpath.usage import MANY, Extents, Usage
 
 
 def usage(program: str, control: str = "fanuc-m", **setup: object) -> tuple[Result, Usage]:
@@ -170,3 +170,45 @@ def test_a_tilted_arc_reaches_as_far_as_its_points(
         values = [drawn[0][i], drawn[-1][i], *(value for value in reached[i] if math.isfinite(value))]
         assert min(values) == pytest.approx(min(at[i] for at in drawn), abs=4e-4)
         assert max(values) == pytest.approx(max(at[i] for at in drawn), abs=4e-4)
+
+
+def test_a_following_geometry_axis_counts_where_it_is() -> None:
+    _, used = usage(
+        "G0 X10 Y0 Z5\nTRAILON(Y,X,-2)\nG1 X40 F500\nY80\nG2 X80 I20\nTRAILOF(Y)\nM30\n", "sinumerik-840d"
+    )
+    # Its own way to 80 goes beside the -60 of the coupling: 20, then the upper half circle with its slope.
+    lowest, highest = box(used.tools[0].work, 1)
+    assert lowest == -60
+    assert highest == pytest.approx(20 - 40 + 20 * math.sqrt(5), abs=1e-4)
+    assert box(used.machine, 1) == (lowest, highest)
+
+
+def test_a_peak_of_a_table_within_a_row_counts() -> None:
+    table = "CTABDEF(Y,X,1,0)\nG1 X0 Y0 F1000\nX77 Y50\nX200 Y0\nCTABEND\n"
+    _, used = usage(f"{table}G0 Z5\nLEADON(Y,X,1)\nG1 X200 F1000\nLEADOF(Y)\nM30\n", "sinumerik-840d")
+    assert box(used.tools[0].work, 1) == (0, 50)
+    assert box(used.machine, 1) == (0, 50)
+
+
+def test_own_way_against_the_coupling_leaves_an_axis_where_it_is() -> None:
+    _, used = usage("G0 Z5\nTRAILON(Y,X,1)\nG1 X50 Y-50 F500\nTRAILOF(Y)\nM30\n", "sinumerik-840d")
+    assert box(used.tools[0].work, 1) == (0, 0)
+    assert box(used.machine, 1) == (0, 0)
+
+
+def test_many_rows_under_a_transformation_reach_as_far_as_each_of_them(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    random = Random(3)
+    lines = [f"G1 X{random.uniform(-40, 40):.3f} B{random.uniform(-60, 60):.3f} F400" for _ in range(MANY)]
+    program = "\n".join(["TRAORI", *lines, "TRAFOOF", "M30", ""])
+    result = polycnc.run(program, control="sinumerik-840d", machine="mill5-bc-head")
+    assert result.alarms == []
+    whole = result.usage.machine
+    monkeypatch.setattr("polycnc.toolpath.usage.MANY", MANY + 1)
+    assert result.usage.machine == whole
+    for row in result.toolpath.rows():
+        if row.kind is Kind.FEED:
+            at = result.toolpath.to_machine(row.end, row.context, result.display.layout.geometry)
+            places = zip(whole.low, at, whole.high, strict=True)
+            assert all(low - 1e-9 <= place <= high + 1e-9 for low, place, high in places)

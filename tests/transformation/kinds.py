@@ -58,10 +58,18 @@ def _floats(direction: tuple[int, int, int]) -> Vector:
     return (float(x), float(y), float(z))
 
 
+def _kinematics(split: tuple[str, str]) -> st.SearchStrategy[Kinematics]:
+    """A head with its nose anywhere, and a table."""
+    nose = offsets if split[0] else st.just((0.0, 0.0, 0.0))
+    return st.builds(
+        Kinematics, joints(split[0], "tool"), joints(split[1], "work"), st.just((0.0, 0.0, 1.0)), nose
+    )
+
+
 #: Head and table share none to three rotary axes in any way: head/head, table/table, head/table, nutating.
 kinematics = st.sampled_from(
     [("", ""), ("A", ""), ("", "C"), ("CA", ""), ("", "AC"), ("B", "C"), ("CAB", ""), ("A", "BC")]
-).flatmap(lambda split: st.builds(Kinematics, joints(split[0], "tool"), joints(split[1], "work")))
+).flatmap(_kinematics)
 
 frames = st.builds(
     lambda i, j, k, shift: translation(*shift) @ rotation(2, i) @ rotation(0, j) @ rotation(2, k),

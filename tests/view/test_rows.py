@@ -46,9 +46,12 @@ def without_repeats(points: list[tuple[float, ...]]) -> list[tuple[float, ...]]:
     return kept
 
 
-@pytest.mark.parametrize("control", PROGRAMS)
-def test_a_line_has_the_points_of_the_strokes(control: str) -> None:
-    lines, drawn = line_of(control, PROGRAMS[control])
+COUPLED = "G0 X1 Y2\nTRAILON(Y,X,-1)\nG1 X20 F100\nG4 F1\nG2 X30 I5\nTRAILOF(Y)\nG1 X40 Y5\nM30\n"
+
+
+@pytest.mark.parametrize(("control", "text"), [*PROGRAMS.items(), ("sinumerik-840d", COUPLED)])
+def test_a_line_has_the_points_of_the_strokes(control: str, text: str) -> None:
+    lines, drawn = line_of(control, text)
     found = without_repeats([point[:3] for point in points_of(lines)])
     wanted = without_repeats([tuple(point) for point in drawn])
     assert len(found) == len(wanted) > 5

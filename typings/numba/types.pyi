@@ -10,4 +10,5 @@ float64: Type
 int32: Type
 int64: Type
 uint8: Type
+uint16: Type
 uint32: Type

@@ -46,6 +46,7 @@ if TYPE_CHECKING:
     from polycnc.channel.group import ChannelGroup
     from polycnc.channel.interface import Boundary, Bulk, MainRun, Scanner
     from polycnc.channel.interpolator import Interpolator
+    from polycnc.channel.moves.times import MoveTimes
     from polycnc.channel.states.passes import Passes
     from polycnc.channel.states.standstill import Standstill
     from polycnc.channel.steps import Step
@@ -89,10 +90,11 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
             that look ahead it is no block.
         moved_by_hand: The last intervention in front of a block that was not prepared yet.
         block_by_block: With it, behind every other block too.
+        is_searched: The program is gone through without motion, to a block of it.
+        is_tested: It runs while the axes stand.
         main_run: What executes the rows while the channel runs; None where nobody waits for that.
         actual: Where its axes are now.
-        share_after: The share of a skip move to an end, at a feed, that is done after some seconds (None: all of it);
-            None where a clock runs, which knows.
+        move_times: How long single moves take; None where a clock runs, which knows.
         turning: How the rotary axes go along the moves of the running block; None where they go evenly. A stage of
             the path must lead them (`moves/turning.py`).
         group: The channels of the control, which the first one belongs to as well; None where it runs alone.
@@ -106,10 +108,11 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         bulk: Whether and how plain blocks are scanned in bulk; None interprets every block.
     """
 
+    is_searched = is_tested = False
     #: A snapshot of the channel does not go on to these: they are none of its state.
     UNFOLLOWED: ClassVar = frozenset({
         "actual", "axis_data", "blocks", "bulk", "burst", "control", "machine", "main_run", "mark", "setup",
-        "share_after",
+        "move_times",
     })  # fmt: skip
 
     def __init__(
@@ -163,7 +166,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         self.moved_by_hand: MovedByHand | None = None
         self.main_run: MainRun | None = None
         self.actual: View = Prepared(self.coordinates)
-        self.share_after: Callable[[Channel, list[float], float, float], float | None] | None = None
+        self.move_times: MoveTimes | None = None
         self.passes: Passes | None = None
         self.standstill: Standstill | None = None
         self.optional_stop = setup.switches.optional_stop
@@ -238,9 +241,11 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
 
     def _scanner_for(self, level: Level) -> Scanner | None:
         """What scans the plain blocks of a program; None where that does not pay."""
-        if self.bulk is None or not self.bulk.pays(len(level.steps)):
-            return None
-        if self._scanner is None:
+        return self.scanner() if self.bulk is not None and self.bulk.pays(len(level.steps)) else None
+
+    def scanner(self) -> Scanner | None:
+        """What scans plain blocks, if anything does."""
+        if self._scanner is None and self.bulk is not None:
             self._scanner = self.bulk.scanner(self)
         return self._scanner
 

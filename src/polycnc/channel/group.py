@@ -122,7 +122,7 @@ class ChannelGroup:
             first.control, first.machine, first.setup, first.store, number=number,
             block_limit=first.block_limit, bulk=first.bulk, retained=first.retained,
         )  # fmt: skip
-        channel.share_after = first.share_after
+        channel.move_times = first.move_times
         return channel
 
     def drive(

@@ -53,12 +53,15 @@ class Scanner(Protocol):
     def lead(self, channel: Channel) -> range:
         """Work off plain blocks; gives as many numbers as blocks are the interpreter's before the next try."""
 
+    def turn(self, channel: Channel) -> int:
+        """Work off the loop that the channel is in, from the running block on; gives how many blocks were counted."""
+
 
 class Bulk(Protocol):
     """Whether and how plain blocks are scanned (`language/bulk/`)."""
 
     def pays(self, lines: int) -> bool:
-        """Whether a program of so many lines is long enough."""
+        """Whether a program of so many lines is long enough, or a loop that has run so many blocks."""
 
     def scanner(self, channel: Channel) -> Scanner | None:
         """What scans for a channel; None where every block is interpreted."""

@@ -224,8 +224,14 @@ class Interpolator(Protocol):
     def led_by(self, column: int) -> tuple[Law, ...]:
         """What leads an axis beside the path."""
 
-    def follow(self, column: int, laws: Sequence[Law]) -> None:
+    def follow(self, column: int, laws: Sequence[Law], spindles: Mapping[int, float] | None = None) -> None:
         """These lead an axis beside the path from now on, none lets it stay where it is.
+
+        Args:
+            column: The axis.
+            laws: By which other axes lead it.
+            spindles: Of a gear: degrees that it turns for one of each leading spindle, by number. The axis then
+                catches up with them, and brakes where nothing is left to lead it.
 
         Raises:
             CircularCouplingError: An axis would lead itself.
@@ -246,8 +252,11 @@ class Interpolator(Protocol):
     def take_back(self, column: int) -> float:
         """The program has a commanded axis again, which stands: gives its machine position."""
 
-    def overlay(self, name: str, column: int, value: float, speed: float) -> None:
-        """Shift an axis beside everything else, no faster than a speed; `name` says which of its shifts is meant."""
+    def overlay(self, name: str, column: int, value: float, speed: float, pull: float = 1.0) -> None:
+        """Shift an axis beside everything else, no faster than a speed and with a part of its acceleration.
+
+        `name` says which of its shifts is meant.
+        """
 
     def overlaid(self, name: str, column: int) -> float:
         """How far a shift of an axis has been asked to go, mm or degrees; 0 where there is none."""

@@ -101,4 +101,4 @@ class Plane:
     def arc_kind(self, ccw: bool, start: list[float], end: list[float]) -> Kind:
         """The row kind of an arc from u to v (or back) between two positions, with this plane's normal."""
         column = self.columns[self.w]
-        return arc_kind(ccw=ccw, helix=column >= 0 and start[column] != end[column])
+        return arc_kind(ccw=ccw, helix=column >= 0 and abs(start[column] - end[column]) > NO_WAY)

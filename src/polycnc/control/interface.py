@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Literal, Protocol
 
 from polycnc.channel.interface import Control as ChannelControl
 
@@ -14,6 +14,10 @@ if TYPE_CHECKING:
     from polycnc.program import Form
     from polycnc.toolpath import Context
     from polycnc.toolpath.motion_settings import MotionSettings
+
+
+#: What an axis is while it is moved by hand: itself, one of work or tool, one that turns the tool about its tip.
+HandMotion = Literal["axis", "geometry", "orientation"]
 
 
 class Control(ChannelControl, Protocol):
@@ -62,6 +66,15 @@ class Control(ChannelControl, Protocol):
 
     def handwheel_offset_speed(self, channel: Channel, axis: int) -> float:
         """How fast a handwheel shifts an axis beside its program, mm/s or degrees/s; 0 where the control has none."""
+
+    def hand_speed(
+        self, channel: Channel, axis: int, what: HandMotion, place: int, *, rapid: bool
+    ) -> float | None:
+        """How fast an axis is moved by hand at an override of 100 %, mm/s or degrees/s.
+
+        None where the machine says it: its panel for jog, the axis for rapid traverse. `place` says which of the
+        geometry or orientation axes it is.
+        """
 
     def stop_spindles(self, channel: Channel) -> None:
         """Emergency stop, or the power is off: no spindle of the channel turns any more."""

@@ -24,6 +24,7 @@ TABLES = (
     retained.VARIABLE_NAMES,
     retained.WORK_SHIFT,
     retained.WORK_TURNS,
+    retained.WORKPIECE_ERRORS,
     retained.MACHINING_CONDITIONS,
     retained.REGISTERS,
     retained.PARAMETERS,

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 # Arrays by the type of their items, as for `array.array`. A kernel reads and writes them in place.
 Bytes = Annotated[MutableSequence[int], "B"]
 Ints32 = Annotated[MutableSequence[int], "i"]
+Words16 = Annotated[MutableSequence[int], "H"]
 Words32 = Annotated[MutableSequence[int], "I"]
 Ints = Annotated[MutableSequence[int], "q"]
 Floats = Annotated[MutableSequence[float], "d"]

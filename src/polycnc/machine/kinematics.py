@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from polycnc.machine.model import Joint, Machine
 
 _ALONG_Z: Vector = (0.0, 0.0, 1.0)
+_NOWHERE: Vector = (0.0, 0.0, 0.0)
 Angles = Mapping[str, float]
 
 
@@ -43,12 +44,14 @@ def turn_about(axis: Vector, angle_deg: float) -> Frame:
 class Kinematics:
     """The rotary joints of a machine: `tool` from the base to the tool, `work` from the base to the work.
 
-    `along` is the direction from the tip along the tool with all of them at zero.
+    `along` is the direction from the tip along the tool with all of them at zero, `nose` leads from the last joint of
+    the head to where tools are seated, mm.
     """
 
     tool: tuple[Joint, ...]
     work: tuple[Joint, ...]
     along: Vector = _ALONG_Z
+    nose: Vector = _NOWHERE
 
     @classmethod
     def of(cls, machine: Machine) -> Kinematics:
@@ -69,7 +72,8 @@ class Kinematics:
 
     def head_turn(self, angles: Angles) -> Frame:
         """How the head moves the tool's tip about the point that the linear axes move; turn and shift."""
-        return _chain(self.tool, angles)
+        turn = _chain(self.tool, angles)
+        return turn if self.nose == _NOWHERE else turn @ translation(*self.nose)
 
     def tool_on_machine(self, angles: Angles) -> Vector:
         """Direction from the tip along the tool, machine coordinates."""

@@ -54,6 +54,10 @@ class PlcAlarm:
     remedy: Text = NO_TEXT
     free: frozenset[str] = frozenset()
 
+    def __getstate__(self) -> dict[str, object]:
+        """Without the condition, a function that is made again where it is asked for: in another process too."""
+        return {name: value for name, value in self.__dict__.items() if name != "condition"}
+
     @cached_property
     def condition(self) -> Condition:
         """When it comes, asked with a function that gives the value of a signal."""

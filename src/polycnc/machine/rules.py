@@ -6,7 +6,7 @@ A condition joins signals with `&`, `|` and `!`, in brackets where needed; a sig
 from __future__ import annotations
 
 import re
-from functools import cached_property
+from functools import cache, cached_property
 from typing import TYPE_CHECKING, Literal
 
 from polycnc.deferred.records import dataclass
@@ -42,6 +42,7 @@ class ConditionError(ValueError):
         self.at = at
 
 
+@cache
 def condition_of(text: str) -> Condition:
     """A condition, asked with a function that gives the value of a signal.
 
@@ -72,6 +73,10 @@ class Rule:
     output: str
     after_s: float = 0.0
     latch: Latch = ""
+
+    def __getstate__(self) -> dict[str, object]:
+        """Without the condition, a function that is made again where it is asked for: in another process too."""
+        return {name: value for name, value in self.__dict__.items() if name != "condition"}
 
     @cached_property
     def condition(self) -> Condition:

@@ -79,7 +79,7 @@ class Continuation:
         for channel in self._group.channels:
             run = runs[channel.number]
             run.execution.place = channel.context
-            channel.share_after, channel.standstill, channel.bulk = None, None, None
+            channel.move_times, channel.standstill, channel.bulk = None, None, None
             for level in channel.stack:
                 level.scanner = None
             operation.switches.apply_to(channel, typed=False)

@@ -188,7 +188,7 @@ class VirtualControl:
 
         Everything before it is calculated without motion. Cycle start puts out the auxiliary functions that hold there,
         leads the axes to where the block begins (`contour`) or ends (`end-point`), and goes on. `without-calculation`
-        begins with the block where the axes are.
+        begins with the block where the axes are; `program-test` takes its time: the program runs, the axes stand.
 
         Raises:
             CommandRefused: The program ends before it.

@@ -7,6 +7,7 @@ can do; what is lower is what corners, curves and their jerk allow, there or nea
 
 from __future__ import annotations
 
+from array import array
 from enum import StrEnum
 from math import inf, sqrt
 from typing import TYPE_CHECKING, NamedTuple
@@ -18,7 +19,6 @@ from polycnc.toolpath.modes import FeedMode
 from polycnc.toolpath.table import CURVE_WIDTH
 
 if TYPE_CHECKING:
-    from array import array
     from collections.abc import Mapping, Sequence
 
     from polycnc.motion.planner import Planner
@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 
 #: Part by which speeds that count as one may differ.
 SAME = 1e-6
+#: Real axes under a transformation are looked at in differences, as the planner looks at them: these differ by less.
+REAL = 1.0 + 1e-3
 #: Part by which the squared speed on a piece of a curve may change that counts as steady.
 EVEN = 0.05
 
@@ -90,7 +92,7 @@ class TimeAccount:
                 self._asked[chunk.first + row] = self._asked_speed(chunk, row, context), kind == Kind.RAPID
                 if self._planner.use_of(kind, context) is Use.AFTER:
                     self._after.add(chunk.first + row)
-                if kind == Kind.RAPID:
+                if kind == Kind.RAPID or context.transformation is not None:
                     self._contexts[chunk.first + row] = context
 
     def _asked_speed(self, chunk: Chunk, row: int, context: Context) -> float:
@@ -159,16 +161,28 @@ class TimeAccount:
         speed = sqrt(peak2) * (1.0 + SAME)
         if asked < inf and speed >= asked:
             return Cause.FEED
-        curved = records[at + PieceRecord.FORM] != Form.STRAIGHT
+        shares = self._shares(records, at)
+        at_top = any(speed * share >= top for share, top in zip(shares, self._tops[rapid], strict=True))
+        return Cause.AXES if at_top else Cause.CORNERS
+
+    def _shares(self, records: array[float], at: int) -> list[float]:
+        """The greatest way of every axis by the way of the path, on a piece."""
+        form, n = records[at + PieceRecord.FORM], self._n
         here, length = at + PieceRecord.VECTORS, records[at + PieceRecord.LENGTH]
-        for i, top in enumerate(self._tops[rapid]):
-            first, last = (records[here + (PLACES + end) * self._n + i] for end in (0, 1))
-            share = abs(last - first) / length if length > 0.0 else 0.0
-            if curved:
-                share = max(share, abs(records[here + i]), abs(records[here + self._n + i]))
-            if speed * share >= top:
-                return Cause.AXES
-        return Cause.CORNERS
+        first, last = (records[here + (PLACES + end) * n : here + (PLACES + end + 1) * n] for end in (0, 1))
+        mean = [abs(b - a) / length if length > 0.0 else 0.0 for a, b in zip(first, last, strict=True)]
+        ways = [records[here : here + n], records[here + n : here + 2 * n]]
+        context = self._contexts.get(int(records[at + PieceRecord.ROW]))
+        if context is not None and context.transformation is not None and form != Form.LED and length > 0.0:
+            if form == Form.STRAIGHT:
+                ways = [array("d", ((b - a) / length for a, b in zip(first, last, strict=True)))] * 2
+            rates = self._planner.real_axes.rates
+            ends = zip((first, last), ways, strict=True)
+            both = [rates(place, direction, context) for place, direction in ends]
+            return [REAL * max(abs(a), abs(b)) for a, b in zip(*both, strict=True)]
+        if form == Form.STRAIGHT:
+            return mean
+        return [max(share, abs(a), abs(b)) for share, a, b in zip(mean, *ways, strict=True)]
 
     def _level_of_rapid(self, records: array[float], at: int) -> float:
         """Seconds for which the slowest axis of a rapid, on which every axis runs alone, has its highest speed."""

@@ -237,9 +237,9 @@ class ContextTables:
 def is_led(context: Context, settings: Settings) -> bool:
     """Whether straight rows are laid out under the limits of the axes behind a tip, where it has a linkage.
 
-    Not with limited jerk, nor where something else bounds speed or acceleration along the path: DRIVE, overrides of the
-    program for single axes, a lag, a constant surface speed. Nor where turns of the tool are rounded (OST, OSD): ends of
-    such rows are passed at what the rounding allows, of which the axes behind the tip leave a part only.
+    Not with limited jerk, nor where something else bounds speed or acceleration along the path: DRIVE, overrides of
+    the program for single axes, a lag, a constant surface speed. Nor where turns of the tool are rounded (OST, OSD):
+    ends of such rows are passed at what the rounding allows, of which the axes behind the tip leave a part only.
     """
     acceleration = context.acceleration or settings.acceleration
     return (

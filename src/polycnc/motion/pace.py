@@ -7,6 +7,7 @@ another factor: the same that rows under a transformation have (`transformed.py`
 from __future__ import annotations
 
 from math import hypot, inf, sqrt
+from operator import mul
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.toolpath.modes import FeedMode
@@ -15,9 +16,9 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from polycnc.motion.kernels.columns import Limits
-    from polycnc.motion.row_path import Path
     from polycnc.toolpath import Context
     from polycnc.toolpath.context import Pace
+    from polycnc.toolpath.row_path import Path
 
 #: A contour radius below this part of the tool's is a corner, about which the tool turns at F.
 CORNER = 1e-6
@@ -71,7 +72,7 @@ def pace_of(
     Returns:
         Factor on its feed; highest path speed, mm/s; factor on what the axes may accelerate.
     """
-    pace, n = context.pace, len(way.moved)
+    pace, n, made = context.pace, len(way.moved), context.transformation is not None
     assert pace is not None
     length = way.length(weights) or way.length([1.0] * n)
     if length == 0.0:
@@ -82,8 +83,8 @@ def pace_of(
         feed *= length / (way.length(pace.weights) or length)
     return (
         feed,
-        _top(pace, way, length, moving, limits, rapid=rapid),
-        _ease(pace, way, length, moving, limits),
+        _top(pace, way, length, moving, limits, rapid=rapid, made=made),
+        _ease(pace, way, length, moving, limits, made=made),
     )
 
 
@@ -100,10 +101,11 @@ def edge_factor(pace: Pace, context: Context, way: Travel) -> float:
 
 
 def _top(
-    pace: Pace, way: Travel, length: float, moving: Sequence[int], limits: Limits, *, rapid: bool
+    pace: Pace, way: Travel, length: float, moving: Sequence[int], limits: Limits, *, rapid: bool, made: bool
 ) -> float:
     """The path speed at which no axis passes its velocity, and at which an arc keeps the accelerations."""
     top, tops = inf, limits.top_rapid if rapid else limits.top_feed
+    pulls = _pulls(pace, made=made)
     for i in moving:
         share = way.share(i, length)
         if pace.velocity:
@@ -111,17 +113,36 @@ def _top(
             top = min(top, tops[i] * factor / share)
         if pace.reach:
             top = min(top, pace.reach[i] * (pace.rapid if rapid else 1.0) / share)
+        if pace.left and not made:
+            top = min(top, pace.left[i] / share)
         if pace.top and not rapid:
             top = min(top, pace.top[i] / share)
-        if pace.acceleration and i in way.plane:
-            top = min(top, sqrt(pace.acceleration[i] * limits.acceleration[i] * way.radius))
+        if pulls and i in way.plane:
+            top = min(top, sqrt(pulls[i] * limits.acceleration[i] * way.radius))
     return top
 
 
-def _ease(pace: Pace, way: Travel, length: float, moving: Sequence[int], limits: Limits) -> float:
+def left_of(context: Context, axis: int, velocity: float, acceleration: float) -> tuple[float, float]:
+    """What motions over a real axis leave of its limits to the path under a transformation."""
+    pace = context.pace
+    if pace is None or not pace.left:
+        return velocity, acceleration
+    return min(velocity or inf, pace.left[axis]), acceleration * pace.left_pull[axis]
+
+
+def _pulls(pace: Pace, *, made: bool) -> tuple[float, ...]:
+    """Factors on the accelerations of the columns; `made`: those that are left of real axes are no such."""
+    if not pace.left_pull or made:
+        return pace.acceleration
+    return tuple(map(mul, pace.acceleration, pace.left_pull)) if pace.acceleration else pace.left_pull
+
+
+def _ease(
+    pace: Pace, way: Travel, length: float, moving: Sequence[int], limits: Limits, *, made: bool
+) -> float:
     """The factor on the limits of all columns at which the row keeps those of its axes."""
     ease = inf
-    for own, factors in ((limits.acceleration, pace.acceleration), (limits.jerk, pace.jerk)):
+    for own, factors in ((limits.acceleration, _pulls(pace, made=made)), (limits.jerk, pace.jerk)):
         if not factors or not moving:
             continue
         if way.plane:

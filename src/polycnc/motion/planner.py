@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.motion.compiled import PLAIN, kernels
 from polycnc.motion.kernels.chords import settle
-from polycnc.motion.kernels.columns import PLACES, PieceRecord, Rows, new_state, piece_width
+from polycnc.motion.kernels.columns import PLACES, Form, PieceRecord, Rows, new_state, piece_width
 from polycnc.motion.limits import ContextTables, averages, axis_rapids
 from polycnc.motion.settings import DEFAULT, Settings
 from polycnc.motion.standing.beside import Awaits, Beside
@@ -133,6 +133,13 @@ class Planner:
         """How each axis runs a rapid by itself: none does under a transformation."""
         soft = averages(context, self._machine, self._settings)[0] > 0.0
         return axis_rapids(ways, context, self._real.limits(None, self._use_of_rapids), soft=soft)
+
+    def rapids_of(self, piece: Sequence[float], context: Context) -> list[AxisRapid]:
+        """How each axis runs a planned piece by itself; empty where they go together."""
+        if piece[PieceRecord.FORM] != Form.TIMED:
+            return []
+        at, n = PieceRecord.VECTORS + PLACES * self._axes, self._axes
+        return self.rapids([piece[at + n + i] - piece[at + i] for i in range(n)], context)
 
     def use_of(self, kind: int, context: Context) -> Use:
         """What a row of a kind runs by."""

@@ -19,15 +19,15 @@ from typing import TYPE_CHECKING, NamedTuple
 from polycnc.motion.frames import machine_of
 from polycnc.motion.kernels.alone import best_ramp
 from polycnc.motion.kernels.columns import PLACES, Form, PieceRecord, Rows, piece_width
-from polycnc.motion.row_path import arc_path, line_path
+from polycnc.toolpath.row_path import arc_path, line_path
 from polycnc.transformation.couplings.kinks import has_kinks, kinks
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from polycnc.machine import Axis
-    from polycnc.motion.row_path import ArcPath, Path
     from polycnc.toolpath import Context
+    from polycnc.toolpath.row_path import ArcPath, Path
     from polycnc.transformation.contract import Geometry, Transformation
     from polycnc.transformation.pole import Pole
 

@@ -39,7 +39,7 @@ from polycnc.motion.demand import (
 from polycnc.motion.frames import carried, machine_of, path_of, real_of, real_rows, work_of
 from polycnc.motion.kernels.columns import AT_END, AT_START, SHARES, Limits, Rows
 from polycnc.motion.limits import NO_LINKAGE, averages, axis_limits, channel_axes, is_led, rotary_weight
-from polycnc.motion.pace import Travel, following_top, pace_of
+from polycnc.motion.pace import Travel, following_top, left_of, pace_of
 from polycnc.motion.pole import (
     RING_MM,
     PathLeg,
@@ -51,11 +51,11 @@ from polycnc.motion.pole import (
     slope_steps,
     turn_records,
 )
-from polycnc.motion.row_path import arc_path, line_path
 from polycnc.motion.time_constants import Use
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS, RAPID_KINDS
 from polycnc.toolpath.modes import AccelerationMode, FeedMode
+from polycnc.toolpath.row_path import arc_path, line_path
 from polycnc.toolpath.table import CURVE_WIDTH
 from polycnc.transformation.orientation.linked import linkage_of
 
@@ -63,9 +63,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from polycnc.machine import Machine
-    from polycnc.motion.row_path import Path
     from polycnc.motion.sampling.run import Moved
     from polycnc.motion.settings import Settings
+    from polycnc.toolpath.row_path import Path
     from polycnc.toolpath.table import Chunk
     from polycnc.transformation.contract import Geometry, Transformation
 
@@ -353,6 +353,16 @@ class RealAxes:
         soft, rapid = self._is_soft(context), kind == Kind.RAPID
         return turn_records(turn, axis, context, self._geometry, soft=soft, rapid=rapid, row=row, slot=slot)
 
+    def rates(self, on_path: Sequence[float], direction: Sequence[float], context: Context) -> list[float]:
+        """Way of every real axis by the way of the path, at a position of it and in a direction."""
+        before, after = (
+            real_of([a + side * b for a, b in zip(on_path, direction, strict=True)], context, self._geometry)
+            for side in (-0.5 * PATH_STEP, 0.5 * PATH_STEP)
+        )
+        ways = enumerate(b - a for a, b in zip(before, after, strict=True))
+        turns = [(way + 180.0) % 360.0 - 180.0 if self._rotary(i) else way for i, way in ways]
+        return [way / PATH_STEP for way in turns]
+
     def motion(self, moved: Moved, context: Context) -> Moved:
         """Position, velocity and acceleration of the real axes, (k, axes), for those of the columns."""
         if context.transformation is None:
@@ -521,13 +531,14 @@ class RealAxes:
             ways = [self._way(i, real[k + 1][i] - real[k][i]) / step for k in range(3)]
             bends = [(ways[k + 1] - ways[k]) / step for k in range(2)]
             velocity, fastest = (axis.rapid if kind == Kind.RAPID else axis.max_feed), max(map(abs, ways))
+            velocity, acceleration = left_of(context, i, velocity, axis.acceleration)
             steepest = max(map(abs, bends))
             if velocity and fastest > 0.0:
                 top = min(top, velocity / fastest)
-            if axis.acceleration:
-                bend = max(bend, steepest / axis.acceleration)
+            if acceleration:
+                bend = max(bend, steepest / acceleration)
                 asked = asked_of(here[i], pulls, columns) if lateral else fastest * along[0]
-                pull = max(pull, asked / axis.acceleration)
+                pull = max(pull, asked / acceleration)
             if soft and axis.jerk:
                 twist = abs(bends[1] - bends[0]) / step
                 top = min(top, (TWIST * axis.jerk / twist) ** (1.0 / 3.0)) if twist > NOTHING else top

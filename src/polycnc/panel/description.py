@@ -113,13 +113,19 @@ class ModePosition:
 
 @dataclass(frozen=True)
 class MdiUnit:
-    """A display with its keys."""
+    """A display with its keys.
+
+    Attributes:
+        soft_keys: Soft keys below it.
+        side_keys: Soft keys at its side, where a chapter's pages stand then; 0 for none.
+    """
 
     id: str
     name: Mapping[str, str]
     inches: float
     soft_keys: int
     keys: tuple[str, ...]
+    side_keys: int = 0
 
 
 @dataclass(frozen=True)

@@ -6,14 +6,16 @@ import re
 from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass
+from polycnc.panel.checking import FarCheck
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from polycnc.mainrun import VirtualControl
+    from polycnc.messages import Alarm
 
-#: A check while someone types ends after so many blocks.
-LONGEST_LOOK = 5_000
+#: A check while someone types ends after so many blocks, one in another process after so many.
+LONGEST_LOOK, LONGEST_FAR_LOOK = 5_000, 20_000_000
 #: What stands in a line, the first that fits: comments and texts, block numbers, G and M codes, variables, numbers.
 _SINUMERIK = (("comment", r";.*"), ("text", r'"[^"]*"?'))
 _SYNTEC = (("comment", r"//.*|\(\*.*?(?:\*\)|$)"), ("text", r'"[^"]*"?'))
@@ -58,26 +60,45 @@ class Check:
 
     def __init__(self, control: VirtualControl, name: str, source: str, lang: str | None = None) -> None:
         self._control, self._lang = control, lang
-        ended = source if source.endswith("\n") else source + "\n"
-        self._forecast = control.forecast(name, text=ended, block_limit=LONGEST_LOOK)
+        self._forecast = control.forecast(name, text=_ended(source), block_limit=LONGEST_LOOK)
 
     def go_on(self) -> bool:
         """Look at some further blocks; gives whether there are more."""
         return self._forecast.go_on()
 
     @property
+    def ends_early(self) -> bool:
+        """Whether it has ended at its limit of blocks: there is more to look at."""
+        return self._forecast.is_over and self._forecast.has_reached_limit
+
+    @property
     def findings(self) -> tuple[Finding, ...]:
         """What has been found so far."""
-        main, control = self._forecast.main.name, self._control
-        end_of_look = control.control.block_limit().code
-        return tuple(
-            Finding(
-                alarm.line if alarm.program == main else 0, alarm.column if alarm.program == main else 0,
-                alarm.code, control.alarm_text(alarm, self._lang),
-            )
-            for alarm in self._forecast.alarms
-            if alarm.code != end_of_look
-        )  # fmt: skip
+        return told(self._control, self._forecast.main.name, self._forecast.alarms, self._lang)
+
+
+def check_elsewhere(control: VirtualControl, name: str, source: str) -> FarCheck:
+    """A check of the whole text in another process; arguments as for `Check`."""
+    return FarCheck(control.forecast(name, text=_ended(source), block_limit=LONGEST_FAR_LOOK).job)
+
+
+def told(
+    control: VirtualControl, main: str, alarms: Iterable[Alarm], lang: str | None
+) -> tuple[Finding, ...]:
+    """Alarms of a check as an editor tells them; `main` is the name of the program that it has."""
+    end_of_look = control.control.block_limit().code
+    return tuple(
+        Finding(
+            alarm.line if alarm.program == main else 0, alarm.column if alarm.program == main else 0,
+            alarm.code, control.alarm_text(alarm, lang),
+        )
+        for alarm in alarms
+        if alarm.code != end_of_look
+    )  # fmt: skip
+
+
+def _ended(source: str) -> str:
+    return source if source.endswith("\n") else source + "\n"
 
 
 def findings(control: VirtualControl, name: str, source: str, lang: str | None = None) -> tuple[Finding, ...]:

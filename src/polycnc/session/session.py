@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from polycnc.channel.channel import DEFAULT_BLOCK_LIMIT, Channel
 from polycnc.channel.group import ChannelGroup
 from polycnc.channel.states.passes import Passes
+from polycnc.channel.states.snapshot import unchanging
 from polycnc.channel.states.standstill import Standstill
 from polycnc.channel.waits import Why
 from polycnc.language.bulk.settings import Bulk
@@ -73,7 +74,7 @@ class Session:
         )  # fmt: skip
         self._keep = keep
         self._in_time = False
-        self.channel.share_after = _share_after
+        self.channel.move_times = Planned()
         self.channel.passes = Passes()
         self.channel.standstill = Standstill()
         self.group = ChannelGroup(self.channel)
@@ -181,7 +182,20 @@ class Session:
         return level.block_name()
 
 
-def _share_after(channel: Channel, end: list[float], feed: float, seconds: float) -> float | None:
-    from polycnc.motion.sampling.timing import share_after
+@unchanging
+class Planned:
+    """The planner's `MoveTimes`; it is imported when it is first asked."""
 
-    return share_after(channel, end, feed, seconds)
+    def share_after(self, channel: Channel, end: list[float], feed: float, seconds: float) -> float | None:
+        """As `motion.sampling.timing` has it."""
+        from polycnc.motion.sampling.timing import share_after
+
+        return share_after(channel, end, feed, seconds)
+
+    def later_on_row(
+        self, channel: Channel, mark: int, start: list[float], share: float, seconds: float
+    ) -> tuple[float | None, float]:
+        """As `motion.sampling.timing` has it."""
+        from polycnc.motion.sampling.timing import later_on_row
+
+        return later_on_row(channel, mark, start, share, seconds)

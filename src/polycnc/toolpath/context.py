@@ -40,6 +40,9 @@ class Pace:
             tool tip control, mm/s, in cuts (SYNTEC Pr3091); infinite for none.
         velocity: Factors on the highest velocity (`VELOLIM`); `acceleration` (`ACC`) and `jerk` (`JERKLIM`) likewise.
             Empty for none.
+        left: Highest velocity in all moves that motions over an axis leave to the path, mm/s or degrees/s, and
+            `left_pull` the part of its acceleration (`$AA_OFF`). Of the axes of the machine, whatever makes them of the
+            columns. Empty for none.
     """
 
     feed: float = 1.0
@@ -52,6 +55,8 @@ class Pace:
     velocity: tuple[float, ...] = ()
     acceleration: tuple[float, ...] = ()
     jerk: tuple[float, ...] = ()
+    left: tuple[float, ...] = ()
+    left_pull: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,6 +91,7 @@ class Context:
         feed_hold: The operator's feed hold acts.
         stop_delay: The move lies in a section whose stops wait for its end, and which keeps the overrides with which it
             was entered.
+        search_lock: The move lies in a section that no block search enters (SINUMERIK IPTRLOCK).
         lag_s: Acceleration after interpolation of thread cycles: seconds by which the axes are behind at speed (FANUC
             1626), 0 for what the axes can do. `lag_from` is the speed, mm/s, from which on it acts (1627).
         overlap: How strokes of a cycle overlap (FANUC 1681, SYNTEC Pr4008, G53 Q): `Overlap`.
@@ -138,6 +144,7 @@ class Context:
     rapid_override: bool = True
     feed_hold: bool = True
     stop_delay: bool = False
+    search_lock: bool = False
     lag_s: float = 0.0
     lag_from: float = 0.0
     overlap: Overlap = NO_OVERLAP

@@ -233,6 +233,7 @@ class Deed(Event):
         number: Of the action, where it has one.
         do: What happens.
         is_silent: Its block is none of those that do something on the machine.
+        stands: The axes stand for it all the same.
         awaits: Nothing follows while this says so; None where it goes on at once.
         places: Where the path has some axes from here on, by column: machine positions.
     """
@@ -244,6 +245,7 @@ class Deed(Event):
     is_silent: bool = True
     awaits: Callable[[], bool] | None = None
     places: tuple[tuple[int, float], ...] = ()
+    stands: bool = False
 
     @property
     def data(self) -> dict[str, object]:

@@ -11,9 +11,10 @@ from polycnc.geometry.arcs import parts_for_chord_error
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.geometry.vectors import cross, dot, minus
 from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS, Kind
+from polycnc.toolpath.row_path import path_of_row
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     from polycnc.geometry.frames import Vector
     from polycnc.toolpath.context import Context
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
 
 _STANDING = frozenset((Kind.DWELL, Kind.EVENT))
 _RAPID = frozenset((Kind.RAPID, Kind.REF))
+#: Parts of a row of which a display shows something else; what lies nearer to a line than this is one, mm.
+LOOKS, EVEN = 64, 1e-3
 
 
 @dataclass(slots=True)
@@ -46,9 +49,8 @@ def strokes(
     before: Row | None = None
     for row in toolpath.rows():
         if row.kind not in _STANDING:
-            start = start_of(toolpath, before, row, geometry)
             tool, rapid = tool_label(row.context), row.kind in _RAPID
-            points = [start, *points_behind(row, start, point_of(row.end, geometry), chord_error)]
+            points = drawn(toolpath, before, row, geometry, chord_error)
             part = row.context.part
             if not part.is_identity:
                 points = [part.apply(*point) for point in points]
@@ -72,10 +74,33 @@ def tool_label(context: Context) -> str:
     return context.tool_name or f"T{context.tool}"
 
 
-def point_of(end: tuple[float, ...] | list[float], geometry: tuple[int, int, int]) -> Vector:
+def point_of(end: Sequence[float], geometry: tuple[int, int, int]) -> Vector:
     """X, Y and Z of the end of a row; 0 for an axis that does not exist."""
     x, y, z = (end[i] if i >= 0 else 0.0 for i in geometry)
     return (x, y, z)
+
+
+def drawn(
+    toolpath: Toolpath, before: Row | None, row: Row, geometry: tuple[int, int, int], chord_error: float
+) -> list[Vector]:
+    """The points of a row, its start included, as the work display shows them."""
+    if row.context.shown_by is None:
+        start = start_of(toolpath, before, row, geometry)
+        return [start, *points_behind(row, start, point_of(row.end, geometry), chord_error)]
+    begin = list(row.end)
+    if before is not None:
+        begin = toolpath.seen_from(list(before.end), before.context, row.context, geometry)
+    path = path_of_row(row.kind, begin, row.end, row.curve, row.context.shown_by.geometry)
+    points = [point_of(shown_at(path(k / LOOKS), row.context), geometry) for k in range(LOOKS + 1)]
+    way = minus(points[-1], points[0])
+    chord = [[a + k / LOOKS * b for a, b in zip(points[0], way, strict=True)] for k in range(LOOKS + 1)]
+    is_straight = max(map(dist, points, chord)) <= min(chord_error, EVEN)
+    return [points[0], points[-1]] if is_straight else points
+
+
+def shown_at(position: Sequence[float], context: Context) -> Sequence[float]:
+    """A position of rows as the work display shows it, internal units."""
+    return position if context.shown_by is None else context.shown_by.to_work(position)
 
 
 def start_of(toolpath: Toolpath, before: Row | None, row: Row, geometry: tuple[int, int, int]) -> Vector:
@@ -84,6 +109,9 @@ def start_of(toolpath: Toolpath, before: Row | None, row: Row, geometry: tuple[i
         return point_of(row.end, geometry)
     if before.context is row.context:
         return point_of(before.end, geometry)
+    if before.context.shown_by is not None:
+        begin = toolpath.seen_from(list(before.end), before.context, row.context, geometry)
+        return point_of(shown_at(begin, row.context), geometry)
     if before.context.transformation is not row.context.transformation:
         return point_of(row.end, geometry)  # other axes: where the row begins in its own is not known
     machine = toolpath.to_machine(before.end, before.context, geometry)

@@ -114,19 +114,21 @@ class Chunk:
     def __len__(self) -> int:
         return len(self.kind)
 
-    def extend(self, first: int, end: int, program: int, context: int, columns: Sequence[memoryview]) -> None:
-        """Add rows of one program under one context.
+    def extend(self, first: int, end: int, context: int, columns: Sequence[memoryview]) -> None:
+        """Add rows under one context.
 
         Args:
             first: First row of the columns.
             end: The row behind the last one.
-            program: Number of their program.
             context: Number of their context.
-            columns: Bytes of `kind`, `line`, `feed`, `end`, `curve`, with items as here.
+            columns: Bytes of `kind`, `program`, `line`, `feed`, `end`, `curve`, with items as here.
         """
-        own: tuple[array[int] | array[float], ...] = (self.kind, self.line, self.feed, self.end, self.curve)
+        own: tuple[array[int] | array[float], ...] = (
+            self.kind, self.program, self.line, self.feed, self.end, self.curve
+        )  # fmt: skip
         widths = (
             1,
+            self.program.itemsize,
             self.line.itemsize,
             self.feed.itemsize,
             self.end.itemsize * self.axes,
@@ -134,7 +136,6 @@ class Chunk:
         )
         for target, column, width in zip(own, columns, widths, strict=False):
             target.frombytes(column[first * width : end * width])
-        self.program.extend(array("H", (program,)) * (end - first))
         self.context.extend(array("I", (context,)) * (end - first))
 
     def add_along(
@@ -405,10 +406,9 @@ class Toolpath:
         return machine
 
     def seen_from(
-        self, end: list[float], made_in: int, context: int, geometry: tuple[int, ...]
+        self, end: list[float], old: Context, new: Context, geometry: tuple[int, ...]
     ) -> list[float]:
         """Where the end of a row of one context stands in the coordinates of another one."""
-        old, new = self.contexts[made_in], self.contexts[context]
         if old.offsets == new.offsets and old.frame == new.frame and old.transformation is new.transformation:
             return end
         found = self.to_machine(end, old, geometry)

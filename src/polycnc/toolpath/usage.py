@@ -1,28 +1,36 @@
 """What a program has used: how far its cuts reach, the speeds and feeds of each tool, the work offsets.
 
-Extents are those of the controlled point, arcs included; the tool's radius is not in them.
+Extents are those of the controlled point, arcs included; the tool's radius is not in them. Where a transformation or a
+coupling stands between the rows and a display, every row is looked at by itself: what many rows reach there is not the
+image of their box.
 """
 
 from __future__ import annotations
 
 from array import array
 from dataclasses import field
+from importlib.util import find_spec
 from itertools import product
 from math import inf
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.deferred.records import dataclass
 from polycnc.toolpath.compiled import survey
 from polycnc.toolpath.kinds import RAPID_KINDS, Kind
 from polycnc.toolpath.modes import FeedMode
+from polycnc.toolpath.row_path import path_of_row
 from polycnc.toolpath.survey import CUTS, RAPIDS, STANDS, Box, Moves, empty_box
+from polycnc.toolpath.table import CURVE_WIDTH
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Iterable, Sequence
 
     from polycnc.toolpath.context import Context
+    from polycnc.toolpath.row_path import Path
     from polycnc.toolpath.table import Chunk
     from polycnc.toolpath.trace import Display
+
+    Seen = Callable[[Sequence[float]], Sequence[float]]
 
 _UNITS = {
     FeedMode.PER_MINUTE: "{unit}/min",
@@ -30,6 +38,10 @@ _UNITS = {
     FeedMode.INVERSE_TIME: "1/min",
 }
 _STANDING = frozenset((Kind.DWELL, Kind.EVENT))
+#: Parts of a row at whose ends it is looked at where displays show something else; steps of the search around one.
+LOOKS, NARROWINGS = 32, 40
+#: From so many rows on they are looked at by whole columns first.
+MANY = 200
 
 
 @dataclass(slots=True)
@@ -78,6 +90,18 @@ class ToolUsage:
     feeds: dict[str, tuple[float, float]] = field(default_factory=dict)
 
 
+class Views(NamedTuple):
+    """How far rows reach on the machine display, and on the work display where that shows something else than rows."""
+
+    machine: Extents
+    shown: Extents
+
+    @classmethod
+    def empty(cls, axes: int) -> Views:
+        """No position yet."""
+        return cls(Extents.empty(axes), Extents.empty(axes))
+
+
 class Usage:
     """Collects what a program uses while its toolpath grows: `take` fits a session's consumers.
 
@@ -107,6 +131,7 @@ class Usage:
         moves = Moves(chunk.kind, chunk.context, chunk.feed, chunk.end, chunk.curve, chunk.curves)
         before = array("d", self._last[0] if self._last is not None else ())
         boxes: dict[tuple[int, int], Box] = {}
+        views: dict[tuple[int, int], Views] = {}
         row = 0
         while row < len(chunk):
             context, kind = chunk.context[row], _CLASSES[chunk.kind[row]]
@@ -115,10 +140,14 @@ class Usage:
                 box = boxes[context, kind] = empty_box(self._axes)
             if kind == CUTS:
                 self._start(chunk, row, contexts[context], box)
+            first = row
             row = self._survey(moves, row, _CLASSES, self._geometry(contexts[context]), before, box)
+            if kind != STANDS and _is_led(contexts[context]):
+                seen = views.setdefault((context, kind), Views.empty(self._axes))
+                self._look(chunk, range(first, row), contexts[context], seen)
         for (context, kind), box in boxes.items():
             if kind != STANDS:
-                self._count(contexts[context], box, is_cut=kind == CUTS)
+                self._count(contexts[context], box, views.get((context, kind)), is_cut=kind == CUTS)
         self._last = tuple(chunk.end[-self._axes :]), chunk.context[-1]
 
     def _geometry(self, context: Context) -> array[int]:
@@ -126,10 +155,39 @@ class Usage:
         made = context.transformation
         return array("q", self._display.layout.geometry if made is None else made.geometry)
 
-    def _count(self, context: Context, box: Box, *, is_cut: bool) -> None:
+    def _look(self, chunk: Chunk, rows: range, context: Context, views: Views) -> None:
+        """See how far moves of one context reach on both displays."""
+        toolpath, geometry = self._display.toolpath, self._display.layout.geometry
+        made = context.transformation or context.shown_by
+        assert made is not None
+        n, start, before = self._axes, list[float](), self._last
+        if rows.start:
+            at = rows.start - 1
+            before = tuple(chunk.end[at * n : rows.start * n]), chunk.context[at]
+        if before is not None:
+            start = toolpath.seen_from(list(before[0]), toolpath.contexts[before[1]], context, geometry)
+        seers = [(views.machine, lambda point: toolpath.to_machine(point, context, geometry))]
+        if context.shown_by is not None:
+            seers.append((views.shown, context.shown_by.to_work))
+        for row in _far_rows(chunk, rows, start, [seen for _, seen in seers]):
+            end = list(chunk.end[row * n : (row + 1) * n])
+            if row > rows.start:
+                start = list(chunk.end[(row - 1) * n : row * n])
+            at = chunk.curve[row] * CURVE_WIDTH
+            curve = chunk.curves[at : at + CURVE_WIDTH] if at >= 0 else ()
+            path = path_of_row(chunk.kind[row], start or end, end, curve, made.geometry)
+            for extents, seen in seers:
+                _follow(path, seen, extents)
+
+    def _count(self, context: Context, box: Box, views: Views | None, *, is_cut: bool) -> None:
         """Add what has been done under one context."""
         low, high = box.low, box.high
-        machine = self._machine_box(context, low, high)
+        if views is None:
+            machine = self._machine_box(context, low, high)
+        else:
+            machine = _scaled(views.machine, self._display.scale(context).machine)
+            if context.shown_by is not None:
+                low, high = views.shown.low, views.shown.high
         self.machine.include(*machine)
         self.offsets.setdefault(context.wcs)
         if not is_cut:
@@ -185,12 +243,71 @@ class Usage:
                 corner[i] = side[i]
             corners.append(toolpath.to_machine(corner, context, geometry))
         other_end = toolpath.to_machine(list(high), context, geometry)
-        factors = self._display.scale(context).machine
         columns = list(zip(*corners, other_end, strict=True))
-        return (
-            [min(column) * factor for column, factor in zip(columns, factors, strict=True)],
-            [max(column) * factor for column, factor in zip(columns, factors, strict=True)],
-        )
+        reached = Extents([min(column) for column in columns], [max(column) for column in columns])
+        return _scaled(reached, self._display.scale(context).machine)
+
+
+def _scaled(extents: Extents, factors: Sequence[float]) -> tuple[list[float], list[float]]:
+    """Two corners as a display shows them."""
+    low, high = (
+        [value * factor for value, factor in zip(corner, factors, strict=True)]
+        for corner in (extents.low, extents.high)
+    )
+    return low, high
+
+
+def _is_led(context: Context) -> bool:
+    """Whether a display shows something else than the rows, but for a shift and a turn."""
+    return context.transformation is not None or context.shown_by is not None
+
+
+def _far_rows(chunk: Chunk, rows: range, start: Sequence[float], seers: Sequence[Seen]) -> Iterable[int]:
+    """Rows of a run among which are those that reach farthest: of many straight ones only these."""
+    if len(rows) < MANY or find_spec("numpy") is None:
+        return rows
+    import numpy as np
+
+    n = chunk.axes
+    ends = np.frombuffer(chunk.end)[rows.start * n : rows.stop * n].reshape(-1, n)
+    starts = np.vstack((start if len(start) else ends[0], ends[:-1]))
+    far = {rows.start + i for i, row in enumerate(rows) if chunk.curve[row] >= 0}
+    for seen in seers:
+        for k in range(1, LOOKS + 1):
+            for column in seen(list((starts + (ends - starts) * (k / LOOKS)).T)):
+                far.update((rows.start + int(np.argmin(column)), rows.start + int(np.argmax(column))))
+    return sorted(far)
+
+
+def _follow(path: Path, seen: Seen, extents: Extents) -> None:
+    """Widen extents by the points of a path as a display shows them; turning points lie between looks."""
+    looks = [seen(path(k / LOOKS)) for k in range(LOOKS + 1)]
+    for i, places in enumerate(zip(*looks, strict=True)):
+        for sign, known in ((1.0, extents.high), (-1.0, extents.low)):
+            heights = [sign * place for place in places]
+            top = max(range(LOOKS + 1), key=heights.__getitem__)
+            height, beside = heights[top], heights[max(top - 1, 0) : top + 2]
+            if 0 < top < LOOKS and 2.0 * height - min(beside) > sign * known[i]:
+                height = _turning(_height(path, seen, i, sign), top)
+            if height > sign * known[i]:
+                known[i] = sign * height
+
+
+def _height(path: Path, seen: Seen, axis: int, sign: float) -> Callable[[float], float]:
+    """How far an axis is up, or down, at a part of a path."""
+    return lambda part: sign * seen(path(part))[axis]
+
+
+def _turning(height: Callable[[float], float], look: int) -> float:
+    """The greatest height around a look."""
+    low, high = (look - 1) / LOOKS, (look + 1) / LOOKS
+    for _ in range(NARROWINGS):
+        third = (high - low) / 3.0
+        if height(low + third) < height(high - third):
+            low += third
+        else:
+            high -= third
+    return max(height(0.5 * (low + high)), height(look / LOOKS))
 
 
 #: What each kind is, by its number.

@@ -12,12 +12,13 @@ from typing import TYPE_CHECKING
 from polycnc.toolpath.events import Circle, Pen
 from polycnc.toolpath.kinds import ARC_KINDS, RAPID_KINDS, Kind
 from polycnc.toolpath.modes import FeedMode
-from polycnc.toolpath.strokes import point_of, points_behind, start_of, tool_label
+from polycnc.toolpath.strokes import drawn, start_of, tool_label
 from polycnc.view.lines import FEED, GAP, KINDS, RAPID
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from polycnc.geometry.frames import Vector
     from polycnc.toolpath import Context, Toolpath
     from polycnc.toolpath.table import Chunk, Row
     from polycnc.view.lines import Lines
@@ -30,6 +31,7 @@ CHORDS = 36
 _PLANES = {"G17": (0, 1), "G18": (2, 0), "G19": (1, 2)}
 #: Kinds whose row is more than a straight way to its end.
 _CURVED = frozenset((*ARC_KINDS, Kind.THREAD))
+_STANDING = frozenset((Kind.DWELL, Kind.EVENT))
 _KIND = [RAPID if kind in RAPID_KINDS else FEED for kind in Kind]
 
 
@@ -51,12 +53,15 @@ class RowLine:
     def add(self, chunk: Chunk) -> None:
         """Add the rows of the next chunk, in order."""
         first = 0
-        curved = [kind in _CURVED for kind in chunk.kind]
+        shown = [context.shown_by is not None for context in self._toolpath.contexts]
+        kinds = zip(chunk.kind, chunk.context, strict=True)
+        curved = [kind in _CURVED or shown[context] for kind, context in kinds]
         for (_, is_curved), run in groupby(zip(chunk.context, curved, strict=True)):
             end = first + sum(1 for _ in run)
             if is_curved:
                 for i in range(first, end):
-                    self._add_curved(self._toolpath.row_of(chunk, i))
+                    if chunk.kind[i] not in _STANDING:
+                        self._add_curved(self._toolpath.row_of(chunk, i))
             else:
                 self._add_drawn(chunk, first, end)
             first = end
@@ -84,7 +89,8 @@ class RowLine:
     def _add_straight(self, chunk: Chunk, first: int, end: int) -> None:
         """Rows of one context that lead straight to their ends; those that only stand repeat a point."""
         context, n = self._toolpath.contexts[chunk.context[first]], chunk.axes
-        self._begin(self._toolpath.row_of(chunk, first))
+        row = self._toolpath.row_of(chunk, first)
+        self._begin(row, start_of(self._toolpath, self._before, row, self._geometry))
         columns: list[Sequence[float] | None] = [
             chunk.end[first * n + i : end * n : n] if i >= 0 else None for i in self._geometry
         ]
@@ -100,22 +106,21 @@ class RowLine:
         self._before = self._toolpath.row_of(chunk, end - 1)
 
     def _add_curved(self, row: Row) -> None:
-        start = self._begin(row)
+        start, *points = drawn(self._toolpath, self._before, row, self._geometry, CHORD_ERROR)
+        self._begin(row, start)
         colour, feed = self._colour(row.context), row.feed * _scale(row.context)
-        for point in points_behind(row, start, point_of(row.end, self._geometry), CHORD_ERROR):
+        for point in points:
             self.lines.add(
                 row.context.part.apply(*point), 0.0 if isnan(feed) else feed, _KIND[row.kind], colour
             )
         self._before = row
 
-    def _begin(self, row: Row) -> tuple[float, float, float]:
-        """The start of a row; a gap leads there where the line does not end at it."""
-        start = start_of(self._toolpath, self._before, row, self._geometry)
+    def _begin(self, row: Row, start: Vector) -> None:
+        """A gap leads to the start of a row where the line does not end at it."""
         place = row.context.part.apply(*start)
         last = self.lines.last()
         if not last or max(abs(a - b) for a, b in zip(place, last, strict=True)) > CHORD_ERROR:
             self.lines.add(place, 0.0, GAP, self._colour(row.context))
-        return start
 
 
 def draw_circle(lines: Lines, circle: Circle, plane: str, colour: int) -> None:

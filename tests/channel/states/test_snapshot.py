@@ -230,7 +230,9 @@ TRANSFORMED = {
 }  # fmt: skip
 LANGUAGES = {
     "sinumerik-840d": SINUMERIK,
-    "fanuc-m": MILL,
+    "fanuc-m": replace(
+        MILL, blocks=(*MILL.blocks, "G10 L21 P1 X1.\nG54.2 P1 G0 X3.\nG54.2 P0", "#26010=1.\nG54.4 P1\nX2.")
+    ),
     "meldas-m": MELDAS,
     "fanuc-0i-tf": LATHE,
     "syntec-mill": SYNTEC,

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from polycnc.cycles.turning import thread_chain
 from polycnc.cycles.turning.contour import Contour, Piece, parallel, turned_round
-from polycnc.cycles.turning.stock_removal import Cut, Removal, remove, sections
+from polycnc.cycles.turning.stock_removal import Cut, Removal, remove, sections, way_clear
 from polycnc.cycles.turning.thread_chain import Thread
 from polycnc.geometry import arcs, offset
 from polycnc.toolpath import Kind
@@ -170,3 +170,15 @@ def test_a_nose_larger_than_a_rounding_is_refused_where_it_must_fit() -> None:
 def test_roughing_leaves_stock_in_a_rounding_that_is_too_narrow() -> None:
     path = parallel(rounded_corner(0.4), -0.5, leaves_fillets=True)
     assert rounded(piece.edge.end for piece in path) == [(-29.5, 20.5), (-29.5, 40.0)]
+
+
+def test_the_way_back_from_under_an_overhang_goes_along_first() -> None:
+    overhang = lines(
+        (10.0, 0.0), (10.0, -5.0), (20.0, -5.0), (20.0, -15.0), (18.0, -18.0), (18.0, -24.0), (22.0, -24.0)
+    )
+    start, home = (18.5, -23.0), (28.0, 4.0)
+    way = way_clear(overhang, start, home, towards=-1.0, lift=1.0)
+    assert [stroke.end for stroke in way] == [(28.0, -23.0)]
+    closed = [*overhang, *lines((22.0, -24.0), (22.0, -10.0))]
+    with pytest.raises(ValueError, match="no way out"):
+        way_clear(closed, start, home, towards=-1.0, lift=1.0)

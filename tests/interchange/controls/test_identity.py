@@ -57,7 +57,8 @@ MILL_PARAMETERS = st.fixed_dictionaries(
     st.dictionaries(st.integers(500, 999), st.one_of(st.none(), NUMBERS), max_size=6),
     st.dictionaries(st.from_regex(r"\A[A-Z][A-Z0-9]{0,7}\Z"), st.integers(500, 999), max_size=2),
     st.dictionaries(st.integers(1, 400), OFFSETS, max_size=3),
-    st.dictionaries(SYSTEMS, SHIFTS, max_size=3),
+    st.dictionaries(st.one_of(SYSTEMS, st.sampled_from(["G54.2 P1", "G54.2 P8"])), SHIFTS, max_size=3),
+    st.dictionaries(st.integers(0, 7), st.lists(LENGTHS, min_size=8, max_size=8), max_size=2),
     MILL_PARAMETERS,
 )
 def test_of_a_fanuc_mill(
@@ -65,6 +66,7 @@ def test_of_a_fanuc_mill(
     names: dict[str, int],
     offsets: dict[int, ToolOffset],
     systems: dict[str, list[float]],
+    errors: dict[int, list[float]],
     parameters: dict[ParameterKey, float],
 ) -> None:
     check_identity(
@@ -74,6 +76,7 @@ def test_of_a_fanuc_mill(
             variable_names=(1, names),
             tool_offsets=(1, offsets),
             work_offsets=(1, systems),
+            workpiece_errors=(1, errors),
             parameters=(1, parameters),
         ),
     )

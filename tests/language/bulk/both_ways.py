@@ -10,8 +10,8 @@ from typing import Any
 
 from polycnc.channel.channel import Channel
 from polycnc.control.registry import control
-from polycnc.language.bulk.kernels import Tables, scan
-from polycnc.language.bulk.layout import State
+from polycnc.language.bulk.kernels import scan
+from polycnc.language.bulk.layout import State, Tables
 from polycnc.language.bulk.moves import Columns
 from polycnc.language.bulk.settings import Bulk
 from polycnc.machine import load_machine
@@ -87,6 +87,7 @@ def outcome(channel: Channel) -> dict[str, Any]:
         "contexts": toolpath.contexts,
         "programs": toolpath.programs,
         "alarms": channel.alarms,
+        "blocks": channel.blocks,
         "position": bits(c.position),
         "programmed": bits(c.programmed),
         "pending": bits(c.pending),

@@ -11,12 +11,12 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from polycnc.language.bulk.compiled import LIBRARY
-from polycnc.language.bulk.kernels import Tables
-from polycnc.language.bulk.layout import State
+from polycnc.language.bulk.layout import State, Tables
 from polycnc.language.bulk.moves import Columns
 from polycnc.language.bulk.settings import Bulk
 from polycnc.program import long_text
 from polycnc.session import open_session
+from tests.examples import examples
 from tests.language.bulk.both_ways import PLAIN, differences, outcome, plain_scan, run
 from tests.language.bulk.programs import plain, program
 from tests.language.bulk.test_sinumerik import COMMENTS as SINUMERIK_COMMENTS
@@ -50,13 +50,13 @@ SINUMERIK_FLOW = program(
 SKIPS = st.sampled_from(({}, {"block_skip": True}))
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 @given(FANUC_FLOW, st.sampled_from(("fanuc-m", "meldas-m")), SKIPS)
 def test_jumps_and_calls_give_the_same(text: str, control_id: str, switches: dict[str, bool]) -> None:
     assert differences(text, control_id, {**SETUP, "switches": switches}, block_limit=20_000) == []
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 @given(SINUMERIK_FLOW, SKIPS)
 def test_sinumerik_jumps_and_structures_give_the_same(text: str, switches: dict[str, bool]) -> None:
     assert differences(text, "sinumerik-840d", {"switches": switches}, block_limit=20_000) == []
@@ -75,7 +75,9 @@ def from_file(path: Path, control_id: str, bulk: Bulk | None) -> dict[str, objec
         ("sinumerik-840d", SINUMERIK_FLOW),
     ],
 )  # fmt: skip
-@settings(max_examples=12, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(
+    max_examples=examples(12), deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
 @given(data=st.data())
 def test_large_files_give_the_same_whatever_ends_their_lines(
     control_id: str, programs: st.SearchStrategy[str], data: st.DataObject, tmp_path: Path
@@ -97,7 +99,7 @@ def test_large_files_give_the_same_whatever_ends_their_lines(
 
 
 @pytest.mark.skipif(LIBRARY.lack is not None, reason="needs compiled kernels")
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(20), deadline=None)
 @given(FANUC)
 def test_the_compiled_kernel_gives_the_same(text: str) -> None:
     assert differences(text, "fanuc-m", SETUP, Bulk(fewest_lines=0, rooms=200, most_patience=1)) == []

@@ -13,6 +13,7 @@ from polycnc.language.bulk.formulas import cosine, read_token, sine, variable
 from polycnc.language.bulk.layout import Token
 from polycnc.language.bulk.settings import Bulk
 from polycnc.language.word_address import functions
+from tests.examples import examples
 from tests.language.bulk.both_ways import PLAIN, differences, run, scanned
 
 HEAD = (
@@ -162,13 +163,13 @@ def blocks(draw: st.DrawFn) -> str:
     return HEAD + "\n".join([*lines, "G90", "M30", "O0002", "X[#1] Y#2", "X[#1+0.5] Y#3", "M99", ""])
 
 
-@settings(max_examples=250, deadline=None)
+@settings(max_examples=examples(125), deadline=None)
 @given(blocks(), st.sampled_from(("fanuc-m", "meldas-m", "syntec-mill")))
 def test_formulas_give_the_same_both_ways(text: str, control_id: str) -> None:
     assert differences(text, control_id, SETUP, block_limit=200) == []
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(30), deadline=None)
 @given(blocks())
 def test_formulas_of_a_lathe_give_the_same_both_ways(text: str) -> None:
     assert (
@@ -176,7 +177,7 @@ def test_formulas_of_a_lathe_give_the_same_both_ways(text: str) -> None:
     )
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(20), deadline=None)
 @given(blocks())
 def test_machine_code_gives_the_same(text: str) -> None:
     assert differences(text, "fanuc-m", SETUP, Bulk(fewest_lines=0, rooms=200, most_patience=1)) == []

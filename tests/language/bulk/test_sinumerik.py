@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from polycnc.language.bulk.settings import Bulk
+from tests.examples import examples
 from tests.language.bulk.both_ways import PLAIN, differences, plain_scan, run
 from tests.language.bulk.programs import CODES, REPEATED_SINUMERIK, number, plain, program, words
 
@@ -81,33 +82,33 @@ MILLING = program(
 )
 
 
-@settings(max_examples=120, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 @given(MILLING)
 def test_programs_give_the_same_both_ways(text: str) -> None:
     assert differences(text, CONTROL, SETUP) == []
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(30), deadline=None)
 @given(MILLING, st.integers(1, 100), st.integers(1, 7))
 def test_block_limits_and_rooms_of_any_size_give_the_same(text: str, limit: int, rooms: int) -> None:
     bulk = Bulk(fewest_lines=0, scan=plain_scan, rooms=rooms, most_patience=1)
     assert differences(text, CONTROL, SETUP, bulk, block_limit=limit) == []
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(20), deadline=None)
 @given(MILLING, st.sampled_from((100, 30, 5)))
 def test_limits_of_machine_data_give_the_same(text: str, travel: int) -> None:
     limits = {"$MA_POS_LIMIT_PLUS[X]": travel, "$MA_POS_LIMIT_MINUS[Y]": -travel}
     assert differences(text, CONTROL, {**SETUP, "parameters": limits}) == []
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=examples(15), deadline=None)
 @given(MILLING, st.sampled_from((400.0, 310.0)))
 def test_axes_with_limits_give_the_same(text: str, travel: float) -> None:
     assert differences(text, CONTROL, SETUP, travel=travel) == []
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(20), deadline=None)
 @given(MILLING)
 def test_a_machine_with_rotary_axes_gives_the_same(text: str) -> None:
     assert differences(text, CONTROL, {**SETUP, "machine": "mill5-ac-table"}) == []

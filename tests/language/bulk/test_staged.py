@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from polycnc.channel.moves.path import Move
 from polycnc.compensation.cutter import CutterCompensation
+from tests.examples import examples
 from tests.language.bulk.both_ways import PLAIN, differences, run, scanned
 from tests.language.bulk.programs import arc
 
@@ -50,13 +51,13 @@ def contour(draw: st.DrawFn) -> str:
     return "\n".join([*lines, "G90 G40 G1 X-20. Y-20.", "M30", ""])
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=examples(75), deadline=None)
 @given(contour(), st.sampled_from(CONTROLS), st.sampled_from((30.0, 400.0)))
 def test_contours_give_the_same_both_ways(text: str, control_id: str, travel: float) -> None:
     assert differences(text, control_id, SETUP, travel=travel, block_limit=500) == []
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(20), deadline=None)
 @given(contour(), st.integers(3, 60))
 def test_a_limit_of_blocks_is_exact_within_a_run(text: str, limit: int) -> None:
     assert differences(text, "fanuc-m", SETUP, block_limit=limit) == []
@@ -81,7 +82,7 @@ def smooth(draw: st.DrawFn) -> str:
     return "\n".join([*lines, "G90 G40 G1 X-20. Y-20.", "M30", ""])
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=examples(50), deadline=None)
 @given(
     smooth(), st.sampled_from(CONTROLS), st.sampled_from((30.0, 90.0, inf)), st.sampled_from((20, 70, 500))
 )
@@ -147,7 +148,7 @@ def turned(draw: st.DrawFn) -> str:
     return "\n".join([*lines, "G40 G1 X80. Z10.", "M30", ""])
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 @given(turned())
 def test_turned_contours_give_the_same_both_ways(text: str) -> None:
     tools = {n: {"x": 5, "z": 3, "radius": 0.8 / n, "tip": 3} for n in (1, 2)}
@@ -182,7 +183,7 @@ def sinumerik_contour(draw: st.DrawFn) -> str:
     return "\n".join([*lines, "G90 G40 G1 X-20 Y-20", "M30", ""])
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 @given(sinumerik_contour(), st.sampled_from((0.3, 3.0)))
 def test_sinumerik_contours_give_the_same_both_ways(text: str, radius: float) -> None:
     setup = {**SETUP, "tools": {1: {"length": 50, "radius": radius}}}

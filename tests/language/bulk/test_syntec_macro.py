@@ -8,6 +8,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from polycnc.language.bulk.settings import Bulk
+from tests.examples import examples
 from tests.language.bulk.both_ways import PLAIN, differences, plain_scan, run, scanned
 from tests.language.bulk.programs import CODES, REPEATED, any_arc, arc, plain, program
 from tests.language.bulk.test_word_address import SETUP
@@ -52,21 +53,21 @@ WRONG = st.one_of(
 PROGRAMS = program(ended(BLOCKS), STATEMENTS, WRONG, "%@MACRO\nG90 G54 G1 F1000.;", "M30;")
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 @example("%@MACRO\nG90 G1 F1000.;\nX1.; (*\nX9.;\n*)\nX2.;\nX3. (* a ) X7. *);\nM30;\n")
 @given(PROGRAMS)
 def test_macro_programs_give_the_same_both_ways(text: str) -> None:
     assert differences(text, CONTROL, SETUP, block_limit=20_000) == []
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(20), deadline=None)
 @given(PROGRAMS, st.integers(1, 100), st.integers(1, 7))
 def test_block_limits_and_rooms_of_any_size_give_the_same(text: str, limit: int, rooms: int) -> None:
     bulk = Bulk(fewest_lines=0, scan=plain_scan, rooms=rooms, most_patience=1)
     assert differences(text, CONTROL, SETUP, bulk, block_limit=limit) == []
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=examples(20), deadline=None)
 @given(PROGRAMS)
 def test_block_skip_gives_the_same(text: str) -> None:
     assert differences(text, CONTROL, {**SETUP, "switches": {"block_skip": True}}, block_limit=20_000) == []

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tests.examples import examples
 from tests.language.bulk.both_ways import differences, scanned
 from tests.language.bulk.programs import plain, program
 from tests.language.bulk.test_sinumerik import COMMENTS
@@ -27,7 +28,7 @@ SINUMERIK = (
 
 
 @pytest.mark.parametrize(("machine", "letters"), [(HEAD, "XYZBC"), (TABLES, "XYZAC")])
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(12), deadline=None)
 @given(st.data())
 def test_tool_centre_point_control(machine: str, letters: str, data: st.DataObject) -> None:
     start = f"O0001\nG90 G54 G1 F1000.\nG43.4 H1 Z20.\nG1 X1. {letters[3]}5."
@@ -39,7 +40,7 @@ def test_tool_centre_point_control(machine: str, letters: str, data: st.DataObje
 
 
 @pytest.mark.parametrize(("machine", "letters"), [(HEAD, "XYZBC"), (TABLES, "XYZAC")])
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(12), deadline=None)
 @given(st.data())
 def test_orientation_transformation(machine: str, letters: str, data: st.DataObject) -> None:
     start = f"G90 G54 G1 F1000 T1 D1\nTRAORI\nG1 X1 {letters[3]}5"
@@ -59,7 +60,7 @@ POLAR = (
 )  # fmt: skip
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(12), deadline=None)
 @given(
     program(
         plain("XZC", FANUC_COMMENTS),
@@ -76,7 +77,7 @@ def test_polar_and_cylindrical_interpolation(text: str) -> None:
 FACE = ("TRANSMIT", "TRAFOOF", "TRACYL(40)", "G0 X30", "G17", "G19", "G90", "G91", "TRANS X1", "S100 M3")
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(12), deadline=None)
 @given(
     program(
         plain("XYZ", COMMENTS, equals=True), st.sampled_from(FACE), st.just("GOTOF NIRGENDS"),
@@ -111,7 +112,7 @@ def test_far_from_limits_of_travel_blocks_are_scanned(control: str) -> None:
 
 @pytest.mark.parametrize("control", STARTS)
 @pytest.mark.parametrize(("machine", "letters"), [(HEAD, "BC"), (TABLES, "AC")])
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=examples(15), deadline=None)
 @given(st.lists(PLACE, min_size=3, max_size=12), st.integers(60, 140))
 def test_limits_of_travel_are_found_in_the_same_block(
     control: str, machine: str, letters: str, places: list[tuple[int, int, int, int, int, str]], travel: int
@@ -144,7 +145,7 @@ CHANGES = st.sampled_from([
 
 
 @pytest.mark.parametrize(("machine", "angle"), [(HEAD, "B"), (TABLES, "A")])
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(20), deadline=None)
 @given(st.lists(st.one_of(st.tuples(BESIDE, DIRECTION, st.integers(0, 9)), CHANGES), min_size=2, max_size=14))
 def test_directions_of_the_tool(
     machine: str, angle: str, blocks: list[str | tuple[str, tuple[float, float, float], int]]
@@ -166,3 +167,52 @@ def test_blocks_with_a_direction_are_scanned(machine: str) -> None:
     lines = [f"N{i} G1 X{i} A3={0.3 + 0.001 * i:.4f} B3={0.1 - 0.002 * i:.4f} C3=1" for i in range(1, 41)]
     text = "\n".join(["G90 G54 F1000 T1 D1\nTRAORI", *lines, "M30", ""])
     assert scanned(text, "sinumerik-840d", {"machine": machine, **TOOLS}) >= 35
+
+
+#: Words beside a direction under G43.5, codes between, and what ends tip control.
+BESIDE_VECTOR = ("G1 X{0} Y{1}", "G0 Z{0}", "X{0}", "", "G1 F{0}00.")
+BETWEEN_VECTORS = (
+    "G90",
+    "G91",
+    "G54",
+    "G55",
+    "G49\nG43.5 H1",
+    "G0 X1.",
+    "I0 J0 K0",
+    "G43.4 H1 X2.",
+    "G43.5 H1",
+)
+VECTOR = st.tuples(*[st.integers(-3, 3)] * 2, st.sampled_from([1, 2, 5, 0, -1]))
+
+
+@pytest.mark.parametrize("control", ["fanuc-m", "syntec-mill"])
+@pytest.mark.parametrize("machine", [HEAD, TABLES])
+@settings(max_examples=examples(10), deadline=None)
+@given(
+    st.lists(
+        st.one_of(
+            st.tuples(st.sampled_from(BESIDE_VECTOR), VECTOR, st.integers(1, 40)),
+            st.sampled_from(BETWEEN_VECTORS),
+        ),
+        min_size=8,
+        max_size=20,
+    )
+)
+def test_directions_of_the_tool_by_i_j_k(machine: str, control: str, blocks: list[object]) -> None:
+    lines = ["G90 G54 G1 F1000.", "G43.5 H1"]
+    for block in blocks:
+        if isinstance(block, tuple):
+            beside, (x, y, z), number = block
+            lines.append(f"{beside.format(number, number)} I{x}. J{y * 0.3:.3f} K{z}.")
+        else:
+            lines.append(str(block))
+    text = "\n".join([*lines, "M30", ""])
+    assert differences(text, control, {"machine": machine, **TOOLS}) == []
+
+
+@pytest.mark.parametrize("control", ["fanuc-m", "syntec-mill"])
+@pytest.mark.parametrize("machine", [HEAD, TABLES])
+def test_blocks_with_i_j_k_are_scanned(machine: str, control: str) -> None:
+    lines = [f"N{i} G1 X{i}. I{0.3 + 0.001 * i:.4f} J{0.1 - 0.002 * i:.4f} K1." for i in range(1, 41)]
+    text = "\n".join(["G90 G54 F1000.\nG43.5 H1", *lines, "M30", ""])
+    assert scanned(text, control, {"machine": machine, **TOOLS}) >= 35

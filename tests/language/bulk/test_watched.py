@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tests.examples import examples
 from tests.language.bulk.both_ways import PLAIN, differences, run
 from tests.language.bulk.programs import plain, program
 from tests.language.bulk.test_sinumerik import COMMENTS as SINUMERIK_COMMENTS
@@ -30,7 +31,7 @@ FANUC = program(
 )
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(30), deadline=None)
 @given(FANUC, LINES, PLACES, st.sampled_from(("G91 G0 Z20.\n", "", "X1.\nX2. S300\nG1 F50. Y7.\n")))
 def test_an_interruption_macro_gives_the_same(text: str, line: int, place: float, body: str) -> None:
     macro = {"O9100": f"O9100\n#101=#5001\n{body}M99"}
@@ -46,7 +47,7 @@ SINUMERIK = program(
 )
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(30), deadline=None)
 @given(SINUMERIK, LINES, PLACES, st.sampled_from(("G91 G0 Z20\n", "", "X1\nX2 S300\nG1 F50 Y7\n")))
 def test_an_asynchronous_subprogram_gives_the_same(text: str, line: int, place: float, body: str) -> None:
     asup = {"ASUP.SPF": f"R9=R9+1\n{body}RET"}
@@ -62,7 +63,7 @@ ZONES = (
 )
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(30), deadline=None)
 @given(
     program(plain("XYZ", FANUC_COMMENTS), st.sampled_from(ZONES), FANUC_WRONG, "O1\nG90 G1 F1000.", "M30"),
     st.sampled_from(("fanuc-m", "meldas-m")),
@@ -72,13 +73,13 @@ def test_stored_stroke_limits_give_the_same(text: str, control_id: str, inside: 
     assert differences(text, control_id, {"parameters": {1300: inside}}) == []
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=examples(15), deadline=None)
 @given(program(plain("XYZ", SYNTEC_COMMENTS), st.sampled_from(ZONES), FANUC_WRONG, "G90 G1 F1000.", "M30"))
 def test_stroke_limits_of_syntec_give_the_same(text: str) -> None:
     assert differences(text, "syntec-mill") == []
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=examples(15), deadline=None)
 @given(st.data())
 def test_programs_from_elsewhere_give_the_same(data: st.DataObject) -> None:
     block = plain("XYZ", FANUC_COMMENTS)
@@ -91,7 +92,7 @@ def test_programs_from_elsewhere_give_the_same(data: st.DataObject) -> None:
     assert differences(main, "fanuc-m", files={"external:O0700": outside}, block_limit=20_000) == []
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=examples(15), deadline=None)
 @given(st.data())
 def test_external_subprograms_of_sinumerik_give_the_same(data: st.DataObject) -> None:
     block = plain("XYZ", SINUMERIK_COMMENTS, equals=True)

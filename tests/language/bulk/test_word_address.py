@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from polycnc.language.bulk.settings import Bulk
+from tests.examples import examples
 from tests.language.bulk.both_ways import differences, plain_scan
 from tests.language.bulk.programs import CODES, REPEATED, REPEATED_LATHE, any_arc, arc, number, plain, program
 
@@ -51,32 +52,32 @@ FANUC = program(
 )
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(30), deadline=None)
 @given(FANUC, st.sampled_from(("fanuc-m", "meldas-m")))
 def test_milling_programs_give_the_same_both_ways(text: str, control_id: str) -> None:
     assert differences(text, control_id, SETUP) == []
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(12), deadline=None)
 @given(FANUC, st.sampled_from(({3401: 1}, {5003: 1}, {3410: 0.5})))
 def test_parameters_count_both_ways(text: str, parameters: dict[int, float]) -> None:
     assert differences(text, "fanuc-m", {**SETUP, "parameters": parameters}) == []
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(30), deadline=None)
 @given(FANUC, st.integers(1, 100), st.integers(1, 7))
 def test_block_limits_and_rooms_of_any_size_give_the_same(text: str, limit: int, rooms: int) -> None:
     bulk = Bulk(fewest_lines=0, scan=plain_scan, rooms=rooms, most_patience=1)
     assert differences(text, "fanuc-m", SETUP, bulk, block_limit=limit) == []
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(30), deadline=None)
 @given(FANUC, st.sampled_from((400.0, 310.0)), st.sampled_from(("fanuc-m", "meldas-m")))
 def test_axes_with_limits_give_the_same(text: str, travel: float, control_id: str) -> None:
     assert differences(text, control_id, SETUP, travel=travel) == []
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=examples(15), deadline=None)
 @given(FANUC)
 def test_a_machine_with_rotary_axes_gives_the_same(text: str) -> None:
     assert differences(text, "fanuc-m", {**SETUP, "machine": "mill5-ac-table"}) == []
@@ -100,7 +101,7 @@ SYNTEC = program(
 )  # fmt: skip
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(30), deadline=None)
 @given(SYNTEC)
 def test_syntec_programs_give_the_same_both_ways(text: str) -> None:
     assert differences(text, "syntec-mill", SETUP) == []
@@ -122,7 +123,7 @@ LATHE = program(
 )  # fmt: skip
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 @given(LATHE)
 def test_lathe_programs_give_the_same_both_ways(text: str) -> None:
     assert differences(text, "fanuc-0i-tf", LATHE_SETUP) == []
@@ -134,7 +135,7 @@ def test_numbers_are_read_alike(digits: str) -> None:
     assert differences(text, "fanuc-m") == []
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(30), deadline=None)
 @given(st.lists(number(999), min_size=1, max_size=20))
 def test_coordinates_are_rounded_alike(numbers: list[str]) -> None:
     text = "\n".join(("O1", "G90 G1 F1000.", *(f"X{value}" for value in numbers), "M30", ""))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from polycnc.language.sinumerik.iso_dialect import region, switched, translated
+from polycnc.language.sinumerik.iso_dialect import parsed, region, switched
 from polycnc.messages import AlarmError
 
 
@@ -17,15 +17,16 @@ from polycnc.messages import AlarmError
         ("G04 P1500", "G0", ["G4", "F1.5"]),
         ("G4 X.25", "G0", ["G4", "F0.25"]),
         ("G59 (G1) X3 ; Y4", "G0", ["G506", "X3"]),
-        ("G21 G80", "G0", ["G71"]),
+        ("G21 G41", "G0", ["G710", "G41"]),
+        ("G20 G1 X1", "G0", ["G700", "G1", "X1"]),
     ],
 )
 def test_words_and_their_counterparts(line: str, motion: str, told: list[str]) -> None:
-    assert translated(line, motion).split() == told
+    assert parsed(line).told(motion).split() == told
 
 
 def test_words_keep_their_columns() -> None:
-    assert translated("N10 G01   X5", "G0").index("X5") == 10
+    assert parsed("N10 G01   X5").told("G0").index("X5") == 10
 
 
 @pytest.mark.parametrize(
@@ -39,12 +40,26 @@ def test_words_keep_their_columns() -> None:
         ("G4 P100 X1 Y3", "PC0001"),
         ("X1 &", "12080"),
         ("D1", "PC0001"),
+        ("G4", "PC0001"),
+        ("G04 M8", "PC0001"),
     ],
 )
 def test_what_is_refused(line: str, code: str) -> None:
     with pytest.raises(AlarmError) as error:
-        translated(line, "G1")
+        parsed(line).told("G1")
     assert error.value.code == code
+
+
+def test_words_that_are_somebody_elses() -> None:
+    block = parsed("N1 G99 G81 X1 R2 Z-3")
+    assert block.codes == ("G99", "G81")
+    assert [word.name for word in block.words if block.find(word.letter) == word] == [
+        "G81",
+        "X1",
+        "R2",
+        "Z-3",
+    ]
+    assert block.told("G0", [word for word in block.words if word.letter in "GRZ"]).split() == ["N1", "X1"]
 
 
 def test_blocks_that_change_the_language() -> None:

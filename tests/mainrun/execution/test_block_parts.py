@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from polycnc.mainrun.execution.block_parts import direction
 from polycnc.mainrun.motion.geometry import Line
+from tests.examples import examples
 from tests.mainrun.support import power_on
 
 if TYPE_CHECKING:
@@ -37,7 +38,7 @@ def counted(ways: Sequence[tuple[float, float]], feed: float, codes: str) -> tup
 
 
 @pytest.mark.parametrize("soft", ["BRISK", "SOFT"])
-@settings(max_examples=6, deadline=None)
+@settings(max_examples=examples(6), deadline=None)
 @given(
     ways=st.lists(st.sampled_from([(10, 0), (0, 10), (7, 3), (3, -8)]), min_size=1, max_size=6),
     feed=st.sampled_from([500, 3000, 12000]),

@@ -8,12 +8,11 @@ import pytest
 
 from polycnc.mainrun import State
 from polycnc.panel import Light
+from tests.panel.bench import Bench
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
-
-    from tests.panel.bench import Bench
 
     Make = Callable[..., Bench]
 
@@ -305,3 +304,62 @@ def test_edit_mode_transfers_and_deletes_programs_and_runs_none(bench: Make, tmp
     assert (tmp_path / "BACK.NC").read_text().split() == ["%", "O0042", "G0", "X3.", "M30", "%"]
     panel.typed("O0042", "DELETE")
     assert "O0042" not in panel.text
+
+
+def words(panel: Bench) -> list[str]:
+    """The rows of the program under edit; the word at the cursor is in brackets."""
+    return [
+        " ".join(f"<{cell.text}>" if cell.cursor else cell.text for cell in row)
+        for row in panel.window("program").rows
+    ]
+
+
+@pytest.mark.parametrize("control", ["fanuc-m", "fanuc-0i-tf"])
+@pytest.mark.feature("har.panel_edit", control="fanuc-m")
+def test_edit_mode_writes_a_program_word_by_word(control: str, lang: str) -> None:
+    panel = Bench(control, lang)
+    panel.keys("PROG")
+    panel.typed("O0012", "INSERT")
+    assert panel.message == panel.says("this is done in mode EDIT", "此操作須在 EDIT 模式進行")
+    panel.turn("mode", "edit")
+    panel.keys("INSERT", "EOB", "INSERT")
+    panel.typed("G0 X10.;", "INSERT")
+    panel.typed("M30;", "INSERT")
+    assert panel.message == ""
+    assert words(panel) == ["O0012 ;", "G0 X10. ;", "M30 <;>"]
+    panel.keys("UP", "RIGHT")
+    panel.typed("X-2.5", "ALTER")
+    panel.typed("Z1.", "INSERT")
+    assert words(panel)[1] == "G0 X-2.5 <Z1.> ;"
+    panel.keys("DELETE", "RESET")
+    assert words(panel)[0] == "<O0012> ;"
+    panel.typed("M30", "DOWN")
+    assert words(panel) == ["O0012 ;", "G0 X-2.5 ;", "<M30> ;"]
+    panel.keys("CAN", "CAN", "CAN")
+    panel.typed("O0012", "INSERT")
+    assert panel.message == panel.says("the memory has a program O0012 already", "記憶體中已有程式 O0012")
+    panel.screen.buffer = ""
+    panel.keys("UP", "EOB", "DELETE")
+    assert words(panel) == ["O0012 ;", "<M30> ;"]
+    panel.keys("UP", "RIGHT")
+    panel.typed("G0 X-4.;", "INSERT")
+    panel.turn("edit_protect", "on")
+    panel.keys("DELETE")
+    assert panel.message == panel.says("edit protection is on", "編輯保護已開啟")
+    panel.turn("mode", "memory" if control == "fanuc-m" else "auto")
+    assert panel.start() is State.READY
+    assert panel.control.positions.work["X"] == -4.0
+
+
+@pytest.mark.parametrize("control", ["fanuc-m"])
+@pytest.mark.feature("har.panel_edit")
+def test_a_program_is_found_by_its_number_and_the_cursor_down(bench: Make) -> None:
+    panel = bench("O1\nG0 X1.\nM30\nO2\nG0 X2.\nM30\n")
+    panel.turn("mode", "edit")
+    panel.keys("PROG")
+    panel.typed("O2", "DOWN")
+    assert panel.message == ""
+    assert words(panel)[1] == "G0 X2. ;"
+    panel.soft("(OPRT)", "(操作)")
+    panel.soft("REWIND", "返回開頭")
+    assert words(panel)[0].startswith("<")

@@ -15,7 +15,8 @@ if TYPE_CHECKING:
 
     Make = Callable[..., Bench]
 
-GEOM, WEAR = ("GEOM", "形狀"), ("WEAR", "磨耗")
+OFFSET, GEOM, WEAR = ("OFFSET", "補正"), ("GEOM", "形狀"), ("WEAR", "磨耗")
+SWITCH = ("SWITCH", "切換")
 OPRT = ("(OPRT)", "(操作)")
 SEARCH, MEASURE, COUNTER = ("NO.SRH", "NO.SRH"), ("MEASUR", "測定"), ("INP.C.", "C輸入")
 ADD, INPUT = ("+INPUT", "+輸入"), ("INPUT", "輸入")
@@ -45,15 +46,19 @@ def row(panel: Bench, name: str) -> list[str]:
     raise AssertionError(name)
 
 
+def heads(panel: Bench) -> list[str]:
+    """What stands above the columns of the table."""
+    return [cell.text for cell in panel.window("table").rows[0]]
+
+
 # ---- tool offsets (III.2.1.1) ------------------------------------------------------------------------------
 
 
 @pytest.mark.feature("fan.scr_tool_offset", control="fanuc-0i-tf")
 def test_geometry_and_wear_have_a_page_each_with_positions_at_the_side(bench: Make) -> None:
-    panel = opened(bench(setup={"start": {"X": 70.0, "Z": 12.5}}), GEOM)
+    panel = opened(bench(setup={"start": {"X": 70.0, "Z": 12.5}}), OFFSET, GEOM)
     assert panel.view.title == panel.says("OFFSET / GEOMETRY", "工具補正 / 形狀")
-    heads = [cell.text for cell in panel.window("table").rows[0][1:]]
-    assert heads == ["X", "Z", panel.says("RADIUS", "半徑"), "T"]
+    assert heads(panel)[1:] == panel.says("X Z RADIUS T", "X軸 Z軸 半徑 T").split()
     assert len(panel.window("table").rows) == 18, "17 numbers on a page"
     side = [window for window in panel.view.windows if window.kind == "positions"]
     assert [window.title for window in side] == [
@@ -94,7 +99,7 @@ def test_one_list_in_the_place_of_geometry_and_wear(bench: Make) -> None:
     panel.keys("OFS/SET")
     assert panel.view.title == panel.says("OFFSET", "工具補正")
     assert panel.says("WEAR", "磨耗") not in [key.text for key in panel.view.soft_keys]
-    panel.soft("OFFSET", "補正")
+    panel.soft(*OFFSET)
     panel.soft(*OPRT)
     keyed(panel, "64", SEARCH)
     keyed(panel, "1.5", INPUT)
@@ -104,7 +109,9 @@ def test_one_list_in_the_place_of_geometry_and_wear(bench: Make) -> None:
 @pytest.mark.feature("fan.scr_tool_offset", control="fanuc-0i-tf")
 def test_radius_and_tip_are_shown_with_their_function_only(bench: Make) -> None:
     panel = opened(bench(setup={"parameters": {"8136#7": 1}}), GEOM)
-    assert [cell.text for cell in panel.window("table").rows[0]] == ["", "X", "Z"]
+    assert [cell.text for cell in panel.window("table").rows[0]] == panel.says(
+        "NO. X Z", "編號 X軸 Z軸"
+    ).split()
 
 
 # ---- protection --------------------------------------------------------------------------------------------
@@ -267,15 +274,23 @@ def test_a_measured_face_reads_what_was_programmed(latches: int, bench: Make) ->
 def test_second_geometry_is_typed_in_with_its_parameter(bench: Make) -> None:
     panel = opened(bench(setup={"parameters": {"3290#5": 1}}), ("2ND GEOM", "第2形狀"))
     assert panel.view.title == panel.says("OFFSET / 2ND GEOM", "刀具補正 / 第2形狀")
-    assert [cell.text for cell in panel.window("table").rows[0]] == ["", "X", "Z", "Y"]
+    assert [window.kind for window in panel.view.windows] == [
+        *("positions", "rates", "modal", "table", "counters")
+    ]
+    assert heads(panel) == panel.says("NO. X Z", "編號 X軸 Z軸").split()
+    assert len(panel.window("table").rows) == 12, "11 numbers on a page"
     panel.soft(*OPRT)
     keyed(panel, "9", SEARCH)
     keyed(panel, "4.", INPUT)
     keyed(panel, "0.5", ADD)
-    panel.keys("RIGHT", "RIGHT")
+    panel.soft(*SWITCH)
+    assert heads(panel) == panel.says("NO. Y", "編號 Y軸").split()
+    keyed(panel, "9", SEARCH)
     panel.typed("-1.", "INPUT")
     assert panel.message == ""
-    assert row(panel, "G 09") == ["4.500", "0.000", "-1.000"]
+    assert row(panel, "G 09") == ["-1.000"]
+    panel.soft(*SWITCH)
+    assert row(panel, "G 09") == ["4.500", "0.000"]
 
 
 @pytest.mark.feature("fan.scr_second_geom", control="fanuc-0i-tf")
@@ -284,7 +299,7 @@ def test_second_geometry_is_refused_without_its_parameter(bench: Make) -> None:
     for key in (INPUT, ADD):
         keyed(panel, "4.", key)
         assert panel.message == panel.says(*PROTECTED)
-    assert row(panel, "G 01") == ["0.000"] * 3
+    assert row(panel, "G 01") == ["0.000"] * 2
 
 
 @pytest.mark.feature("fan.modal_display", control="fanuc-0i-tf")
@@ -305,7 +320,7 @@ def test_the_modal_codes_stand_in_the_order_of_the_manual(bench: Make) -> None:
 # ---- Y offset (III.2.1.7) --------------------------------------------------------------------------------------
 
 
-OFST_2, SWITCH = ("OFST.2", "刀偏.2"), ("SWITCH", "切換")
+OFST_2 = ("OFST.2", "刀偏.2")
 
 
 @pytest.mark.feature("fan.scr_y_offset", control="fanuc-0i-tf")
@@ -372,7 +387,7 @@ CLEAR = ("CLEAR", "清除")
 def test_the_axes_of_the_parameters_have_wear_and_geometry(bench: Make) -> None:
     panel = opened(bench(setup={"parameters": FURTHER}), EXT)
     assert panel.view.title == panel.says("OFFSET / WEAR", "工具補正 / 磨耗")
-    assert [cell.text for cell in panel.window("table").rows[0]] == ["", "A", "B"]
+    assert heads(panel) == panel.says("NO. A B", "編號 A軸 B軸").split()
     panel.soft(*OPRT)
     keyed(panel, "3", SEARCH)
     keyed(panel, "1.5", INPUT)

@@ -185,6 +185,28 @@ TRAORI = "T1 D1\nM6\nG0 X0 Y0 Z50\nTRAORI\nG0 X10 Y20 Z30\nM0\nM30\n"
 
 @pytest.mark.feature("sie.ori_jog", control="sinumerik-840d")
 @pytest.mark.parametrize("lang", ["en", "zh-TW"])
+def test_geometry_axes_by_hand_follow_the_system_that_is_chosen(lang: str) -> None:
+    screen = Screen(VirtualControl("sinumerik-840d"))
+    control, panel = screen.control, Panel(screen.control)
+    runs(screen, "G54 G0 X10 Y0 Z0\nROT Z90\nM0\nM30\n")
+    panel.turn("mode", "jog")
+    for key, moves in (("WCS", "Y"), ("TCS", "X"), ("MCS", "X")):
+        panel.press(key)
+        assert panel.lamps()[key] is Light.ON
+        before = control.positions.machine
+        panel.press("X+")
+        control.step(0.5)
+        panel.release("X+")
+        control.run()
+        after = control.positions.machine
+        assert [axis for axis in after if abs(after[axis] - before[axis]) > 1e-6] == [moves]
+    screen.press("MACHINE")
+    shown = {row[0].text: row[1].text for row in screen.view(lang).windows[0].rows}
+    assert float(shown["X"]) == pytest.approx(control.positions.work["X"], abs=1e-3)
+
+
+@pytest.mark.feature("sie.ori_jog", control="sinumerik-840d")
+@pytest.mark.parametrize("lang", ["en", "zh-TW"])
 def test_a_rotary_axis_by_hand_turns_the_tool_about_its_tip(lang: str) -> None:
     setup = {"tools": {1: {"length": 100.0}}}
     screen = Screen(VirtualControl("sinumerik-840d", machine="mill5-bc-head", setup=setup))

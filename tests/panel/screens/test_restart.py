@@ -186,3 +186,112 @@ def test_a_search_beyond_the_program_is_refused_in_every_kind() -> None:
         assert panel.control.state is State.READY
     with pytest.raises(CommandRefused):
         panel.control.block_search(2, how="serupro")
+
+
+# ---- with program test -------------------------------------------------------------------------------------------
+
+#: An action counts cycles, a wait lasts, a jump leads there: what a search with calculation does not see.
+TESTED = (
+    "R1=0\nID=1 EVERY $AA_IM[X]>4 DO $AC_MARKER[1]=7\nM3 S500\nM8\nT2 D0\nG0 X10 Z-3\n"
+    "N7 G1 X50 F600\nG4 F1\nR1=R1+1 R2=$P_ISTEST\nN8 G1 X=60 F600\nSTOPRE\nR3=$P_ISTEST\nM30\n"
+)
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_a_search_with_program_test_runs_the_program_while_the_axes_stand(lang: str) -> None:
+    panel = Bench(
+        "sinumerik-840d",
+        lang,
+        setup={"start": {"X": 3.0}, "tools": {2: {"length": 0.0}}},
+        program=TESTED,
+    )
+    control = panel.control
+    panel.soft("Block search", "單節搜尋")
+    side(panel, "With prog. test", "程式測試")
+    search(panel, "N8")
+    assert control.state is State.RUNNING
+    began = control.time
+    assert control.run() is State.STOPPED
+    assert control.time - began > 1.0, "the dwell lasts"
+    assert (control.positions.real["X"], control.positions.machine["X"]) == (3.0, 3.0)
+    assert (control.read_variable("R1"), control.read_variable("$AC_MARKER[1]")) == (1.0, 7)
+    assert (control.signals["COOLANT_ON"], control.spindle.direction) == (0.0, 1)
+    assert control.restart["X"] == pytest.approx((50.0, 47.0))
+    assert control.collected == ("M3", "S500", "M8", "T2")
+    assert control.active_block.text == "N8 G1 X=60 F600"
+    panel.press("START")
+    assert control.run() is State.READY
+    assert control.positions.machine == pytest.approx({"X": 60.0, "Y": 0.0, "Z": -3.0})
+    assert (control.read_variable("R1"), control.snapshot.parts) == (1.0, 1)
+    assert (control.read_variable("R2"), control.read_variable("R3")) == (1.0, 0.0)
+
+
+def test_a_program_knows_that_it_is_searched() -> None:
+    panel = Bench("sinumerik-840d", "en", program="R1=$P_SEARCH\nN5 G0 X1\nSTOPRE\nR2=$P_SEARCH\nM30\n")
+    panel.control.block_search("N5")
+    panel.press("START")
+    assert panel.control.run() is State.READY
+    assert (panel.control.read_variable("R1"), panel.control.read_variable("R2")) == (1.0, 0.0)
+
+
+def test_a_program_test_that_is_given_up_leaves_the_axes_where_they_stand() -> None:
+    panel = Bench("sinumerik-840d", "en", setup={"start": {"X": 3.0}}, program=COUNTED)
+    control = panel.control
+    control.block_search("N8", how="program-test")
+    panel.passes(0.5)
+    control.reset()
+    assert control.run() is State.READY
+    assert control.positions.machine["X"] == 3.0
+    assert control.snapshot.parts == 0
+    panel.press("START")
+    panel.passes(0.5)
+    assert control.positions.real["X"] > 3.0, "the test is over"
+
+
+def test_a_block_that_the_program_does_not_come_to_is_told() -> None:
+    program = "GOTOF ENDE\nN5 G0 X1\nENDE: G1 X5 F1000\nM30\n"
+    panel = Bench("sinumerik-840d", "en", program=program)
+    control = panel.control
+    control.block_search("N5", how="program-test")
+    assert control.run() is State.READY
+    assert control.positions.machine["X"] == 0.0
+    assert "N5" in panel.view.note
+    assert control.snapshot.parts == 0
+
+
+# ---- sections that no search enters --------------------------------------------------------------------------------
+
+LOCKED = "N10 G1 X10 F600\nIPTRLOCK\nR1=1\nN20 G1 X20\nN30 G1 X30\nIPTRUNLOCK\nN40 G1 X40\nN50 G1 X50\nM30\n"
+
+
+@pytest.mark.feature("sie.iptrlock", control="sinumerik-840d")
+@pytest.mark.parametrize(
+    ("given_up_at", "found"), [("N10", "N10"), ("N20", "N20"), ("N30", "N20"), ("N40", "N40"), ("N50", "N50")]
+)
+def test_a_search_goes_to_where_a_section_begins_in_which_it_was_given_up(
+    given_up_at: str, found: str
+) -> None:
+    panel = Bench("sinumerik-840d", "en", program=LOCKED)
+    control = panel.control
+    panel.press("START")
+    assert control.run_until(lambda control: control.active_block.text.startswith(given_up_at), limit_s=60.0)
+    panel.passes(0.3)
+    control.reset()
+    control.run()
+    panel.soft("Block search", "單節搜尋")
+    side(panel, "Interrupt. point", "中斷點")
+    assert panel.message == ""
+    (row,) = (row for row in panel.window("program").rows if row[0].cursor)
+    assert row[0].text.startswith(found)
+
+
+def test_a_program_that_is_loaded_anew_has_no_point_of_interruption() -> None:
+    panel = Bench("sinumerik-840d", "en", program=LOCKED)
+    panel.press("START")
+    panel.passes(0.5)
+    panel.control.reset()
+    panel.control.run()
+    panel.control.load("G0 X1\nM30\n")
+    panel.soft("Block search", "單節搜尋")
+    side(panel, "Interrupt. point", "中斷點")
+    assert panel.message

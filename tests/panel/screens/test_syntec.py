@@ -99,11 +99,48 @@ def test_the_page_is_not_there_without_work_systems() -> None:
     assert bench.view.page == "offset"
 
 
-def test_tip_control_in_a_turned_system_is_not_executed() -> None:
+def test_under_tip_control_the_tip_goes_by_the_turned_system() -> None:
+    bench = syntec("en", machine="mill5-ac-table", setup={"tools": {1: {"length": 50.0}}})
+    bench.screen.show("rotation")
+    bench.typed("10", "INPUT")
+    control = bench.control
+    control.load(
+        "G90 G54.4 P1\nG43.4 H1\nG0 X1. Y2. Z3. A-10. C0\nM0\nC90.\nM0\nG43.5 H1\nX0 Y0 Z20. I0 J0 K1.\nM0\n"
+        "G54.4 P0\nX1. Y2. Z3. K1.\nM30\n"
+    )
+    places = []
+    for _ in range(4):
+        control.cycle_start()
+        control.run()
+        machine = control.positions.machine
+        places.append([machine[axis] for axis in "XYZA"])
+    # X of the system leans by 10 degrees, A stands it upright; then C turns it with the table about the machine's Z.
+    assert places[0] == pytest.approx([1.0, 2.0, 53.0, -10.0])
+    assert places[1] == pytest.approx([-1.448671, 1.558145, 53.077911, -10.0], abs=1e-5)
+    assert places[2] == pytest.approx([0.0, 0.0, 70.0, -10.0], abs=1e-9)
+    assert places[3][2:] == pytest.approx([53.0, 0.0], abs=1e-9)
+
+
+def test_in_a_turned_system_radius_compensation_in_space_sees_the_tool_as_it_stands_there() -> None:
+    tools = {"tools": {1: {"length": 50.0, "radius": 5.0}}}
+    bench = syntec("en", machine="mill5-ac-table", setup=tools)
+    bench.screen.show("rotation")
+    bench.typed("10", "INPUT")
+    control = bench.control
+    control.load(
+        "G90 G54.4 P1\nG43.4 H1\nG0 X0 Y0 Z0 A-10. C0\nG42.2 G1 X10. D1 F500\nX20.\nM0\nY10.\nG40 X0\nM30\n"
+    )
+    control.cycle_start()
+    control.run()
+    # The table stands the system upright under the tool: the corner of the offset lines as in the plane.
+    assert [control.positions.work[axis] for axis in "XYZ"] == pytest.approx([25.0, -5.0, 0.0], abs=1e-6)
+
+
+def test_a_posture_in_a_turned_system_is_not_executed() -> None:
     bench = syntec("en", machine="mill5-ac-table")
     bench.screen.show("rotation")
     bench.typed("10", "INPUT")
-    bench.control.load("G54.4 P1\nG43.4 H1\nG1 X1. F100\nM30\n")
+    bench.control.load("G54.4 P1\nG43.4 H1 Q1\nG1 X1. F100\nM30\n")
     bench.control.cycle_start()
     bench.control.run()
     assert bench.alarms() == ["PC0001"]

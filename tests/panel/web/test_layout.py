@@ -76,17 +76,22 @@ def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
         yield found
 
 
-async def look(page: Browser, control: str, width: int, height: int) -> list[str]:
-    """What is wrong with the page at this size."""
-    where = f"{control} {width} × {height}"
+async def faults(page: Browser, control: str, width: int, height: int) -> list[str]:
+    """What stays wrong with the page at this size."""
     await page.sized(width, height)
     await page.until(f"innerWidth === {width} && innerHeight === {height}")
-    wide = high = 0
+    found: list[str] = []
     for _ in range(30):  # the page is laid out anew a moment later
-        wide, high = await page.evaluate(_OVERFLOW)
-        if wide <= 0 and (width < 1280 or high <= 0):
+        found = await look(page, f"{control} {width} × {height}", width, height)
+        if not found:
             break
         await asyncio.sleep(0.1)
+    return found
+
+
+async def look(page: Browser, where: str, width: int, height: int) -> list[str]:
+    """What is wrong with the page now."""
+    wide, high = await page.evaluate(_OVERFLOW)
     found = [f"{where}: {wide} pixels too wide"] if wide > 0 else []
     if width >= 1280 and high > 0:
         found.append(f"{where}: {high} pixels too high")
@@ -119,7 +124,7 @@ def test_the_page_of_every_family_fits_into_screens_and_tablets(
                 await page.until(f"document.documentElement.lang === '{'en' if lang == 'EN' else 'zh-TW'}'")
                 await page.until(_READY)
                 for width, height in SIZES:
-                    found.extend(await look(page, control, width, height))
+                    found.extend(await faults(page, control, width, height))
 
     asyncio.run(journey())
     assert not found, "\n".join(found)

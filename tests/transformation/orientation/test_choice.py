@@ -49,3 +49,18 @@ def test_an_axis_is_led_in_a_direction(sense: int, found: float) -> None:
 )
 def test_an_angle_is_taken_on_a_turn_within_reach(low: float, high: float, found: float | None) -> None:
     assert choice.on_reachable_turn(-80.0, low, high) == found
+
+
+def test_axes_with_ranges_take_the_turn_that_is_nearest_within() -> None:
+    near = {"A": 0.0, "C": 350.0}
+    assert choice.on_turns_within({"A": 10.0, "C": 370.0}, near, {"C": (0.0, 355.0)}) == {
+        "A": 10.0,
+        "C": 10.0,
+    }
+    assert choice.on_turns_within({"A": 10.0, "C": 370.0}, near, {"C": (0.0, 720.0)}) == {
+        "A": 10.0,
+        "C": 370.0,
+    }
+    assert choice.on_turns_within({"A": 10.0, "C": 370.0}, near, {"A": (-5.0, 5.0)}) is None
+    assert choice.all_within({"A": 10.0}, {"A": (0.0, 10.0), "B": (1.0, 2.0)})
+    assert not choice.all_within({"A": 10.1}, {"A": (0.0, 10.0)})

@@ -3,5 +3,5 @@
 `chord_path` is the way of a curve that is written as chords. `turning` is the stage in which rotary axes turn along a
 move, `knots` cuts a move where something else changes its course within it. `origins` names intermediate blocks.
 `travel` says where it leads the machine,
-and guards its limits.
+and guards its limits. `times` is how long single moves take, for what comes by the clock in a run without one.
 """

@@ -325,9 +325,10 @@ class TableStage(Sink):
         count = len(run.kinds)
         if count:
             self.end, self.context = run.ends[-len(run.start) :].tolist(), run.context
-            columns = (run.kinds, run.lines, run.feeds, run.ends, run.curves)
+            programs = array("H", (run.program,)) * count
+            columns = (run.kinds, programs, run.lines, run.feeds, run.ends, run.curves)
             views = [memoryview(column).cast("B") for column in columns]
-            self._channel.toolpath.chunk.extend(0, count, run.program, run.context, views)
+            self._channel.toolpath.chunk.extend(0, count, run.context, views)
         return count
 
     def event(self, event: PlacedEvent) -> None:
@@ -337,7 +338,8 @@ class TableStage(Sink):
         if not end:
             end = channel.coordinates.position
         elif self.context != event.context:
-            end = channel.toolpath.seen_from(end, self.context, event.context, channel.coordinates.geometry)
+            old, new = (channel.toolpath.contexts[number] for number in (self.context, event.context))
+            end = channel.toolpath.seen_from(end, old, new, channel.coordinates.geometry)
         channel.toolpath.append_event(event.event, event.program, event.line, event.context, end)
 
 

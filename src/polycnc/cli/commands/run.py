@@ -73,12 +73,14 @@ def run(
         return fail(text("run.no-samples"), 2)
     if sample is not None and (period is None or sample[1].suffix.lower() not in SAMPLES):
         return fail(text("run.sample", period=sample[0], file=sample[1], known=listed(SAMPLES)), 2)
+    asked = [name for name, it in (("--explain-time", explain_time), ("--sample", sample is not None)) if it]
+    if no_time and asked:
+        return fail(text("run.needs-time", options=listed(asked)), 2)
     is_stdin = file == "-"
     outputs = [trace, sample[1] if sample is not None else None, state, print_to]
     refuse_inputs(outputs, opening.inputs(file, *([memory] if memory else [])))
     source = sys.stdin.buffer.read() if is_stdin else Path(file)
-    timed = not no_time or explain_time or sample is not None
-    session = opening.session(source, keep=False, timed=timed, memory=memory)
+    session = opening.session(source, keep=False, timed=not no_time, memory=memory)
     happenings = Happenings(session.result.display)
     session.consumers.append(happenings.take)
     usage = None if no_time else Usage(session.result.display)

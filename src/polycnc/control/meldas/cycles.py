@@ -7,13 +7,15 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.milling.cycles import CYCLES, MILLING_DRILLING, check_rigid_tapping
 from polycnc.control.meldas.parameters import MeldasParameters
-from polycnc.control.word_address.cycles.drilling import CycleState
+from polycnc.control.word_address.cycles.drilling import CycleState, third_axis
+from polycnc.control.word_address.cycles.shift import shift_by_i_and_j
 from polycnc.control.word_address.motion.path import FEED_MODES
 from polycnc.control.word_address.tools.radius import active_compensation
 from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.cycles.drilling import CycleData
 
 #: Retract or clearance of each pecking cycle, mm (G73 n, G83 n).
@@ -24,17 +26,24 @@ SYNCHRONOUS = ",R"
 _FOREIGN = ("G84.2", "G84.3")
 
 
+def drilling_axis(builder: Builder) -> int:
+    """The axis that stands on the plane; Z where #1080 Dril_Z says so (M700 programming manual, fixed cycles)."""
+    if MeldasParameters.naming(builder.channel.setup.parameters).drills_along_z:
+        return builder.channel.coordinates.geometry[2]
+    return third_axis(builder)
+
+
 def relief(channel: Channel, code: str) -> float:
     """Retract or clearance between pecks, mm."""
     parameters = MeldasParameters.naming(channel.setup.parameters)
     return parameters.value(RELIEF[code]) if code in RELIEF else 0.0
 
 
-def shift_off_wall(channel: Channel, data: CycleData, _plane: tuple[int, int]) -> tuple[float, float]:
+def shift_off_wall(channel: Channel, data: CycleData, plane: tuple[int, int]) -> tuple[float, float]:
     """I and J (Hartford manual §3.3.3, G76 and G87); the Q of FANUC is no shift, and none would scratch the bore."""
     if "Q" in data and "I" not in data and "J" not in data:
         raise channel.control.fail("cycle_word", address="Q", hint="hint.meldas.shift")
-    return data.amount("I"), data.amount("J")
+    return shift_by_i_and_j(channel, data, plane)
 
 
 def pitch_of_tap(channel: Channel) -> float:
@@ -63,6 +72,7 @@ def check(channel: Channel, code: str) -> None:
 DRILLING = replace(
     MILLING_DRILLING,
     cycles={code: cycle for code, cycle in CYCLES.items() if code not in _FOREIGN},
+    axis=drilling_axis,
     relief=relief,
     shift=shift_off_wall,
     lead=pitch_of_tap,

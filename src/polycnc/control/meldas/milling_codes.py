@@ -9,14 +9,16 @@ from polycnc.control.word_address.auxiliary.m_codes import MACHINING_CENTRE
 from polycnc.control.word_address.block.codes import GCode, MCode, Order, m_table, table, with_aliases
 from polycnc.control.word_address.coordinates import systems
 from polycnc.control.word_address.cycles import hole_patterns
-from polycnc.control.word_address.macro_b import subprograms
+from polycnc.control.word_address.macro_b import calls_as_data, subprograms
 from polycnc.control.word_address.motion import circle_cutting, path_modes, skip
-from polycnc.control.word_address.tools import measuring
+from polycnc.control.word_address.tools import data_input, measuring
 from polycnc.control.word_address.transformations import hypothetical_axis
+from polycnc.language.bulk import declare
 
 #: Codes of FANUC that the manual's table does not have.
 FOREIGN = frozenset({
-    "G5.4", "G10.9", "G25", "G26", "G43.5", "G53.6", "G54.2", "G54.4", "G68.3", "G68.4", "G84.2", "G84.3",
+    "G5.4", "G10.9", "G41.2", "G41.3", "G41.4", "G41.5", "G41.6", "G42.2", "G42.4", "G42.5", "G42.6", "G25",
+    "G26", "G43.5", "G53.6", "G54.2", "G54.4", "G68.3", "G68.4", "G84.2", "G84.3",
 })  # fmt: skip
 
 _ROWS = table(
@@ -24,6 +26,7 @@ _ROWS = table(
     moves("G2.1", circle_cutting.spiral_cw, "I J K P"),
     moves("G3.1", circle_cutting.spiral_ccw, "I J K P"),
     GCode("G5", handler=path_modes.high_speed_mode, takes="P"),
+    moves("G10", data_input.input_data, "L P R"),
     moves("G12", circle_cutting.cut_circle_cw, "I D"),
     moves("G13", circle_cutting.cut_circle_ccw, "I D"),
     moves("G28", systems.return_to_reference),
@@ -46,6 +49,10 @@ _ROWS = table(
 G_CODES = with_aliases(_ROWS, ALIASES)
 #: H is the sequence number at which the subprogram begins.
 M98 = MCode(
-    98, after=True, handler=partial(subprograms.call_subprogram, begins_at="H"), takes="P H L", silent=True
+    98,
+    after=True,
+    handler=declare(partial(subprograms.call_subprogram, begins_at="H"), calls_as_data.subprogram),
+    takes="P H L",
+    silent=True,
 )
 M_CODES = m_table(*MACHINING_CENTRE, M98)

@@ -30,6 +30,8 @@ class MeldasParameters(MacroParameters["MeldasAxisParameters"]):
 
     axis_class = MeldasAxisParameters
 
+    #: 1080: Dril_Z: drilling cycles run along the axis that stands on the plane (0), or always along Z (1).
+    drills_along_z = Whole(1080, delivered=0)
     #: 1084: RadErr: allowed difference of the radii of an arc; 0: no check [mm].
     arc_tolerance = Number(1084, delivered=0.1)
     #: 1086: G0Intp: rapids run on a line (0), or every axis by itself (1).

@@ -23,4 +23,5 @@
     variables/   system variables
     data/        machine data, archives
     cycles/      the machining cycles
+    iso/         functions of the ISO dialect
 """

@@ -12,6 +12,7 @@ from polycnc.control.alarm_text import alarm_catalogue
 from polycnc.control.sinumerik import axis_names, gcodes, replaced, tables
 from polycnc.control.sinumerik.actions import actions, overlay
 from polycnc.control.sinumerik.actions.user_data import user_data
+from polycnc.control.sinumerik.axes import jogging
 from polycnc.control.sinumerik.block import positions, procedures, single_block
 from polycnc.control.sinumerik.block.plain import SinumerikPlainBlocks
 from polycnc.control.sinumerik.block.plan import ExactStop, make_plan
@@ -62,16 +63,18 @@ from polycnc.toolpath.modes import CornerMode, FeedMode
 from polycnc.toolpath.motion_settings import MotionSettings
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from polycnc.channel.mode import Mode
     from polycnc.channel.stack import Executable, Level
     from polycnc.channel.steps import Step as ProgramStep
+    from polycnc.control.interface import HandMotion
     from polycnc.control.sinumerik.block.draft import Plan, Values
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.variables.registry import SystemVariable
     from polycnc.language.expressions.shapes import Shapes
     from polycnc.language.sinumerik.actions.code import ActionCode
+    from polycnc.language.sinumerik.iso_dialect import IsoBlock
     from polycnc.language.sinumerik.words import Block
     from polycnc.messages import Catalogue
     from polycnc.program import Program
@@ -198,6 +201,12 @@ class Sinumerik:
     def handwheel_offset_speed(self, channel: SinumerikChannel, axis: int) -> float:
         """DRF: MD32020 by MD32090."""
         return overlay.handwheel_speed(channel, axis)
+
+    def hand_speed(
+        self, channel: SinumerikChannel, axis: int, what: HandMotion, place: int, *, rapid: bool
+    ) -> float | None:
+        """MD32010, MD32020 and their like."""
+        return jogging.speed(channel, axis, what, place, rapid=rapid)
 
     def language_memory(self, channel: SinumerikChannel) -> LanguageMemory:
         """What the language begins with: what machine data say, and values that are retained."""
@@ -397,6 +406,7 @@ class Sinumerik:
             transformation=coordinates.transformation,
             names=seat.shown_names(channel),
             stop_delay=delays_stops,
+            search_lock=sections.locks_pointer(channel),
             feed_hold=not delays_stops,
             shown_by=PointToPoint.of(channel).shown_by or Couplings.of(channel).shown_by,
             pace=pace.pace(channel, side),
@@ -412,10 +422,13 @@ class Sinumerik:
             raise not_supported("G291")
         channel.mode = channel.mode.with_code("language", "G291")
 
-    def check_iso(self, channel: SinumerikChannel) -> None:
+    def run_iso(self, channel: SinumerikChannel, block: IsoBlock, perform: Callable[[str], None]) -> None:
         """A block of the ISO dialect comes: PC0001 where the program has come there without G291."""
         if channel.mode["language"] != "G291":
             raise not_supported("G291")
+        from polycnc.control.sinumerik.iso import dialect
+
+        dialect.run(channel, block, perform)
 
     def halts(self, channel: SinumerikChannel, level: Level, step: ProgramStep) -> bool:  # noqa: ARG002 - levels decide
         """Whether single block operation halts behind the block that a level has run."""

@@ -8,10 +8,12 @@ from polycnc.channel.states.state import Lifetime, end_of
 from polycnc.control.sinumerik import gcodes, tables
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.frames import active as frames
+from polycnc.control.sinumerik.frames.memory import ISO_MIRROR, ISO_ROTATION, ISO_SCALE
 from polycnc.control.sinumerik.limits import working_area
 from polycnc.control.sinumerik.motion import contour_reading
 from polycnc.control.sinumerik.tools import selection
 from polycnc.control.sinumerik.transformations import seat
+from polycnc.language.sinumerik.names.frame import NEUTRAL
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.data.machine_data import MachineData
@@ -71,6 +73,7 @@ def reset(channel: SinumerikChannel) -> None:
     channel.mode = channel.mode.with_code(seat.GEOMETRY, seat.geometry_code(channel))
     PathFeed.of(channel).mode = tables.feed_type(channel.mode).mode
     selection.follow(channel)
+    memory.frames.system.update(dict.fromkeys((ISO_MIRROR, ISO_ROTATION, ISO_SCALE), NEUTRAL))
     memory.frames.select(gcodes.number_of(channel.mode["wcs"]) - 1)
     frames.apply(channel)
     working_area.refresh(channel)

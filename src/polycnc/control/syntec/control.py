@@ -15,8 +15,7 @@ from polycnc.control.syntec.axis_groups import borrowing, groups, names
 from polycnc.control.syntec.builder import SyntecBuilder
 from polycnc.control.syntec.codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
 from polycnc.control.syntec.coordinates import systems
-from polycnc.control.syntec.coordinates.turns import TurnState
-from polycnc.control.syntec.five_axes import normal_direction, spatial, tilted, tip_control
+from polycnc.control.syntec.five_axes import mechanism, normal_direction, spatial, tilted, tip_control
 from polycnc.control.syntec.macros import calls, interrupts, single_block
 from polycnc.control.syntec.macros.variables import SpaceState, locals_of
 from polycnc.control.syntec.memory import SyntecMemory
@@ -34,7 +33,6 @@ from polycnc.control.word_address.coordinates import frames
 from polycnc.control.word_address.cycles import drilling as drilling_cycles
 from polycnc.control.word_address.motion import corners, line_by_angle, nurbs
 from polycnc.control.word_address.transformations import normal_line
-from polycnc.geometry.frames import IDENTITY
 from polycnc.language.syntec import executable, iso_grammar
 from polycnc.messages import AlarmError
 from polycnc.program import Form
@@ -56,6 +54,7 @@ if TYPE_CHECKING:
     from polycnc.geometry.arcs import Point
     from polycnc.language.bulk import Condition
     from polycnc.language.word_address import Grammar
+    from polycnc.machine.kinematics import Kinematics
     from polycnc.program import Program
     from polycnc.toolpath.motion_settings import MotionSettings
 
@@ -232,9 +231,9 @@ class SyntecMill(WordAddressControl):
         smoothing.leave(channel)
         if not channel.memory.parameters.keeps_preset_turn:
             systems.forget_preset_turn(channel.memory)
-        kept = TurnState.of(channel).tilt if channel.memory.parameters.keeps_tilt else IDENTITY
+        kept = tilted.Kept.of(channel)
         super().reset(channel)
-        tilted.set_tilt(channel, kept)
+        kept.restore(channel)
 
     def end_of_program(self, channel: SyntecChannel) -> None:
         """The text ends: as M30, in a subprogram as M99."""
@@ -332,6 +331,10 @@ class SyntecMill(WordAddressControl):
     def scale_factors(self, channel: SyntecChannel, words: Words) -> tuple[float, float, float]:
         """Factors of G51."""
         return systems.scale_factors(channel, words)
+
+    def kinematics(self, channel: SyntecChannel) -> Kinematics:
+        """The rotary joints of the machine, with the holder of Pr3013."""
+        return mechanism.kinematics_of(channel)
 
     def reference_point(self, channel: SyntecChannel, axis: int, number: int) -> float:
         """Machine position of a reference point: 1 the machine zero, 2 to 4 by Pr2801 on, in least units."""

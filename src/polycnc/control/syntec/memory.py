@@ -8,7 +8,15 @@ from polycnc.control.syntec.coordinates.diameters import DiameterState
 from polycnc.control.syntec.macros import functions
 from polycnc.control.syntec.macros.registers import check_register
 from polycnc.control.syntec.macros.system_variables import SYSTEM_VARIABLES
-from polycnc.control.syntec.macros.variables import GlobalState, Locals, LocalState, is_local, put
+from polycnc.control.syntec.macros.variables import (
+    GlobalState,
+    Locals,
+    LocalState,
+    is_local,
+    is_retentive_global,
+    is_retentive_register,
+    put,
+)
 from polycnc.control.syntec.units import decimals, least_unit
 from polycnc.control.word_address.memory import Memory
 from polycnc.language.syntec.expressions import NO_SUCH_VARIABLE
@@ -39,6 +47,8 @@ class SyntecMemory(Memory):
         self.channel: SyntecChannel = channel
         self.locals = LocalState.of(channel).main
         self.globals = GlobalState.of(channel)
+        if channel.number == 1:  # the first axis group is switched on first; all share them
+            self.globals.forget()
         self._was_kept = bool(self.globals.values or self.globals.registers)
         self.functions: dict[str, Callable[..., Value]] = functions.bound(self)
 
@@ -122,8 +132,11 @@ class SyntecMemory(Memory):
         return None if isinstance(value, Vacant) else value
 
     def is_kept(self, name: str) -> bool:
-        """Whether a variable has its value from an earlier power-on: `@` and R."""
-        return self._was_kept and name[:1].upper() in "@R"
+        """Whether a variable has its value from an earlier power-on: some of `@` and R."""
+        family, index = name[:1].upper(), name[1:]
+        if not self._was_kept or family not in "@R" or not index.isdigit():
+            return False
+        return is_retentive_register(int(index)) if family == "R" else is_retentive_global(int(index))
 
     def write_text(self, name: str, value: object) -> None:
         """Set a variable as a user names it."""

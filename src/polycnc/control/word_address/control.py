@@ -33,6 +33,7 @@ from polycnc.control.word_address.transformations.polar_interpolation import Pol
 from polycnc.geometry.arcs import radius_mismatch
 from polycnc.language.bulk import Spelling
 from polycnc.language.word_address import Grammar, WordAddressProgram
+from polycnc.machine.kinematics import Kinematics
 from polycnc.messages import AlarmError, Catalogue, text
 from polycnc.program import Form
 from polycnc.toolpath import Context
@@ -46,6 +47,7 @@ if TYPE_CHECKING:
     from polycnc.channel.mode import Mode
     from polycnc.channel.stack import Executable, Level
     from polycnc.channel.steps import Step as ProgramStep
+    from polycnc.control.interface import HandMotion
     from polycnc.control.parameters import AxisParameters, ControlParameters
     from polycnc.control.word_address.block.codes import (
         ContextStep,
@@ -278,6 +280,18 @@ class WordAddressControl:
         """No handwheel shifts an axis beside its program."""
         return 0.0
 
+    def hand_speed(
+        self,
+        _channel: Channel,
+        _axis: int,
+        _what: HandMotion,
+        _place: int,
+        *,
+        rapid: bool,  # noqa: ARG002
+    ) -> float | None:
+        """The machine says it."""
+        return None
+
     def stop_spindles(self, channel: Channel) -> None:
         """The drives are off."""
         channel.memory.spindle.direction = 0
@@ -408,6 +422,14 @@ class WordAddressControl:
         Otherwise it counts from where it stands.
         """
         return False
+
+    def kinematics(self, channel: Channel) -> Kinematics:
+        """The rotary joints of the machine, with what parameters add to them."""
+        return Kinematics.of(channel.machine)
+
+    def rotary_ranges(self, _channel: Channel) -> Mapping[str, tuple[float, float]]:
+        """Lowest and highest machine position of rotary axes that stand the tool, degrees by name; none for any."""
+        return {}
 
     def reference_point(self, channel: Channel, axis: int, number: int) -> float:
         """Machine position of a reference point of an axis, from 1."""

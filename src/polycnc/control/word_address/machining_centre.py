@@ -22,6 +22,7 @@ from polycnc.control.word_address.transformations import (
     normal_line,
     polar_interpolation,
     tool_center_point,
+    workpiece,
 )
 
 if TYPE_CHECKING:
@@ -74,6 +75,7 @@ class MillingControl(CustomMacroControl):
         corners.RULE,
         path.INVERSE_TIME_RULE,
         line_by_angle.RULE,
+        workpiece.RULE,
         tool_center_point.RULE,
         look_ahead.STOP_RULE,
         drilling.RULE,
@@ -115,6 +117,10 @@ class MillingControl(CustomMacroControl):
     def compensation_policy(self, _channel: Channel) -> Policy:
         """Rules of radius compensation."""
         return HARTFORD
+
+    def goes_with_fixture(self, _channel: Channel) -> bool:
+        """Whether the tool goes along when the fixture offset of a rotary table changes (G54.2)."""
+        return True
 
     def overrun(self, channel: MillingChannel, axis: int) -> float:
         """How far and on which side G60 positions past the target of an axis, mm (sign: last direction)."""

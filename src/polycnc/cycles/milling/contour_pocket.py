@@ -40,6 +40,10 @@ class InsertionError(ValueError):
     """Helix or oscillation find no room."""
 
 
+class StartError(ValueError):
+    """The cutter cannot go in where it is told to, or would have to go in elsewhere too."""
+
+
 @dataclass(frozen=True, slots=True)
 class ContourPocket:
     """Contours and how they are milled; mm, feeds in the unit of the strokes.
@@ -55,6 +59,7 @@ class ContourPocket:
         clearance: Above what is milled, at which a rapid in depth ends.
         allowance: Left at the walls.
         insertion, helix, pitch, angle_deg: Way into the material.
+        start: Where the cutter goes in; None for a place that is found.
     """
 
     walls: Sequence[Loop]
@@ -73,6 +78,7 @@ class ContourPocket:
     helix: float = 0.0
     pitch: float = 0.0
     angle_deg: float = 0.0
+    start: Point | None = None
 
     @property
     def off(self) -> float:
@@ -284,9 +290,12 @@ def rough(pocket: ContourPocket, levels: Sequence[float]) -> Iterator[MillStroke
     Raises:
         RegionError: As `areas`.
         InsertionError: The helix does not fit, or there is no way to oscillate along.
+        StartError: The cutter does not come to its first pass from where it is to go in, or goes in at several places.
     """
-    for area in areas(pocket):
-        around = passes(pocket, area)
+    ways = [passes(pocket, area) for area in areas(pocket)]
+    if pocket.start is not None:
+        _check_start(pocket, [done for around in ways for done in around if not done.is_linked])
+    for around in ways:
         above = pocket.reference
         for number, level in enumerate(levels):
             for done in around:
@@ -299,6 +308,17 @@ def rough(pocket: ContourPocket, levels: Sequence[float]) -> Iterator[MillStroke
                     yield _stroke(pocket, edge)
             above = level
     yield rapid(w=pocket.retract)
+
+
+def _check_start(pocket: ContourPocket, entered: Sequence[Pass]) -> None:
+    start = pocket.start
+    assert start is not None
+    if (
+        len(entered) > 1
+        or region.clearance(pocket.walls, start) < pocket.off - NEARER_MM
+        or not _reaches(pocket, start, entered[0].start)
+    ):
+        raise StartError
 
 
 def _stroke(pocket: ContourPocket, edge: Edge, w: float | None = None) -> MillStroke:
@@ -334,13 +354,15 @@ def _enter(
         yield cut(pocket.feed, middle)
         yield cut(pocket.feed, done.start)
         return
-    yield rapid(done.start)
+    yield rapid(pocket.start or done.start)
     yield rapid(w=near)
     if insertion is Insertion.OSCILLATION:
         yield cut(pocket.feed, w=above)
         yield from _ramp(pocket, done.loop, above, level)
-    else:
-        yield cut(pocket.depth_feed, w=level)
+        return
+    yield cut(pocket.depth_feed, w=level)
+    if pocket.start is not None:
+        yield cut(pocket.feed, done.start)
 
 
 def _ramp(pocket: ContourPocket, loop: Loop, above: float, level: float) -> Iterator[MillStroke]:
@@ -377,7 +399,7 @@ def _room_for_helix(pocket: ContourPocket, done: Pass) -> Point:
         (start[0] + k * pocket.helix * inwards[0], start[1] + k * pocket.helix * inwards[1])
         for k in (0.0, 0.5, 1.0)
     ]
-    for middle in (*beyond, mean):
+    for middle in (*beyond, mean) if pocket.start is None else (pocket.start,):
         if region.clearance(pocket.walls, middle) < room:
             continue
         if _reaches(pocket, middle, start):

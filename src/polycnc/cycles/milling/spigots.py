@@ -6,7 +6,7 @@ Source: SINUMERIK milling cycles (CYCLE76, CYCLE77, CYCLE79).
 from __future__ import annotations
 
 from math import pi, tan
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from polycnc.cycles.milling.stroke import Place, arc, cut, rapid, ring
 from polycnc.deferred.records import dataclass
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from polycnc.cycles.milling.stroke import MillStroke
+    from polycnc.geometry.arcs import Point
 
 FEWEST_EDGES = 3
 
@@ -109,18 +110,43 @@ class Spigot:
     retract: float
 
 
-def mill(spigot: Spigot, levels: Sequence[float]) -> Iterator[MillStroke]:
-    """All levels, from positioning beside the blank to the retraction plane."""
-    place, outline, feed, ccw = spigot.place, spigot.outline, spigot.feed, spigot.ccw
-    side = outline.reach + spigot.radius
-    beside = max(spigot.blank, outline.reach) + spigot.clearance + spigot.radius
+def mill(spigot: Spigot, levels: Sequence[float], outside: Sequence[float] = (0.0,)) -> Iterator[MillStroke]:
+    """All levels, from positioning beside the blank to the retraction plane.
+
+    Args:
+        spigot: The spigot.
+        levels: Where it is followed.
+        outside: On each level once round this far outside of the outline, from the outside inwards; the last is 0.
+    """
+    ways = [_way(spigot, off) for off in outside]
+    yield rapid(ways[0].begin)
+    yield rapid(w=spigot.safe)
+    for number, level in enumerate(levels):
+        if number and ways[-1].begin != ways[0].begin:
+            yield cut(spigot.feed, ways[0].begin)
+        yield cut(spigot.depth_feed, w=level)
+        for before, way in zip((ways[0], *ways), ways, strict=False):
+            if way.begin != before.begin:
+                yield cut(spigot.feed, way.begin)
+            yield arc(spigot.feed, way.onto, way.middle, not spigot.ccw)
+            yield from spigot.outline.follow(spigot.place, way.off, spigot.ccw, spigot.feed)
+            yield arc(spigot.feed, way.begin, way.middle, not spigot.ccw)
+    yield rapid(w=spigot.retract)
+
+
+class _Way(NamedTuple):
+    """Once round: how far off the outline, and the half circle on which the tool comes and goes."""
+
+    off: float
+    begin: Point
+    middle: Point
+    onto: Point
+
+
+def _way(spigot: Spigot, outside: float) -> _Way:
+    place, reach = spigot.place, spigot.outline.reach
+    side = reach + spigot.radius + outside
+    beside = max(spigot.blank, reach) + spigot.clearance + spigot.radius
     arc_radius = max(0.5 * (beside - side), 0.5 * spigot.radius)
     begin, middle = place(side + 2.0 * arc_radius, 0.0), place(side + arc_radius, 0.0)
-    yield rapid(begin)
-    yield rapid(w=spigot.safe)
-    for level in levels:
-        yield cut(spigot.depth_feed, w=level)
-        yield arc(feed, place(side, 0.0), middle, not ccw)
-        yield from outline.follow(place, spigot.radius, ccw, feed)
-        yield arc(feed, begin, middle, not ccw)
-    yield rapid(w=spigot.retract)
+    return _Way(spigot.radius + outside, begin, middle, place(side, 0.0))

@@ -152,16 +152,51 @@ def way_over(contour: Contour, start: Point, end: Point, *, towards: float, lift
 def way_clear(
     contour: Contour, start: Point, end: Point, *, towards: float, lift: float
 ) -> list[PlaneStroke]:
-    """As `way_over` where a straight rapid would touch the contour; nothing where it passes clear of it."""
+    """As `way_over` where a straight rapid would touch the contour; nothing where it passes clear of it.
+
+    Under an overhang the way out of the work is closed: the tool goes along first.
+
+    Raises:
+        ValueError: No way is clear.
+    """
     low, high = sorted((start[0], end[0]))
+    touches = False
+    for a, b in _samples(contour):
+        if low < a < high:
+            on_way = start[1] + (end[1] - start[1]) * (a - start[0]) / (end[0] - start[0])
+            touches = touches or towards * (on_way - b) > -_HAIR
+    if not touches and _is_clear(contour, [start, end]):
+        return []
+    over = way_over(contour, start, end, towards=towards, lift=lift)
+    along = [PlaneStroke(Kind.RAPID, (end[0], start[1]))]
+    for way in (over, along):
+        if _is_clear(contour, [start, *(stroke.end for stroke in way), end]):
+            return way
+    raise ValueError("no way out")
+
+
+def _samples(contour: Contour) -> Iterator[Point]:
+    """Corners of the contour, and points of its arcs."""
     for piece in contour:
         for k in range(1 + (_SAMPLES if piece.edge.center is not None else 1)):
-            a, b = _point_of(piece.edge, k)
-            if low < a < high:
-                on_way = start[1] + (end[1] - start[1]) * (a - start[0]) / (end[0] - start[0])
-                if towards * (on_way - b) > -_HAIR:
-                    return way_over(contour, start, end, towards=towards, lift=lift)
-    return []
+            yield _point_of(piece.edge, k)
+
+
+def _is_clear(contour: Contour, way: list[Point]) -> bool:
+    """Whether a way from corner to corner crosses the contour nowhere."""
+    sides = list(pairwise(_samples(contour)))
+    return not any(_cross(p, q, a, b) for p, q in pairwise(way) for a, b in sides)
+
+
+def _cross(p: Point, q: Point, a: Point, b: Point) -> bool:
+    """Whether two lines cross between their ends."""
+    return _sides(p, q, a, b) < -_HAIR and _sides(a, b, p, q) < -_HAIR
+
+
+def _sides(p: Point, q: Point, a: Point, b: Point) -> float:
+    """Below 0 where two points lie on both sides of the line from p to q."""
+    u, v = q[0] - p[0], q[1] - p[1]
+    return (u * (a[1] - p[1]) - v * (a[0] - p[0])) * (u * (b[1] - p[1]) - v * (b[0] - p[0]))
 
 
 def _point_of(edge: Edge, k: int) -> Point:

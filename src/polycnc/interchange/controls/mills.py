@@ -1,14 +1,16 @@
 """Machining centres of FANUC and MELDAS: data as programs between `%`, as these controls punch them.
 
 Tool offsets `G10 G90 L10 P1 R…` (L10 and L11 geometry and wear of the length, L12 and L13 those of the radius), work
-offsets `G10 G90 L2 P1 X… Y… Z…` and `G10 G90 L20 P1 …` (FANUC macro B reference 10.2), variables `#500=…`, vacant ones
-`#500=#0`, their names `SETVN 500[…]`. Reading one is running it.
+offsets `G10 G90 L2 P1 X… Y… Z…`, `G10 G90 L20 P1 …` and, on a rotary table, `G10 G90 L21 P1 …` and `#26010=…` (FANUC
+macro B reference 10.2), variables `#500=…`, vacant ones `#500=#0`, their names `SETVN 500[…]`. Reading one is running
+it.
 """
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.control.word_address.coordinates import on_table
 from polycnc.control.word_address.memory import ToolOffsets
 from polycnc.control.word_address.tools.data_input import WORK_SYSTEMS
 from polycnc.geometry.units import INCH_MM
@@ -24,7 +26,8 @@ if TYPE_CHECKING:
 
 #: L numbers of the fields of an offset, in the order in which they are written.
 _FIELDS = {10: "length", 11: "length_wear", 12: "radius", 13: "radius_wear"}
-_EXTENDED = "G54.1 P"
+#: Work offsets with numbers, and the L by which G10 sets them.
+_FURTHER = {"G54.1 P": 20, "G54.2 P": 21}
 
 
 def tape(lines: Iterable[str]) -> str:
@@ -51,15 +54,25 @@ def offset_blocks(channel: WordAddressChannel, unit: Unit) -> Iterator[str]:
 
 
 def work_offsets(channel: MacroChannel) -> str:
-    """The external offset, the six standard systems and the further ones that are in use."""
+    """The external offset, the six standard systems, further ones that are in use, and those of a rotary table."""
     kept, unit, lines = channel.memory.work_offsets, unit_of(channel), []
     for number, name in enumerate(WORK_SYSTEMS):
         if name in kept:
             lines.append(f"G10 G90 L2 P{number} {axis_words(channel, unit, kept[name])}")
-    further = {int(name.removeprefix(_EXTENDED)): name for name in kept if name.startswith(_EXTENDED)}
-    for number, name in sorted(further.items()):
-        lines.append(f"G10 G90 L20 P{number} {axis_words(channel, unit, kept[name])}")
-    return tape(lines)
+    for prefix, level in _FURTHER.items():
+        further = {int(name.removeprefix(prefix)): name for name in kept if name.startswith(prefix)}
+        for number, name in sorted(further.items()):
+            lines.append(f"G10 G90 L{level} P{number} {axis_words(channel, unit, kept[name])}")
+    return tape([*lines, *_workpiece_errors(channel, unit)])
+
+
+def _workpiece_errors(channel: MacroChannel, unit: Unit) -> Iterator[str]:
+    """The values of G54.4, as the variables that they are."""
+    angle = Unit(1.0, unit.decimals)
+    for number, values in sorted(on_table.WorkpieceErrors.of(channel).by_number.items()):
+        for i, value in enumerate(values):
+            told = (unit if i < on_table.LINEAR.stop else angle).text(value)
+            yield f"#{on_table.FIRST_VARIABLE + on_table.VARIABLES * number + i}={told}"
 
 
 def axis_words(channel: WordAddressChannel, unit: Unit, values: list[float]) -> str:

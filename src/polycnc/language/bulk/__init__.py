@@ -2,23 +2,26 @@
 
 `kernels` reads and works off blocks, `numerals` reads their numbers, `formulas` reads and calculates formulas in
 them, `moves` holds what they do; all are pure functions on arrays (`layout` names the fields), also as machine code
-(`compiled`); `text` gives them the bytes, `postfix` makes formulas of the code of expressions. `recipe` is how a
-control declares that a block of some shape in some modal state is plain, `shapes` keeps what was declared in the
-kernels' tables; `settings` says whether a program is long enough, `scanner` leads a channel through all that;
-`staged` hands scanned moves to stages of the path. `guard` watches the travel of the axes behind a tool's tip, by the
-kernel in `reach`. Whatever is not plain goes to the interpreter, block by block. Both ways give the same table, bit
-for bit.
+(`compiled`); `routines` holds what they need for subprograms, macros and loops; `text` gives them the bytes, `postfix`
+makes formulas of the code of expressions. `recipe` is how a control declares that a block of some shape in some modal
+state is plain, `shapes` keeps what was declared in the kernels' tables; `settings` says whether a program is long
+enough, `scanner` leads a channel through all that, whose programs are as `scannable` says; `staged` hands scanned moves
+to stages of the path. `guard` watches the travel of the axes behind a tool's tip, by the kernel in `reach`. Whatever is
+not plain goes to the interpreter, block by block. Both ways give the same table, bit for bit.
 """
 
 from polycnc.language.bulk.recipe import (
     Arc,
+    Call,
     Condition,
     Conditions,
     Conversion,
     Enter,
     Idle,
+    Later,
     Note,
     Recipe,
+    Return,
     Scaling,
     SetFeed,
     Spelling,
@@ -32,13 +35,16 @@ from polycnc.language.bulk.recipe import (
 
 __all__ = [
     "Arc",
+    "Call",
     "Condition",
     "Conditions",
     "Conversion",
     "Enter",
     "Idle",
+    "Later",
     "Note",
     "Recipe",
+    "Return",
     "Scaling",
     "SetFeed",
     "Spelling",

@@ -6,7 +6,7 @@ something, one that lies elsewhere) ends the scan in front of the block.
 
 from __future__ import annotations
 
-from math import copysign, cos, floor, pi, sin, sqrt
+from math import copysign, cos, floor, nan, pi, sin, sqrt
 
 from polycnc.kernels.layout import Bytes, Floats, Ints32
 from polycnc.language.bulk.layout import (
@@ -159,23 +159,26 @@ def calculate(state: State, formulas: Ints32, first: int) -> bool:
     while formulas[at] != Operation.END:
         operation, argument = formulas[at], formulas[at + 1]
         at += 2
-        if operation == Operation.NUMBER:
-            stack[top] = values[MOST_WORDS + argument]
-            top += 1
-        elif operation == Operation.VARIABLE or operation == Operation.VARIABLE_OR_ZERO:
-            found, value = variable(state.variables, values[MOST_WORDS + argument])
-            vacant = value != value
-            if not found or (vacant and operation == Operation.VARIABLE):
+        if operation >= Operation.NUMBER and operation <= Operation.VACANT:
+            possible, stack[top] = operand(state, operation, argument)
+            if not possible:
                 return False
-            if operation == Operation.VARIABLE_OR_ZERO and (vacant or value == 0.0):
-                value = 0.0
-            stack[top] = value
             top += 1
         elif operation == Operation.STORE:
             top -= 1
             if not abs(stack[top]) <= LARGEST_WORD:
                 return False
             values[argument] = stack[top]
+        elif operation == Operation.ASSIGN:
+            top -= 1
+            found, _ = variable(state.variables, values[MOST_WORDS + argument])
+            if not found:
+                return False
+            state.variables[int(values[MOST_WORDS + argument])] = stack[top]
+        elif operation == Operation.UNLESS:
+            top -= 1
+            if stack[top] == 0.0:
+                return True
         elif operation < Operation.ADD:
             possible, stack[top - 1] = applied_to_one(operation, stack[top - 1])
             if not possible:
@@ -186,6 +189,20 @@ def calculate(state: State, formulas: Ints32, first: int) -> bool:
             if not possible:
                 return False
     return True
+
+
+def operand(state: State, operation: int, argument: int) -> tuple[bool, float]:
+    """What comes onto the stack, and whether it may."""
+    if operation == Operation.VACANT:
+        return True, nan
+    value = state.values[MOST_WORDS + argument]
+    if operation == Operation.NUMBER:
+        return True, value
+    found, value = variable(state.variables, value)
+    vacant = value != value
+    if operation == Operation.VARIABLE_OR_ZERO and (vacant or value == 0.0):
+        value = 0.0
+    return found and not (vacant and operation == Operation.VARIABLE), value
 
 
 def variable(variables: Floats, number: float) -> tuple[bool, float]:
@@ -237,15 +254,31 @@ def cosine(x: float) -> float:
 
 
 def applied(operation: int, a: float, b: float) -> tuple[bool, float]:
-    """An operator between two numbers, and whether it has a value that is a number."""
+    """An operator between two numbers, and whether it has a value that is a number (1 or 0 of a comparison)."""
     if operation == Operation.ADD:
         value = a + b
     elif operation == Operation.SUBTRACT:
         value = a - b
     elif operation == Operation.MULTIPLY:
         value = a * b
-    elif b == 0.0:
-        return False, 0.0
-    else:
+    elif operation == Operation.DIVIDE:
+        if b == 0.0:
+            return False, 0.0
         value = a / b
+    else:
+        return True, 1.0 if compared(operation, a, b) else 0.0
     return abs(value) <= LARGEST, value
+
+
+def compared(operation: int, a: float, b: float) -> bool:
+    """Whether a comparison between two numbers holds; what is vacant is no number, and equal to its like only."""
+    if operation == Operation.EQUAL or operation == Operation.NOT_EQUAL:
+        equal = a == b or (a != a and b != b)
+        return equal == (operation == Operation.EQUAL)
+    if operation == Operation.GREATER:
+        return a > b
+    if operation == Operation.GREATER_OR_EQUAL:
+        return a >= b
+    if operation == Operation.LESS:
+        return a < b
+    return a <= b

@@ -10,28 +10,32 @@ of the block, and the interpreter decides.
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
-from polycnc.kernels.layout import Bytes, Floats, Ints32
+from polycnc.kernels.layout import Bytes
 from polycnc.language.bulk.formulas import begins_formula, calculate, read_formula
 from polycnc.language.bulk.layout import (
     CR_FORM,
     DIRECTION_FORM,
     FIRST_CODE,
     FIRST_FORMULA,
+    FIRST_M_CODE,
     FORMS,
     KEY_COUNT,
     LAST_CODE,
+    LAST_M_CODE,
     MOST_KEYS,
     MOST_WORDS,
+    Factor,
     Grammar,
     Leaf,
     Outcome,
     Rule,
     State,
+    Tables,
 )
 from polycnc.language.bulk.moves import Columns, act, note
 from polycnc.language.bulk.numerals import BLANK, EXACT_DIGITS, NINE, POINT, TAB, ZERO, read_number
+from polycnc.language.bulk.routines.flow import REFUSED, flow, may_flow, take_line
+from polycnc.language.bulk.routines.layout import NO_ROUTINE
 
 NEWLINE, THREE = 10, 51
 LETTER_A, LETTER_C, LETTER_G, LETTER_M, LETTER_N, LETTER_O, LETTER_R, LETTER_X, LETTER_Z = (
@@ -46,59 +50,69 @@ NO_KEY, BLOCK_NUMBER = -1, -2
 NO_BLOCK = -1
 
 
-class Tables(NamedTuple):
-    """What a scan reads; see `layout`.
-
-    Attributes:
-        text: Bytes, whole lines.
-        nexts: The shape tree, `(nodes, KEY_COUNT)`.
-        leaves: For each node the number of its rule.
-        rules: `(rules, Rule.SIZE)`.
-        factors: `(rules, Factor.SIZE)`.
-        formulas: What rules calculate, pairs of `Operation` and argument.
-    """
-
-    text: Bytes
-    nexts: Ints32
-    leaves: Ints32
-    rules: Ints32
-    factors: Floats
-    formulas: Ints32
-
-
 def scan(tables: Tables, state: State, columns: Columns) -> int:
-    """Work off plain blocks from `scan.place` on; rows go into `columns`. Gives how it ended."""
-    leaves, rules, factors = tables.leaves, tables.rules, tables.factors
-    while state.scan.place < state.scan.end:
+    """Work off plain blocks from `scan.place` on, or in a routine; rows go into `columns`. Gives how it ended."""
+    while state.scan.routine != NO_ROUTINE or state.scan.place < state.scan.end:
         if (
             state.scan.blocks >= state.scan.most_blocks
             or state.scan.rows + state.scan.notes >= state.scan.most_rows
         ):
             return Outcome.FULL
-        place, node = read_block(tables, state)
-        if place < 0 or place - state.scan.place > LONGEST_LINE:
-            return Outcome.NOT_PLAIN
-        if node != NO_BLOCK:
-            leaf = leaves[node]
-            if leaf < Leaf.FIRST_RULE:
-                return Outcome.NOT_PLAIN if leaf == Leaf.NOT_PLAIN else Outcome.UNKNOWN
-            notes = rules[leaf * Rule.SIZE + Rule.LEAVES_NOTE]
-            if notes and state.scan.notes >= state.scan.most_notes:
-                return Outcome.FULL
-            formulas = rules[leaf * Rule.SIZE + Rule.FORMULAS]
-            if formulas and not calculate(state, tables.formulas, formulas):
+        in_text, place, step = state.scan.routine == NO_ROUTINE, 0, 0
+        if in_text:
+            place, node = read_block(tables, state)
+            if place < 0 or place - state.scan.place > LONGEST_LINE:
                 return Outcome.NOT_PLAIN
-            if notes and not note(state, rules, factors, leaf, columns):
+            state.scan.block_line = state.scan.line
+        else:
+            step = state.scan.index
+            node = take_line(tables, state)
+            if node == REFUSED:
                 return Outcome.NOT_PLAIN
-            if not act(state, rules, factors, leaf, columns):
-                return Outcome.NOT_PLAIN
-            state.scan.notes += notes
-            state.scan.root = rules[leaf * Rule.SIZE + Rule.NEXT_STATE]
-        if node != NO_BLOCK or not state.scan.grammar & Grammar.BLANK_LINES_ARE_NONE:
+        if node >= 0:
+            outcome = work_off(tables, state, columns, node)
+            if outcome != Outcome.GOES_ON:
+                return outcome
+        if in_text:
+            state.scan.place = place + 1
+            state.scan.line += 1
+        else:
+            state.scan.current = step
+            state.scan.index += 1
+        if node >= 0 or not in_text or not state.scan.grammar & Grammar.BLANK_LINES_ARE_NONE:
             state.scan.blocks += 1
-        state.scan.place = place + 1
-        state.scan.line += 1
+        if node >= 0:
+            leaf = tables.leaves[node]
+            if tables.rules[leaf * Rule.SIZE + Rule.FLOW]:
+                flow(tables, state, leaf * Rule.SIZE, leaf * Factor.SIZE)
     return Outcome.AT_END
+
+
+def work_off(tables: Tables, state: State, columns: Columns, node: int) -> int:
+    """Do what a block of a shape does, but for calls and returns; gives `GOES_ON`, or how the scan ends."""
+    leaf, rules, factors = tables.leaves[node], tables.rules, tables.factors
+    if leaf < Leaf.FIRST_RULE:
+        return Outcome.NOT_PLAIN if leaf == Leaf.NOT_PLAIN else Outcome.UNKNOWN
+    rule = leaf * Rule.SIZE
+    notes = rules[rule + Rule.LEAVES_NOTE]
+    if notes and state.scan.frames:
+        return Outcome.NOT_PLAIN  # its step would ask for the level of the program
+    if notes and state.scan.notes >= state.scan.most_notes:
+        return Outcome.FULL
+    formulas = rules[rule + Rule.FORMULAS]
+    if formulas and not calculate(state, tables.formulas, formulas):
+        return Outcome.NOT_PLAIN
+    if rules[rule + Rule.FLOW]:
+        outcome = may_flow(tables, state, rule, leaf * Factor.SIZE)
+        if outcome != Outcome.GOES_ON:
+            return outcome
+    if notes and not note(state, rules, factors, leaf, columns):
+        return Outcome.NOT_PLAIN
+    if not act(state, rules, factors, leaf, columns):
+        return Outcome.NOT_PLAIN
+    state.scan.notes += notes
+    state.scan.root = rules[rule + Rule.NEXT_STATE]
+    return Outcome.GOES_ON
 
 
 def read_block(tables: Tables, state: State) -> tuple[int, int]:
@@ -167,15 +181,18 @@ def read_word(text: Bytes, place: int, grammar: int, most_digits: int) -> tuple[
     """Place behind the word that begins here, its key, and its value; `NO_KEY` where it is not plain."""
     letter = int(text[place])
     place += 1
-    if letter in (LETTER_G, LETTER_N):
+    if letter in (LETTER_G, LETTER_N) or (letter == LETTER_M and grammar & Grammar.M_CODES):
         number, digits = 0, 0
         while ZERO <= text[place] <= NINE:
             number = number * 10 + int(text[place]) - ZERO if digits < EXACT_DIGITS else LAST_CODE
             digits += 1
             place += 1
-        if digits == 0 or (letter == LETTER_G and (number >= LAST_CODE or text[place] == POINT)):
+        if letter == LETTER_N:
+            return place, BLOCK_NUMBER if digits else NO_KEY, 0.0
+        last = LAST_CODE if letter == LETTER_G else LAST_M_CODE
+        if digits == 0 or number >= last or text[place] == POINT:
             return place, NO_KEY, 0.0
-        return place, BLOCK_NUMBER if letter == LETTER_N else FIRST_CODE + number, 0.0
+        return place, (FIRST_CODE if letter == LETTER_G else FIRST_M_CODE) + number, 0.0
     form = 0
     if (
         letter <= LETTER_C

@@ -10,7 +10,8 @@ from ctypes import Structure
 from math import inf
 from typing import NamedTuple
 
-from polycnc.kernels.layout import Floats, Ints, Places, place, record
+from polycnc.kernels.layout import Bytes, Floats, Ints, Ints32, Places, place, record
+from polycnc.language.bulk.routines.layout import Frame
 from polycnc.transformation.orientation.standing import StandRecord
 
 #: Words that a block may have; numbers in their formulas, which stand behind the words' values; keys of both.
@@ -19,6 +20,10 @@ MOST_WORDS, MOST_LITERALS, MOST_KEYS = 24, 72, 128
 VARIABLES = 1000
 #: Values that a formula may have at a time.
 STACK = 32
+#: Local variables of a macro, with one that there is not; numbers of loops, likewise.
+LOCALS, LOOPS = 34, 4
+#: Routines that may have called each other.
+MOST_FRAMES = 8
 
 # ---- what a scan carries along ------------------------------------------------------------------------------
 
@@ -30,7 +35,13 @@ class Scan(Structure):
     Attributes:
         place: Byte of the text at which the next block begins.
         end: Byte behind the last line; the last byte is a line end.
-        line: Line of the file of the next block.
+        line: Line of the file of the next block in the text.
+        block_line: Line of the block that is being worked off, in the text or in a routine; `program` is the number of
+            its program, `text_program` that of the text.
+        routine: The routine that runs (`routines`), `NO_ROUTINE` while blocks come from the text; `index` is the step
+            that comes next, `current` the last one.
+        frames: Routines that have been called and not left; `most_frames` how many may be.
+        called: The number of a program that is called and not known yet.
         blocks: Blocks taken so far; `most_blocks` how many may be. `rows` and `notes` likewise.
         curves: Moves with curve parameters among the rows; `first_curve` is the number of the first.
         root: Root of the shape tree for the modal state that holds.
@@ -52,6 +63,15 @@ class Scan(Structure):
     place: int
     end: int
     line: int
+    block_line: int
+    program: int
+    text_program: int
+    routine: int
+    index: int
+    current: int
+    frames: int
+    most_frames: int
+    called: int
     blocks: int
     most_blocks: int
     rows: int
@@ -86,6 +106,9 @@ class State(NamedTuple):
         values: Values of its words, then the numbers in its formulas.
         variables: Variables that formulas read, by number.
         stack: What is being calculated.
+        frames: Of every call that runs, what was left (`routines.layout.Frame`).
+        loops: By the number of a loop the step behind the one that opened it; 0 for none.
+        saved: Local variables of those who have called macros.
         geometry: For X, Y, Z of the geometry their columns, or -1.
         last_center: Centre of the last arc less its start, on the geometry axes.
         programming: The programming frame: nine numbers by rows, then the shift.
@@ -108,6 +131,9 @@ class State(NamedTuple):
     values: Floats
     variables: Floats
     stack: Floats
+    frames: Ints
+    loops: Ints
+    saved: Floats
     geometry: Ints
     last_center: Floats
     programming: Floats
@@ -129,6 +155,35 @@ class State(NamedTuple):
     tool: Floats
 
 
+class Tables(NamedTuple):
+    """What a scan reads; the rules of blocks, and routines.
+
+    Attributes:
+        text: Bytes, whole lines.
+        nexts: The shape tree, `(nodes, KEY_COUNT)`.
+        leaves: For each node the number of its rule.
+        rules: `(rules, Rule.SIZE)`.
+        factors: `(rules, Factor.SIZE)`.
+        formulas: What rules calculate, pairs of `Operation` and argument.
+        routines: `(routines, Routine.SIZE)`, see `routines.layout`; from here on what is known of routines.
+        lines: Their lines, `(lines, Line.SIZE)`.
+        line_keys: Keys of their blocks; `line_values` their values.
+        callees: Pairs of a program's number and that of its routine, or `NOT_SCANNED`.
+    """
+
+    text: Bytes
+    nexts: Ints32
+    leaves: Ints32
+    rules: Ints32
+    factors: Floats
+    formulas: Ints32
+    routines: Ints32
+    lines: Ints32
+    line_keys: Ints32
+    line_values: Floats
+    callees: Ints32
+
+
 def new_state(axes: int) -> State:
     """Room for what a scan carries along."""
 
@@ -140,6 +195,9 @@ def new_state(axes: int) -> State:
         zeros(MOST_WORDS + MOST_LITERALS),
         array("d", (inf,)) * VARIABLES,
         zeros(STACK),
+        array("q", bytes(8 * Frame.SIZE * MOST_FRAMES)),
+        array("q", bytes(8 * LOOPS)),
+        zeros(LOCALS * MOST_FRAMES),
         array("q", bytes(24)),
         zeros(3),
         zeros(12),
@@ -191,6 +249,11 @@ class Rule(Places):
     #: Whether the block names a direction of the tool, and the indices of its values, -1 for zero.
     HAS_DIRECTION = place()
     DIRECTION = place(3)
+    #: Whether the block calls a routine or leaves one (`Flow`), the words of the program and of how often it runs. Axis
+    #: words are arguments, their axes variables.
+    FLOW = place()
+    CALLED = place(2)
+    REPEATS = place(2)
 
 
 class Factor(Places):
@@ -211,6 +274,15 @@ class Motion(Places):
     RAPID = place()
     FEED = place()
     ARC = place()
+
+
+class Flow(Places):
+    """What a block does to the stack of routines."""
+
+    NONE = place()
+    SUBPROGRAM = place()
+    MACRO = place()
+    RETURN = place()
 
 
 class NoteRecord(Places):
@@ -268,15 +340,21 @@ class Token(Places):
 class Operation(Places):
     """What is done with a stack of values, with an argument each.
 
-    The end of a block's formulas; the value becomes that of a word. Onto the stack comes a number of the formula, or
-    the variable of such a number (0 while it is vacant, or the interpreter decides). Functions, then operators.
+    The end of a block's formulas. The value becomes that of a word, or of the variable of a number of the formula;
+    where it is no condition that holds, nothing more is done. Onto the stack comes a number of the formula, or the
+    variable of such a number (while it is vacant the interpreter decides, or it is 0, or no number), or no number.
+    Functions, then operators, then comparisons.
     """
 
     END = place()
     STORE = place()
+    ASSIGN = place()
+    UNLESS = place()
     NUMBER = place()
     VARIABLE = place()
     VARIABLE_OR_ZERO = place()
+    VARIABLE_OR_VACANT = place()
+    VACANT = place()
     NEGATIVE = place()
     SIN = place()
     COS = place()
@@ -288,6 +366,12 @@ class Operation(Places):
     SUBTRACT = place()
     MULTIPLY = place()
     DIVIDE = place()
+    EQUAL = place()
+    NOT_EQUAL = place()
+    GREATER = place()
+    GREATER_OR_EQUAL = place()
+    LESS = place()
+    LESS_OR_EQUAL = place()
 
 
 # ---- text ---------------------------------------------------------------------------------------------------
@@ -315,10 +399,12 @@ class Grammar(Places):
     FORMULAS = 1024
     #: `A3=`, `B3=` and `C3=` are words.
     DIRECTIONS = 2048
+    #: `M3` is a code, else a word.
+    M_CODES = 4096
 
 
-#: Keys of words: letter and form (four each), then G codes below `LAST_CODE`, letters of words with a formula, and what
-#: formulas are written with.
+#: Keys of words: letter and form (four each), then G codes below `LAST_CODE`, M codes below `LAST_M_CODE`, letters of
+#: words with a formula, and what formulas are written with.
 FORMS = 4
 #: `CR=` as a form of C.
 CR_FORM = 2
@@ -326,7 +412,8 @@ CR_FORM = 2
 DIRECTION_FORM = 3
 FIRST_CODE = 26 * FORMS
 LAST_CODE = 1000
-FIRST_FORMULA = FIRST_CODE + LAST_CODE
+FIRST_M_CODE, LAST_M_CODE = FIRST_CODE + LAST_CODE, 100
+FIRST_FORMULA = FIRST_M_CODE + LAST_M_CODE
 FIRST_TOKEN = FIRST_FORMULA + 26
 KEY_COUNT = FIRST_TOKEN + Token.SIZE
 
@@ -337,13 +424,15 @@ class Outcome(Places):
     """How a scan ended.
 
     The text is at its end; no room for another row or block; the next block has a shape that is not known yet; the next
-    block is for the interpreter.
+    block is for the interpreter, or calls a program that is not known yet. Within: the scan goes on.
     """
 
     AT_END = place()
     FULL = place()
     UNKNOWN = place()
     NOT_PLAIN = place()
+    UNKNOWN_PROGRAM = place()
+    GOES_ON = place()
 
 
 class Leaf(Places):

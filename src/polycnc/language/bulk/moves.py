@@ -10,7 +10,7 @@ from __future__ import annotations
 from math import copysign, floor, nan, sqrt
 from typing import NamedTuple
 
-from polycnc.kernels.layout import Bytes, Floats, Ints, Ints32, Words32
+from polycnc.kernels.layout import Bytes, Floats, Ints, Ints32, Words16, Words32
 from polycnc.language.bulk.layout import HALF, TARGET_WIDTH, Factor, Motion, NoteRecord, Reading, Rule, State
 from polycnc.toolpath.kinds import Kind
 from polycnc.toolpath.table import CURVE_WIDTH, NO_CURVE
@@ -34,6 +34,7 @@ class Columns(NamedTuple):
     """
 
     kind: Bytes
+    program: Words16
     line: Words32
     feed: Floats
     end: Floats
@@ -104,7 +105,7 @@ def note(state: State, rules: Ints32, factors: Floats, number: int, columns: Col
     if slot >= 0 and value < factors[number * Factor.SIZE + Factor.LOWEST_NOTE]:
         return False
     columns.notes[place + NoteRecord.ROW] = state.scan.rows
-    columns.notes[place + NoteRecord.LINE] = state.scan.line
+    columns.notes[place + NoteRecord.LINE] = state.scan.block_line
     columns.notes[place + NoteRecord.RULE] = number
     columns.said[said] = value
     for i in range(axes):
@@ -262,7 +263,8 @@ def put_row(state: State, kind: int, feed: float, curve: int, columns: Columns) 
     """Write the move to the target as a row."""
     row, axes = state.scan.rows, state.scan.axes
     columns.kind[row] = kind
-    columns.line[row] = state.scan.line
+    columns.line[row] = state.scan.block_line
+    columns.program[row] = state.scan.program
     columns.feed[row] = feed
     columns.curve[row] = curve
     for i in range(axes):

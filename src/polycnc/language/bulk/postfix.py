@@ -6,19 +6,27 @@ import ast
 from typing import TYPE_CHECKING
 
 from polycnc.language.bulk.layout import STACK, Operation
-from polycnc.language.expressions.code import Code, Lifted, constant
+from polycnc.language.expressions.code import Code, Lifted, constant, dotted
 from polycnc.language.expressions.operators import checked_value
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable, Mapping, Sequence
 
-_ZERO = constant(0.0)
+_ZERO, _READ = constant(0.0), dotted("m.read")
 _OPERATORS = {
     ast.Add: Operation.ADD,
     ast.Sub: Operation.SUBTRACT,
     ast.Mult: Operation.MULTIPLY,
     ast.Div: Operation.DIVIDE,
 }
+_COMPARISONS: dict[object, int] = {
+    ast.Gt: Operation.GREATER,
+    ast.GtE: Operation.GREATER_OR_EQUAL,
+    ast.Lt: Operation.LESS,
+    ast.LtE: Operation.LESS_OR_EQUAL,
+}
+#: By their names too; they tell a vacant variable from zero.
+_EQUALITIES: dict[object, int] = {"eq_": Operation.EQUAL, "ne_": Operation.NOT_EQUAL}
 #: By their names in generated code; each gets the memory and a number.
 _FUNCTIONS = {
     "sin_": Operation.SIN,
@@ -30,7 +38,7 @@ _FUNCTIONS = {
 }
 
 
-class _OtherError(Exception):
+class OtherError(Exception):
     """Code that the scanner does not calculate."""
 
 
@@ -41,74 +49,137 @@ def formulas(words: Iterable[tuple[int, Code]], literals: Mapping[int, int]) -> 
         words: Indices of values, and the code of each.
         literals: Lifted numbers of the code, by the order in which they stand in formulas of the block.
     """
-    done: list[int] = []
+    postfix = Postfix(literals)
     try:
         for slot, code in words:
-            if _put(code, literals, done) > STACK:
-                return None
-            done += (Operation.STORE, slot)
-    except _OtherError:
+            postfix.value(code)
+            postfix.done += (Operation.STORE, slot)
+    except OtherError:
         return None
-    return tuple(done)
+    return tuple(postfix.done)
 
 
-def _put(code: Code, literals: Mapping[int, int], done: list[int]) -> int:
-    """Add the operations of code; gives how many values they need at a time."""
-    checked = checked_value(code)
-    if checked is not None:
-        return _put(checked, literals, done)
-    if isinstance(code, Lifted):
-        done += (Operation.NUMBER, literals[code.place])
-        return 1
-    if code.kind is ast.Subscript:
-        done += (Operation.VARIABLE, _variable(code, literals))
-        return 1
-    if code.kind is ast.BoolOp:
-        return _put_or_zero(code, literals, done)
-    if code.kind is ast.BinOp:
-        _, left, operator, right = code
+class Postfix:
+    """Operations of one or more pieces of code.
+
+    Args:
+        literals: Lifted numbers of the code, by the order in which they stand among the numbers at hand.
+        numbers: These, where vacant variables mean something: #0 is known by its number.
+
+    Attributes:
+        done: Pairs of operation and argument so far.
+    """
+
+    def __init__(self, literals: Mapping[int, int], numbers: Sequence[float] = ()) -> None:
+        self._literals = literals
+        self._numbers = numbers
+        self.done: list[int] = []
+
+    def value(self, code: Code) -> None:
+        """Add what leaves the value of code on the stack.
+
+        Raises:
+            OtherError: It is the interpreter's.
+        """
+        if self._put(code) > STACK:
+            raise OtherError
+
+    def condition(self, code: Code) -> None:
+        """Add what leaves 1 on the stack where a condition holds, else 0; as `value`."""
+        if code.kind is ast.Compare:
+            operands, operation = (code[1], *_parts(code[3])), _COMPARISONS.get(_parts(code[2])[0])
+        else:
+            function = code[1] if code.kind is ast.Call else None
+            name = function[1] if isinstance(function, Code) and function.kind is ast.Name else None
+            operands, operation = _parts(code[2]), _EQUALITIES.get(name)
+        if operation is None:
+            raise OtherError
+        left, right = operands
         assert isinstance(left, Code)
         assert isinstance(right, Code)
-        depth = max(_put(left, literals, done), 1 + _put(right, literals, done))
-        done += (_OPERATORS.get(operator) or _other(), 0)  # type: ignore[call-overload]
+        if max(self._put_any(left), 1 + self._put_any(right)) > STACK:
+            raise OtherError
+        self.done += (operation, 0)
+
+    def assignment(self, code: Code) -> None:
+        """Add what gives a variable a value; as `value`."""
+        (target,), value = _parts(code[1]), code[2]
+        assert isinstance(target, Code)
+        assert isinstance(value, Code)
+        if self._put_any(value) > STACK:
+            raise OtherError
+        self.done += (Operation.ASSIGN, self._variable(target))
+
+    def _put_any(self, code: Code) -> int:
+        """A value that may be vacant."""
+        if code.kind is ast.Subscript:
+            self.done += (Operation.VARIABLE_OR_VACANT, self._variable(code))
+            return 1
+        if code.kind is ast.Call and code[1] == _READ and isinstance(code[2], tuple):
+            number = code[2][0]
+            if isinstance(number, Lifted) and self._numbers and self._numbers[number.place] == 0:
+                self.done += (Operation.VACANT, 0)
+                return 1
+        return self._put(code)
+
+    def _put(self, code: Code) -> int:
+        """Add the operations of code; gives how many values they need at a time."""
+        checked = checked_value(code)
+        if checked is not None:
+            return self._put(checked)
+        if isinstance(code, Lifted):
+            self.done += (Operation.NUMBER, self._literals[code.place])
+            return 1
+        if code.kind is ast.Subscript:
+            self.done += (Operation.VARIABLE, self._variable(code))
+            return 1
+        if code.kind is ast.BoolOp:
+            return self._put_or_zero(code)
+        if code.kind is ast.BinOp:
+            _, left, operator, right = code
+            assert isinstance(left, Code)
+            assert isinstance(right, Code)
+            depth = max(self._put(left), 1 + self._put(right))
+            self.done += (_OPERATORS.get(operator) or _other(), 0)  # type: ignore[call-overload]
+            return depth
+        return self._put_applied(code)
+
+    def _put_or_zero(self, code: Code) -> int:
+        """A variable that counts as zero while it is vacant."""
+        parts = code[2]
+        assert isinstance(parts, tuple)
+        if code[1] is not ast.Or or parts[0].kind is not ast.Subscript or parts[1] != _ZERO:
+            raise OtherError
+        self.done += (Operation.VARIABLE_OR_ZERO, self._variable(parts[0]))
+        return 1
+
+    def _put_applied(self, code: Code) -> int:
+        """A sign or a function."""
+        if code.kind is ast.UnaryOp and code[1] in (ast.USub, ast.UAdd):
+            operand, operation = code[2], Operation.NEGATIVE if code[1] is ast.USub else None
+        elif code.kind is ast.Call and isinstance(code[2], tuple) and len(code[2]) == 2:
+            function = code[1]
+            name = function[1] if isinstance(function, Code) and function.kind is ast.Name else None
+            operand, operation = code[2][1], _FUNCTIONS.get(str(name)) or _other()
+        else:
+            raise OtherError
+        assert isinstance(operand, Code)
+        depth = self._put(operand)
+        if operation is not None:
+            self.done += (operation, 0)
         return depth
-    return _put_applied(code, literals, done)
+
+    def _variable(self, code: Code) -> int:
+        """Where the number of a variable stands that lies in the memory."""
+        base, index = code[1], code[2]
+        if not (isinstance(base, Code) and base.kind is ast.Attribute and isinstance(index, Lifted)):
+            raise OtherError
+        return self._literals[index.place]
 
 
-def _put_or_zero(code: Code, literals: Mapping[int, int], done: list[int]) -> int:
-    """A variable that counts as zero while it is vacant."""
-    parts = code[2]
-    assert isinstance(parts, tuple)
-    if code[1] is not ast.Or or parts[0].kind is not ast.Subscript or parts[1] != _ZERO:
-        raise _OtherError
-    done += (Operation.VARIABLE_OR_ZERO, _variable(parts[0], literals))
-    return 1
-
-
-def _put_applied(code: Code, literals: Mapping[int, int], done: list[int]) -> int:
-    """A sign or a function."""
-    if code.kind is ast.UnaryOp and code[1] in (ast.USub, ast.UAdd):
-        operand, operation = code[2], Operation.NEGATIVE if code[1] is ast.USub else None
-    elif code.kind is ast.Call and isinstance(code[2], tuple) and len(code[2]) == 2:
-        function = code[1]
-        name = function[1] if isinstance(function, Code) and function.kind is ast.Name else None
-        operand, operation = code[2][1], _FUNCTIONS.get(str(name)) or _other()
-    else:
-        raise _OtherError
-    assert isinstance(operand, Code)
-    depth = _put(operand, literals, done)
-    if operation is not None:
-        done += (operation, 0)
-    return depth
-
-
-def _variable(code: Code, literals: Mapping[int, int]) -> int:
-    """Where the number of a variable stands that lies in the memory."""
-    base, index = code[1], code[2]
-    if not (isinstance(base, Code) and base.kind is ast.Attribute and isinstance(index, Lifted)):
-        raise _OtherError
-    return literals[index.place]
+def _parts(field: object) -> tuple[object, ...]:
+    return field if isinstance(field, tuple) else ()
 
 
 def _other() -> int:
-    raise _OtherError
+    raise OtherError

@@ -157,20 +157,48 @@ class Idle(NamedTuple):
     condition: Condition | None = None
 
 
+class Call(NamedTuple):
+    """A step that calls a program by its number, from its first block on.
+
+    Attributes:
+        number: The word with the number.
+        repeats: The word that says how often; once without it.
+        arguments: Words that set local variables of the program's own (`Target.axis`); None where it has none.
+    """
+
+    number: Word
+    repeats: Word | None
+    arguments: tuple[Target, ...] | None
+
+
+class Return(NamedTuple):
+    """A step that ends a program that was called, and goes on behind the call."""
+
+
+class Later(NamedTuple):
+    """What a step does is told when it is asked for: it may be an alarm, which the interpreter comes to.
+
+    Attributes:
+        tell: Gives what the step does, None for what cannot be told.
+    """
+
+    tell: Callable[[], object]
+
+
 class Recipe(NamedTuple):
     """What a block of some shape does in some modal state.
 
     Attributes:
         next_state: The modal state that it leaves, as the dialect names it; hashable.
         feed: Sets the feed before it moves.
-        motion: Its move.
+        motion: Its move, or how it calls or ends a program.
         notes: What it does in front of that, in order, one with a value at the most.
         formulas: What is calculated before all that: pairs of `layout.Operation` and argument.
     """
 
     next_state: Hashable
     feed: SetFeed | None = None
-    motion: Straight | Arc | None = None
+    motion: Straight | Arc | Call | Return | None = None
     notes: tuple[tuple[Step, Note], ...] = ()
     formulas: tuple[int, ...] = ()
 
@@ -195,12 +223,13 @@ class Conditions:
     def recipe(self, channel: Channel, steps: Iterable[Step], state: Hashable) -> Recipe | None:
         """The recipe of a block that leaves a modal state; None where a step does what cannot be told."""
         feed: SetFeed | None = None
-        motion: Straight | Arc | None = None
+        motion: Straight | Arc | Call | Return | None = None
         notes: list[tuple[Step, Note]] = []
         for step in steps:
             told = declared(step)
             parts: tuple[object, ...] = told if type(told) is tuple else (told,)
-            for part in parts:
+            for told_part in parts:
+                part = told_part.tell() if isinstance(told_part, Later) else told_part
                 if isinstance(part, Idle) and self._holds(channel, part.condition):
                     continue
                 if motion is not None:
@@ -211,7 +240,7 @@ class Conditions:
                     feed = part
                 elif isinstance(part, Note) and self._holds(channel, part.condition):
                     notes.append((part.step or step, part))
-                elif isinstance(part, (Straight, Arc)):
+                elif isinstance(part, (Straight, Arc, Call, Return)):
                     motion = part
                 else:
                     return None
@@ -238,6 +267,7 @@ class Spelling:
         directions: `A3=`, `B3=` and `C3=` are words.
         blank_lines_are_blocks: A line without a block counts as one.
         formulas: `X[#1+2.]` is a word.
+        m_codes: `M3` is a code, else a word.
     """
 
     max_digits: int
@@ -253,6 +283,7 @@ class Spelling:
     directions: bool = False
     blank_lines_are_blocks: bool = True
     formulas: bool = False
+    m_codes: bool = False
 
     @property
     def flags(self) -> int:
@@ -269,6 +300,7 @@ class Spelling:
             | self.cr_radius * layout.Grammar.CR_RADIUS
             | self.formulas * layout.Grammar.FORMULAS
             | self.directions * layout.Grammar.DIRECTIONS
+            | self.m_codes * layout.Grammar.M_CODES
             | (not self.blank_lines_are_blocks) * layout.Grammar.BLANK_LINES_ARE_NONE
         )
 

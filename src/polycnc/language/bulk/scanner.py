@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from array import array
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeAlias
+from math import inf
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
-from polycnc.channel.stack import Executable
 from polycnc.channel.states.snapshot import unchanging
 from polycnc.language.bulk import layout
 from polycnc.language.bulk.guard import Guard, notes_before
-from polycnc.language.bulk.kernels import Tables
-from polycnc.language.bulk.layout import State, new_state
+from polycnc.language.bulk.layout import State, Tables, new_state
 from polycnc.language.bulk.moves import Columns
+from polycnc.language.bulk.routines.layout import NO_ROUTINE
+from polycnc.language.bulk.routines.running import RunningRoutines
 from polycnc.language.bulk.shapes import Shapes
 from polycnc.language.bulk.staged import FEWEST_AHEAD, StagedRun, leading_moves
 from polycnc.language.bulk.text import Window
@@ -25,28 +26,15 @@ if TYPE_CHECKING:
     from polycnc.geometry.frames import Frame
     from polycnc.kernels.layout import Floats
     from polycnc.language.bulk.recipe import Recipe, Spelling
+    from polycnc.language.bulk.routines.running import RoutineDialect
+    from polycnc.language.bulk.scannable import ScannedChannel
 
 #: A run of so many blocks is worth its beginning.
 WORTHWHILE = 16
+#: Blocks of a loop that one call of the kernel runs: between two calls it can be interrupted.
+MOST_BLOCKS = 1 << 18
 #: Notes that one call of the kernel may give.
 MOST_NOTES = 4096
-
-
-class Scannable(Executable, Protocol):
-    """A program whose steps are lines of text."""
-
-    def line_of_step(self, index: int) -> int:
-        """Index of a step's line in the program's text."""
-
-    def step_of_line(self, line: int) -> int:
-        """The first step at or behind a line of the text."""
-
-    def scannable_to(self, line: int) -> int:
-        """The line behind those that may be read as one block each, from a line of the text on."""
-
-
-#: A channel whose programs are such.
-ScannedChannel: TypeAlias = "Channel[Any, Any, Scannable]"
 
 
 class Dialect(Protocol):
@@ -54,9 +42,11 @@ class Dialect(Protocol):
 
     Attributes:
         spelling: How its text looks.
+        routines: What it tells of programs that are called and of loops; None where these are the interpreter's.
     """
 
     spelling: Spelling
+    routines: RoutineDialect | None
 
     def ready(self, channel: Channel) -> bool:
         """Whether plain blocks may be scanned now: nothing watches single blocks or holds moves back."""
@@ -145,9 +135,12 @@ class Scanner:
         self._next_try = 0
         self._most_patience = most_patience
         self._ahead = FEWEST_AHEAD
-        self._state = new_state(axes)
+        self._state = state = new_state(axes)
+        told = dialect.routines
+        self._routines = None if told is None else RunningRoutines(told, state, dialect.spelling)
         self._columns = (
-            array("B", bytes(rooms)), array("I", bytes(4 * rooms)), array("d", bytes(8 * rooms)),
+            array("B", bytes(rooms)), array("H", bytes(2 * rooms)), array("I", bytes(4 * rooms)),
+            array("d", bytes(8 * rooms)),
             array("d", bytes(8 * rooms * axes)), array("i", bytes(4 * rooms)),
             array("d", bytes(8 * rooms * CURVE_WIDTH)),
         )  # fmt: skip
@@ -161,18 +154,20 @@ class Scanner:
         Where hardly any block is plain, tries become rare: also from call to call, for a program whose blocks call
         is entered again behind each of them.
         """
-        ahead = self._next_try - channel.blocks
+        ahead, level = self._next_try - channel.blocks, channel.level
         if not 0 < ahead <= self._patience:  # behind it, or counted in another run
             taken = self.run(channel)
             self._patience = 1 if taken >= WORTHWHILE else min(2 * self._patience, self._most_patience)
             self._next_try = channel.blocks + self._patience
             ahead = self._patience
-        return range(ahead)
+        # Where a program has been called and not left, none of the caller's blocks is next.
+        return range(ahead if channel.level is level else 0)
 
     def run(self, channel: ScannedChannel) -> int:
         """Work off plain blocks from where the channel stands; gives their number."""
-        blocks = channel.blocks
-        while self._is_ready(channel) and self._some(channel):
+        blocks, level = channel.blocks, channel.level
+        self._run_loop(channel)
+        while channel.level is level and self._is_ready(channel) and self._some(channel):
             pass
         return channel.blocks - blocks
 
@@ -193,25 +188,34 @@ class Scanner:
             return False
         outcome = self._scanned(channel) if channel.path.is_idle else self._staged(channel)
         if outcome == layout.Outcome.UNKNOWN:
-            return self._learn(channel, lines[window.line])
+            kept = None if self._routines is None else self._routines.line()
+            learnt = self._learn(channel, lines[window.line] if kept is None else kept)
+            return learnt and channel.level is level
+        if channel.level is not level:
+            return False
+        if outcome == layout.Outcome.UNKNOWN_PROGRAM and self._routines is not None:
+            return self._routines.learn_callee(channel)
         room = len(channel.toolpath.chunk) < CHUNK_ROWS and channel.blocks < channel.block_limit
         return outcome == layout.Outcome.AT_END or (outcome == layout.Outcome.FULL and room)
 
     def _scanned(self, channel: ScannedChannel) -> int:
         """Rows of plain blocks straight into the table."""
-        outcome = self._call(channel)
-        if self._guard.is_needed(channel):
+        is_guarded = self._guard.is_needed(channel)
+        outcome = self._call(channel, calls=not is_guarded)
+        if is_guarded:
             outcome = self._guarded(channel, outcome)
         taken = self._state.scan.line - channel.level.code.program.first_line - self._window.line
         if taken:
             self._take_rows(channel)
             self._go_on(channel, taken)
+            if self._routines is not None and self._has_routines:
+                self._routines.take(channel)
         return outcome
 
     def _guarded(self, channel: ScannedChannel, outcome: int) -> int:
         """The same blocks once more, up to the first row that could lead beyond the travel of the axes."""
         at = self._state.scan
-        rows = self._guard.rows(channel, self._columns[0], self._columns[3], at.rows)
+        rows = self._guard.rows(channel, self._columns[0], self._columns[4], at.rows)
         if rows == at.rows:
             return outcome
         most = rows + notes_before(rows, self._notes, at.notes)
@@ -247,18 +251,34 @@ class Scanner:
         return outcome if is_all else layout.Outcome.NOT_PLAIN
 
     def _call(
-        self, channel: ScannedChannel, most_blocks: int | None = None, most_rows: int | None = None
+        self,
+        channel: ScannedChannel,
+        most_blocks: int | None = None,
+        most_rows: int | None = None,
+        *,
+        calls: bool = False,
     ) -> int:
         """Let the kernel work off blocks from where the channel stands; gives how it ended."""
         self._put_state(channel)
-        at, shapes = self._state.scan, self._shapes
+        at = self._state.scan
+        if calls and self._routines is not None:
+            self._routines.allow_calls(channel)
         if most_blocks is not None:
             at.most_blocks = min(at.most_blocks, most_blocks)
         if most_rows is not None:
             at.most_rows = most_rows
+        return self._run_kernel()
+
+    @property
+    def _has_routines(self) -> bool:
+        return self._routines is not None and bool(self._routines.known.kept)
+
+    def _run_kernel(self) -> int:
+        shapes, routines = self._shapes, self._routines
         tables = Tables(
-            self._window.text, shapes.nexts, shapes.leaves, shapes.rules, shapes.factors, shapes.formulas
-        )
+            self._window.text, shapes.nexts, shapes.leaves, shapes.rules, shapes.factors, shapes.formulas,
+            *(_NO_ROUTINES if routines is None else routines.known.tables),
+        )  # fmt: skip
         return self._scan(tables, self._state, Columns(*self._columns, self._notes, self._said))
 
     def _go_on(self, channel: ScannedChannel, lines: int) -> None:
@@ -274,6 +294,59 @@ class Scanner:
         keys = tuple(self._state.keys[: self._state.scan.keys])
         return self._shapes.learn(self._state.scan.root, keys, self._dialect.recipe(channel, keys, line))
 
+    # ---- loops ---------------------------------------------------------------------------------------------
+
+    def turn(self, channel: ScannedChannel) -> int:
+        """Work off the loop that the channel is in, from the running block on; gives the number of its blocks.
+
+        The blocks are counted; the channel stands behind them.
+        """
+        blocks, level = channel.blocks, channel.level
+        level.index = level.current
+        self._run_loop(channel)
+        if channel.blocks == blocks:
+            level.index = level.current + 1
+        return channel.blocks - blocks
+
+    def _run_loop(self, channel: ScannedChannel) -> None:
+        """Work off the loop that the channel is in, if it is in one, from the next block on."""
+        while (
+            channel.level.data
+            and self._is_ready(channel)
+            and not self._guard.is_needed(channel)
+            and channel.path.is_idle
+            and self._turned(channel)
+        ):
+            pass
+
+    def _turned(self, channel: ScannedChannel) -> bool:
+        """One call of the kernel for a loop; true if it may be called again at once."""
+        routines, level, at = self._routines, channel.level, self._state.scan
+        if routines is None:
+            return False
+        self._put_state(channel)
+        if not routines.begin_loop(channel):
+            return False
+        if self._shapes.calculates:
+            self._dialect.put_variables(channel, self._state.variables)
+            routines.begin()
+        routines.allow_calls(channel)
+        look = inf if channel.standstill is None else channel.standstill.next_look - channel.blocks
+        at.most_blocks = int(min(at.most_blocks, MOST_BLOCKS, max(look, 0)))
+        outcome = self._run_kernel()
+        if at.blocks:
+            self._take_rows(channel)
+            self._take_state(channel)
+            routines.take(channel)
+        if outcome == layout.Outcome.UNKNOWN:
+            learnt = self._learn(channel, routines.line() or "")
+        elif outcome == layout.Outcome.UNKNOWN_PROGRAM:
+            learnt = channel.level is level and routines.learn_callee(channel)
+        else:
+            learnt = outcome == layout.Outcome.FULL and at.blocks > 0
+        room = len(channel.toolpath.chunk) < CHUNK_ROWS and channel.blocks < channel.block_limit
+        return learnt and room and channel.level is level
+
     # ---- state ---------------------------------------------------------------------------------------------
 
     def _put_state(self, channel: ScannedChannel) -> None:
@@ -282,12 +355,16 @@ class Scanner:
         generation = dialect.generation(channel)
         if generation != self._generation:
             self._generation, self._shapes = generation, Shapes()
+            if self._routines is not None:
+                self._routines.forget(self._shapes)
         chunk, c = channel.toolpath.chunk, channel.coordinates
         # A new context is that of the first row: it must be known before the modal state goes on.
         rows = 1 if channel.context_is_new else min(self._rooms, max(CHUNK_ROWS - len(chunk), 0))
         window, spelling = self._window, dialect.spelling
         at.place, at.end = window.place, len(window.text)
         at.line = channel.level.code.program.first_line + window.line
+        at.routine, at.frames, at.most_frames = NO_ROUTINE, 0, 0
+        at.program = at.text_program = channel.level.program_number
         at.blocks, at.most_blocks = 0, channel.block_limit - channel.blocks
         at.rows, at.most_rows = 0, rows
         at.notes, at.most_notes = 0, MOST_NOTES
@@ -299,8 +376,10 @@ class Scanner:
         at.has_zero = _put_frame(state.zero, c.zero)
         at.direct, at.owes = c.direct, dialect.owes(channel)
         at.shifted, at.mirrors = c.shift is not None, c.programming.mirrors
-        if self._shapes.calculates:
+        if self._shapes.calculates or self._has_routines:
             dialect.put_variables(channel, state.variables)
+        if self._routines is not None:
+            self._routines.begin()
         limits = () if self._guard.is_needed(channel) else dialect.limits(channel)
         at.limited = bool(limits)
         at.grammar, at.most_digits = spelling.flags, spelling.max_digits
@@ -337,8 +416,8 @@ class Scanner:
         """Rows of the kernel's columns into the chunk; behind them the channel stands at a position."""
         if first == end:
             return
-        program, context = channel.level.program_number, channel.context_number()
-        channel.toolpath.chunk.extend(first, end, program, context, self._views)
+        context = channel.context_number()
+        channel.toolpath.chunk.extend(first, end, context, self._views)
         if channel.path.head is not None:
             # The moves have gone past a stage that had nothing to do.
             channel.path.table.end, channel.path.table.context = position, context
@@ -367,6 +446,10 @@ class Scanner:
             (x, y, z) if curves else None,
             tuple(parameters[(curves - 1) * CURVE_WIDTH : curves * CURVE_WIDTH]) if curves else (),
         )
+
+
+#: Tables of routines where there are none.
+_NO_ROUTINES = array("i"), array("i"), array("i"), array("d"), array("i")
 
 
 def _put(vector: Floats, values: Iterable[float]) -> None:

@@ -11,8 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from polycnc.channel.channel import Channel
-    from polycnc.language.bulk.kernels import Tables
-    from polycnc.language.bulk.layout import State
+    from polycnc.language.bulk.layout import State, Tables
     from polycnc.language.bulk.moves import Columns
     from polycnc.language.bulk.scanner import Dialect, Scanner
 
@@ -28,7 +27,7 @@ class Bulk:
     """Whether and how plain blocks are scanned.
 
     Attributes:
-        fewest_lines: Shorter programs are left to the interpreter.
+        fewest_lines: Shorter programs are left to the interpreter, and loops that have run fewer blocks.
         scan: The kernel; None for the compiled one.
         rooms: Rows that one call of the kernel may give.
         most_patience: Blocks that are interpreted at the most between two tries.
@@ -40,7 +39,7 @@ class Bulk:
     most_patience: int = 4096
 
     def pays(self, lines: int) -> bool:
-        """Whether a program is long enough."""
+        """Whether a program is long enough, or a loop that has run so many blocks."""
         return lines >= self.fewest_lines
 
     def scanner(self, channel: Channel) -> Scanner | None:

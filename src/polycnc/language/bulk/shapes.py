@@ -6,12 +6,12 @@ from array import array
 from typing import TYPE_CHECKING
 
 from polycnc.language.bulk import layout
-from polycnc.language.bulk.recipe import AS_TYPED, Arc, Straight, Word
+from polycnc.language.bulk.recipe import AS_TYPED, Arc, Call, Return, Straight, Word
 
 if TYPE_CHECKING:
     from collections.abc import Hashable, Sequence
 
-    from polycnc.language.bulk.recipe import Note, Recipe, Step
+    from polycnc.language.bulk.recipe import Note, Recipe, Step, Target
 
 _NO_WORD = Word(-1, AS_TYPED)
 #: More shapes than this are no longer learnt.
@@ -75,13 +75,16 @@ class Shapes:
         rule[layout.Rule.POSITIVE_FEED] = recipe.feed is not None and recipe.feed.positive
         _put_notes(rule, factors, recipe.notes)
         if recipe.formulas:
-            rule[layout.Rule.FORMULAS] = len(self.formulas)
-            self.formulas.extend((*recipe.formulas, layout.Operation.END, 0))
+            rule[layout.Rule.FORMULAS] = self.add_formulas(recipe.formulas)
         if isinstance(recipe.motion, Straight):
             _put_straight(rule, recipe.motion)
         elif isinstance(recipe.motion, Arc):
             _put_arc(rule, factors, recipe.motion)
-        for i, target in enumerate(recipe.motion.targets if recipe.motion else ()):
+        elif isinstance(recipe.motion, Call):
+            _put_call(rule, factors, recipe.motion)
+        elif isinstance(recipe.motion, Return):
+            rule[layout.Rule.FLOW] = layout.Flow.RETURN
+        for i, target in enumerate(_targets(recipe)):
             place = layout.Rule.FIRST_TARGET + layout.TARGET_WIDTH * i
             _put_word(rule, factors, place, Word(target.slot, target.conversion))
             rule[place + 2], rule[place + 3] = target.axis, target.incremental
@@ -92,6 +95,12 @@ class Shapes:
         self.notes[number] = recipe.notes
         return number
 
+    def add_formulas(self, formulas: Sequence[int]) -> int:
+        """Keep what is calculated; gives where it begins."""
+        place = len(self.formulas)
+        self.formulas.extend((*formulas, layout.Operation.END, 0))
+        return place
+
     @property
     def calculates(self) -> bool:
         """Whether any rule has formulas."""
@@ -100,6 +109,13 @@ class Shapes:
     def state_behind(self, rule: int) -> Hashable:
         """The modal state that blocks of a rule leave."""
         return self.states[self.rules[rule * layout.Rule.SIZE + layout.Rule.NEXT_STATE]]
+
+
+def _targets(recipe: Recipe) -> Sequence[Target]:
+    """Axis words of a recipe, or arguments."""
+    if isinstance(recipe.motion, (Straight, Arc)):
+        return recipe.motion.targets
+    return (recipe.motion.arguments or ()) if isinstance(recipe.motion, Call) else ()
 
 
 def _put_word(rule: array[int], factors: array[float], place: int, word: Word | None) -> None:
@@ -114,6 +130,12 @@ def _put_notes(rule: array[int], factors: array[float], notes: Sequence[tuple[St
         if note.slot >= 0:
             rule[layout.Rule.NOTE_WORD] = note.slot
             factors[layout.Factor.LOWEST_NOTE] = note.lowest
+
+
+def _put_call(rule: array[int], factors: array[float], call: Call) -> None:
+    rule[layout.Rule.FLOW] = layout.Flow.SUBPROGRAM if call.arguments is None else layout.Flow.MACRO
+    _put_word(rule, factors, layout.Rule.CALLED, call.number)
+    _put_word(rule, factors, layout.Rule.REPEATS, call.repeats)
 
 
 def _put_straight(rule: array[int], motion: Straight) -> None:

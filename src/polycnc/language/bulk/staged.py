@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from polycnc.kernels.layout import Ints
     from polycnc.language.bulk.layout import Scan
 
-    Columns = tuple[array[int], array[int], array[float], array[float], array[int], array[float]]
+    Columns = tuple[array[int], array[int], array[int], array[float], array[float], array[int], array[float]]
 
 #: Blocks that are scanned for stages at a time, twice as many behind each run that had no end among them: what is
 #: scanned behind the end of a run is scanned again.
@@ -33,7 +33,7 @@ _KINDS = tuple(Kind)
 
 def leading_moves(first_line: int, at: Scan, columns: Columns, notes: Ints) -> int:
     """How many blocks from the first on are a move each, and nothing else."""
-    lines = columns[1]
+    lines = columns[2]
     most = min(at.rows, notes[layout.NoteRecord.LINE] - first_line) if at.notes else at.rows
     return next((i for i in range(most) if lines[i] != first_line + i), most)
 
@@ -81,13 +81,13 @@ class StagedRun:
     def _run(self, start: list[float]) -> Run:
         """All rows as a run."""
         channel = self._channel
-        kinds, lines, feeds, ends, curves, _ = self._columns
+        kinds, _, lines, feeds, ends, curves, _ = self._columns
         program, context = channel.level.program_number, channel.context_number()
         return Run(kinds, lines, feeds, ends, curves, start, program, context)
 
     def _lines_from(self, first: int, rows: int) -> int:
         """How many moves without a curve stand in a row."""
-        curves = self._columns[4]
+        curves = self._columns[5]
         return next((i for i in range(first, rows) if curves[i] != NO_CURVE), rows) - first
 
     def _move(self, run: Run, i: int, first_curve: int) -> Move:

@@ -85,6 +85,7 @@ class SinumerikProgram:
         self._first_statement: int | None = None
         self._texts: dict[str, Step] = {}
         self._singles: dict[int, Step] = {}
+        self._iso_texts: dict[int, str] = {}
         self._joins: dict[int, set[int]] = {}
         self._joined_into = bytearray(len(self._reached))
         self._shapes = Shapes()
@@ -150,7 +151,7 @@ class SinumerikProgram:
         """The column of a word of the running block, by compiling it once more."""
         index, text = channel.level.current, None
         if self._iso and self._is_iso(index):
-            text = iso_dialect.translated(self.text(index), channel.mode["motion"])
+            text = self._iso_texts.get(index, "")
         columns = compile_block(self, index, channel, text).columns
         return columns[position] if position < len(columns) else 0
 
@@ -205,10 +206,7 @@ class SinumerikProgram:
     def _begin_iso(self, index: int, channel: Channel) -> Step:
         """The step of G291: lines behind it are of the ISO dialect, and what they have been taken for is forgotten."""
         step = compile_text("G290", self, index, channel)
-        lines = iso_dialect.region(self.program.lines, self._lines[index] + 1)
-        if lines not in self._iso:
-            self._iso.append(lines)
-            self.forget_steps()
+        self.become_iso(self._lines[index] + 1)
 
         def run(channel: Channel) -> None:
             step(channel)
@@ -216,20 +214,28 @@ class SinumerikProgram:
 
         return run
 
+    def become_iso(self, first: int = 0) -> None:
+        """Lines from one on, up to that with G290, are of the ISO dialect."""
+        lines = iso_dialect.region(self.program.lines, first)
+        if lines not in self._iso:
+            self._iso.append(lines)
+            self.forget_steps()
+
     def _iso_step(self, index: int, channel: Channel) -> Step:
         """A block of the ISO dialect, told in the control's own words for the motion that is active now."""
         line = self.text(index)
         if prefix_of(line).skip >= 0 and self.control.skipped(channel, prefix_of(line).skip):
             return _skipped
 
+        def perform(text: str) -> None:
+            self._iso_texts[index] = text
+            compile_block(self, index, channel, text).step(channel)
+
         def run(channel: Channel) -> None:
-            self.control.check_iso(channel)
             try:
-                text = iso_dialect.translated(line, channel.mode["motion"])
-                step = compile_block(self, index, channel, text).step
+                self.control.run_iso(channel, iso_dialect.parsed(line), perform)
             except AlarmError as error:
                 fail(error, channel)
-            step(channel)
 
         return run
 

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from polycnc.language.expressions.shapes import Shapes
     from polycnc.language.sinumerik.actions.code import ActionCode
     from polycnc.language.sinumerik.executable import SinumerikProgram
+    from polycnc.language.sinumerik.iso_dialect import IsoBlock
     from polycnc.language.sinumerik.names.initialisation import FirstValues
     from polycnc.language.sinumerik.names.values import Type
     from polycnc.language.sinumerik.names.variables import Variable
@@ -112,8 +113,8 @@ class LanguageControl(Protocol):
     def select_iso(self, channel: Channel) -> None:
         """G291 acts: blocks of the ISO dialect come."""
 
-    def check_iso(self, channel: Channel) -> None:
-        """A block of the ISO dialect comes; PC0001 where G291 does not act."""
+    def run_iso(self, channel: Channel, block: IsoBlock, perform: Callable[[str], None]) -> None:
+        """A block of the ISO dialect comes; PC0001 where G291 does not act. `perform` runs one of the language here."""
 
     def procedure(self, channel: Channel, name: str, args: tuple[Any, ...], column: int) -> None:
         """Run a predefined procedure or a cycle; an argument left out is None, VAR is a `Reference`."""

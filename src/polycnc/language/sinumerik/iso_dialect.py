@@ -1,22 +1,23 @@
-"""Blocks of the ISO dialect (G291), told in the words of the control's own language.
+"""Blocks of the ISO dialect (G291): their words, and what the control's own language calls them.
 
 Behind a block of G291, up to the next one of G290, lines are words of ISO code M: letters with numbers, comments in
-brackets. What means the same on both sides, or has a counterpart, is translated; the rest of the dialect is refused, as
-PC0001 with its word. The manual names G290 and G291 (job planning 16.1, group 47) alone; counterparts are those of the
-control's manual of ISO milling.
+brackets. What means the same on both sides, or has a counterpart, is translated here; what has none is for the control
+(`control.sinumerik.iso`), which takes the words of such functions; what is left is refused, as PC0001 with its word.
+The manual names G290 and G291 (job planning 16.1, group 47) alone; counterparts are those of the control's manual of
+ISO milling.
 """
 
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.deferred.regexes import regex
 from polycnc.language.sinumerik.errors import not_supported, syntax
 from polycnc.language.sinumerik.lexer import prefix_of
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Collection, Sequence
 
 #: Blocks that change the language; they hold nothing else.
 _SWITCH = regex(r"[ \t]*G[ \t]*(29[01])[ \t\r\x00]*(?:;.*)?$", re.IGNORECASE | re.ASCII)
@@ -26,21 +27,85 @@ _WORD = regex(r"[ \t\r\x00]*([A-Z])[ \t]*([+-]?(?:\d+(?:\.\d*)?|\.\d+))", re.IGN
 G_FUNCTIONS = {
     **{
         f"G{number}": f"G{number}"
-        for number in (0, 1, 2, 3, 4, 9, 17, 18, 19, 40, 54, 55, 56, 57, 64, 90, 91, 94, 95)
+        for number in (0, 1, 2, 3, 4, 9, 17, 18, 19, 40, 41, 42, 54, 55, 56, 57, 64, 90, 91, 93, 94, 95)
     },
-    "G21": "G71",
-    "G49": "D0",
+    "G20": "G700",
+    "G21": "G710",
     "G58": "G505",
     "G59": "G506",
     "G61": "G60",
-    "G80": "",
 }
 #: Words that mean the same.
 SAME = frozenset("XYZABCUVWIJKFSTM")
 #: M functions of subprograms.
 CALLS = frozenset((98.0, 99.0))
+MOTIONS = ("G0", "G1", "G2", "G3")
 _CIRCLES, _DWELL = frozenset(("G2", "G3")), "G4"
 _MILLI = 1000.0
+
+
+class IsoWord(NamedTuple):
+    """A word of a block: letter, value, number as written, column from 1."""
+
+    letter: str
+    value: float
+    number: str
+    column: int
+
+    @property
+    def name(self) -> str:
+        """The word without leading zeros."""
+        return f"{self.letter}{self.value:g}"
+
+    @property
+    def code(self) -> str:
+        """A G function without leading zeros; empty for another word."""
+        return self.name if self.letter == "G" else ""
+
+
+class IsoBlock(NamedTuple):
+    """A block of the ISO dialect.
+
+    Attributes:
+        line: As written.
+        end: Where its block number and skip mark end.
+        words: Its words in their order.
+    """
+
+    line: str
+    end: int
+    words: tuple[IsoWord, ...]
+
+    @property
+    def codes(self) -> tuple[str, ...]:
+        """Its G functions."""
+        return tuple(word.code for word in self.words if word.code)
+
+    def find(self, letter: str) -> IsoWord | None:
+        """The last word with a letter."""
+        return next((word for word in reversed(self.words) if word.letter == letter), None)
+
+    def told(self, motion: str, taken: Collection[IsoWord] = ()) -> str:
+        """The block in the words of the control's own language; words keep their columns where they can.
+
+        Args:
+            motion: The motion function that is active in front of it.
+            taken: Words that are somebody else's.
+
+        Raises:
+            NcSyntaxError: PC0001 for a word that is not translated.
+        """
+        codes = self.codes
+        motion = next((code for code in codes if code in MOTIONS), motion)
+        if _DWELL in codes and not any(word.letter in "XP" for word in self.words):
+            raise not_supported(self.end + 1, "G291 G4")
+        text = self.line[: self.end]
+        for word in self.words:
+            if word in taken:
+                continue
+            told = _told(word, codes, motion)
+            text = f"{text.ljust(word.column - 1)}{told} " if told else text
+        return text
 
 
 def switched(line: str) -> str:
@@ -57,48 +122,32 @@ def region(lines: Sequence[str], first: int) -> range:
     return range(first, len(lines))
 
 
-def translated(line: str, motion: str) -> str:
-    """A block of ISO code in the words of the control's own language; words keep their columns where they can.
-
-    Args:
-        line: The block.
-        motion: The motion function that is active in front of it.
+def parsed(line: str) -> IsoBlock:
+    """The words of a block.
 
     Raises:
-        NcSyntaxError: PC0001 for a word that is not translated, 12080 for what is no word.
+        NcSyntaxError: PC0001 for macro statements, 12080 for what is no word.
     """
-    end = prefix_of(line).end
-    words = _words(line, end)
-    codes = [f"G{value:g}" for letter, value, *_ in words if letter == "G"]
-    motion = next((code for code in codes if code in ("G0", "G1", *_CIRCLES)), motion)
-    text = line[:end]
-    for letter, value, number, column in words:
-        told = _told(letter, value, number, column, codes, motion)
-        text = f"{text.ljust(column - 1)}{told} " if told else text
-    return text
-
-
-def _words(line: str, end: int) -> list[tuple[str, float, str, int]]:
-    """Letter, value, number as written and column of each word behind the block number."""
+    end = start = prefix_of(line).end
     text = _COMMENT.sub(lambda found: " " * len(found[0]), line)
     words = []
     while (found := _WORD.match(text, end)) is not None:
-        words.append((found[1].upper(), float(found[2]), found[2], found.start(1) + 1))
+        words.append(IsoWord(found[1].upper(), float(found[2]), found[2], found.start(1) + 1))
         end = found.end()
     if text[end:].strip(" \t\r\x00"):
         rest = len(text) - len(text[end:].lstrip(" \t\r\x00"))
         if text[rest] in "#[]=*O%" or text[rest].isalpha():
             raise not_supported(rest + 1, f"G291 {text[rest:].split()[0]}")
         raise syntax(rest + 1, text[rest:].split()[0])
-    return words
+    return IsoBlock(line, start, tuple(words))
 
 
-def _told(letter: str, value: float, number: str, column: int, codes: Sequence[str], motion: str) -> str:
-    if letter == "G":
-        code = f"G{value:g}"
-        if code not in G_FUNCTIONS:
-            raise not_supported(column, f"G291 {code}")
-        return G_FUNCTIONS[code]
+def _told(word: IsoWord, codes: Sequence[str], motion: str) -> str:
+    letter, value, number, column = word
+    if word.code:
+        if word.code not in G_FUNCTIONS:
+            raise not_supported(column, f"G291 {word.code}")
+        return G_FUNCTIONS[word.code]
     if _DWELL in codes and letter in "XP":
         return f"F{value if letter == 'X' else value / _MILLI!r}"
     if letter == "R" and motion in _CIRCLES:

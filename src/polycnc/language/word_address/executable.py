@@ -13,7 +13,7 @@ from polycnc.deferred.records import dataclass
 from polycnc.deferred.regexes import regex
 from polycnc.language.expressions.code import listed
 from polycnc.language.expressions.joined import MAX_JOINED, led_by
-from polycnc.language.word_address.joining import JOINABLE, join, join_loop
+from polycnc.language.word_address.joining import JOINABLE, HotLoop, join, join_loop
 from polycnc.language.word_address.macro_b import Lifting, Reader, macro_shapes
 from polycnc.language.word_address.patterns import Patterns, Spot, negative
 from polycnc.language.word_address.statements import KEYWORD, Assignment, LoopEnd, parse_statement
@@ -141,7 +141,7 @@ class WordAddressProgram:
         for i in range(index + 1, min(index + MAX_JOINED, len(self.lines))):
             following = self._single(i) if self._reached[i] else None
             if isinstance(following, LoopEnd):
-                return led_by(first, join_loop(self.grammar.shapes, stretch, i, following))
+                return HotLoop(join_loop(self.grammar.shapes, stretch, i, following), first)
             if not isinstance(following, JOINABLE) or self.steps[i] is not None:
                 break
             stretch.append((i, following))

@@ -162,14 +162,7 @@ def parse_goto(reader: Reader, program: StatementProgram, index: int) -> Step:
         number = int(digits)
         if not 1 <= number <= MAX_SEQUENCE_NUMBER:
             raise reader.fail("sequence_range")
-        found: list[int] = []
-
-        def jump(channel: Channel) -> None:
-            if not found:
-                found.append(program.find_sequence(number, index))
-            channel.level.index = found[0]
-
-        return jump
+        return Jump(program, number, index)
     target = reader.evaluator(reader.factor())
     out_of_range = reader.fail("sequence_range")
 
@@ -180,6 +173,29 @@ def parse_goto(reader: Reader, program: StatementProgram, index: int) -> Step:
         channel.level.index = program.find_sequence(number, index)
 
     return computed_jump
+
+
+class Jump:
+    """`GOTO n`, n a number."""
+
+    __slots__ = ("_found", "_index", "_number", "_program")
+
+    def __init__(self, program: StatementProgram, number: int, index: int) -> None:
+        self._program = program
+        self._number = number
+        self._index = index
+        self._found: int | None = None
+
+    @property
+    def target(self) -> int:
+        """The step to which it leads."""
+        if self._found is None:
+            self._found = self._program.find_sequence(self._number, self._index)
+        return self._found
+
+    def __call__(self, channel: Channel) -> None:
+        """Run the statement."""
+        channel.level.index = self.target
 
 
 def parse_if(reader: Reader, program: StatementProgram, index: int) -> Step:
@@ -205,27 +221,40 @@ def parse_while(reader: Reader, program: StatementProgram, index: int) -> Step:
     condition = Condition(reader)
     if not reader.accept("DO"):
         raise reader.fail("while_format")
-    number = _loop_number(reader, program)
-
-    def test(channel: Channel) -> None:
-        end = program.loop_end(index, number)
-        if condition(channel):
-            channel.level.data[number] = Loop(index, end, condition)
-        else:
-            channel.level.data.pop(number, None)
-            channel.level.index = end + 1
-
-    return test
+    return LoopBegin(program, index, _loop_number(reader, program), condition)
 
 
 def parse_do(reader: Reader, program: StatementProgram, index: int) -> Step:
     """`DO m`: an endless loop."""
-    number = _loop_number(reader, program)
+    return LoopBegin(program, index, _loop_number(reader, program), None)
 
-    def enter(channel: Channel) -> None:
-        channel.level.data[number] = Loop(index, program.loop_end(index, number), None)
 
-    return enter
+class LoopBegin:
+    """`WHILE [c] DO m`, or `DO m` without a condition: an endless loop."""
+
+    __slots__ = ("_program", "condition", "index", "number")
+
+    def __init__(
+        self, program: StatementProgram, index: int, number: int, condition: Condition | None
+    ) -> None:
+        self._program = program
+        self.index = index
+        self.number = number
+        self.condition = condition
+
+    @property
+    def loop(self) -> Loop:
+        """The loop that it opens."""
+        return Loop(self.index, self._program.loop_end(self.index, self.number), self.condition)
+
+    def __call__(self, channel: Channel) -> None:
+        """Run the statement."""
+        loop, level = self.loop, channel.level
+        if loop.condition is None or loop.condition(channel):
+            level.data[self.number] = loop
+        else:
+            level.data.pop(self.number, None)
+            level.index = loop.end + 1
 
 
 @dataclass(frozen=True, slots=True)
@@ -259,18 +288,18 @@ def parse_end(reader: Reader, program: StatementProgram, index: int) -> Step:
 class LoopEnd:
     """`END m`: tests the condition of the DO that was passed and goes back behind it."""
 
-    __slots__ = ("_index", "_missing", "number")
+    __slots__ = ("_missing", "index", "number")
 
     def __init__(self, number: int, index: int, missing: AlarmError) -> None:
         self.number = number
-        self._index = index
+        self.index = index
         self._missing = missing
 
     def __call__(self, channel: Channel) -> None:
         """Run the statement."""
         level = channel.level
         loop = level.data.get(self.number)
-        if loop is None or loop.end != self._index:
+        if loop is None or loop.end != self.index:
             raise self._missing
         if loop.condition is None or loop.condition(channel):
             level.index = loop.start + 1

@@ -102,6 +102,10 @@ class AboutTip:
             last, before = [b - a for a, b in zip(before, real, strict=True)], real
         return target, speed
 
+    def fastest(self, column: int, target: float, speed: Callable[[], float]) -> float:
+        """How fast the axis may turn towards a target now, degrees/s."""
+        return self.reach(column, target, speed())[1]
+
     def _is_within(self, column: int, place: float) -> bool:
         data, here = self._axes[column].data, self._here[column]
         return min(data.limit_minus, here) - NO_WAY <= place <= max(data.limit_plus, here) + NO_WAY

@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from polycnc.mainrun.axes.about_tip import AboutTip
+    from polycnc.mainrun.axes.along_line import AlongLine
     from polycnc.mainrun.axes.axis import Axis
     from polycnc.mainrun.execution.clock import Clock
 
@@ -25,15 +26,15 @@ class ChannelAxes:
 
     Attributes:
         by_hand: An operator has had the axes since a program led them.
-        about_tip: What leads the linear axes when an operator turns rotary ones about the tip, which displays show from
-            then on; None before.
+        led: What leads axes that go together by hand, about the tip or along a line, which displays show from then on;
+            None before.
     """
 
     def __init__(self, axes: Sequence[Axis], clock: Clock) -> None:
         self._axes = tuple(axes)
         self._clock = clock
         self.by_hand = False
-        self.about_tip: AboutTip | None = None
+        self.led: AboutTip | AlongLine | None = None
 
     def __getitem__(self, column: int) -> Axis:
         return self._axes[column]
@@ -110,9 +111,9 @@ class ChannelAxes:
                 axis.hand.stand(here, base)
 
     def settle(self) -> None:
-        """Rotary axes that were turned about the tip stand: the linear ones are where they have followed them."""
-        if self.about_tip is not None:
-            self.about_tip.leads = False
+        """Axes that led others stand: those are where they have followed them."""
+        if self.led is not None:
+            self.led.leads = False
         for axis in self._axes:
             axis.hand.settle(self._clock.time)
 
@@ -124,7 +125,7 @@ class ChannelAxes:
 
     def leave(self) -> None:
         """The axes belong to a program again."""
-        self.by_hand, self.about_tip = False, None
+        self.by_hand, self.led = False, None
         for axis in self._axes:
             axis.hand.stand(0.0, 0.0)
 

@@ -7,7 +7,7 @@ When a program has it again the place goes into the path.
 from __future__ import annotations
 
 from math import copysign, inf
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.mainrun.axes.hand import ENDLESS
@@ -18,8 +18,17 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from polycnc.machine.model import Axis as AxisData
-    from polycnc.mainrun.axes.axis import Axis
     from polycnc.transformation.couplings.laws import Law
+
+#: Speeds are differences over so many seconds; an axis that catches up is no slower than this, mm/s or degrees/s.
+SHORT_S, LEAST_SPEED = 1e-6, 1.0
+
+
+class Leading(Protocol):
+    """What leads an axis: another one, or a spindle by what it has turned."""
+
+    def setpoint(self, time: float) -> float:
+        """Its place, mm or degrees."""
 
 
 class CommandedAxis:
@@ -54,7 +63,7 @@ class CommandedAxis:
         self._law = MotionLaw(0.0, place)
         self._target: float | None = None
         self._speed = 0.0
-        self._led: tuple[tuple[Axis, Law], ...] = ()
+        self._led: tuple[tuple[Leading, Law], ...] = ()
 
     # ---- a source of the axis ------------------------------------------------------------------------------
 
@@ -66,13 +75,38 @@ class CommandedAxis:
     def _shares(self, time: float) -> float:
         return sum(law.share(axis.setpoint(time)) for axis, law in self._led)
 
-    def follow(self, led: Sequence[tuple[Axis, Law]]) -> None:
-        """Other axes lead it from now on, beside what it does by itself; without any it stays."""
+    def follow(self, led: Sequence[tuple[Leading, Law]], *, smoothly: bool = False) -> None:
+        """Others lead it from now on, beside what it does by itself; without any it stays.
+
+        Args:
+            led: What leads it, and by which laws.
+            smoothly: What its speed would change at once it makes up by itself: it catches up with those that lead it,
+                or brakes where none does.
+        """
         self.stop()
-        place = self.place(self._clock())
+        time = self._clock()
+        place, before = self.place(time), self._share_speed(time) if smoothly else 0.0
         self._led = tuple(led)
-        self._place = place - self._shares(self._clock())
+        self._place = place - self._shares(time)
         self._lead = self._target = None
+        after = self._share_speed(time) if smoothly else 0.0
+        if before != after:
+            self._make_up(before - after, abs(after), time)
+
+    def _share_speed(self, time: float) -> float:
+        """How fast those that lead it move it."""
+        return (self._shares(time + SHORT_S) - self._shares(time)) / SHORT_S
+
+    def _make_up(self, velocity: float, spent: float, time: float) -> None:
+        """Come from a velocity to rest: at its place where others lead it, where it can where none does."""
+        pull, target = self._data.acceleration or 1e9, self._place
+        if not self._led:
+            target += copysign(0.5 * velocity * velocity / pull, velocity)
+        speed = max((self._data.rapid or inf) - spent, LEAST_SPEED)
+        self._lead = axis_move(self._place, velocity, target, min(speed, 1e9), pull, time)
+        self._law = MotionLaw(time, self._place)
+        self._law.run(time, self._place, self._lead.phases)
+        self._law.forget(time - self._ramp)
 
     def at(self, time: float) -> float:
         """Its share of the setpoint."""

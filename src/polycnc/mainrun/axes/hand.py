@@ -30,7 +30,7 @@ class Hand:
         ramp: Seconds over which its motion is averaged.
     """
 
-    __slots__ = ("_base", "_data", "_follows", "_goal", "_law", "_lead", "_place", "_ramp")
+    __slots__ = ("_base", "_data", "_follows", "_goal", "_law", "_lead", "_place", "_ramp", "_speed")
 
     def __init__(self, data: AxisData, ramp: float) -> None:
         self._data = data
@@ -40,6 +40,7 @@ class Hand:
         self._law = Law(0.0, 0.0)
         self._goal: float | None = None
         self._follows: Callable[[float], float] | None = None
+        self._speed: Callable[[], float] = lambda: 0.0
 
     # ---- a source of the axis ------------------------------------------------------------------------------
 
@@ -104,18 +105,21 @@ class Hand:
         if self._follows is not None:
             self._place, self._follows = self._place + self._follows(time), None
 
-    def towards(self, target: float, speed: float, time: float) -> None:
-        """Lead the axis to a target (its limits kept), from rest or out of its motion."""
+    def towards(self, target: float, speed: Callable[[], float], time: float) -> None:
+        """Lead the axis to a target (its limits kept), from rest or out of its motion.
+
+        `speed` is asked again when the operator has turned an override.
+        """
         limits, here = self._data, self._place
         # An axis beyond a limit may come back.
         low, high = min(limits.limit_minus, here), max(limits.limit_plus, here)
-        self._goal = min(max(target, low), high)
-        self._move(self._goal, speed, time)
+        self._goal, self._speed = min(max(target, low), high), speed
+        self._move(self._goal, speed(), time)
 
-    def change_speed(self, speed: float, time: float) -> None:
-        """Another speed, where the axis has a goal."""
+    def revise(self, time: float) -> None:
+        """The operator has turned an override: the axis goes on with the speed that it asks for now."""
         if self._goal is not None:
-            self._move(self._goal, speed, time)
+            self._move(self._goal, self._speed(), time)
 
     def brake(self, time: float) -> None:
         """Bring the axis to rest as quickly as it can, and leave it there."""

@@ -45,10 +45,10 @@ class Overlay:
         if self._lead is not None and time >= self._lead.end:
             self._place, self._lead = self._to, None
 
-    def go(self, value: float, speed: float, time: float) -> None:
-        """Go to a value, mm/s or degrees/s at most."""
+    def go(self, value: float, speed: float, time: float, pull: float = 1.0) -> None:
+        """Go to a value, mm/s or degrees/s at most, with a part of the acceleration."""
         if value == self._to:
             return
         here, velocity = (self._place, 0.0) if self._lead is None else self._lead.after(time)
         self._to = value
-        self._lead = axis_move(here, velocity, value, speed, self._acceleration, time)
+        self._lead = axis_move(here, velocity, value, speed, self._acceleration * pull, time)

@@ -2,14 +2,23 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
+from polycnc.geometry.tolerances import NO_WAY
+from polycnc.machine.kinematics import Kinematics, unit
 from polycnc.mainrun.axes.about_tip import AboutTip
+from polycnc.mainrun.axes.along_line import AlongLine
+from polycnc.mainrun.axes.hand import ENDLESS
 from polycnc.mainrun.commands.states import PROGRAM_MODES, Command
 from polycnc.mainrun.errors import CommandRefused
 from polycnc.messages.catalogue import listed
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from polycnc.control.interface import HandMotion
+    from polycnc.geometry.frames import Vector
     from polycnc.mainrun.axes.hand import Hand
     from polycnc.mainrun.commands.permission import Permission
     from polycnc.mainrun.execution.channel_run import ChannelRun
@@ -17,8 +26,11 @@ if TYPE_CHECKING:
 
 #: The code under which rotary axes turn the tool about its tip.
 TURNS_ABOUT_TIP = "TRAORI"
-#: A signal: axes are moved by hand in the machine coordinate system, each by itself.
-IN_MACHINE_SYSTEM = "JOG_MCS"
+#: Signals: axes are moved by hand in the machine coordinate system, each by itself; geometry axes in that of the tool,
+#: or of the work. The first one that is on counts.
+IN_MACHINE_SYSTEM, IN_TOOL_SYSTEM, IN_WORK_SYSTEM = "JOG_MCS", "JOG_TCS", "JOG_WCS"
+#: A line is straight in the axes where they are no farther beside it than this, mm, over `TRIAL_MM` of it.
+STRAIGHT_MM, TRIAL_MM = 1e-6, 10.0
 
 
 class HandCommands:
@@ -42,12 +54,14 @@ class HandCommands:
         self._permission.ask(Command.JOG)
         run, i = self._axis(axis, channel)
         self._permission.ask_machine(*_move_words(run, i))
-        here, data = self._take_in_hand(run), run.channel.axis_data[i]
-        speed = self._switches.rapid_speed(data) if rapid else self._switches.jog_speed(data)
+        here = self._take_in_hand(run)
+        if (line := self._line(run, i, here)) is not None:
+            line.send(direction * ENDLESS, self._speed(run, i, rapid=rapid), self._clock.time)
+            return
         about_tip = self._about_tip(run, i, here, others=False)
         for axis_, hand in _hands(run, i):
             target = hand.end_of_travel(direction, here[axis_])
-            self._send(run, axis_, target, speed, about_tip)
+            self._send(run, axis_, target, self._speed(run, i, rapid=rapid), about_tip)
 
     def stop_jog(self, axis: str | None, *, channel: int) -> None:
         """Let a jog key go; all of them where no axis is named."""
@@ -55,6 +69,11 @@ class HandCommands:
             self._runs.brake_hands()
         else:
             run, i = self._axis(axis, channel)
+            led = run.axes.led
+            if isinstance(led, AlongLine) and led.turns:
+                if led.column == i:
+                    led.brake(self._clock.time)
+                return
             for _, hand in _hands(run, i):
                 hand.brake(self._clock.time)
 
@@ -62,7 +81,7 @@ class HandCommands:
         """Move by a way, as the machine display counts."""
         self._permission.ask(Command.INCREMENT)
         run, i = self._axis(axis, channel)
-        self._shift(run, i, way, self._switches.jog_speed(run.channel.axis_data[i]))
+        self._shift(run, i, way, rapid=False)
 
     def handle(self, axis: str, way: float, *, channel: int) -> None:
         """Turn the handwheel by a way, as the machine display counts."""
@@ -71,7 +90,7 @@ class HandCommands:
             return
         self._permission.ask(Command.HANDLE)
         run, i = self._axis(axis, channel)
-        self._shift(run, i, way, self._switches.rapid_speed(run.channel.axis_data[i]))
+        self._shift(run, i, way, rapid=True)
 
     def _offset(self, axis: str, way: float, number: int) -> None:
         """Shift an axis beside the program that runs, or may run (DRF)."""
@@ -93,24 +112,83 @@ class HandCommands:
         for i in sorted({column for each in named for column in together(run.channel, each)}):
             data = run.channel.axis_data[i]
             run.axes.forget_shift(i)
-            speed = self._switches.rapid_speed(data)
+            speed = partial(self._switches.rapid_speed, data)
             run.axes[i].hand.towards(data.reference_points[0], speed, self._clock.time)
 
-    def _shift(self, run: ChannelRun, axis: int, shown: float, speed: float) -> None:
+    def _shift(self, run: ChannelRun, axis: int, shown: float, *, rapid: bool) -> None:
         self._permission.ask_machine(*_move_words(run, axis))
         here = self._take_in_hand(run)
         factor = run.display.machine_factor(axis, run.execution.context)
+        if (line := self._line(run, axis, here)) is not None:
+            line.send(shown / factor, self._speed(run, axis, rapid=rapid), self._clock.time)
+            return
         about_tip = self._about_tip(run, axis, here, others=True)
         for i, hand in _hands(run, axis):
-            self._send(run, i, hand.goal(here[i]) + shown / factor, speed, about_tip)
+            target = hand.goal(here[i]) + shown / factor
+            self._send(run, i, target, self._speed(run, i, rapid=rapid), about_tip)
 
     def _send(
-        self, run: ChannelRun, axis: int, target: float, speed: float, about_tip: AboutTip | None
+        self,
+        run: ChannelRun,
+        axis: int,
+        target: float,
+        speed: Callable[[], float],
+        about_tip: AboutTip | None,
     ) -> None:
         """An axis goes to a target, so far and so fast as the others stand it."""
         if about_tip is not None:
-            target, speed = about_tip.reach(axis, target, speed)
+            target, _ = about_tip.reach(axis, target, speed())
+            speed = partial(about_tip.fastest, axis, target, speed)
         run.axes[axis].hand.towards(target, speed, self._clock.time)
+
+    def _speed(self, run: ChannelRun, axis: int, *, rapid: bool) -> Callable[[], float]:
+        """How fast an axis goes, asked again when an override turns."""
+        what, place = self._what(run, axis)
+        return partial(self._switches.hand_speed, run, axis, what, place, rapid=rapid)
+
+    def _what(self, run: ChannelRun, axis: int) -> tuple[HandMotion, int]:
+        """What an axis is while it is moved by hand, and which one of those."""
+        geometry = run.display.geometry
+        if axis in geometry and self._system:
+            return "geometry", geometry.index(axis)
+        if run.channel.axis_data[axis].rotary and self._turns_about_tip(run):
+            rotary = [i for i, data in enumerate(run.channel.axis_data) if data.rotary]
+            return "orientation", rotary.index(axis)
+        return "axis", axis
+
+    def _turns_about_tip(self, run: ChannelRun) -> bool:
+        is_on = run.execution.modal.get("transformation") == TURNS_ABOUT_TIP
+        return is_on and not self._signals[IN_MACHINE_SYSTEM]
+
+    @property
+    def _system(self) -> str:
+        """The system, beside that of the machine, in which geometry axes are moved; empty for none."""
+        if self._signals[IN_MACHINE_SYSTEM]:
+            return ""
+        return next((each for each in (IN_TOOL_SYSTEM, IN_WORK_SYSTEM) if self._signals[each]), "")
+
+    def _line(self, run: ChannelRun, axis: int, here: list[float]) -> AlongLine | None:
+        """What leads the axes along an axis of the work or the tool; None where the axis goes by itself."""
+        system, geometry = self._system, run.display.geometry
+        if not system or axis not in geometry:
+            return None
+        led = run.axes.led
+        if any(each.hand.moves for each in run.axes):
+            if isinstance(led, AlongLine) and led.turns and led.column == axis:
+                return led
+            raise CommandRefused("mainrun.moving")
+        direction: Vector = (
+            float(axis == geometry[0]),
+            float(axis == geometry[1]),
+            float(axis == geometry[2]),
+        )
+        find = _along_tool if system == IN_TOOL_SYSTEM else _along_work
+        line = AlongLine(tuple(run.axes), _with_partners(run, find(run, here, direction)), here, axis)
+        words = [word for i in line.moved for word in _move_words(run, i)]
+        self._permission.ask_machine(*dict.fromkeys(words))
+        line.lead(self._clock.time)
+        run.axes.led = line
+        return line
 
     def _about_tip(self, run: ChannelRun, axis: int, here: list[float], *, others: bool) -> AboutTip | None:
         """What leads the linear axes when a rotary one is turned while TRAORI is active; None where nothing does.
@@ -118,21 +196,23 @@ class HandCommands:
         By keys one orientation axis moves at a time; the handwheel moves several (`others`).
         """
         is_rotary = run.channel.axis_data[axis].rotary
-        leading = run.axes.about_tip
+        leading = run.axes.led
+        if isinstance(leading, AlongLine):
+            if leading.turns:
+                raise CommandRefused("mainrun.moving")
+            leading = None
         if leading is not None and leading.turns and not (is_rotary and others):
             if run.axes[axis].hand.moves:
                 return leading
             raise CommandRefused("mainrun.moving")
-        if not is_rotary:
-            return None
-        if run.execution.modal.get("transformation") != TURNS_ABOUT_TIP or self._signals[IN_MACHINE_SYSTEM]:
+        if not is_rotary or not self._turns_about_tip(run):
             return None
         if leading is None or not leading.turns:
             if any(each.hand.moves for each in run.axes):
                 raise CommandRefused("mainrun.moving")
             leading = AboutTip(tuple(run.axes), run.display, run.execution.context, here, self._clock.time)
             leading.lead()
-            run.axes.about_tip = leading
+            run.axes.led = leading
         return leading
 
     def _take_in_hand(self, run: ChannelRun) -> list[float]:
@@ -140,7 +220,7 @@ class HandCommands:
         if self._runs.move:
             raise CommandRefused("mainrun.moving")
         run.take_in_hand(run.machine_position)
-        if run.axes.about_tip is not None and not run.axes.about_tip.turns:
+        if run.axes.led is not None and not run.axes.led.turns:
             run.axes.settle()
         return run.machine_position
 
@@ -153,6 +233,44 @@ class HandCommands:
         if owner not in (0, channel):
             raise CommandRefused("mainrun.value", name="channel", allowed=str(owner), value=channel)
         return run, index
+
+
+def _along_work(run: ChannelRun, here: Sequence[float], direction: Vector) -> list[float]:
+    """How far each axis goes for a millimetre along an axis of the work; refused where they do not go evenly."""
+    display, context = run.display, run.execution.context
+    path, along = display.on_path(here, context), unit(context.frame.direct(*direction))
+
+    def real(way: float) -> list[float]:
+        point = list(path)
+        for column, share in zip(display.geometry, along, strict=True):
+            if column >= 0:
+                point[column] += way * share
+        return display.real(point, context)
+
+    start, ways = real(0.0), [b - a for a, b in zip(real(0.0), real(1.0), strict=True)]
+    for at, way, there in zip(start, ways, real(TRIAL_MM), strict=True):
+        if abs(there - at - TRIAL_MM * way) > STRAIGHT_MM:
+            raise CommandRefused("mainrun.no-line")
+    return ways
+
+
+def _along_tool(run: ChannelRun, here: Sequence[float], direction: Vector) -> list[float]:
+    """The same along an axis of the tool, which the head has turned."""
+    turn = Kinematics.of(run.channel.machine).head_turn(dict(zip(run.channel.axes, here, strict=True)))
+    ways = [0.0] * len(here)
+    for column, share in zip(run.display.geometry, turn.direct(*direction), strict=True):
+        if column >= 0:
+            ways[column] = share
+    return ways
+
+
+def _with_partners(run: ChannelRun, ways: list[float]) -> list[float]:
+    """With the axes that go together with others (gantries)."""
+    for column, way in enumerate(tuple(ways)):
+        if abs(way) > NO_WAY:
+            for other in run.channel.control.moved_together(run.channel, column):
+                ways[other] = way
+    return ways
 
 
 def _hands(run: ChannelRun, axis: int) -> list[tuple[int, Hand]]:

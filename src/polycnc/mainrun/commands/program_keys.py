@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.mainrun.commands.search import SearchMode, at_line, search
+from polycnc.mainrun.commands.search import ProgramTest, SearchMode, at_line, search
 from polycnc.mainrun.commands.states import Command, Mode, State
 from polycnc.mainrun.errors import CommandRefused
 from polycnc.mainrun.execution.operation import AT_END
@@ -44,6 +44,7 @@ class ProgramCommands:
         runs = self._operation.runs
         number = runs.named(channel).number
         program = self._programs.load(source, number)
+        runs[number].reached.clear()
         self._signals[AT_END] = 0.0
         for run in runs:
             run.channel.store = self._programs.store
@@ -86,6 +87,9 @@ class ProgramCommands:
         program, line = self._programs.main(channel), self._programs.line_of(target, channel)
         here = run.machine_position
         operation.program_mode = Mode.AUTO
+        if how is SearchMode.TEST:
+            self._test(ProgramTest(channel, program.name, line, tuple(here), target), program)
+            return
         operation.prepare(run)
         run.machinery.reset()
         operation.mains = {channel}
@@ -97,7 +101,9 @@ class ProgramCommands:
             self._status.become(State.STOPPED, halt="search")
             return
         run.preprocessing.start(program, here)
+        run.channel.is_searched = True
         found = search(run.preprocessing, program.name, line, behind=how is SearchMode.END_POINT)
+        run.channel.is_searched = False
         if found is None:
             operation.give_up()
             raise CommandRefused("mainrun.search", target=target)
@@ -105,6 +111,15 @@ class ProgramCommands:
         run.take_in_hand(here)
         operation.collected, operation.searched = {channel: found.functions}, True
         self._status.become(State.STOPPED, halt="search")
+
+    def _test(self, test: ProgramTest, program: Program) -> None:
+        """Run a program to a block while the axes stand."""
+        if not 0 <= test.line - program.first_line < len(program.lines):
+            raise CommandRefused("mainrun.search", target=test.line)
+        operation = self._operation
+        operation.mains = {test.channel}
+        operation.begin_test(test).preprocessing.start(program, list(test.here))
+        operation.resume()
 
     # ---- running -------------------------------------------------------------------------------------------
 
@@ -154,6 +169,7 @@ class ProgramCommands:
             run = operation.runs.named(number)
             operation.prepare(run)
             run.machinery.reset()
+            run.reached.clear()
             run.preprocessing.start(programs[number], run.execution.position)
         operation.resume()
 

@@ -52,6 +52,41 @@ class SearchMode(StrEnum):
     """With calculation of the block too: the axes are led to where it ends."""
     WITHOUT = "without-calculation"
     """Nothing in front of the block is calculated: it begins where the axes are, with what holds now."""
+    TEST = "program-test"
+    """With program test (SINUMERIK's SERUPRO): the program runs, with its actions and waits, while the axes stand."""
+
+
+@dataclass(slots=True)
+class ProgramTest:
+    """A search that runs the program.
+
+    Attributes:
+        channel: Number of the channel.
+        program: Name of the program of the block.
+        line: Line of the block in its file.
+        here: Where the axes stand, machine position.
+        target: The block as it was named.
+    """
+
+    channel: int
+    program: str
+    line: int
+    here: tuple[float, ...]
+    target: int | str
+    _functions: dict[object, Happening] = field(default_factory=dict)
+
+    def is_at(self, number: int, block: Block) -> bool:
+        """Whether the block of a channel is the one that is looked for."""
+        return (number, block.program, block.line) == (self.channel, self.program, self.line)
+
+    def keeps(self, happening: Happening) -> None:
+        """What the program switches on the machine is kept, and put out later."""
+        _keep(self._functions, happening)
+
+    @property
+    def functions(self) -> list[Happening]:
+        """What holds at the block."""
+        return list(self._functions.values())
 
 
 def at_line(line: int) -> Callable[[Channel], None]:
@@ -106,11 +141,15 @@ def search(preprocessing: Preprocessing, program: str, line: int, *, behind: boo
             found.context = item.context
             if isinstance(item.event, Raised):
                 return None
-            key = _what_it_switches(item)
-            if key is not None:
-                functions.pop(key, None)
-                functions[key] = item
+            _keep(functions, item)
     return None
+
+
+def _keep(functions: dict[object, Happening], happening: Happening) -> None:
+    key = _what_it_switches(happening)
+    if key is not None:
+        functions.pop(key, None)
+        functions[key] = happening
 
 
 def _at(found: Found, functions: Mapping[object, Happening]) -> Found:

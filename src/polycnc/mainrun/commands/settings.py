@@ -11,6 +11,7 @@ from polycnc.mainrun.reading.snapshot import PanelSwitches
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
+    from polycnc.control.interface import HandMotion
     from polycnc.machine.model import Axis
     from polycnc.machine.setup.values import Switches as SetupSwitches
     from polycnc.mainrun.execution.channel_run import ChannelRun
@@ -32,16 +33,33 @@ class Switches:
         dials: Where the override switches stand.
         rates: What acts on the speeds: these, feed hold, dry run.
         locked_at: Where locked axes stand, by channel and their column in it.
+        tests: Number of a channel whose program is tested: its axes stand; 0 for none.
     """
 
     def __init__(self, start: SetupSwitches) -> None:
         self.panel = PanelSwitches(start.single_block, start.optional_stop, start.block_skip)
         self.dials, self.rates = Rates(), Rates()
         self.locked_at: dict[int, dict[int, float]] = {}
+        self.tests = 0
 
     def jog_speed(self, axis: Axis) -> float:
         """Speed of an axis in jog, mm/s or degrees/s."""
         return min(JOG_RATE / 60.0 * self.dials.feed, axis.max_feed or inf)
+
+    def hand_speed(
+        self, run: ChannelRun, column: int, what: HandMotion = "axis", place: int = 0, *, rapid: bool
+    ) -> float:
+        """Speed of an axis by hand, mm/s or degrees/s: that of the control, or else of the machine panel.
+
+        `what` and `place`: what it is while it moves, and which one, as `Control.hand_speed` has them.
+        """
+        axis, control = run.channel.axis_data[column], run.channel.control
+        own: float | None = control.hand_speed(run.channel, column, what, place, rapid=rapid)
+        if rapid:
+            return min(own or inf, axis.rapid or 1e9) * self.rates.rapid
+        if own is None:
+            return self.jog_speed(axis)
+        return min(own * self.dials.feed, axis.rapid or inf)
 
     def rapid_speed(self, axis: Axis) -> float:
         """Speed of an axis in rapid traverse, mm/s or degrees/s."""
@@ -59,7 +77,8 @@ class Switches:
         position, before = run.machine_position, self.locked_at.get(run.number, {})
         z = run.channel.machine.geometry_indices(run.number)[2]
         panel = self.panel
-        wanted = range(len(position)) if panel.machine_lock else [z] if panel.z_lock and z >= 0 else []
+        all_stand = panel.machine_lock or self.tests == run.number
+        wanted = range(len(position)) if all_stand else [z] if panel.z_lock and z >= 0 else []
         self.locked_at[run.number] = {i: before.get(i, position[i]) for i in wanted}
         return {i: place for i, place in before.items() if i not in wanted}
 
@@ -75,5 +94,6 @@ class Switches:
         )
         channel.setup = replace(channel.setup, switches=switches)
         channel.skip_levels = switches.block_skip_mask(plain=1)
+        channel.is_tested = self.tests == channel.number
         # Whether to halt is decided when the block is executed, not when it is prepared.
         channel.single_block = channel.block_by_block = channel.optional_stop = True

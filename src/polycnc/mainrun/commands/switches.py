@@ -49,12 +49,9 @@ class SwitchCommands:
 
     def _set_hand_speeds(self) -> None:
         """Axes that are moved by hand go on with the new speeds."""
-        operation, switches = self._operation, self._switches
-        in_reference = operation.status.mode is Mode.REFERENCE
-        speed = switches.rapid_speed if in_reference else switches.jog_speed
-        for run in operation.runs:
+        for run in self._operation.runs:
             for axis in run.axes:
-                axis.hand.change_speed(speed(axis.data), operation.clock.time)
+                axis.hand.revise(self._operation.clock.time)
 
     def set_switches(self, changes: dict[str, Any]) -> None:
         """Turn panel switches, by the names of `PanelSwitches`."""

@@ -8,6 +8,7 @@ beside_path    axes that an operator has moved beside their path
 channel_run    a channel with all that executes it
 channel_runs   the channels of a control
 interpolator   a channel as its synchronised actions see it
+leading_spindles  spindles that lead axes (gears)
 operation      from state to state: what follows from commands and from what happens
 main_loop      lets time pass on all channels
 machinery      what the machine does with M, T, S and messages

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from polycnc.mainrun.axes.machine_axes import MachineAxes
     from polycnc.mainrun.execution.execution import Execution
     from polycnc.mainrun.execution.machinery import Machinery
-    from polycnc.mainrun.preparation.items import Rates
+    from polycnc.mainrun.preparation.items import Block, Rates
     from polycnc.mainrun.preparation.preprocessing import Preprocessing
     from polycnc.mainrun.reading.display import MainRunDisplay
 
@@ -42,6 +42,8 @@ class ChannelRun:
         axes: Its axes, with what moves them beside the path.
         rates: What the operator has set.
         machine_axes: All axes of the machine.
+        reached: The line in execution, or last in it, of every program; while no block search may enter a section, that
+            in which the section begins (SINUMERIK IPTRLOCK, job planning 8.5).
         parts: How often a program that an operator has started has come to its end.
         interpolator: The channel as its synchronised actions see it.
     """
@@ -54,6 +56,7 @@ class ChannelRun:
     axes: ChannelAxes
     rates: Rates
     machine_axes: MachineAxes
+    reached: dict[str, int] = field(default_factory=dict)
     parts: int = 0
     interpolator: ChannelInterpolator = field(init=False)
 
@@ -129,7 +132,7 @@ class ChannelRun:
         execution, context, display = self.execution, self.execution.context, self.display
         axes, uncounted = self.machine_position, self.axes.uncounted()
         real = [(locked or {}).get(i, value) for i, value in enumerate(axes)]
-        if self.axes.by_hand and self.axes.about_tip is not None:
+        if self.axes.by_hand and self.axes.led is not None:
             here = display.on_path(self.axes.path_at(axes), context)
             shown = display.positions(here, here, real, context)
         elif self.axes.by_hand:
@@ -256,6 +259,11 @@ class ChannelRun:
             point=self.point,
         )
 
+    def reach(self, block: Block | None) -> None:
+        """A block is in execution: a search for the point of interruption goes there."""
+        if block is not None and not self.execution.context.search_lock:
+            self.reached[block.program] = block.line
+
     def show_own_state(self) -> None:
         """Between programs the displays show the channel's own state."""
         self.execution.context = self.channel.control.context(self.channel)
@@ -263,6 +271,7 @@ class ChannelRun:
 
     def give_up(self) -> None:
         """The axes stand: the program is given up, the channel is as after reset."""
+        self.reach(self.execution.block)
         running, modal, context = self.execution.block, self.execution.modal, self.execution.context
         self.execution.abandon()
         self.interpolator.end(reset=True)

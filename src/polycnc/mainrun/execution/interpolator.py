@@ -14,18 +14,22 @@ from polycnc.channel.moves.travel import limits_of
 from polycnc.mainrun.axes.commanded import CommandedAxis
 from polycnc.mainrun.axes.overlay import Overlay
 from polycnc.mainrun.execution.block_parts import BlockParts, direction
+from polycnc.mainrun.execution.leading_spindles import LeadingSpindles
 from polycnc.mainrun.preparation.items import UNINFLUENCED, BlockEnd, Happening, Move
 from polycnc.transformation.couplings.graph import in_order
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
 
+    from polycnc.channel.channel import Channel
     from polycnc.channel.interpolator import Watcher
     from polycnc.mainrun.axes.channel_axes import ChannelAxes
+    from polycnc.mainrun.axes.commanded import Leading
     from polycnc.mainrun.execution.clock import Clock
     from polycnc.mainrun.execution.execution import Execution
     from polycnc.mainrun.execution.machinery import Machinery
     from polycnc.mainrun.preparation.items import Block, Row
+    from polycnc.mainrun.reading.snapshot import SpindleState
     from polycnc.messages import AlarmError
     from polycnc.toolpath import Context, Event
     from polycnc.transformation.couplings.laws import Law as CouplingLaw
@@ -48,6 +52,14 @@ class Led(Protocol):
 
     def spindle_rpm(self, context: Context) -> float:
         """Speed of the spindle where a context holds, 1/min."""
+
+    @property
+    def spindle(self) -> SpindleState:
+        """The spindle of the block in execution."""
+
+    @property
+    def channel(self) -> Channel:
+        """The channel."""
 
 
 class ChannelInterpolator:
@@ -73,6 +85,7 @@ class ChannelInterpolator:
         self._commanded: dict[int, CommandedAxis] = {}
         self._overlays: dict[tuple[str, int], Overlay] = {}
         self._led: dict[int, tuple[CouplingLaw, ...]] = {}
+        self._turning = LeadingSpindles(run, clock)
         self._seen: tuple[float, list[float]] = (-1.0, [])
         self._before: tuple[float, list[float]] = (-1.0, [])
 
@@ -374,7 +387,9 @@ class ChannelInterpolator:
         """What leads an axis beside the path."""
         return tuple(self._led.get(column, ()))
 
-    def follow(self, column: int, laws: Sequence[CouplingLaw]) -> None:
+    def follow(
+        self, column: int, laws: Sequence[CouplingLaw], spindles: Mapping[int, float] | None = None
+    ) -> None:
         """These lead an axis beside the path from now on, none lets it stay where it is.
 
         Raises:
@@ -383,7 +398,10 @@ class ChannelInterpolator:
         every = {**self._led, column: tuple(laws)}
         in_order(every)
         self._led = {each: of for each, of in every.items() if of}
-        self.commanded(column).follow([(self._run.axes[law.leading], law) for law in laws])
+        leading: list[tuple[Leading, CouplingLaw]] = [(self._run.axes[law.leading], law) for law in laws]
+        if spindles is not None:
+            leading += self._turning.led_by(column, spindles)
+        self.commanded(column).follow(leading, smoothly=spindles is not None)
         self.wake()
 
     def commanded_shares(self) -> dict[int, float]:
@@ -420,14 +438,17 @@ class ChannelInterpolator:
         self._run.execution.place_axis(column, place)
         return place
 
-    def overlay(self, name: str, column: int, value: float, speed: float) -> None:
-        """Shift an axis beside everything else, no faster than a speed; `name` says which of its shifts is meant."""
+    def overlay(self, name: str, column: int, value: float, speed: float, pull: float = 1.0) -> None:
+        """Shift an axis beside everything else, no faster than a speed and with a part of its acceleration.
+
+        `name` says which of its shifts is meant.
+        """
         found = self._overlays.get((name, column))
         if found is None:
             axis = self._run.axes[column]
             found = self._overlays[name, column] = Overlay(axis.data.acceleration)
             axis.add(found)
-        found.go(value, speed, self._clock.time)
+        found.go(value, speed, self._clock.time, pull)
         self._narrow_travel()
 
     def shift_by_hand(self, column: int, way: float, speed: float) -> None:

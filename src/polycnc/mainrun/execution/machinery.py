@@ -22,6 +22,8 @@ from polycnc.toolpath.events import (
 )
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from polycnc.machine.model import Machine
     from polycnc.mainrun.execution.clock import Clock
     from polycnc.mainrun.preparation.items import Block, Happening
@@ -72,6 +74,7 @@ class Machinery:
     Attributes:
         optional_stop: M01 stops.
         mst_lock: M, S and T do not reach the machine.
+        keeps: Takes what does not reach the machine while a program is tested; None where it does.
         next_tool: The tool that stands by, by number or name; 0 for none.
         messages: Texts of the program since it began.
     """
@@ -86,6 +89,7 @@ class Machinery:
         observer: Observer,
     ) -> None:
         self.optional_stop = self.mst_lock = False
+        self.keeps: Callable[[Happening], None] | None = None
         self.next_tool: int | str = 0
         self.messages: list[str] = []
         self._machine = machine
@@ -146,10 +150,12 @@ class Machinery:
         if isinstance(event, Deed):
             event.do()
             return
+        if self.keeps is not None:
+            self.keeps(happening)
         if isinstance(event, ToolSelection):
             self.next_tool = event.tool if isinstance(event.tool, str) else int(event.tool)
         word = word_of(event)
-        if word and ((self.mst_lock and word not in PROGRAM_ENDS) or self._interlocks.refuses(word)):
+        if word and (self._is_locked(word) or self._interlocks.refuses(word)):
             return
         if isinstance(event, Auxiliary):
             self._begin(word, self._seconds(event, happening.context))
@@ -160,7 +166,7 @@ class Machinery:
             self._interlocks.answer(word)
         elif isinstance(event, StoredWrite):
             event.store()
-        elif isinstance(event, SignalWrite):
+        elif isinstance(event, SignalWrite) and self.keeps is None:
             self._signals[event.name] = event.value
         elif isinstance(event, Message | Print):
             self.messages.append(event.text)
@@ -169,6 +175,10 @@ class Machinery:
             self._observer.stops(self._number, "alarm")
         elif isinstance(event, Stop) and (event.code not in OPTIONAL_STOPS or self.optional_stop):
             self._observer.stops(self._number, event.code)
+
+    def _is_locked(self, word: str) -> bool:
+        """Whether a function does not reach the machine."""
+        return self.keeps is not None or (self.mst_lock and word not in PROGRAM_ENDS)
 
     def _seconds(self, event: Auxiliary, context: Context) -> float:
         """How long an M function takes."""

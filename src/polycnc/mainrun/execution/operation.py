@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from contextlib import suppress
+from functools import partial
 from math import inf
 from operator import attrgetter
 from typing import TYPE_CHECKING
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
     from polycnc.machine.model import Machine
     from polycnc.machine.setup.values import Setup
     from polycnc.mainrun.commands.programs import Programs
+    from polycnc.mainrun.commands.search import ProgramTest
     from polycnc.mainrun.commands.settings import Switches
     from polycnc.mainrun.execution.channel_run import ChannelRun
     from polycnc.mainrun.execution.clock import Clock
@@ -46,6 +48,8 @@ MANUAL_ABSOLUTE = "MANUAL_ABSOLUTE"
 #: parameters. A reset goes back.
 AT_END = "M02_END"
 PROGRAM_ENDS = frozenset((2, 30))
+#: A search has come to its block.
+FOUND = "search"
 #: The soft key that holds the feed at 100 %.
 FEED_IS_100 = "F_100"
 #: What the reasons of a halt lead to; every other one stops.
@@ -81,6 +85,7 @@ class Operation:
         starts_up: The power has come back: what lived as long as it does begins anew once the axes stand.
         searched: A block search has come to its block; cycle start leads the axes there.
         collected: Auxiliary functions that the search has collected, by channel.
+        test: A search that runs the program; None for none.
         mains: Channels whose programs the operator has started; programs start those of others.
     """
 
@@ -106,6 +111,7 @@ class Operation:
         self.program_mode = self.waiting_mode = Mode.AUTO
         self.searched = self.starts_up = False
         self.collected: dict[int, list[Happening]] = {}
+        self.test: ProgramTest | None = None
         self.mains: set[int] = set()
         self._giving_up = self._returning = False
         self._pressed: list[str] = []
@@ -221,7 +227,7 @@ class Operation:
             if run.axes.by_hand:
                 run.axes.settle()
                 for axis, target in zip(run.axes, run.without_hand, strict=True):
-                    axis.hand.towards(target, self.switches.jog_speed(axis.data), self.clock.time)
+                    axis.hand.towards(target, partial(self.switches.jog_speed, axis.data), self.clock.time)
 
     def hold(self) -> None:
         """Feed hold."""
@@ -245,8 +251,30 @@ class Operation:
             run.interpolator.hold()
         self._returning = False
 
+    def begin_test(self, test: ProgramTest) -> ChannelRun:
+        """The program of a channel is run to a block while its axes stand; gives the channel."""
+        run, self.test, self.switches.tests = self.runs[test.channel], test, test.channel
+        self.prepare(run)
+        run.machinery.reset()
+        run.machinery.keeps = test.keeps
+        self.set_rates()
+        return run
+
+    def _end_test(self, test: ProgramTest) -> None:
+        """The axes are where they stood, the path is where the program has come to."""
+        run, self.test, self.switches.tests = self.runs[test.channel], None, 0
+        run.machinery.keeps = None
+        self.switches.lock(run)
+        run.channel.is_tested = False
+        self.set_rates()
+        run.take_in_hand(test.here)
+
     def give_up(self) -> None:
         """The axes stand: the program is given up, the control is as after reset."""
+        test = self.test
+        missed = test is not None and self.runs[test.channel].execution.halt == "end"
+        if test is not None:
+            self._end_test(test)
         rates = self.switches.rates
         self._giving_up = self.searched = rates.hold = rates.gives_up = False
         self._end_halt()
@@ -261,6 +289,9 @@ class Operation:
                 self.runs.switch_on_again(run)
             run.stand_at(position)
             self.prepare(run)
+        if test is not None and missed:
+            refusal = CommandRefused("mainrun.search", target=test.target)
+            self.runs[test.channel].machinery.messages.append(str(refusal))
         self.starts_up = False
         self._retained.commit()
         if not self.status.is_locked:
@@ -303,10 +334,11 @@ class Operation:
     def set_rates(self) -> None:
         """The speeds follow the override switches; a soft key of the machine holds the feed at 100 %."""
         switches = self.switches
-        settings = self.control.motion_settings(self.runs.first.channel)
-        in_dry_run = switches.panel.dry_run and self.program_mode is not Mode.TAPE
+        settings, tests = self.control.motion_settings(self.runs.first.channel), self.test is not None
+        in_dry_run = tests or (switches.panel.dry_run and self.program_mode is not Mode.TAPE)
         switches.set_rates(
-            feed_is_100=bool(self.signals[FEED_IS_100]), dry_run=settings.dry_run if in_dry_run else None
+            feed_is_100=tests or bool(self.signals[FEED_IS_100]),
+            dry_run=settings.dry_run if in_dry_run else None,
         )
         self.runs.revise()
 
@@ -337,7 +369,10 @@ class Operation:
     def enters(self, number: int, block: Block) -> None:
         """A block begins."""
         self.status.report("block", number, program=block.program, line=block.line)
+        self.runs[number].reach(block)
         self.runs[number].interpolator.enter(block)
+        if self.test is not None and self.test.is_at(number, block):
+            self.runs[number].execution.stop(FOUND)
 
     def reads_signals(self, number: int) -> None:
         """A program is about to read signals."""
@@ -355,7 +390,14 @@ class Operation:
 
     def halted(self, number: int, reason: str) -> None:
         """The run of a channel has halted of its own accord; the control does when no other one runs."""
-        run = self.runs[number]
+        run, test = self.runs[number], self.test
+        if test is not None and number == test.channel and reason == FOUND:
+            self._end_test(test)
+            self.collected, self.searched = {number: test.functions}, True
+        elif test is not None and number == test.channel and reason == "end":
+            self._giving_up = True  # the block did not come
+            self.status.report("halt", number, halt="end")
+            return
         if reason == "end":
             self.runs.group.end(number)
         others = [other for other in self.runs if other is not run and other.is_active]

@@ -8,24 +8,31 @@ power-on. Where the program needs the clock or another channel it ends.
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 from polycnc.channel.channel import DEFAULT_BLOCK_LIMIT, Channel
 from polycnc.channel.states.passes import Passes
 from polycnc.channel.states.standstill import Standstill
 from polycnc.channel.waits import CHUNK, Why
+from polycnc.control.registry import control as control_of
+from polycnc.deferred.records import dataclass
 from polycnc.language.bulk.settings import Bulk
 from polycnc.memory.retained import copied
 from polycnc.toolpath import Toolpath
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
+    from polycnc.channel.waits import Wait
+    from polycnc.control.interface import Control
+    from polycnc.machine.model import Machine
+    from polycnc.machine.setup.values import Setup
     from polycnc.mainrun.commands.programs import Programs
     from polycnc.mainrun.execution.channel_run import ChannelRun
-    from polycnc.memory.retained import RetainedStore
+    from polycnc.memory.retained import InMemoryStore, RetainedStore
     from polycnc.messages import Alarm
-    from polycnc.program import Program
+    from polycnc.program import Program, ProgramStore
     from polycnc.toolpath.table import Chunk
 
 #: Blocks after which a calculation hands over.
@@ -34,29 +41,90 @@ SLICE = 64
 _OUT_OF_REACH = frozenset({Why.CLOCK, Why.CHANNEL, Why.PREPROCESSING})
 
 
-class Forecast:
-    """The calculation of a program.
-
-    Args:
-        channel: A channel that nobody else has.
-        main: The program.
+@dataclass(frozen=True)
+class Job:
+    """What a calculation begins with: data that nothing of the control changes any more.
 
     Attributes:
-        main: The program.
+        control: Id of the control.
+        machine: The machine.
+        setup: What the channel starts from, with its axes where they stand.
+        store: The programs that calls find.
+        retained: What programs read and write of the control's memory.
+        number: Number of the channel.
+        axes: Its axes.
+        block_limit: The calculation ends after so many blocks.
+        name: Name of the program, and `text` its text, where that is not in the memory as it is now.
+        text: See `name`.
+        main: The program where it is in the memory.
+    """
+
+    control: str
+    machine: Machine
+    setup: Setup
+    store: ProgramStore
+    retained: InMemoryStore
+    number: int
+    axes: tuple[str, ...]
+    block_limit: int
+    name: str
+    text: str | None
+    main: Program | None
+
+
+class Forecast:
+    """The calculation of a program; its text is read when the calculation begins.
+
+    Args:
+        job: What is calculated.
+        control: The control; None for the one that the job names.
+
+    Attributes:
+        job: What is calculated: it can be sent to another process, which begins it there.
         take: Called with every chunk of rows that is full, and with the last one; the rows are dropped then.
-        toolpath: Its rows.
         is_over: Nothing more comes.
         is_complete: The program was calculated to its end, or to an alarm.
     """
 
-    def __init__(self, channel: Channel, main: Program) -> None:
-        self.main, self.toolpath = main, channel.toolpath
+    def __init__(self, job: Job, control: Control | None = None) -> None:
+        self.job = job
         self.take: Callable[[Chunk], object] = _dropped
         self.is_over = self.is_complete = False
-        self._channel = channel
+        self._control = control
+
+    @cached_property
+    def main(self) -> Program:
+        """The program."""
+        job = self.job
+        if job.text is None and job.main is not None:
+            return job.main
+        return job.store.add_text(job.name, job.text or "\n")
+
+    @cached_property
+    def _channel(self) -> Channel:
+        """A channel that nobody else has."""
+        job, control, _ = self.job, self._control or control_of(self.job.control), self.main
+
+        def on_full(chunk: Chunk) -> bool:
+            self.take(chunk)
+            return True
+
+        channel = Channel(
+            control, job.machine, job.setup, job.store, number=job.number, block_limit=job.block_limit,
+            toolpath=Toolpath(job.axes, on_full=on_full), bulk=Bulk(), retained=job.retained,
+        )  # fmt: skip
         channel.burst = range(SLICE)
         channel.passes, channel.standstill = Passes(), _HandsOver()
-        self._run = channel.run(main)
+        return channel
+
+    @cached_property
+    def _run(self) -> Iterator[Wait]:
+        return self._channel.run(self.main)
+
+    @property
+    def toolpath(self) -> Toolpath:
+        """Its rows."""
+        return self._channel.toolpath
 
     @property
     def alarms(self) -> tuple[Alarm, ...]:
@@ -125,22 +193,14 @@ def forecast_of(
         block_limit: The calculation ends after so many blocks.
     """
     like = run.channel
-    store = programs.copy()
-    if text is not None or main is None:
-        main = store.add_text(programs.key_of(name or "MAIN"), text or "\n")
     here = dict(zip(like.axes, run.machine_position, strict=True))
     setup = replace(like.setup, start={**like.setup.start, **here})
-
-    def on_full(chunk: Chunk) -> bool:
-        forecast.take(chunk)
-        return True
-
-    channel = Channel(
-        like.control, like.machine, setup, store, number=like.number, block_limit=block_limit,
-        toolpath=Toolpath(like.axes, on_full=on_full), bulk=Bulk(), retained=copied(retained, like.number),
+    kept, key = copied(retained, like.number), programs.key_of(name or "MAIN")
+    job = Job(
+        like.control.id, like.machine, setup, programs.copy(), kept, like.number, tuple(like.axes), block_limit,
+        key, text, main,
     )  # fmt: skip
-    forecast = Forecast(channel, main)
-    return forecast
+    return Forecast(job, like.control)
 
 
 def _dropped(_chunk: Chunk) -> None:

@@ -119,25 +119,27 @@ class Readings:
     def snapshot(self) -> Snapshot:
         """Everything at once, of one moment."""
         operation, status, run = self._operation, self._operation.status, self._runs.first
-        dials = operation.switches.dials
+        dials, channels = operation.switches.dials, self.channels
+        first = channels[run.number]
         return Snapshot(
             time=operation.clock.time,
             mode=status.mode,
             state=status.state,
             halt=operation.halt,
-            positions=self.positions,
+            positions=first.positions,
             feed=self.feed,
-            program=self.program,
-            block=run.active_block,
-            modal=run.modal,
+            program=first.program,
+            block=first.block,
+            modal=first.modal,
             spindle=self.spindle,
-            tool=run.tool,
+            tool=first.tool,
             overrides=Overrides(dials.feed, dials.rapid, dials.spindle),
             switches=operation.switches.panel,
             signals=operation.signals.values,
             alarms=status.alarms,
-            messages=tuple(run.machinery.messages),
-            parts=run.parts,
-            channels=self.channels,
+            messages=first.messages,
+            parts=first.parts,
+            channels=channels,
             notices=operation.interlocks.messages,
+            interruption=run.reached.get(first.program, 0),
         )

@@ -154,6 +154,8 @@ class Snapshot:
         parts: How often a program has come to its end.
         channels: Every channel that has been spoken of, by number; what stands above is of the first.
         notices: Numbers of the messages from the machine's controller.
+        interruption: Line of the loaded program to which a search for the point of interruption goes: the one in
+            execution, or at which it was given up; 0 for none.
     """
 
     time: float
@@ -175,6 +177,7 @@ class Snapshot:
     parts: int = 0
     channels: Mapping[int, ChannelSnapshot] = field(default_factory=dict)
     notices: tuple[str, ...] = ()
+    interruption: int = 0
 
 
 @dataclass(frozen=True, slots=True)

@@ -318,9 +318,8 @@ def lay_straight(
                 speed, wanted, pull = state.run.wanted, state.run.wanted, state.run.exit_pull
             entry2 = join(contexts, record, n, limits, state, length, weight, speed * speed, wanted)
             state.joint.pull = min(state.joint.pull, pull)
-            if (
-                state.joint.rest > 0.0 or state.run.window == 0.0
-            ):  # under BRISK no line goes on with one under SOFT
+            # Under BRISK no line goes on with one under SOFT.
+            if state.joint.rest > 0.0 or state.run.window == 0.0:
                 settle_alone(pieces, n, limits, state)
             goes_on = goes_on and state.joint.rest == 0.0
             state.run.straight_pieces = state.run.straight_pieces + 1 if goes_on else 1

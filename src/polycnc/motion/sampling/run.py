@@ -73,6 +73,11 @@ class Run:
         return self.law.seconds + window_s(self._ramp, self._blend)
 
     @property
+    def start(self) -> Numbers:
+        """Position of the axes at the start, (n,)."""
+        return self._start[0, :]
+
+    @property
     def end(self) -> Numbers:
         """Position of the axes at the end, (n,)."""
         return self._end[-1, :]
@@ -86,6 +91,14 @@ class Run:
         """When the axes come to the first piece of a row."""
         way = float(self._ways[np.searchsorted(self.rows, row)])
         return self.law.when(way) + 0.5 * self._ramp + self._blend
+
+    def share_at(self, time: float) -> float:
+        """The share of the way that is done at a time from the start of the run, by the axis that comes last."""
+        return min(max(self.law.mean(time - self._blend, self._ramp) / self.law.end, 0.0), 1.0)
+
+    def time_of(self, share: float) -> float:
+        """When a share of the way is done; the averages count by their middle."""
+        return self.law.when(share * self.law.end) + 0.5 * self._ramp + self._blend
 
     def lag(self, axis_speed: float) -> float:
         """Seconds by which the axes are behind one that has had its speed from the start of the run.

@@ -9,7 +9,7 @@ from __future__ import annotations
 from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
-from polycnc.motion.kernels.columns import PLACES, Form, PieceRecord, piece_width
+from polycnc.motion.kernels.columns import PieceRecord, piece_width
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.table import CURVE_WIDTH
 
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from polycnc.machine import Machine
-    from polycnc.motion.limits import AxisRapid
     from polycnc.motion.planner import Planner
     from polycnc.motion.sampling.run import Moved, Numbers, Run
     from polycnc.motion.settings import Settings
@@ -165,12 +164,7 @@ class Sampler:
         pieces = np.concatenate(self._open)
         self._open = []
         first = int(pieces[0, PieceRecord.ROW])
-        limits: list[AxisRapid] = []
-        if pieces[0, PieceRecord.FORM] == Form.TIMED:
-            at = PieceRecord.VECTORS + PLACES * self._n
-            ways = pieces[0, at + self._n : at + 2 * self._n] - pieces[0, at : at + self._n]
-            limits = self._planner.rapids(ways.tolist(), self._facts[first].context)
-        run = Run(pieces, self._n, limits)
+        run = Run(pieces, self._n, self._planner.rapids_of(pieces[0], self._facts[first].context))
         self._stand(first, run)
         seconds = run.seconds - early
         self._move(run, seconds)

@@ -130,7 +130,7 @@ class Waits:
             function = self.machine.m_functions.get(event.code)
             return function is None or function.timing != "with"
         if isinstance(event, Deed):
-            return not event.is_silent
+            return event.stands or not event.is_silent
         return isinstance(event, STANDING)
 
     def stands_at(self, chunk: Chunk, row: int) -> bool:

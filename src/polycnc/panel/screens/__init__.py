@@ -6,6 +6,7 @@ windows   what a window of each kind shows
 operate   windows of SINUMERIK and SYNTEC alone: alarms with date and time, messages, channels, the blank
 masks     input masks from text files: calls of user cycles, dialogs
 forms     windows and keys of user cycles, dialogs of the program, the step view
+words     words of a program under edit
 sources   where the fields of tables come from
 tables    windows with fields that can be written: offsets, tools, variables
 actions   what soft keys and keys of the MDI unit do with the key-in buffer

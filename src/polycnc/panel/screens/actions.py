@@ -3,24 +3,32 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, TypeAlias
 
 from polycnc.control.fanuc.lathe.tools import screens as lathe
 from polycnc.control.fanuc.lathe.tools.screens import Page
+from polycnc.deferred.records import dataclass
 from polycnc.deferred.regexes import regex
-from polycnc.mainrun import CommandRefused
+from polycnc.mainrun import CommandRefused, Mode
+from polycnc.messages import UserError
 from polycnc.panel.screens import forms
 from polycnc.panel.screens.sources import SOURCES
+from polycnc.panel.screens.state import Operation
 from polycnc.panel.screens.tables import Table
 from polycnc.panel.screens.transfer import Transfer, begin_transfer
+from polycnc.panel.screens.words import END
 
 if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
     from polycnc.panel.screens.pages import Column
     from polycnc.panel.screens.state import ScreenState
 
 Action: TypeAlias = Callable[["ScreenState"], None]
 
+#: The number of a program.
+_PROGRAM = regex(r"(?i)O\d{1,8}")
 #: An axis with a value behind it, which may be missing; a name with a number wants an equals sign (`Q1=5`).
 _AXIS_VALUE = regex(r"(?P<axis>[A-Z]+\d+(?==)|[A-Z])\s*=?\s*(?P<value>[+-]?\d*\.?\d*)")
 
@@ -209,11 +217,12 @@ def search_block(screen: ScreenState) -> None:
 
 
 def search_interruption(screen: ScreenState) -> None:
-    """The cursor goes to the block of the main program that was in execution last."""
-    block = screen.interrupted
-    if not block.program or block.program != screen.control.program:
+    """The cursor goes to the block at which the main program was given up."""
+    control = screen.control
+    line = control.snapshot.interruption
+    if not line:
         raise CommandRefused("screen.no-interruption")
-    screen.look_at(block.line - screen.control.first_line(block.program))
+    screen.look_at(line - control.first_line(control.program))
 
 
 def search_text(screen: ScreenState) -> None:
@@ -252,7 +261,51 @@ def calculate(screen: ScreenState) -> None:
     screen.buffer = f"{sum(sums):.6f}".rstrip("0")
 
 
-def insert(screen: ScreenState) -> None:
+def edit_words(screen: ScreenState, key: str) -> None:
+    """INSERT, ALTER and DELETE of words in mode EDIT; the number of a program and INSERT begin a new one.
+
+    Raises:
+        CommandRefused: The mode is another one, or nothing is keyed in.
+        UserError: The memory has that program.
+    """
+    typed = screen.buffer.strip()
+    if not screen.page.edits or not (typed or key == "DELETE"):
+        raise CommandRefused("screen.no-field")
+    if not screen.edits:
+        raise CommandRefused("screen.mode", mode=screen.family.modes[Mode.EDIT])
+    if key == "INSERT" and _PROGRAM.fullmatch(typed):
+        _begin_program(screen, typed.upper())
+    else:
+        _change_program(screen, key, typed)
+    screen.buffer = ""
+
+
+def _begin_program(screen: ScreenState, name: str) -> None:
+    with suppress(CommandRefused):
+        screen.control.program_lines(name)
+        raise UserError("screen.program-exists", name=name)
+    screen.control.store_program(name, f"{name}\n")
+    screen.control.select_program(name)
+    screen.program_row, screen.program_word = 0, 0
+
+
+def _change_program(screen: ScreenState, key: str, typed: str) -> None:
+    control, edited = screen.control, screen.edited
+    if key == "INSERT":
+        edited.insert(typed)
+    elif key == "ALTER":
+        edited.alter(typed)
+    elif typed == END:
+        edited.delete_block()
+    elif not typed:
+        edited.delete()
+    else:
+        raise CommandRefused("screen.no-field")
+    control.store_program(control.program or "MAIN", edited.text)
+    screen.program_row, screen.program_word = edited.place.row, edited.place.word
+
+
+def insert(screen: ScreenState, _key: str = "INSERT") -> None:
     """INSERT on the MDI page: what has been keyed in is the next block."""
     if not screen.shows("mdi"):
         raise CommandRefused("screen.no-field")
@@ -270,11 +323,33 @@ def write_enable(screen: ScreenState) -> None:
     screen.writes_parameters = not screen.writes_parameters
 
 
+@dataclass
+class Clearing(Operation):
+    """CLEAR with ALL, WEAR or GEOM, which waits for [EXEC] on displays with keys at the side (III.2.1.8)."""
+
+    change: Callable[[Channel], object]
+    back: str
+
+    @property
+    def keys(self) -> str:
+        """[CAN] and [EXEC]."""
+        return "exec"
+
+    def execute(self, screen: ScreenState) -> bool:
+        """Clear."""
+        screen.control.change(self.change)
+        return True
+
+
 def clear_axes(screen: ScreenState, chosen: Sequence[Page]) -> None:
     """CLEAR with ALL, WEAR or GEOM: the offsets of the page's axes become 0 in all numbers (0i-TF Plus III.2.1.8)."""
     table, _, _ = _field(screen)
     axes = [column.axis for column in table.spec.columns]
-    screen.control.change(partial(lathe.clear_offsets, chosen=chosen, fields=axes))
+    clearing = Clearing(partial(lathe.clear_offsets, chosen=chosen, fields=axes), back=screen.page.menu)
+    if screen.side_rows:
+        screen.pending = clearing
+    else:
+        clearing.execute(screen)
 
 
 def switch_page(screen: ScreenState) -> None:

@@ -51,6 +51,7 @@ class SoftKey:
         search: The kind of block search that it chooses.
         when: Parameters under which it is there (`8136#6`, `!8136#6`, several with `&`); empty for always.
         by_page: The row that it opens is the page's own, where the page has one (`operations`).
+        large: What stands on it on displays with keys at the side; empty for the same.
     """
 
     text: Text = ""
@@ -62,6 +63,7 @@ class SoftKey:
     search: str = ""
     when: str = ""
     by_page: bool = False
+    large: Text = ""
 
 
 @dataclass(frozen=True)
@@ -112,7 +114,8 @@ class Column:
 class WindowSpec:
     """A window: its kind, and what that kind wants to know.
 
-    `count_of` is a parameter with the number of rows; where that is 0, `count` holds.
+    `count_of` is a parameter with the number of rows; where that is 0, `count` holds. `head` stands above the numbers
+    of a table.
     """
 
     kind: str
@@ -120,6 +123,7 @@ class WindowSpec:
     of: str = ""
     size: str = ""
     label: str = "{n}"
+    head: Text = ""
     first: int = 1
     count: int = 0
     count_of: str = ""
@@ -143,6 +147,7 @@ class Page:
         data: What [READ] and [PUNCH] transfer (`card`).
         turns: The page that the page keys lead to; empty where they move the cursor.
         other: The page that the soft key SWITCH leads to.
+        edits: Keys change words of the program, in mode EDIT.
         when: Parameters under which it is there, as for soft keys; else `instead` is the page that is shown.
         instead: See `when`.
     """
@@ -155,6 +160,7 @@ class Page:
     data: str = ""
     turns: str = ""
     other: str = ""
+    edits: bool = False
     when: str = ""
     instead: str = ""
 
@@ -201,6 +207,8 @@ class Family:
         tasks: The maintenance schedule of the machine; `periods` and `works` have its words by their ids.
         data_mode: The mode in which data are transferred; empty for every mode.
         message_line: Messages have a line of their own, beside that of alarms.
+        next_page: What stands on the key of further chapters, on displays with keys at the side.
+        clock: The status line has the time of day and the path.
     """
 
     start: str
@@ -224,8 +232,17 @@ class Family:
     periods: Mapping[str, Text] = field(default_factory=dict)
     works: Mapping[str, Text] = field(default_factory=dict)
     message_line: bool = False
+    next_page: Text = ""
+    clock: bool = False
     next_key: str = ""
     more_keys: tuple[str, ...] = ()
+
+
+#: What a family says in its files as it is kept.
+_PLAIN = (
+    "modes", "states", "layout", "data_mode", "modal_by_column", "modal_digits", "axis_parameters", "sequence",
+    "measures", "periods", "works", "message_line", "next_page", "clock", "next_key",
+)  # fmt: skip
 
 
 @cache
@@ -250,27 +267,15 @@ def family_of(control: str) -> Family:
         pages={page.id: page for page in pages},
         menus={name: tuple(SoftKey(**key) for key in keys) for name, keys in merged.get("menu", {}).items()},
         side={name: tuple(SoftKey(**key) for key in keys) for name, keys in merged.get("side", {}).items()},
-        modes=merged.get("modes", {}),
-        states=merged.get("states", {}),
-        layout=merged.get("layout", "crt"),
         dual={key: (legends[0], legends[1]) for key, legends in merged.get("dual", {}).items()},
-        data_mode=merged.get("data_mode", ""),
-        modal_by_column=merged.get("modal_by_column", False),
-        modal_digits=merged.get("modal_digits", 0),
-        axis_parameters=merged.get("axis_parameters", False),
-        sequence=merged.get("sequence", ""),
-        measures=merged.get("measures", False),
         tasks=tuple(Task(**row) for row in merged.get("maintenance", ())),
-        periods=merged.get("periods", {}),
-        works=merged.get("works", {}),
-        message_line=merged.get("message_line", False),
-        next_key=merged.get("next_key", ""),
         more_keys=tuple(merged.get("more_keys", ())),
+        **{name: merged[name] for name in _PLAIN if name in merged},
     )
 
 
 #: What a page may say beside its name, title and windows.
-_PAGE = ("menu", "operations", "data", "turns", "other", "when", "instead")
+_PAGE = ("menu", "operations", "data", "turns", "other", "edits", "when", "instead")
 
 
 def _page(row: Mapping[str, Any]) -> Page:

@@ -17,8 +17,8 @@ from polycnc.deferred.regexes import regex
 from polycnc.mainrun import CommandRefused, Mode
 from polycnc.messages import UserError
 from polycnc.messages.catalogue import language
-from polycnc.panel.screens.actions import ACTIONS, calculate, insert, set_value
-from polycnc.panel.screens.forms import enter, follow_dialog
+from polycnc.panel.screens.actions import ACTIONS, calculate, edit_words, insert
+from polycnc.panel.screens.forms import follow_dialog
 from polycnc.panel.screens.operate import state_of
 from polycnc.panel.screens.pages import SoftKey, in_language
 from polycnc.panel.screens.state import ScreenState
@@ -32,8 +32,12 @@ if TYPE_CHECKING:
 LONGEST_LOOK = 500
 #: A block with its number.
 _NUMBERED = regex(r"\s*/?\d?\s*[Nn](\d+)")
+#: The number of a program.
+_NUMBER = regex(r"(?i)O\d+")
 #: Characters that the key-in buffer takes.
 LONGEST_BUFFER = 127
+#: Soft keys at the side of a screen that always has them.
+SIDE_KEYS = 8
 #: Keys whose name is not what they type.
 _SIGNS = {"EOB": ";", "SPACE": " "}
 _EDITING = frozenset(
@@ -76,10 +80,8 @@ class Screen(ScreenState):
         self.shifted = False
         if key in self.family.keys:
             self.show(self.family.keys[key])
-        elif key in _MOVES and key in ("UP", "DOWN") and self.buffer and self._reads_program:
-            self.find(self.buffer, _MOVES[key][0])
         elif key in _MOVES:
-            self.move(*_MOVES[key])
+            self._go(key)
         elif key in ("PAGE_UP", "PAGE_DOWN") and self.page.turns:
             self.show(self.page.turns)
         elif key in ("PAGE_UP", "PAGE_DOWN"):
@@ -92,6 +94,8 @@ class Screen(ScreenState):
         elif key == "RESET":
             self.control.reset()
             self.buffer = ""
+            if self.edits:
+                self.look_at(0)
         elif key in ("MENU", self.family.next_key):
             self._turn_menu()
         elif key == "RETURN":
@@ -100,6 +104,15 @@ class Screen(ScreenState):
             self.type(key)
         else:
             raise CommandRefused("panel.unknown", name=key, known=", ".join(self.family.keys))
+
+    def _go(self, key: str) -> None:
+        """A cursor key: it moves the cursor, or looks for what has been keyed in."""
+        if key == "DOWN" and self.page.edits and _NUMBER.fullmatch(self.buffer):
+            ACTIONS["search-program"](self)
+        elif key in ("UP", "DOWN") and self.buffer and self._reads_program:
+            self.find(self.buffer, _MOVES[key][0])
+        else:
+            self.move(*_MOVES[key])
 
     @property
     def _reads_program(self) -> bool:
@@ -115,13 +128,15 @@ class Screen(ScreenState):
         elif key == "CALC":
             calculate(self)
         elif key == "INPUT":
-            (insert if self.shows("mdi") else enter if self.shows("mask") else set_value)(self)
+            ACTIONS["insert" if self.shows("mdi") else "enter" if self.shows("mask") else "set"](self)
         elif key == "SELECT":
             ACTIONS["toggle"](self)
         elif key in ("INSERT", "ALTER"):
-            insert(self)
+            (insert if self.shows("mdi") else edit_words)(self, key)
         elif self.shows("mdi"):
             ACTIONS["erase-mdi"](self)
+        elif self.edits and not _NUMBER.fullmatch(self.buffer):
+            edit_words(self, key)
         elif key == "DELETE":
             ACTIONS["delete-program"](self)
 
@@ -135,7 +150,7 @@ class Screen(ScreenState):
 
     def side(self, index: int) -> None:
         """Press a soft key at the side of the screen, from 0 at the top."""
-        self._press_soft(self.family.side.get(self.menu, ()), index)
+        self._press_soft(self._at_side, index)
 
     def _press_soft(self, keys: tuple[SoftKey, ...], index: int) -> None:
         self.refusal = None
@@ -143,8 +158,11 @@ class Screen(ScreenState):
             return
         key = keys[index]
         try:
+            waiting = self.pending
             if key.action == "next-keys":
                 self._turn_menu()
+            elif key.action == "next-side":
+                self._turn_side()
             elif key.action:
                 ACTIONS[key.action](self)
             if key.search:
@@ -157,6 +175,8 @@ class Screen(ScreenState):
             if key.menu:
                 menu = (key.by_page and self.page.operations) or key.menu
                 self.menu, self.turned = before if menu == before[0] else (menu, 0)
+            if self.pending is not None and self.pending is not waiting and self.pending.keys:
+                self.menu, self.turned = self.pending.keys, 0
         except UserError as refusal:
             self.refusal = refusal
 
@@ -172,7 +192,45 @@ class Screen(ScreenState):
     @property
     def _row(self) -> tuple[SoftKey, ...]:
         """The soft keys of the row that are there as parameters are."""
-        return tuple(key for key in self.family.menus.get(self.menu, ()) if self.holds(key.when))
+        return self._present_keys(self._below)
+
+    def _present_keys(self, menu: str) -> tuple[SoftKey, ...]:
+        return tuple(key for key in self.family.menus.get(menu, ()) if self.holds(key.when))
+
+    @property
+    def _below(self) -> str:
+        """The row below the screen: operations, without their own key, where the chapter stands at the side."""
+        if not self.side_rows or self.menu != self.page.menu:
+            return self.menu
+        opened = (key.menu for key in self.family.menus.get(self.menu, ()) if key.menu)
+        return self.page.operations or next(opened, "")
+
+    @property
+    def _chapter(self) -> tuple[SoftKey, ...]:
+        """The pages of the chapter, as they stand at the side."""
+        return tuple(key for key in self._present_keys(self.page.menu) if key.text and not key.menu)
+
+    @property
+    def _at_side(self) -> tuple[SoftKey, ...]:
+        """The soft keys at the side; the last one leads on where there are too many."""
+        if not self.side_rows:
+            return self.family.side.get(self.menu, ())
+        chapter = self._chapter
+        if len(chapter) <= self.side_rows:
+            return chapter
+        shown = chapter[self.side_turned : self.side_turned + self.side_rows - 1]
+        dark = (SoftKey(),) * (self.side_rows - 1 - len(shown))
+        return (*shown, *dark, SoftKey(self.family.next_page, action="next-side"))
+
+    def _turn_side(self) -> None:
+        """[NEXT PAGE]: further pages of the chapter."""
+        further = self.side_turned + self.side_rows - 1
+        self.side_turned = further if further < len(self._chapter) else 0
+
+    @property
+    def has_side(self) -> bool:
+        """Whether there are soft keys at the side."""
+        return bool(self.family.side or self.side_rows)
 
     # ---- what it shows -------------------------------------------------------------------------------------
 
@@ -187,8 +245,8 @@ class Screen(ScreenState):
             sequence=self._sequence(snapshot),
             windows=tuple(window(self, spec, snapshot, lang) for spec in self.page.windows),
             soft_keys=self._soft_keys(self._visible, self.rows, lang),
-            side_keys=self._soft_keys(self.family.side.get(self.menu, ()), 8, lang)
-            if self.family.side
+            side_keys=self._soft_keys(self._at_side, self.side_rows or SIDE_KEYS, lang)
+            if self.has_side
             else (),
             buffer=self.buffer,
             message=self.refusal.text(lang) if self.refusal is not None else "",
@@ -220,7 +278,8 @@ class Screen(ScreenState):
     def _soft_keys(self, keys: tuple[SoftKey, ...], count: int, lang: str) -> tuple[SoftKeyView, ...]:
         shown = [
             SoftKeyView(
-                in_language(key.text, lang), (bool(key.page) and key.page == self.page.id) or self.is_on(key)
+                in_language((self.side_rows and key.large) or key.text, lang),
+                (bool(key.page) and key.page == self.page.id) or self.is_on(key),
             )
             for key in keys
         ]
@@ -232,11 +291,13 @@ class Screen(ScreenState):
         alarm = Cell("EMG" if snapshot.state == "emergency" else "ALM" if snapshot.alarms else "***",
                      "alarm" if snapshot.alarms else "")  # fmt: skip
         moving = any(abs(way) > 1e-6 for way in snapshot.positions.to_go.values()) and snapshot.feed > 0.0
-        cells = (Cell(mode), Cell(state), Cell("MTN" if moving else "***"), alarm)
+        cells = [Cell(mode), Cell(state), Cell("MTN" if moving else "***"), alarm]
+        if self.family.clock:
+            cells += [Cell(f"{self.clock():%H:%M:%S}"), Cell("PATH1")]
         going_on = self.pending.status if self.pending is not None else ""
         if self.measuring is not None and not going_on:
             going_on = self.measuring.status(lang)
-        return (*cells, Cell(going_on, "blink")) if going_on else cells
+        return (*cells, Cell(going_on, "blink")) if going_on else tuple(cells)
 
     def _alarm(self, snapshot: Snapshot, lang: str) -> str:
         if snapshot.alarms:

@@ -8,12 +8,12 @@ from datetime import UTC, datetime
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from polycnc.mainrun import CommandRefused, State
-from polycnc.mainrun.reading.snapshot import ActiveBlock
+from polycnc.mainrun import CommandRefused, Mode, State
 from polycnc.messages import UserError
 from polycnc.panel.screens.card import Card
 from polycnc.panel.screens.measuring import SIGNALS, Measuring
 from polycnc.panel.screens.pages import family_of
+from polycnc.panel.screens.words import Edited, Place, spans
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -43,6 +43,11 @@ class Operation(ABC):
         """What blinks in the status line while it goes on; empty for nothing."""
         return ""
 
+    @property
+    def keys(self) -> str:
+        """The row of soft keys while it waits; empty for the one that its soft key opens."""
+        return ""
+
     @abstractmethod
     def execute(self, screen: ScreenState) -> bool:
         """Do it, or begin with it; gives whether it is done."""
@@ -63,7 +68,9 @@ class ScreenState:
         family: Its pages and keys.
         page: The page that is shown.
         rows: Soft keys that stand in a row: as many as the display has.
-        menu: Name of the row of soft keys; `turned` says how far it has been turned on by ▷.
+        side_rows: Soft keys at the side of a display that has a chapter's pages there; 0 for none.
+        menu: Name of the row of soft keys; `turned` says how far it has been turned on by ▷, `side_turned` how far
+            those at the side by [NEXT PAGE].
         buffer: What has been keyed in.
         shifted: SHIFT was pressed: the next key with two legends is the second one.
         refusal: Why the control has not done what the last key asked for; None where it has.
@@ -81,8 +88,8 @@ class ScreenState:
         dialog: The dialog of the program that is shown, since `dialog_since` (simulated time, s); the page that it lies
             upon is `behind_dialog`.
         program_row: Row of the cursor in the program; None where the window follows the block in execution.
+        program_word: The word of that row on which the cursor stands, where the page edits words.
         search_mode: The kind of block search that is chosen.
-        interrupted: The block of the main program that was last in execution.
 
     Raises:
         CommandRefused: polycnc knows no screens of this control.
@@ -98,7 +105,7 @@ class ScreenState:
         self._pages = {name: page.of(axes) for name, page in self.family.pages.items()}
         self.page: Page = self._pages[self.family.start]
         self.menu, self.turned = self.page.menu, 0
-        self.rows = self.family.rows
+        self.rows, self.side_rows, self.side_turned = self.family.rows, 0, 0
         self.buffer = ""
         self.shifted = False
         self.refusal: UserError | None = None
@@ -119,8 +126,8 @@ class ScreenState:
         self.dialog_since, self.behind_dialog = 0.0, self.page.id
         self._cursors: dict[str, tuple[int, int]] = {}
         self.program_row: int | None = None
+        self.program_word = 0
         self.search_mode = "contour"
-        self.interrupted = ActiveBlock()
 
     @property
     def message(self) -> str:
@@ -132,9 +139,15 @@ class ScreenState:
         if self.pending is not None and not self.pending.status:
             self.pending = None
         self.listed = None
-        shown = self._pages[page]
+        shown, chapter = self._pages[page], self.page.menu
         self.page = self._present(shown if self.holds(shown.when) else self._pages[shown.instead])
         self.menu, self.turned = self.page.menu, 0
+        self.side_turned = self.side_turned if self.page.menu == chapter else 0
+
+    def use_display(self, rows: int, side_rows: int) -> None:
+        """Another display, with so many soft keys below and at its side."""
+        self.rows, self.side_rows = rows, side_rows
+        self.menu, self.turned, self.side_turned = self.page.menu, 0, 0
 
     def holds(self, condition: str) -> bool:
         """Whether parameters are as a condition says: `8136#6`, `!8136#6`, several with `&`; true for an empty one."""
@@ -169,7 +182,7 @@ class ScreenState:
             number = self.control.read_parameter(column.axis_of)
             if isinstance(number, int | float) and 1 <= number <= len(axes):
                 axis = axes[int(number) - 1]
-                yield replace(column, head=axis, axis=axis, variable=axis)
+                yield replace(column, head={"en": axis, "zh-TW": f"{axis}軸"}, axis=axis, variable=axis)
 
     def finish(self) -> None:
         """What was pending is done or given up; the soft keys in front of it come back."""
@@ -245,6 +258,10 @@ class ScreenState:
         (row, column), table = self.cursor, self.table
         if self.measuring is not None and self.measuring.leads_cursor:
             return
+        if self.edits and columns and not rows:
+            place = self.edited.move(columns)
+            self.program_row, self.program_word = place.row, place.word
+            return
         if self.shows("program") and table is None and not self.shows("mask"):
             self.look_at((self.program_row if self.program_row is not None else self.running_row) + rows)
             return
@@ -282,7 +299,7 @@ class ScreenState:
             self.program_row = None
             return
         lines = self.control.program_lines(self.control.program)
-        self.program_row = max(0, min(row, len(lines) - 1))
+        self.program_row, self.program_word = max(0, min(row, len(lines) - 1)), 0
 
     def find(self, text: str, step: int) -> None:
         """Put the cursor on the next row of the program that has a text, onwards (1) or backwards (-1).
@@ -298,6 +315,21 @@ class ScreenState:
         if found is None:
             raise CommandRefused("screen.not-found", text=text)
         self.look_at(found)
+        if self.edits:
+            at = lines[found].upper().index(wanted)
+            self.program_word = sum(1 for _, end in spans(lines[found]) if end <= at)
+
+    @property
+    def edits(self) -> bool:
+        """Whether keys change words of the program: on the page for it, in the mode for it."""
+        return self.page.edits and self.control.mode is Mode.EDIT
+
+    @property
+    def edited(self) -> Edited:
+        """The main program with the cursor in it; an empty one where none is loaded."""
+        name = self.control.program
+        place = Place(self.program_row if self.program_row is not None else 0, self.program_word)
+        return Edited(self.control.program_lines(name) if name else (), place)
 
     def _hear(self, record: Record) -> None:
         """The record button of the machine keeps where the axes are (III.2.1.2, PRC); a sensor measures (III.2.1.3)."""
@@ -356,6 +388,3 @@ class ScreenState:
         self._note_alarms()
         if self.control.state is State.RUNNING:
             self.program_row = None
-            block = self.control.active_block
-            if block.program and block.program == self.control.program:
-                self.interrupted = block

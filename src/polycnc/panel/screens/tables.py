@@ -89,7 +89,10 @@ def rows_of(screen: ScreenState, spec: WindowSpec, lang: str) -> Rows:
     if row not in present:
         row = screen.place(present[0], at)
     first = present.index(row) // spec.shown * spec.shown
-    heads = (Cell("", "label"), *(Cell(in_language(column.head, lang), "label") for column in spec.columns))
+    heads = (
+        Cell(in_language(spec.head, lang), "label"),
+        *(Cell(in_language(column.head, lang), "label") for column in spec.columns),
+    )
     rows = [heads]
     for place, number in enumerate(present[first : first + spec.shown], first):
         own = spec.labels[place] if place < len(spec.labels) else spec.label.format(n=number)

@@ -14,6 +14,7 @@ from polycnc.panel.description import RETURNED, is_returned
 from polycnc.panel.screens import forms, operate, tables
 from polycnc.panel.screens.pages import in_language
 from polycnc.panel.screens.view import Cell, Window
+from polycnc.panel.screens.words import END, spans
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -140,10 +141,19 @@ def _program(at: Asked) -> Rows:
     cursor = at.screen.program_row
     top = max(0, min((active if cursor is None else cursor) - _BEFORE, len(lines) - at.spec.shown))
     shown = range(top, min(top + at.spec.shown, len(lines)))
+    if at.screen.edits:
+        place = at.screen.edited.place
+        return tuple(_words(lines[row], place.word if row == place.row else -1) for row in shown)
     return tuple(
         (Cell(lines[index], "active" if index == active else "code", cursor=index == cursor),)
         for index in shown
     )
+
+
+def _words(block: str, word: int) -> tuple[Cell, ...]:
+    """A block under edit, word by word with its end; the cursor stands on one of them."""
+    texts = [*(block[start:end] for start, end in spans(block)), END]
+    return tuple(Cell(text, "code", cursor=place == word) for place, text in enumerate(texts))
 
 
 def _listing(at: Asked) -> Rows:

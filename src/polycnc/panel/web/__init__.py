@@ -2,6 +2,7 @@
 
 desk      a control with its screen and its machine panel, and the time that passes for them
 markup    a screen as HTML
+crt       the content of a screen: cells that have changed are sent alone
 page      the page: screen, keyboard, machine panel
 editor    the program editor
 teacher   the sheet with exercise and faults

@@ -7,6 +7,7 @@ from math import ceil
 from time import monotonic
 from typing import TYPE_CHECKING, Any
 
+from polycnc.deferred.records import dataclass
 from polycnc.mainrun import CommandRefused, State
 from polycnc.messages import UserError
 from polycnc.panel.course import Course
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from polycnc.mainrun import VirtualControl
+    from polycnc.panel.panel import Light
+    from polycnc.panel.screens.view import View
     from polycnc.panel.teaching.lesson import Lesson
     from polycnc.panel.teaching.recording import Replay
 
@@ -32,6 +35,23 @@ LONGEST_TICK_S = 0.25
 _START = "START"
 #: The panel's own settings: positions of its switches (the mode is as after power-on), language of pages, display.
 _SWITCHES, _LANGUAGE, _UNIT = "switches", "language", "mdi_unit"
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """What there is to be seen at one moment, in one language.
+
+    Attributes:
+        view: The screen.
+        lamps: What every lamp shows.
+        dim: Keys of the machine panel that would do nothing now.
+        tools: What the tool display says.
+    """
+
+    view: View
+    lamps: Mapping[str, Light]
+    dim: frozenset[str]
+    tools: str
 
 
 class Desk:
@@ -67,6 +87,9 @@ class Desk:
             self.panel.locked = lambda: measuring.locked
         self.speed = speed
         self._then = monotonic()
+        self._looks: dict[str, Look] = {}
+        units = self.panel.description.mdi_units
+        self._unit = next((each.id for each in units if each.soft_keys == self.screen.rows), "")
         kept = control.panel_settings.get(_SWITCHES, {})
         for switch, position in kept.items():
             if switch in self.panel.positions:
@@ -78,14 +101,14 @@ class Desk:
     @property
     def unit(self) -> str:
         """Id of the display with its keys; another one has more or fewer soft keys. Empty where there is no choice."""
-        units = self.panel.description.mdi_units
-        return next((each.id for each in units if each.soft_keys == self.screen.rows), "")
+        return self._unit
 
     @unit.setter
     def unit(self, name: str) -> None:
         for each in self.panel.description.mdi_units:
             if each.id == name:
-                self.screen.rows, self.screen.turned = each.soft_keys, 0
+                self._unit = name
+                self.screen.use_display(each.soft_keys, each.side_keys)
                 self.control.panel_settings[_UNIT] = name
 
     @property
@@ -96,6 +119,16 @@ class Desk:
     @language.setter
     def language(self, lang: str) -> None:
         self.control.panel_settings[_LANGUAGE] = lang
+
+    def look(self, lang: str) -> Look:
+        """What there is to be seen now: made once for all browsers, until time passes or something is done."""
+        look = self._looks.get(lang)
+        if look is None:
+            panel = self.panel
+            dim = frozenset(name for name in panel.description.keys if panel.why_not(name) is not None)
+            look = Look(self.screen.view(lang), panel.lamps(), dim, panel.tool_text(lang))
+            self._looks[lang] = look
+        return look
 
     def tick(self) -> None:
         """Let the time pass that has passed since the last call."""
@@ -111,6 +144,7 @@ class Desk:
             self._pass(seconds)
         self.screen.follow()
         self.course.go_on()
+        self._looks.clear()
 
     def _pass(self, seconds: float) -> None:
         """Let simulated time pass, with points on the trail of the picture."""
@@ -122,6 +156,7 @@ class Desk:
 
     def follow(self) -> None:
         """The exercise looks at the control: behind everything that is done, and while time passes."""
+        self._looks.clear()
         if self.lesson is not None:
             self.lesson.follow()
 

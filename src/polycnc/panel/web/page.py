@@ -15,8 +15,9 @@ from polycnc.messages import text
 from polycnc.messages.catalogue import LANGUAGES
 from polycnc.panel.panel import Light
 from polycnc.panel.screens.pages import in_language
+from polycnc.panel.screens.screen import SIDE_KEYS
+from polycnc.panel.web.crt import Crt
 from polycnc.panel.web.editor import Editor
-from polycnc.panel.web.markup import of_view
 from polycnc.panel.web.teacher import Teacher
 from polycnc.view.web.picture import Picture
 
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
     from polycnc.panel.web.desk import Desk
 
 #: How often a page looks for what has changed, s.
-REFRESH_S = 0.05
+REFRESH_S = 0.04
 #: Keys of a keyboard, and the key of the MDI unit that each one is.
 TYPED = {
     "Enter": "INPUT", "Backspace": "CAN", "Insert": "INSERT", "Delete": "DELETE", "PageUp": "PAGE_UP",
@@ -115,24 +116,20 @@ class Page:
     # ---- the screen ----------------------------------------------------------------------------------------
 
     def _screen(self) -> None:
-        desk, family = self._desk, self._desk.screen.family
+        desk = self._desk
         with ui.element("div").classes("crt"):
-            content = (
-                ui.html("", sanitize=False).classes("crt-body").props('role="region" aria-label="screen"')
-            )
+            content = Crt().classes("crt-body").props('role="region" aria-label="screen"')
             side: list[ui.element] = []
-            if family.side:
+            if desk.screen.has_side:
                 with ui.element("div").classes("sidekeys"):
-                    side = [self._key("", partial(desk.do, "side_key", index=i)) for i in range(8)]
+                    side = [self._key("", partial(desk.do, "side_key", index=i)) for i in range(SIDE_KEYS)]
         self._picture_over(".window.graph")
         with ui.element("div").classes("softkeys"):
             below = [self._key("", partial(desk.do, "soft_key", index=i)) for i in range(desk.screen.rows)]
 
         def refresh() -> None:
-            view = desk.screen.view(self._lang)
-            markup = of_view(view)
-            if self._changed("screen", markup):
-                content.set_content(markup)
+            view = desk.look(self._lang).view
+            content.show(view)
             for name, keys, shown in (("soft", below, view.soft_keys), ("side", side, view.side_keys)):
                 for i, (key, soft) in enumerate(zip(keys, shown, strict=False)):
                     if self._changed(f"{name}{i}", f"{soft.text}{soft.active}"):
@@ -301,7 +298,7 @@ class Page:
             chosen = panel.positions["mode"] == name
             if self._changed(f"mode-{name}", str(chosen)):
                 key.classes(add="chosen" if chosen else "", remove="" if chosen else "chosen")
-        for name, light in panel.lamps().items():
+        for name, light in self._desk.look(self._lang).lamps.items():
             element = lights.get(name)
             if element is not None and self._changed(f"lamp-{name}", light):
                 element.classes(remove="lit blinking")
@@ -309,8 +306,9 @@ class Page:
 
     def _dim(self, keys: Mapping[str, ui.element]) -> None:
         """Keys that would do nothing now are dim; pressed, they say why."""
+        dim = self._desk.look(self._lang).dim
         for name, key in keys.items():
-            is_dim = self._desk.panel.why_not(name) is not None
+            is_dim = name in dim
             if self._changed(f"dim-{name}", str(is_dim)):
                 key.classes(add="dim" if is_dim else "", remove="" if is_dim else "dim")
 
@@ -344,7 +342,7 @@ class Page:
 
     def _show_tools(self, display: ui.label) -> None:
         """The tool display."""
-        shown = self._desk.panel.tool_text(self._lang)
+        shown = self._desk.look(self._lang).tools
         if self._changed("tools", shown):
             display.set_text(shown)
 

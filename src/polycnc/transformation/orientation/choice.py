@@ -59,6 +59,27 @@ def is_within(angle: float, low: float, high: float) -> bool:
     return low - AT_LIMIT <= angle <= high + AT_LIMIT
 
 
+def on_turns_within(
+    solution: dict[str, float], near: Angles, ranges: Mapping[str, tuple[float, float]]
+) -> dict[str, float] | None:
+    """The solution on turns within the ranges of its axes, each the one nearest to `near`; None for none of three."""
+    placed = dict(solution)
+    for axis, (low, high) in ranges.items():
+        if axis not in solution:
+            continue
+        turns = [solution[axis] + turn for turn in (0.0, TURN_DEG, -TURN_DEG)]
+        reached = [angle for angle in turns if is_within(angle, low, high)]
+        if not reached:
+            return None
+        placed[axis] = min(reached, key=lambda angle: abs(angle - near.get(axis, 0.0)))
+    return placed
+
+
+def all_within(solution: Angles, ranges: Mapping[str, tuple[float, float]]) -> bool:
+    """Whether all axes of a solution lie within their ranges."""
+    return all(is_within(solution[axis], *span) for axis, span in ranges.items() if axis in solution)
+
+
 def on_reachable_turn(angle: float, low: float, high: float) -> float | None:
     """The same direction on a turn within reach, the one nearest to zero; None for none of three."""
     turns = sorted((angle + turn for turn in (0.0, TURN_DEG, -TURN_DEG)), key=abs)

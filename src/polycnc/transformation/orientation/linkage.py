@@ -22,7 +22,7 @@ class Linkage(Places):
     """The record of a transformation: n numbers stand behind ADDED, what is added to each column in front of it.
 
     The joints of the table come first, then those of the head, of each chain the one at its end first. FRAME are nine
-    numbers by rows, then the shift; TIP leads from the point that the linear axes move to the tip.
+    numbers by rows, then the shift; TIP leads from the last joint of the head to the tip.
     """
 
     TABLES = place()

@@ -31,7 +31,7 @@ def linkage_of(transformation: Transformation | None) -> array[float]:
     record = array("d", bytes(8 * (Linkage.ADDED + len(point.axes))))
     record[Linkage.TABLES], record[Linkage.HEADS] = len(tables), len(heads)
     _write(record, Linkage.GEOMETRY, point.geometry)
-    _write(record, Linkage.TIP, point.tip)
+    _write(record, Linkage.TIP, point.hung)
     frame = IDENTITY if seated is None else seated.frame
     _write(record, Linkage.FRAME, (*frame.m[0], *frame.m[1], *frame.m[2], *frame.t))
     for number, link in enumerate((*tables, *heads)):
@@ -52,8 +52,8 @@ def zero_of(transformation: Transformation | None, n: int) -> tuple[float, ...]:
         return (0.0,) * n
     shifts = list(seated.shifts) if seated is not None and seated.shifts else [0.0] * n
     behind = seated.offsets if seated is not None and seated.offsets else (0.0,) * n
-    for column in point.geometry:
-        shifts[column] = -point.zero[column]
+    for column, nose in zip(point.geometry, point.kinematics.nose, strict=True):
+        shifts[column] = nose - point.zero[column]
     return tuple(a + b for a, b in zip(shifts, behind, strict=True))
 
 

@@ -14,6 +14,7 @@ from math import acos, atan2, degrees, hypot, sqrt
 from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass
+from polycnc.geometry.frames import IDENTITY, Frame
 from polycnc.geometry.vectors import cross, dot, times
 from polycnc.machine.kinematics import turn_about, unit
 from polycnc.transformation.numbers import RADIAN
@@ -43,16 +44,19 @@ class Posture:
         kinematics: The machine's rotary joints.
         axes: Names of the columns.
         offsets: From the work zero to that of the machine (mm, degrees).
+        frame: How the system of the path is turned on the work.
     """
 
     kinematics: Kinematics
     axes: tuple[str, ...]
     offsets: tuple[float, ...]
+    frame: Frame = IDENTITY
 
     def tool_at(self, position: Sequence[float]) -> Vector:
-        """Direction of the tool against the work at a position."""
+        """Direction of the tool in the system of the path at a position."""
         places = zip(self.axes, position, self.offsets, strict=True)
-        return self.kinematics.tool_on_work({name: value + zero for name, value, zero in places})
+        tool = self.kinematics.tool_on_work({name: value + zero for name, value, zero in places})
+        return tool if self.frame.is_identity else self.frame.inverse().direct(*tool)
 
 
 def angles_for(kinematics: Kinematics, direction: Vector, near: Angles) -> dict[str, float] | None:

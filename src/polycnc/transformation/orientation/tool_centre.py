@@ -51,6 +51,7 @@ class ToolCentrePoint:
         geometry: Columns of X, Y and Z; all three exist.
         zero: From the work zero to that of the machine, for every axis, without the tool (mm, degrees).
         tip: From the point that the linear axes move to the tip with the rotary axes at zero, mm.
+        hung: From the last joint of the head to the tip: the nose, then the tool.
     """
 
     kinematics: Kinematics
@@ -58,10 +59,13 @@ class ToolCentrePoint:
     geometry: Geometry
     zero: tuple[float, ...]
     tip: Vector
+    hung: Vector = field(init=False, repr=False, compare=False)
     _head: tuple[Link, ...] = field(init=False, repr=False, compare=False)
     _table: tuple[Link, ...] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
+        x, y, z = (nose + part for nose, part in zip(self.kinematics.nose, self.tip, strict=True))
+        object.__setattr__(self, "hung", (x, y, z))
         object.__setattr__(self, "_head", self._links(self.kinematics.tool))
         object.__setattr__(self, "_table", self._links(self.kinematics.work))
 
@@ -117,7 +121,7 @@ class ToolCentrePoint:
                 slopes[axis][column] = slope
         for chain, begin, sign in (
             (self._table, self._from_table(work), 1.0),
-            (self._head, self.tip, -1.0),
+            (self._head, self.hung, -1.0),
         ):
             for column, ways in self._carried(work, chain, begin).items():
                 for axis, slope in zip(self.geometry, ways, strict=True):
@@ -162,10 +166,10 @@ class ToolCentrePoint:
 
     def _arm(self, point: Sequence[N]) -> Point[N]:
         """From the point that the linear axes move to the tip, as the head has turned it."""
-        arm = self._through(point, self._head, self.tip)
+        arm = self._through(point, self._head, self.hung)
         for link in self._head:
             arm = _moved(arm, link.offset, -1.0)
-        return arm
+        return _moved(arm, self.kinematics.nose, -1.0)
 
     def _through(self, angles: Sequence[N], chain: Sequence[Link], point: Point[N]) -> Point[N]:
         """A point that the end of a chain carries, seen from its base."""

@@ -116,26 +116,7 @@ def table_turn(kinematics: Kinematics, angles: Angles, zero: Sequence[float]) ->
 
 
 def tool_carrier(kinematics: Kinematics, angles: Angles) -> Frame:
-    """What the head does to lengths of the tool: its turn, and how far it takes the place of the tool away."""
+    """What the head does to lengths of the tool: its turn, and what makes good how far it takes the tool away."""
     head, rest = kinematics.head_turn(angles), kinematics.head_turn({})
     x, y, z = minus(rest.t, head.t)
     return Frame(head.m, (x, y, z))
-
-
-def about_tip(
-    kinematics: Kinematics, before: Angles, after: Angles, place: Sequence[float], arm: float
-) -> Vector:
-    """Where the linear axes go so that the tip stays where it is on the work while the rotary axes turn.
-
-    Args:
-        kinematics: The machine's rotary joints.
-        before: Where the rotary axes are, degrees by name.
-        after: Where they turn to.
-        place: Where X, Y and Z are, machine coordinates.
-        arm: From the tip along the tool to the point that the linear axes move, mm.
-    """
-    old, new = kinematics.tool_on_machine(before), kinematics.tool_on_machine(after)
-    tip = [value - arm * part for value, part in zip(place, old, strict=True)]
-    turn = kinematics.work_turn(after) @ kinematics.work_turn(before).inverse()
-    x, y, z = turn.apply(tip[0], tip[1], tip[2])
-    return (x + arm * new[0], y + arm * new[1], z + arm * new[2])

@@ -25,10 +25,6 @@ def test_unknown_approach_and_axes_that_follow_already() -> None:
     assert codes(run(DEFINITION, 'EGON(Y,"NOC",X,1,1)', 'EGON(Y,"NOC",X,1,1)')) == [("16797", 3)]
 
 
-def test_spindles_are_refused() -> None:
-    assert codes(run("EGDEF(Y,S1,1)")) == [("PC0001", 1)]
-
-
 def test_a_gear_outlives_a_reset_and_a_new_program() -> None:
     control = power_on(f'{DEFINITION}\nEGON(Y,"NOC",X,3,1)\nG0 X2\nM30\n', "sinumerik-840d")
     control.cycle_start()

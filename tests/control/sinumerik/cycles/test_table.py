@@ -53,3 +53,23 @@ def test_a_cycle_with_odd_arguments_alarms_or_runs(name: str, value: str) -> Non
     count = len(CYCLES[name].signature.split())
     result = run(*START, f"{name}({','.join([value] * count)})", tools=TOOLS, machine="mill5-ac-table")
     assert len(codes(result)) <= 1
+
+
+@pytest.mark.parametrize(
+    ("call", "code"),
+    [
+        (
+            "POCKET3(10,0,2,-4,30,20,5,0,0,0,4,0,0,500,100,2,{})",
+            {"111": "PC0001", "-11": "61002", "17": "61002"},
+        ),
+        ("POCKET1(10,0,2,-4,,30,20,5,0,0,0,100,500,4,2,0,{})", {"11": "PC0001"}),
+        ("CYCLE71(10,2,2,0,0,0,60,20,0,0,8,3,0,500,{})", {"131": "PC0001", "-31": "61002"}),
+        ("CYCLE77(10,0,2,,4,40,0,0,4,0,0,500,100,2,{},50)", {"11": "PC0001"}),
+        ("CYCLE83(10,0,2,-20,,,5,0,0,0,1,{})", {"11": "PC0001", "-1": "61002"}),
+        ('CYCLE95("CON",3,0,0,0,0.3,0.2,0.1,{})', {"1009": "61002", "-9": "61002", "313": "61002"}),
+        ("SLOT1(10,0,2,,4,1,30,12,0,0,20,0,0,100,500,4,2,0,{})", {"111": "PC0001"}),
+    ],
+)
+def test_digits_of_vari_that_are_not_known(call: str, code: dict[str, str]) -> None:
+    for value, alarm in code.items():
+        assert codes(run(*START, call.format(value), tools=TOOLS)) == [(alarm, 3)]

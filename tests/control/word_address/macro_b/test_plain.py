@@ -56,7 +56,7 @@ def test_numbers_of_formulas_are_counted_without_those_of_words() -> None:
 
 @pytest.mark.parametrize(
     "line",
-    ["M3 X#1", "X#1 M#1", "X[#5001]", "X[1", "/X#1", "X#1 /Y2.", "#1=2", "X#1 #2=3", "X[ROUND[#1]]", "X1X"],
+    ["X#1 M#1", "X[#5001]", "X[1", "/X#1", "X#1 /Y2.", "#1=2", "X#1 #2=3", "X[ROUND[#1]]", "X1X"],
 )
 def test_other_lines_are_the_interpreters(line: str) -> None:
     plain, channel = stopped()

@@ -12,12 +12,13 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.lathe import auxiliary as turning_auxiliary
 from polycnc.control.fanuc.lathe import balance as turning_balance
+from polycnc.control.fanuc.lathe import spindle_indexing
 from polycnc.control.fanuc.lathe.coordinates import limits, systems, tilted
 from polycnc.control.fanuc.lathe.cycles import grinding as turning_grinding
 from polycnc.control.fanuc.lathe.cycles import repetitive, single
 from polycnc.control.fanuc.lathe.cycles.drilling import NORMAL_CYCLES, SERIES_15_CYCLES
 from polycnc.control.fanuc.lathe.cycles.tapping import RIGID, RIGID_OFF, rigid_tapping
-from polycnc.control.fanuc.lathe.motion import beside, threads
+from polycnc.control.fanuc.lathe.motion import beside, retract, threads
 from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.fanuc.lathe.tools import data_input, measuring, nose_radius, offsets
 from polycnc.control.word_address.auxiliary import functions
@@ -92,7 +93,7 @@ ROWS: tuple[Row, ...] = (
     *same(GCode("G9", handler=path_modes.exact_stop_block)),
     *same(_point("G10", data_input.input_data, "L P R Q C E F")),
     *same(GCode("G11", handler=parameter_input.end)),
-    *same(_point("G10.6", threads.prepare_retract)),
+    *same(_point("G10.6", retract.prepare)),
     *same(GCode("G7.1", handler=cylinder.cylinder, axis_words=True, order=Order.MOTION), "G107"),
     *same(GCode("G12.1", polar_interpolation.GROUP, polar_interpolation.start_polar), "G112"),
     *same(GCode("G13.1", polar_interpolation.GROUP, polar_interpolation.end_polar), "G113"),
@@ -134,6 +135,10 @@ ROWS: tuple[Row, ...] = (
     *same(GCode("G51.2", beside.POLYGON, beside.start_polygon, takes="P Q R", order=Order.MOTION), "G251"),
     *same(_point("G81.1", beside.start_oscillation, "Q R")),
     *same(GCode("G81.4", handler=beside.start_gear, takes="T L Q P", reals="PQ", order=Order.MOTION)),
+    *same(GCode("G50.4", handler=beside.end_synchronous, takes="P Q L", order=Order.MOTION)),
+    *same(GCode("G51.4", handler=beside.start_synchronous, takes="P Q L", order=Order.MOTION)),
+    *same(_point("G80.5", beside.end_pair)),
+    *same(_point("G81.5", beside.start_pair, "T L P")),
     *same(GCode("G80.4", handler=beside.end_gear, order=Order.MOTION)),
     *same(_point("G50.9", turning_auxiliary.output_while_moving)),
     *same(_point("G52", systems.set_local_system)),
@@ -169,16 +174,17 @@ ROWS: tuple[Row, ...] = (
     *same(GCode("G91.1", handler=limits.limit_increment, axis_words=True, order=Order.MOTION)),
     *same(GCode("G96", "surface_speed", turning_auxiliary.surface_speed, takes="P")),
     *same(GCode("G97", "surface_speed", coordinates.note_context, only_changes=True)),
+    *same(GCode("G96.1", handler=spindle_indexing.index_and_wait, takes="P R", order=Order.MOTION)),
+    *same(GCode("G96.2", handler=spindle_indexing.index, takes="P R", order=Order.MOTION)),
+    *same(GCode("G96.3", handler=spindle_indexing.wait_for_index, takes="P R", order=Order.MOTION)),
+    *same(GCode("G96.4", handler=spindle_indexing.turn_as_spindle, takes="P R", order=Order.MOTION)),
     *by_system("G98", "G94", "G94", GCode("G98", "feed", systems.keep_feed_number, order=Order.FEED_MODE)),
     *by_system("G99", "G95", "G95", GCode("G99", "feed", systems.keep_feed_number, order=Order.FEED_MODE)),
     *by_system("", "G90", "G90", GCode("G90", "distance")),
     *by_system("", "G91", "G91", GCode("G91", "distance")),
     *by_system("", "G98", "G98", GCode("G98", "return")),
     *by_system("", "G99", "G99", GCode("G99", "return")),
-    *not_yet(
-        "G31.8", "G50.4", "G50.5", "G50.6", "G51.4", "G51.5", "G51.6",
-        "G80.5", "G81.5", "G96.1", "G96.2", "G96.3", "G96.4",
-    ),
+    *not_yet("G31.8", "G50.5", "G50.6", "G51.5", "G51.6"),
 )  # fmt: skip
 
 #: 3405#3 G36 = 0: automatic tool offset; = 1: circular thread, and the offset is G37.1, G37.2.

@@ -32,7 +32,7 @@ from polycnc.control.fanuc.lathe.cycles import (
     tapping,
 )
 from polycnc.control.fanuc.lathe.memory import TurningMemory
-from polycnc.control.fanuc.lathe.motion import beside, drawing, threads
+from polycnc.control.fanuc.lathe.motion import beside, drawing, retract, threads
 from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.fanuc.lathe.tools import data_input, files, nose_radius, offsets
 from polycnc.control.fanuc.lathe.variables import TURNING_VARIABLES
@@ -147,6 +147,7 @@ class FanucTurning(CustomMacroControl):
         nose_radius.RULE,
         look_ahead.STOP_RULE,
         threads.RULE,
+        retract.RULE,
         shape.INTERRUPTION_RULE,
         balance.RULE,
         shape.RULE,

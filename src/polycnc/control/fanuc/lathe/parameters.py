@@ -35,6 +35,14 @@ class LatheAxisParameters(FanucAxisParameters):
     thread_time_constant = Number(1626, delivered=0.0)
     #: 1627: FL speed of the exponential acceleration in thread cycles [mm/min].
     thread_fl_speed = Number(1627, delivered=0.0)
+    #: 7740: Speed of the tool retract (G10.6), that of the first axis; 0 for rapid traverse [mm/min].
+    retract_speed = Number(7740, delivered=0.0)
+    #: 7741: How far the axis retracts where G10.6 names none [mm].
+    retract_amount = Number(7741, delivered=0.0)
+    #: 8162#0: in synchronous control the axis moves as its master (0) or against it (1).
+    SMR = Bit(8162, 0, delivered=False)
+    #: 12600: Number by which P and Q of synchronous control (G51.4) name the axis; 0 for none.
+    identification = Whole(12600, delivered=0)
 
 
 class LatheParameters(FanucParameters["LatheAxisParameters"]):

@@ -22,13 +22,14 @@ from polycnc.control.word_address.coordinates import frames, stroke_check, syste
 from polycnc.control.word_address.cycles.drilling import is_active
 from polycnc.control.word_address.macro_b import code_calls, macro_calls, parameter_input
 from polycnc.control.word_address.motion import nurbs, path, path_modes, planes, position_offset, skip, thread
-from polycnc.control.word_address.tools import corner_vectors, data_input, length, measuring, radius
+from polycnc.control.word_address.tools import corner_vectors, length, measuring, radius
 from polycnc.control.word_address.transformations import (
     cylinder,
     normal_line,
     polar_interpolation,
     tilted_plane,
     tool_center_point,
+    workpiece,
 )
 
 if TYPE_CHECKING:
@@ -78,7 +79,7 @@ ROWS = table(
     GCode("G5.1", handler=path_modes.contour_control, takes="Q R"),
     GCode("G8", handler=path_modes.advance_preview, takes="P"),
     GCode("G9", handler=path_modes.exact_stop_block),
-    moves("G10", data_input.input_data, "L P R"),
+    moves("G10", workpiece.input_data, "L P R"),
     GCode("G11", handler=parameter_input.end),
     GCode("G15", "polar"),
     GCode("G16", "polar", frames.start_polar),
@@ -126,6 +127,8 @@ ROWS = table(
     GCode("G54", "wcs", systems.select_work_offset, takes="P", gives_way="P"),
     GCode("G54.1", "wcs", systems.select_work_offset, takes="P"),
     *(GCode(f"G{number}", "wcs", systems.select_work_offset) for number in range(55, 60)),
+    GCode("G54.2", handler=workpiece.offset_fixture, takes="P", order=Order.MOTION),
+    GCode("G54.4", handler=workpiece.correct_workpiece, takes="P", order=Order.MOTION),
     moves("G60", position_offset.position_one_way),
     GCode("G61", "path", systems.note_context, only_changes=True),
     GCode("G62", "path", systems.note_context, only_changes=True),
@@ -156,7 +159,7 @@ ROWS = table(
     GCode("G98", "return"),
     GCode("G99", "return"),
     not_yet(
-        "G5.4", "G54.2", "G54.4", "G10.9",
+        "G5.4", "G10.9", "G41.2", "G41.3", "G41.4", "G41.5", "G41.6", "G42.2", "G42.4", "G42.5", "G42.6",
     ),
 )  # fmt: skip
 G_CODES = with_aliases(ROWS, ALIASES)
@@ -177,6 +180,8 @@ POWER_ON = MILLING_POWER_ON | {
     polar_interpolation.GROUP: "G13.1",
     cylinder.GROUP: "",
     normal_line.GROUP: normal_line.OFF,
+    workpiece.FIXTURE: "",
+    workpiece.ERROR: "",
     "calls": macro_calls.ALL_CALLS,
     "interruption": "M97",
     "data_input": "G11",

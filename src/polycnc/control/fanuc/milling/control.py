@@ -115,6 +115,20 @@ class FanucMilling(MillingControl):
         """11600#5 AX1 = 0."""
         return not _given(channel).AX1
 
+    def rotary_ranges(self, channel: Channel) -> Mapping[str, tuple[float, float]]:
+        """19741 to 19744: of the first rotary axis (it carries the other one, or is in the head), and of the second."""
+        parameters, kinematics = _given(channel), self.kinematics(channel)
+        names = [joint.axis for joint in (*kinematics.tool, *kinematics.work)]
+        spans = (
+            (parameters.first_rotary_low, parameters.first_rotary_high),
+            (parameters.second_rotary_low, parameters.second_rotary_high),
+        )
+        return {name: span for name, span in zip(names, spans, strict=False) if any(span)}
+
+    def goes_with_fixture(self, channel: Channel) -> bool:
+        """7570#0 FTP = 0."""
+        return not _given(channel).FTP
+
     def measuring(self, channel: Channel, _words: Words) -> tuple[float, float, float]:
         """G37: way before the target at feed (6251), allowed difference (6254), feed (6241)."""
         of = _given(channel).of(channel.axes[channel.coordinates.geometry[2]])

@@ -14,6 +14,7 @@ from polycnc.control.word_address.cycles.drilling import (
     turn_by_m_code,
     turn_spindle,
 )
+from polycnc.control.word_address.cycles.shift import shift_by_i_and_j
 from polycnc.cycles.drilling import holes, lathe
 
 if TYPE_CHECKING:
@@ -66,7 +67,7 @@ def relief(channel: Channel, code: str) -> float:
 def shift_off_wall(channel: Channel, data: CycleData, plane: tuple[int, int]) -> tuple[float, float]:
     """I and J (Hartford manual); else Q in the direction of 5148 (signed axis number) or 5101#4 RD1, #5 RD2."""
     if "I" in data or "J" in data:
-        return data.amount("I"), data.amount("J")
+        return shift_by_i_and_j(channel, data, plane)
     amount = abs(data.amount("Q"))
     parameters = FanucMillingParameters.naming(channel.setup.parameters)
     towards = parameters.of(channel.axes[data.axis]).shift_direction

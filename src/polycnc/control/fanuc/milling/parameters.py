@@ -42,6 +42,17 @@ class FanucMillingParameters(FanucParameters["FanucMillingAxisParameters"]):
     RIN = Bit(5400, 0, delivered=False)
     #: 5400#7: factors of scaling without a point count 0.00001 (0) or 0.001 (1).
     SCR = Bit(5400, 7, delivered=False)
+    #: 7570#0: G54.2: the tool goes along with the fixture offset (0) or stays (1).
+    FTP = Bit(7570, 0, delivered=False)
     #: 11600#5: an axis that the block behind G68 does not name keeps its coordinate from before (0) or its
     #: position (1).
     AX1 = Bit(11600, 5, delivered=True)
+    #: 19741: G53.1, G53.6, G43.5: highest machine position of the first rotary axis; both 0 for any (19742)
+    #: [deg].
+    first_rotary_high = Number(19741, delivered=0.0)
+    #: 19742: lowest machine position of the first rotary axis [deg].
+    first_rotary_low = Number(19742, delivered=0.0)
+    #: 19743: highest machine position of the second rotary axis; both 0 for any (19744) [deg].
+    second_rotary_high = Number(19743, delivered=0.0)
+    #: 19744: lowest machine position of the second rotary axis [deg].
+    second_rotary_low = Number(19744, delivered=0.0)

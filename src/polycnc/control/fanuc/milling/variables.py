@@ -11,6 +11,7 @@ from polycnc.control.fanuc.system_variables import (
     nothing,
     position_rows,
 )
+from polycnc.control.word_address.coordinates import on_table
 from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
 from polycnc.control.word_address.macro_b.interruption import InterruptionState
 from polycnc.control.word_address.macro_b.variables import Read, Registry, SystemRange, Write
@@ -92,12 +93,73 @@ def _shifted_write(write: Write, axis: int) -> Write:
     return lambda m, _i, value, text: write(m, axis, value, text)
 
 
+# ---- work zeros on a rotary table --------------------------------------------
+
+
+def _in_unit(m: MacroMemory, axis: int, value: float) -> float:
+    return value if m.channel.axis_data[axis].rotary else m.to_program_unit(value)
+
+
+def _fixture(number: int) -> tuple[Read, Write]:
+    """A fixture offset (G54.2): lengths of linear axes, reference angles of rotary ones."""
+    name = on_table.fixture_name(number)
+
+    def read(m: MacroMemory, i: int) -> float:
+        return _in_unit(m, axis_at(m, i), m.work_offset(name)[i])
+
+    def write(m: MacroMemory, i: int, value: float | None, _text: str) -> None:
+        rotary = m.channel.axis_data[axis_at(m, i)].rotary
+        m.work_offset(name)[i] = (value or 0.0) if rotary else m.from_program_unit(value)
+        _follow(m)
+
+    return read, write
+
+
+def _present_fixture(m: MacroMemory, i: int) -> float:
+    """How far the fixture offset that acts shifts an axis now."""
+    axis, c = axis_at(m, i), m.channel.coordinates
+    place = c.geometry.index(axis) if axis in c.geometry else None
+    return 0.0 if place is None else m.to_program_unit(ZeroState.of(m.channel).fixture[place])
+
+
+def _workpiece_error(number: int) -> tuple[Read, Write]:
+    """A workpiece error (G54.4): lengths along X, Y, Z, then angles."""
+
+    def read(m: MacroMemory, i: int) -> float:
+        value = on_table.values_of(m.channel, number)[i]
+        return m.to_program_unit(value) if i < on_table.LINEAR.stop else value
+
+    def write(m: MacroMemory, i: int, value: float | None, _text: str) -> None:
+        linear = i < on_table.LINEAR.stop
+        on_table.values_of(m.channel, number)[i] = m.from_program_unit(value) if linear else value or 0.0
+        _follow(m)
+
+    return read, write
+
+
+def _follow(m: MacroMemory) -> None:
+    if on_table.OnTable.of(m.channel).acts:
+        on_table.follow(m.channel)
+
+
+def _rows_on_table() -> list[SystemRange]:
+    rows = [
+        SystemRange(5500, 5500, lambda m, _i: float(on_table.OnTable.of(m.channel).fixture)),
+        SystemRange(5501, 5520, _present_fixture),
+    ]
+    numbers, last = range(1, on_table.FIXTURES + 1), on_table.ERROR_VALUES - 1
+    fixtures = (SystemRange(5501 + 20 * n, 5520 + 20 * n, *_fixture(n)) for n in numbers)
+    firsts = ((on_table.FIRST_VARIABLE + on_table.VARIABLES * n, n) for n in range(on_table.ERRORS + 1))
+    errors = (SystemRange(first, first + last, *_workpiece_error(n)) for first, n in firsts)
+    return [*rows, *fixtures, *errors]
+
+
 # ---- modal information and positions ------------------------------------------------------------
 
 #: Modal groups in the order of #4001 to #4030 (machining centres).
 MILLING_GROUPS = {1: "motion", 2: "plane", 3: "distance", 4: "stroke", 5: "feed", 6: "unit", 7: "compensation",
                   8: "length", 9: "cycle", 10: "return", 11: "scaling", 12: "macro", 13: "surface_speed", 14: "wcs",
-                  15: "path", 16: "rotation", 17: "polar", 22: "mirror"}  # fmt: skip
+                  15: "path", 16: "rotation", 17: "polar", 18: "normal_line", 22: "mirror"}  # fmt: skip
 
 
 def _modal(group: str) -> Read:
@@ -186,6 +248,7 @@ MILLING_VARIABLES = Registry(
     + [SystemRange(4400 + n, 4400 + n, _interrupted(group)) for n, group in MILLING_GROUPS.items()]
     + position_rows(_end_point, _machine, _work_with_length, _skip, _length, nothing, nothing)
     + _rows_work_offsets()
+    + _rows_on_table()
     + _rows_tools(),
     modal_names(),
 )

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from polycnc.channel.interpolator import Influence
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.actions import axes as action_axes
+from polycnc.control.sinumerik.actions import overlay
 from polycnc.control.sinumerik.actions.acting import ActionRun, is_executed
 from polycnc.control.sinumerik.actions.action import Action
 from polycnc.control.sinumerik.block import arguments
@@ -261,11 +262,11 @@ def define(channel: SinumerikChannel, code: ActionCode, number: int | None, froz
         raise not_supported(unknown[0])
     actions = SynchronisedActions.of(channel)
     clocked.watch(actions)
-    columns = [channel.memory.column(axis) for axis in code.needs.axes if axis is not None]
-    if None in code.needs.axes:
-        columns = list(range(len(channel.axes)))
-    if columns:
-        action_axes.expect(channel, columns)
+    commanded, shifted = (_columns(channel, axes) for axes in (code.needs.axes, code.needs.shifts))
+    if commanded:
+        action_axes.expect(channel, commanded)
+    if shifted:
+        overlay.expect(channel, shifted, is_static=code.word == "IDS")
     if code.needs.words.intersection(measuring_actions.WORDS):
         channel.event(Deed("PROBE", None, measuring_actions.beginning(channel)))
     in_force.watch(channel, code.needs.reads)
@@ -273,6 +274,13 @@ def define(channel: SinumerikChannel, code: ActionCode, number: int | None, froz
     channel.event(Deed(code.word or code.keyword or "DO", number, _beginning(actions, action)))
     if not code.word and "DELDTG()" in code.needs.words:
         clocked.stop_behind_next()
+
+
+def _columns(channel: SinumerikChannel, axes: frozenset[str | None]) -> list[int]:
+    """Columns of axes that an action names; of all where only the main run knows which it means."""
+    if None in axes:
+        return list(range(len(channel.axes)))
+    return [channel.memory.column(axis) for axis in axes if axis is not None]
 
 
 def _beginning(actions: SynchronisedActions, action: Action) -> Callable[[], None]:

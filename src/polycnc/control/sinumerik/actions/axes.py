@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import field
 from typing import TYPE_CHECKING
 
-from polycnc.channel.states.state import Lifetime, State
+from polycnc.channel.states.state import Lifetime, State, lasting
 from polycnc.channel.waits import PreprocessingStop
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.block import arguments
@@ -44,6 +44,7 @@ class ActionAxes(State, lifetime=Lifetime.RESET):
         states: Who has an axis, by column, where it is not the program.
         speeds: FA of actions, mm/s or degrees/s, by column.
         held: Columns of axes that oscillate: they are not free, though they rest at reversal points.
+        geared: Columns of axes that a spindle leads (EGON): the program does not move them.
         along: Columns of what a positioned axis moves, by its column: several where a transformation makes it.
     """
 
@@ -51,6 +52,7 @@ class ActionAxes(State, lifetime=Lifetime.RESET):
     states: dict[int, int] = field(default_factory=dict)
     speeds: dict[int, float] = field(default_factory=dict)
     held: set[int] = field(default_factory=set)
+    geared: set[int] = lasting(Lifetime.POWER, factory=set)
     along: dict[int, tuple[int, ...]] = field(default_factory=dict)
 
 
@@ -94,8 +96,11 @@ def give_back(channel: SinumerikChannel, columns: Iterable[int]) -> None:
 
     Raises:
         PreprocessingStop: The main run is behind, or an axis moves.
+        AlarmError: PC0001 for an axis that a spindle leads.
     """
-    axes = ActionAxes.of(channel)
+    axes, columns = ActionAxes.of(channel), tuple(columns)
+    for column in sorted(axes.geared.intersection(columns)):
+        raise not_supported(f"EGON: {channel.axes[column]}")
     taken = [column for column in columns if column in axes.may_move]
     clocked = channel.actual.clocked
     if not taken or clocked is None:

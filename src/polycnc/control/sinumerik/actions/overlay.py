@@ -2,23 +2,28 @@
 
 MD36750 bit 0 says whether what is written is the shift, or is added to it in every cycle; SD43350 limits it. It moves
 no faster than MD32020, the handwheel's shift than the share of it that MD32090 says. Coordinates do not know of either.
+From an action that shifts an axis on, MD20610 keeps a part of the axis's dynamics for that: the path has the rest.
 CORROF takes them away, DRFOF the handwheel's: the axis stays, coordinates know where it is then.
 """
 
 from __future__ import annotations
 
 from dataclasses import field
-from typing import TYPE_CHECKING
+from math import inf
+from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.channel.interpolator import HANDWHEEL_OFFSET
-from polycnc.channel.states.state import Lifetime, State
+from polycnc.channel.states.state import Lifetime, State, lasting
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.block import arguments
 from polycnc.deferred.records import dataclass
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.messages import AlarmError
+from polycnc.toolpath.events import Deed
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from polycnc.control.sinumerik.block.arguments import Arguments
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.variables.row import Indices, RowWithStop
@@ -26,13 +31,67 @@ if TYPE_CHECKING:
 _INTEGRAL = 1
 NAME = "AA_OFF"
 NAMES = (NAME, HANDWHEEL_OFFSET)
+#: Bounds of MD20610.
+LEAST, MOST = 0.01, 0.9
 
 
 @dataclass(slots=True)
 class Overlays(State, lifetime=Lifetime.POWER):
-    """Shifts that actions have asked for, by column, within their limits: mm or degrees."""
+    """Shifts of actions.
+
+    Attributes:
+        values: What they have asked for, by column, within their limits: mm or degrees.
+        expected: Columns of axes that actions of the program may shift; `expected_of_static` that static ones may.
+    """
 
     values: dict[int, float] = field(default_factory=dict)
+    expected: set[int] = lasting(Lifetime.RESET, factory=set)
+    expected_of_static: set[int] = field(default_factory=set)
+
+
+class Share(NamedTuple):
+    """What a motion over an axis has of it: highest velocity, mm/s or degrees/s, and a part of its acceleration."""
+
+    velocity: float
+    pull: float
+
+
+def expect(channel: SinumerikChannel, columns: Iterable[int], *, is_static: bool) -> None:
+    """Actions may shift these axes from now on: what is prepared leaves them their share, and the axes stand before."""
+    overlays, columns = Overlays.of(channel), set(columns)
+    new = columns - overlays.expected - overlays.expected_of_static
+    (overlays.expected_of_static if is_static else overlays.expected).update(columns)
+    if new:
+        channel.event(Deed(NAME, None, _nothing, stands=True))
+        channel.context_changed()
+
+
+def _nothing() -> None:
+    """Nothing but standing."""
+
+
+def share_of(channel: SinumerikChannel, column: int) -> Share:
+    """The share of `$AA_OFF` in an axis: MD32020, but no more than MD20610 of what the axis can do."""
+    data, name = channel.memory.data, channel.axes[column]
+    part = min(max(data.number("$MC_ADD_MOVE_ACCEL_RESERVE"), LEAST), MOST)
+    top = channel.axis_data[column].rapid
+    if data.is_set("$MA_MAX_AX_VELO", name):
+        top = min(top or inf, data.number("$MA_MAX_AX_VELO", name) / tables.MINUTE)
+    asked = data.number("$MA_JOG_VELO", name) / tables.MINUTE
+    return Share(min(asked, part * top) if top else asked, part)
+
+
+def left_to_path(channel: SinumerikChannel) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """What the path has of every axis: velocity, and part of the acceleration; nothing where no action shifts one."""
+    overlays = Overlays.of(channel)
+    columns = overlays.expected | overlays.expected_of_static
+    if not columns:
+        return (), ()
+    tops, pulls = [inf] * len(channel.axes), [1.0] * len(channel.axes)
+    for column in columns:
+        share, top = share_of(channel, column), channel.axis_data[column].rapid
+        tops[column], pulls[column] = (top or inf) - share.velocity, 1.0 - share.pull
+    return tuple(tops), tuple(pulls)
 
 
 def _column(channel: SinumerikChannel, indices: Indices) -> int:
@@ -52,7 +111,7 @@ def _write(channel: SinumerikChannel, indices: Indices, value: float) -> None:
     overlays[column] = value = min(max(value, -limit), limit)
     clocked = channel.actual.clocked
     if clocked is not None:
-        clocked.overlay(NAME, column, value, data.number("$MA_JOG_VELO", name) / tables.MINUTE)
+        clocked.overlay(NAME, column, value, *share_of(channel, column))
 
 
 def _read(channel: SinumerikChannel, indices: Indices) -> float:

@@ -45,7 +45,9 @@ def define(channel: SinumerikChannel, args: Arguments) -> None:
 
 
 def value(channel: SinumerikChannel, number: int, at: float) -> float:
-    """The value of a function, within its limits."""
+    """The value of a function, within its limits; 17020 for one that nothing has defined."""
+    if number not in Polynomials.of(channel).numbers:
+        raise AlarmError("17020", text="FCTDEF", index=number)
     numbers = _of(channel, number)
     a0, a1, a2, a3 = numbers[FIRST:]
     return min(max(a0 + at * (a1 + at * (a2 + at * a3)), numbers[LOW]), numbers[HIGH])

@@ -99,6 +99,7 @@ class SinumerikPlainBlocks:
     """
 
     spelling = SPELLING
+    routines = None
 
     def __init__(
         self,

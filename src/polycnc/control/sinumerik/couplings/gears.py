@@ -1,36 +1,48 @@
 """Electronic gears: EGDEF, EGON, EGONSYN, EGONSYNE, EGOFS, EGOFC, EGDEL (job planning 9.4).
 
 A following axis goes, beside its own way, those of up to five leading axes, each times its ratio or by a curve table.
-Synchronised gears lead it to its place first, beside the path, if the machine's controller enables that.
+Synchronised gears lead it to its place first, beside the path, if the machine's controller enables that. What a spindle
+leads goes beside the path altogether. A leading spindle is told from a leading axis by its negative number.
 """
 
 from __future__ import annotations
 
 from dataclasses import field
+from math import inf
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from polycnc.channel.states.state import Lifetime, State
+from polycnc.control.sinumerik import tables
+from polycnc.control.sinumerik.actions import axes as action_axes
+from polycnc.control.sinumerik.actions.axes import ActionAxes
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.positions import ModuloRange
 from polycnc.control.sinumerik.couplings import switching
 from polycnc.control.sinumerik.couplings.approach import approach
 from polycnc.control.sinumerik.couplings.links import Couplings, Kind, Link
+from polycnc.control.sinumerik.couplings.spindle_pairs import turns
 from polycnc.control.sinumerik.curve_tables import definition as curve_definition
 from polycnc.control.sinumerik.curve_tables.memory import table_of
 from polycnc.control.sinumerik.errors import not_supported
+from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.tables import length_factor
 from polycnc.deferred.records import dataclass
+from polycnc.language.sinumerik.names.spindles import spindle_number
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.messages import AlarmError
+from polycnc.toolpath.events import Deed
 from polycnc.transformation.couplings.laws import ByCurve, Ratio
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
+    from polycnc.channel.interpolator import Interpolator
     from polycnc.control.sinumerik.block.arguments import Arguments, Procedure
     from polycnc.control.sinumerik.family import SinumerikChannel
 
 MOST_LEADING = 5
+#: Speed of an axis without limit, degrees/s.
+LARGE = 1e9
 #: When the block of a gear ends.
 BLOCK_CHANGES = frozenset(("NOC", "FINE", "COARSE", "IPOSTOP"))
 #: Ways of approach: to the next tooth gap; to the place itself by the shorter way, downwards, upwards.
@@ -62,12 +74,20 @@ class Gear:
         wheels: What it was switched on with, by the column of the leading axis.
         place: Synchronous place of the following axis.
         block_change: When the block that switched it on ended.
+        beside: It is on, and a spindle leads it: beside the path.
     """
 
     types: dict[int, int]
     wheels: dict[int, Wheel] = field(default_factory=dict)
     place: float = 0.0
     block_change: str = ""
+    beside: bool = False
+
+    @property
+    def ratio_to_spindle(self) -> float:
+        """Degrees for one of the spindle that leads it; 0 where none does."""
+        ratios = (wheel.numerator / wheel.denominator for wheel in self.wheels.values() if wheel.leading < 0)
+        return sum(ratios) if self.beside else 0.0
 
 
 @dataclass(slots=True)
@@ -85,7 +105,7 @@ def define(channel: SinumerikChannel, args: Arguments) -> None:
     """
     if len(args) < 3 or not len(args) % 2 or None in args:
         raise AlarmError("14020", text="EGDEF")
-    following, *leading = (_column(channel, axis) for axis in (args[0], *args[1::2]))
+    following, leading = _column(channel, args[0]), [key_of(channel, axis) for axis in args[1::2]]
     if any(arguments.whole(type_) not in (0, 1) for type_ in args[2::2]) or len(set(leading)) < len(leading):
         raise AlarmError("14020", text="EGDEF")
     if len(leading) > MOST_LEADING:
@@ -102,7 +122,7 @@ def define(channel: SinumerikChannel, args: Arguments) -> None:
 def delete(channel: SinumerikChannel, args: Arguments) -> None:
     """EGDEL(following): its definition is no more; 16797 while it is on. A preprocessing stop."""
     following = _following(channel, "EGDEL", args, only=True)
-    if Couplings.of(channel).of_kind(following, Kind.GEAR):
+    if is_on(channel, following):
         raise AlarmError("16797", axis=channel.axes[following])
     _stop(channel, "EGDEL")
     Gears.of(channel).defined.pop(following, None)
@@ -134,8 +154,12 @@ def switch_on_by_approach(channel: SinumerikChannel, args: Arguments) -> None:
 def switch_off(channel: SinumerikChannel, args: Arguments) -> None:
     """EGOFS(following[,leading,…]): the gear ends, or leading axes are taken out of it; a preprocessing stop."""
     following = _following(channel, "EGOFS", args)
-    leading = [_column(channel, axis) for axis in args[1:]]
+    leading = [key_of(channel, axis) for axis in args[1:]]
     _stop(channel, "EGOFS")
+    gear = Gears.of(channel).defined.get(following)
+    if gear is not None and gear.beside:
+        _leave_beside(channel, following, gear, leading)
+        return
     switching.begin(channel, "EGOFS")
     links = Couplings.of(channel).links.get(following, [])
     stay = [
@@ -155,10 +179,27 @@ def leave_turning(channel: SinumerikChannel, args: Arguments) -> None:
 
 
 def _column(channel: SinumerikChannel, value: Any) -> int:
-    """Column of an axis; PC0001 for a spindle."""
-    if isinstance(value, Axis) and value.name[:1] == "S" and value.name[1:].isdigit():
+    """Column of a following axis; PC0001 for a spindle."""
+    if isinstance(value, Axis) and spindle_number(value) is not None:
         raise not_supported(f"EG {value.name}")
     return arguments.column(channel, value)
+
+
+def key_of(channel: SinumerikChannel, value: Any) -> int:
+    """Column of a leading axis, or the number of a leading spindle, negative."""
+    number = spindle_number(value) if isinstance(value, Axis) else None
+    return arguments.column(channel, value) if number is None else -channel.memory.spindles.get(number).number
+
+
+def name_of(channel: SinumerikChannel, key: int) -> str:
+    """Name of a leading axis or spindle."""
+    return channel.axes[key] if key >= 0 else f"S{-key}"
+
+
+def is_on(channel: SinumerikChannel, following: int) -> bool:
+    """Whether a gear leads an axis."""
+    gear = Gears.of(channel).defined.get(following)
+    return bool(Couplings.of(channel).of_kind(following, Kind.GEAR)) or (gear is not None and gear.beside)
 
 
 def _following(channel: SinumerikChannel, name: str, args: Arguments, *, only: bool = False) -> int:
@@ -183,7 +224,7 @@ def _begin(channel: SinumerikChannel, name: str, args: Arguments) -> int:
     gear = Gears.of(channel).defined.get(following)
     if gear is None:
         raise AlarmError("16796", axis=channel.axes[following])
-    if Couplings.of(channel).of_kind(following, Kind.GEAR):
+    if is_on(channel, following):
         raise AlarmError("16797", axis=channel.axes[following])
     gear.block_change = str(args[1]).upper()
     return following
@@ -197,12 +238,12 @@ def _wheels(
         raise AlarmError("14020", text=name)
     seen: set[int] = set()
     for k in range(0, len(args), width):
-        leading = _column(channel, args[k])
+        leading = key_of(channel, args[k])
         if leading in seen:
             raise AlarmError("14020", text=name)
         seen.add(leading)
         if leading not in Gears.of(channel).defined[following].types:
-            raise AlarmError("16796", axis=channel.axes[leading])
+            raise AlarmError("16796", axis=name_of(channel, leading))
         numerator, denominator = (arguments.real(value) for value in args[k + width - 2 : k + width])
         place = None if width == 3 else _place(channel, leading, args[k + 1])
         if not denominator:
@@ -212,7 +253,7 @@ def _wheels(
 
 def _place(channel: SinumerikChannel, column: int, value: Any) -> float:
     """A place of an axis as the program writes it."""
-    turning = channel.memory.axes[column].rotary
+    turning = column < 0 or channel.memory.axes[column].rotary
     return arguments.real(value) * (1.0 if turning else length_factor(channel.mode))
 
 
@@ -232,17 +273,25 @@ def _engage(
 ) -> None:
     """The gear is on; `place` is the synchronous place of the following axis, by default where it is."""
     machine = channel.coordinates.machine
-    links = [link for link in Couplings.of(channel).links.get(following, []) if link.kind is not Kind.GEAR]
-    links += [_link(channel, wheel, machine[wheel.leading]) for wheel in wheels]
-    switching.change(channel, following, links)
     gear = Gears.of(channel).defined[following]
+    if any(wheel.leading < 0 for wheel in wheels):
+        _engage_beside(channel, following, wheels)
+        gear.beside = True
+    else:
+        links = [
+            link for link in Couplings.of(channel).links.get(following, []) if link.kind is not Kind.GEAR
+        ]
+        links += [_link(channel, wheel, machine[wheel.leading]) for wheel in wheels]
+        switching.change(channel, following, links)
     gear.place = machine[following] if place is None else place
     gear.wheels = {
         wheel.leading: wheel
         if wheel.synchronous is not None
-        else wheel._replace(synchronous=machine[wheel.leading])
+        else wheel._replace(synchronous=_here(channel, machine, wheel.leading))
         for wheel in wheels
     }
+    if gear.beside:
+        _bound_spindles(channel)
 
 
 def _synchronise(
@@ -251,6 +300,9 @@ def _synchronise(
     """The axis goes to its place, and the gear is on from there."""
     wheels = list(_wheels(channel, name, following, args, width=4))
     switching.begin(channel, name)
+    for wheel in wheels:
+        if wheel.leading < 0 and (turns(channel, -wheel.leading) or not wheel.denominator):
+            raise not_supported(f"{name} {name_of(channel, wheel.leading)}: M3, M4")
     here = channel.coordinates.machine
     wanted = _place(channel, following, place)
     target = _target(channel, following, wanted, wheels, how)
@@ -266,7 +318,11 @@ def _target(
     target, pitches = place, []
     for wheel in wheels:
         assert wheel.synchronous is not None
-        now = machine[wheel.leading]
+        now = _here(channel, machine, wheel.leading)
+        if wheel.leading < 0:
+            target += wheel.numerator / wheel.denominator * (now - wheel.synchronous)
+            pitches.append(abs(tables.TURN * wheel.numerator / wheel.denominator))
+            continue
         if axes[wheel.leading].modulo:
             turn = ModuloRange.of(data, axes[wheel.leading].name)
             now = turn.shown(now)
@@ -285,6 +341,74 @@ def _target(
     step = circle if how in SHORTEST or not pitches else min([circle, *(pitch for pitch in pitches if pitch)])
     way %= step
     return machine[following] + (way if way <= step / 2.0 else way - step)
+
+
+def _here(channel: SinumerikChannel, machine: Sequence[float], key: int) -> float:
+    """Where a leading axis is, or a spindle that stands."""
+    return machine[key] if key >= 0 else channel.memory.spindles.get(-key).position
+
+
+# ---- beside the path
+
+
+def _engage_beside(channel: SinumerikChannel, following: int, wheels: Sequence[Wheel]) -> None:
+    """A spindle leads the axis: it goes beside the path, with those of the path that lead it too.
+
+    Raises:
+        AlarmError: PC0001 for another spindle than the master spindle, for a curve table, or beside another coupling.
+    """
+    master = channel.memory.spindles.master
+    for wheel in wheels:
+        if wheel.leading < 0 and (wheel.leading != -master or not wheel.denominator):
+            raise not_supported(f"EGON {name_of(channel, wheel.leading)}")
+    clocked = channel.on_clock()
+    action_axes.expect(channel, (following,))
+    ActionAxes.of(channel).geared.add(following)
+    _lead(channel, clocked, following, wheels)
+
+
+def _lead(channel: SinumerikChannel, clocked: Interpolator, following: int, wheels: Sequence[Wheel]) -> None:
+    """These lead the axis from here on in the order of the blocks; it stands behind the last one."""
+    machine = channel.coordinates.machine
+    laws = [_link(channel, wheel, machine[wheel.leading]).law for wheel in wheels if wheel.leading >= 0]
+    spindles = {-wheel.leading: wheel.numerator / wheel.denominator for wheel in wheels if wheel.leading < 0}
+
+    def do() -> None:
+        clocked.follow(following, laws, spindles)
+
+    def moves() -> bool:
+        return not wheels and clocked.commanded(following).moves
+
+    channel.event(Deed("EGON", None, do, is_silent=False, awaits=moves))
+
+
+def _leave_beside(channel: SinumerikChannel, following: int, gear: Gear, leading: Sequence[int]) -> None:
+    """Some leading axes or spindles lead no more, all where none is named; where none is left the axis brakes."""
+    stay = [wheel for key, wheel in gear.wheels.items() if leading and key not in leading]
+    if PathFeed.of(channel).axis == following and not any(wheel.leading < 0 for wheel in stay):
+        raise not_supported(f"EGOFS: FPR({channel.axes[following]})")  # the path would wait for ever
+    gear.wheels, gear.beside = {wheel.leading: wheel for wheel in stay}, bool(stay)
+    clocked = channel.on_clock()
+    action_axes.expect(channel, (following,))
+    _lead(channel, clocked, following, stay)
+    if not stay:
+        ActionAxes.of(channel).geared.discard(following)
+    _bound_spindles(channel)
+
+
+def _bound_spindles(channel: SinumerikChannel) -> None:
+    """Spindles that lead axes turn no faster than these can follow; what the axes go by the path is not looked at."""
+    most = dict.fromkeys(channel.memory.spindles.all, inf)
+    for column, gear in Gears.of(channel).defined.items():
+        for key, wheel in gear.wheels.items() if gear.beside else ():
+            if key < 0 and wheel.numerator:
+                degrees = (channel.axis_data[column].rapid or LARGE) * abs(
+                    wheel.denominator / wheel.numerator
+                )
+                most[-key] = min(most[-key], degrees * tables.MINUTE / tables.TURN)
+    for number, spindle in channel.memory.spindles.all.items():
+        spindle.most = most[number]
+    channel.context_changed()
 
 
 PROCEDURES: dict[str, Procedure] = {

@@ -138,6 +138,7 @@ def place(channel: SinumerikChannel, spindle: Spindle, value: float, modifier: s
     Raises:
         AlarmError: PC0001 for a position of a following spindle whose leading one turns: only IC is a way then.
     """
+    spindle.refuse_leading("SPOS")
     pair = SpindlePairs.of(channel).acting(spindle.number)
     if pair is None:
         spindle.direction = 0

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.positions import shown
 from polycnc.control.sinumerik.couplings import masters
-from polycnc.control.sinumerik.couplings.gears import Gears
+from polycnc.control.sinumerik.couplings.gears import Gears, key_of, name_of
 from polycnc.control.sinumerik.couplings.links import Couplings, Kind
 from polycnc.control.sinumerik.couplings.spindle_pairs import SYNCHRONOUS, SpindlePairs
 from polycnc.control.sinumerik.tables import MINUTE
@@ -35,8 +35,10 @@ def _acts(channel: SinumerikChannel, indices: Indices) -> int:
         return 0 if pair is None or pair.is_slave else SYNCHRONOUS
     column = arguments.column(channel, named)
     kinds = {link.kind for link in Couplings.of(channel).links.get(column, ())}
-    clocked = channel.actual.clocked
-    if clocked is not None:
+    clocked, gear = channel.actual.clocked, Gears.of(channel).defined.get(column)
+    if gear is not None and gear.beside:
+        kinds.add(Kind.GEAR)
+    elif clocked is not None:
         kinds |= {Kind.LEAD if isinstance(law, ByCurve) else Kind.TRAIL for law in clocked.led_by(column)}
     return sum(max(kind, 0) for kind in kinds) + coupling_state(channel, column)
 
@@ -78,7 +80,7 @@ def _of_wheel(attribute: str) -> Reader:
     """What a gear was switched on with for one leading axis; 0 for one that it has not."""
 
     def read(channel: SinumerikChannel, indices: Indices) -> float:
-        gear, leading = _gear(channel, indices), arguments.column(channel, indices[1])
+        gear, leading = _gear(channel, indices), key_of(channel, indices[1])
         wheel = gear.wheels.get(leading) if gear is not None else None
         return 0.0 if wheel is None else getattr(wheel, attribute) or 0.0
 
@@ -98,14 +100,17 @@ def _with_leading(read: Reader) -> Reader:
 
 def _leading_acts(channel: SinumerikChannel, indices: Indices) -> bool:
     """`$AA_EG_ACTIVE[following, leading]`: the leading axis moves the following one now."""
-    following, leading = (arguments.column(channel, index) for index in indices)
+    following, leading = arguments.column(channel, indices[0]), key_of(channel, indices[1])
+    gear = Gears.of(channel).defined.get(following)
+    if gear is not None and gear.beside:
+        return leading in gear.wheels
     return any(link.law.leading == leading for link in Couplings.of(channel).of_kind(following, Kind.GEAR))
 
 
 def _leading_type(channel: SinumerikChannel, indices: Indices) -> int:
     """`$AA_EG_TYPE[following, leading]`: 0 actual value, 1 setpoint."""
     gear = _gear(channel, indices)
-    return gear.types.get(arguments.column(channel, indices[1]), 0) if gear is not None else 0
+    return gear.types.get(key_of(channel, indices[1]), 0) if gear is not None else 0
 
 
 def _leading_axis(channel: SinumerikChannel, indices: Indices) -> Axis:
@@ -116,7 +121,7 @@ def _leading_axis(channel: SinumerikChannel, indices: Indices) -> Axis:
     columns = list(gear.types) if gear is not None else []
     if not 0 <= n < len(columns):
         raise AlarmError("17020", text="$AA_EG_AX", index=n)
-    return Axis(channel.axes[columns[n]])
+    return Axis(name_of(channel, columns[n]))
 
 
 def _leading_count(channel: SinumerikChannel, indices: Indices) -> int:

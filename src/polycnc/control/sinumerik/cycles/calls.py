@@ -122,6 +122,11 @@ def start(channel: SinumerikChannel, name: str, values: tuple[Any, ...], column:
         raise not_supported(name)
     if channel.mode[punching.GROUP] != punching.OFF and name not in SETTINGS:
         raise not_supported(f"{name} {channel.mode[punching.GROUP]}")
+    begin(channel, name, cycle, values, column)
+
+
+def begin(channel: SinumerikChannel, name: str, cycle: Cycle, values: tuple[Any, ...], column: int) -> None:
+    """Begin what a row of the table says, as a program level; 14012 if there is none left."""
     arguments = Arguments(channel, name, tuple(cycle.signature.split()), values)
     count_levels(channel)
     channel.flush()

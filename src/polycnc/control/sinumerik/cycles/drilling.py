@@ -171,7 +171,8 @@ def _direction(a: Arguments, name: str = "SDIR") -> int:
     return DIRECTIONS[a.integer(name)]
 
 
-def _turning(moves: Moves, direction: int) -> None:
+def turning(moves: Moves, direction: int) -> None:
+    """The spindle turns so; M3 or M4 where it does not yet."""
     if moves.spindle.direction != direction:
         moves.turn(direction)
 
@@ -182,7 +183,7 @@ def bore_and_lift(moves: Moves, a: Arguments) -> None:
     found = levels(moves, a)
     if found is None:
         return
-    _turning(moves, direction)
+    turning(moves, direction)
 
     def spindle(value: float) -> None:
         if value:
@@ -200,7 +201,7 @@ def bore_and_halt(moves: Moves, a: Arguments) -> None:
     direction = _direction(a)
     found = levels(moves, a)
     if found is not None:
-        _turning(moves, direction)
+        turning(moves, direction)
         acts = Acts(moves.channel.feed, spindle=lambda _value: moves.turn(0))
         perform(moves, holes.bore_and_leave_standing(found.hole(a["DTB"])), acts)
 
@@ -232,8 +233,8 @@ def deep_hole_2(moves: Moves, a: Arguments) -> None:
 def deep_hole(moves: Moves, a: Arguments) -> None:
     """CYCLE83: strokes that become shorter, breaking chips (VARI=0) or clearing them (VARI=1)."""
     found = levels_of_drill(moves, a)
-    variant = a.digit("VARI", 0)
-    if variant in CHIPS_AND_SWARF:
+    variant = a.integer("VARI")
+    if variant in CHIPS_AND_SWARF or variant >= 10:
         raise not_supported(f"{a.cycle} VARI")
     if variant not in (0, 1):
         raise AlarmError("61002")
@@ -417,7 +418,7 @@ def tapping_with_chuck(moves: Moves, a: Arguments) -> None:
         if encoder:
             moves.special(Kind.THREAD, lead, level)
         else:
-            moves.special(Kind.TAP, lead or _lead_of(moves, feed), level, feed)
+            moves.special(Kind.TAP, lead or lead_of(moves, feed), level, feed)
 
     def spindle(value: float) -> None:
         if value < 0.0:
@@ -442,7 +443,8 @@ def _chuck_feed(moves: Moves, lead: float) -> float:
     )
 
 
-def _lead_of(moves: Moves, feed: float) -> float:
+def lead_of(moves: Moves, feed: float) -> float:
+    """Pitch of a tap whose feed is programmed, mm; 0 where the spindle stands. 10860 without feed."""
     if not feed > 0.0:
         raise AlarmError("10860")
     speed = moves.spindle.speed

@@ -85,13 +85,20 @@ def is_ccw(moves: Moves, direction: int, *, inside: bool) -> bool:
     return climb is (direction == 0)
 
 
-def variant(a: Arguments, name: str, allowed: tuple[int, ...]) -> int:
-    """Units of VARI; 61002 for one that the cycle does not have."""
+def variant(a: Arguments, name: str, allowed: tuple[int, ...], digits: int = 2) -> int:
+    """Units of VARI.
+
+    Raises:
+        AlarmError: 61002 for one that the cycle does not have, or below zero; PC0001 for chamfering, and for digits
+            that are not known.
+    """
     value = a.digit(name, 0)
     if value == CHAMFER and a.has("_ZFS"):
         raise not_supported(f"{a.cycle} {name}")
-    if value not in allowed:
+    if value not in allowed or a.integer(name) < 0:
         raise AlarmError("61002")
+    if a.integer(name) >= 10**digits:
+        raise not_supported(f"{a.cycle} {name}")
     return value
 
 
@@ -124,12 +131,24 @@ def reference_point(moves: Moves, a: Arguments) -> Point:
     return moves.point if moves.channel.level.kind is LevelKind.MODAL and given == (0.0, 0.0) else given
 
 
+#: Digits of _GMODE: how the shape is dimensioned (from 2 on from a corner), and whether all of a pocket is milled (1).
+_DIMENSIONING_PLACE, _PREMACHINED_PLACE = 3, 4
+FROM_MIDDLE, WHOLE = (0, 1), 1
+
+
+def check_dimensioning(a: Arguments) -> None:
+    """PC0001 for a pocket or spigot that is dimensioned from a corner."""
+    if a.digit("_GMODE", _DIMENSIONING_PLACE) not in FROM_MIDDLE:
+        raise not_supported(f"{a.cycle} _GMODE")
+
+
 # ---- pockets
 
 
 def pocket3(moves: Moves, a: Arguments) -> None:
     """POCKET3: rectangular pocket about its middle."""
     radius = cutter(moves)
+    check_dimensioning(a)
     length, width, corner = abs(a["_LENG"]), abs(a["_WID"]), abs(a["_CRAD"])
     if not length or not width:
         raise AlarmError("61118")
@@ -151,6 +170,8 @@ def _pocket(
     moves: Moves, a: Arguments, size: tuple[float, float, float], core: tuple[float, float], radius: float
 ) -> None:
     kind = variant(a, "_VARI", (ROUGHING, FINISHING, EDGE))
+    if a.digit("_GMODE", _PREMACHINED_PLACE) == WHOLE:
+        core = (0.0, 0.0)
     if kind == EDGE:
         kind, base_allowance = FINISHING, 0.0
     else:
@@ -235,7 +256,7 @@ def perform_at_speed(moves: Moves, speed: float, strokes: Iterable[MillStroke]) 
 def older_pocket(moves: Moves, a: Arguments) -> None:
     """POCKET1 (rectangular), POCKET2 (circular): in with G1 in the middle; complete, roughing or finishing."""
     radius = cutter(moves)
-    kind = variant(a, "VARI", (COMPLETE, ROUGHING, FINISHING))
+    kind = variant(a, "VARI", (COMPLETE, ROUGHING, FINISHING), digits=1)
     found = levels(moves, a)
     if found is None:
         return

@@ -11,6 +11,7 @@ from polycnc.control.sinumerik.cycles.levels import levels
 from polycnc.control.sinumerik.cycles.milling import (
     FINISHING,
     ROUGHING,
+    check_dimensioning,
     cutter,
     feed_of,
     is_ccw,
@@ -18,8 +19,10 @@ from polycnc.control.sinumerik.cycles.milling import (
     perform,
     reference_point,
     variant,
+    width_of_cut,
 )
 from polycnc.control.sinumerik.cycles.moves import require_tool
+from polycnc.control.sinumerik.errors import not_supported
 from polycnc.cycles.count import checked
 from polycnc.cycles.milling import contour as path_milling
 from polycnc.cycles.milling import facing, spigots
@@ -119,6 +122,8 @@ def _strip(a: Arguments, radius: float) -> float:
 SIDES = {40: 0.0, 41: 1.0, 42: -1.0}
 #: Hundreds of VARI: how far the tool rises at the end of the contour.
 TO_RETRACT, TO_SAFE, BY_SAFETY, STAYS = range(4)
+#: Place of the digit of VARI that leads along the contour the other way.
+TURNED_ROUND = 4
 
 
 def path(moves: Moves, a: Arguments) -> None:
@@ -126,7 +131,7 @@ def path(moves: Moves, a: Arguments) -> None:
     radius = require_tool(moves, deep=True)
     if radius < 0.0:
         raise AlarmError("61112")
-    variant(a, "_VARI", (ROUGHING, FINISHING))
+    variant(a, "_VARI", (ROUGHING, FINISHING), digits=TURNED_ROUND + 1)
     if a.digit("_VARI", 1) not in (0, 1) or a.digit("_VARI", 2) > STAYS:
         raise AlarmError("61002")
     side = SIDES.get(a.integer("_RL"))
@@ -153,7 +158,7 @@ def _mill_path(
 ) -> None:
     """Mill along the contour that was read; `feeds` are those along it, in depth and between the passes."""
     radius, kind = moves.memory.tools.radius, a.digit("_VARI", 0)
-    if a.digit("_VARI", 4) == 1:
+    if a.digit("_VARI", TURNED_ROUND) == 1:
         contour, side = turned_round(contour), -side
     off = radius + (abs(a["_FAL"]) if kind == ROUGHING else 0.0)
     try:
@@ -197,7 +202,8 @@ def spigot(moves: Moves, a: Arguments) -> None:
     radius = require_tool(moves, evenly=True)
     if radius < 0.0:
         raise AlarmError("61112")
-    kind = variant(a, "_VARI", (ROUGHING, FINISHING))
+    kind = variant(a, "_VARI", (ROUGHING, FINISHING), digits=1)
+    check_dimensioning(a)
     circular = a.cycle == "CYCLE77"
     length = abs(a["_PRAD"]) if circular else abs(a["_LENG"])
     width, corner = (length, length / 2.0) if circular else (abs(a["_WID"]), abs(a["_CRAD"]))
@@ -212,7 +218,7 @@ def spigot(moves: Moves, a: Arguments) -> None:
 def polygon(moves: Moves, a: Arguments) -> None:
     """CYCLE79: spigot with NUM edges; SWL is the width across flats, or an edge where NUM is odd."""
     radius = require_tool(moves, evenly=True)
-    kind = variant(a, "_VARI", (ROUGHING, FINISHING))
+    kind = variant(a, "_VARI", (ROUGHING, FINISHING), digits=1)
     count, size = checked(abs(a.integer("_NUM"))), abs(a["_SWL"])
     if count < spigots.FEWEST_EDGES or not size:
         raise AlarmError("61118")
@@ -244,7 +250,15 @@ def _mill_spigot(
         found.retract,
     )
     total = abs(found.depth - found.reference) - left_below
-    perform(moves, spigots.mill(shape, levels_below(found, total, a["_MID"])))
+    rounds = _rounds(a, radius, shape.blank - outline.reach - left) if a.has("_MIDA") else [0.0]
+    perform(moves, spigots.mill(shape, levels_below(found, total, a["_MID"]), rounds))
+
+
+def _rounds(a: Arguments, radius: float, stock: float) -> list[float]:
+    """How far outside of the outline the tool goes round, where the blank is more than one width of cut larger."""
+    if not a.plain("_MIDA") or stock <= NO_WAY:
+        return [0.0]
+    return [stock - part for part in steps(stock, width_of_cut(a, radius))]
 
 
 # ---- threads
@@ -284,6 +298,8 @@ def thread(moves: Moves, a: Arguments) -> None:
 #: Tens of VARI of CYCLE70: where the thread begins; hundreds: its hand.
 DOWNWARDS, UPWARDS = 1, 2
 RIGHT_HAND, LEFT_HAND = 0, 1
+#: No digit of VARI of CYCLE70 is known from here on.
+HIGHEST_VARI = 1000
 
 
 def thread_with_teeth(moves: Moves, a: Arguments) -> None:
@@ -293,10 +309,13 @@ def thread_with_teeth(moves: Moves, a: Arguments) -> None:
         AlarmError: As the other milling cycles; 61001 without pitch or depth of thread, 61002 for VARI or TYPTH, 61010
             for an allowance of more than the thread's depth, 61105 for a cutter that does not go into the core hole,
             61601 for an external thread without core;
-            PC0001 for a pitch by module.
+            PC0001 for a pitch by module, a negative number of teeth and higher digits of VARI.
     """
     radius = cutter(moves)
     kind, way, hand = (a.digit("_VARI", place) for place in range(3))
+    teeth = a.integer("_NT")
+    if teeth < 0 or not 0 <= a.integer("_VARI") < HIGHEST_VARI:
+        raise not_supported("CYCLE70 _NT" if teeth < 0 else "CYCLE70 _VARI")
     is_inside = a.integer("_TYPTH") == 0
     if (
         kind not in (ROUGHING, FINISHING)
@@ -325,7 +344,7 @@ def thread_with_teeth(moves: Moves, a: Arguments) -> None:
         Place(reference_point(moves, a), a["_NSP"]),
         [outer - deep + cut - radius if is_inside else outer - cut + radius for cut in cuts],
         lead,
-        max(a.integer("_NT"), 1),
+        max(teeth, 1),
         found.reference,
         found.depth,
         rises,

@@ -4,6 +4,9 @@ A point p of the swivelled plane lies at `p0 + R·(p1 + p)` of the system before
 the table turns goes into `$P_PARTFRAME`, what the head turns acts on the tool's lengths; so p stays where it is on
 the work whichever axes move.
 
+Under TRAORI the transformation does both: there the cycle sets the frame alone, and where it turns the rotary axes they
+take the tool about its tip, as the call must ask for.
+
 `swivel_record` finds the record: the rotary axes of the machine, or a toolholder that is stored.
 """
 
@@ -15,6 +18,7 @@ from typing import TYPE_CHECKING
 from polycnc.control.sinumerik import auxiliary
 from polycnc.control.sinumerik.cycles.swivel_record import Record, record_of
 from polycnc.control.sinumerik.errors import not_supported
+from polycnc.control.sinumerik.frames.active import changed
 from polycnc.control.sinumerik.frames.codes import crots
 from polycnc.control.sinumerik.frames.memory import chain
 from polycnc.control.sinumerik.motion import moves as motion
@@ -66,10 +70,8 @@ def swivel(moves: Moves, a: Arguments) -> None:
             _retract(moves, a, Kinematics.of(channel.machine), {})
         moves.act(deselect, channel)
         return
-    if seat.centre_point(channel) is not None:
-        raise not_supported("CYCLE800: TRAORI")  # both would turn the tool
     record = record_of(channel, a.text("_TC").strip())
-    _check(a)
+    _check(a, leads=seat.centre_point(channel) is not None)
     _retract(moves, a, record.kinematics, record.places)
     state = moves.memory.frames
     adds = a.digit("_ST", 0) == 1
@@ -99,17 +101,22 @@ def _take(channel: SinumerikChannel, record: Record, frame: NcFrame, angles: dic
     memory = channel.memory
     memory.frames.system["$P_WPFRAME"] = frame
     memory.frames.programmable = NEUTRAL
-    _carry(channel, record, angles)
+    if seat.centre_point(channel) is None:
+        _carry(channel, record, angles)
+    else:
+        changed(channel)
 
 
-def _check(a: Arguments) -> None:
-    """Alarms for what the call asks for."""
-    if a.digit("_ST", 1) == 1:
+def _check(a: Arguments, *, leads: bool) -> None:
+    """Alarms for what the call asks for; `leads`: TRAORI holds the tip while rotary axes turn."""
+    if a.digit("_ST", 1) == 1 and not leads:
         raise AlarmError("61191")
     if a.digit("_ST", 2):
         raise not_supported("CYCLE800 _ST")
     if a.integer("_DIR") not in (-1, 0, 1):
         raise AlarmError("61189")
+    if leads and a.integer("_DIR") and a.digit("_ST", 1) != 1:
+        raise not_supported("CYCLE800 _ST: TRAORI")  # the linear axes would follow unasked
 
 
 def deselect(channel: SinumerikChannel) -> None:

@@ -16,6 +16,7 @@ from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tools import stages
 from polycnc.cycles.count import parts
 from polycnc.cycles.turning import thread_chain as thread_turning
+from polycnc.cycles.turning.allowance import with_stock
 from polycnc.cycles.turning.contour import (
     Contour,
     Piece,
@@ -29,6 +30,7 @@ from polycnc.cycles.turning.stock_removal import Removal, remove, way_clear
 from polycnc.cycles.turning.stroke import PlaneStroke
 from polycnc.cycles.turning.thread_chain import Thread
 from polycnc.geometry import offset
+from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
@@ -38,6 +40,7 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.cycles.arguments import Arguments
     from polycnc.control.sinumerik.cycles.moves import Moves
     from polycnc.geometry.arcs import Point
+    from polycnc.geometry.offset import Edge
 
 #: Ways off the work where the call gives none.
 LIFT_MM = 1.0
@@ -45,6 +48,7 @@ LIFT_MM = 1.0
 _ROUNDING = 1e-9
 #: Kinds of threads: outside, inside with equal depths of cuts, then both with equal cross-sections.
 KINDS = (1, 2, 3, 4)
+INSIDE_KINDS = (2, 4)
 #: Further coarse metric threads that can be cut, but not tapped, by their nominal diameter.
 LARGE_PITCHES = {52: 5.0, 56: 5.5, 60: 5.5}
 
@@ -68,9 +72,9 @@ def thread_chain(moves: Moves, a: Arguments) -> None:
     _thread(moves, a, corners, leads)
 
 
-#: CYCLE99: what its parameters must be, as far as it is executed: one pitch, lengthwise, absolute, in G18 or the plane.
+#: CYCLE99: what its parameters must be, as far as it is executed: one pitch, lengthwise, absolute.
 _ONLY_ZERO = "_GDEP _PIT1 _FDEP _GST _GUD _MID _AMODE".split()  # noqa: SIM905 - a table
-_PITCH_UNITS, _PLANES = (0, 1), (0, 2)
+_PITCH_UNITS = (0, 1)
 #: Digits of its VARI: how cuts go in, and whether it roughs and finishes.
 INFEED_PLACE, STAGE_PLACE, ALTERNATING = 2, 5, 2
 _COMPLETE = (0, 3)
@@ -85,9 +89,8 @@ def thread_of_plane(moves: Moves, a: Arguments) -> None:
     if not lead:
         raise AlarmError("61001")
     wrong = [name for name in _ONLY_ZERO if a.plain(name)]
-    wrong += [
-        name for name, known in (("_PITA", _PITCH_UNITS), ("_DMODE", _PLANES)) if a.integer(name) not in known
-    ]
+    if a.integer("_PITA") not in _PITCH_UNITS:
+        wrong.append("_PITA")
     if wrong or a.digit("_VARI", STAGE_PLACE) not in _COMPLETE or not a.integer("_NRC"):
         raise not_supported(f"CYCLE99 {wrong[0] if wrong else '_VARI'}")
     flank = a["_IANG"]
@@ -95,7 +98,8 @@ def thread_of_plane(moves: Moves, a: Arguments) -> None:
         flank = degrees(atan2(abs(a["_IFLANK"]), abs(a["_TDEP"])))
     if a.digit("_VARI", INFEED_PLACE) == ALTERNATING:
         flank = -abs(flank)
-    corners = [(a["_SPL"], a["_DM1"]), (a["_FPL"], a["_DM2"])]
+    # The editor leaves the second diameter out where the thread is none of a taper.
+    corners = [(a["_SPL"], a["_DM1"]), (a["_FPL"], a["_DM2"] or a["_DM1"])]
     _thread(moves, a, corners, [lead], prefix="_", kind=kind, flank=flank, lift=a["_SDIS"])
 
 
@@ -118,6 +122,8 @@ def _thread(
     for (a0, b0), (a1, b1) in pairwise(corners):
         if a0 == a1 or abs(b1 - b0) > abs(a1 - a0):
             raise not_supported(f"{a.cycle}: face thread")
+    if kind not in INSIDE_KINDS and min(radius for _, radius in corners) < abs(a[f"{prefix}TDEP"]):
+        raise AlarmError("61601")
     cutting = Thread(
         corners,
         leads,
@@ -127,7 +133,7 @@ def _thread(
         allowance=abs(a[f"{prefix}FAL"]),
         cuts=max(a.integer(f"{prefix}NRC"), 1),
         idle=max(a.integer(f"{prefix}NID"), 0),
-        inside=kind in (2, 4),
+        inside=kind in INSIDE_KINDS,
         degressive=kind in (3, 4),
         flank_deg=a[f"{prefix}IANG"] if flank is None else flank,
         start_angle_deg=a[f"{prefix}NSP"],
@@ -168,10 +174,13 @@ class Work:
         """An amount along Z and one along X in the coordinates of the cuts."""
         return (radial, along) if self.across else (along, radial)
 
-    def tool_path(self, contour: Contour, allowance: float, *, roughs: bool = False) -> Contour:
+    def tool_path(
+        self, contour: Contour, allowance: float, *, roughs: bool = False, rounds_begin: bool = False
+    ) -> Contour:
         """Where the tool's point runs: the nose lies on the contour, or an allowance off it.
 
-        Roughing leaves stock in a rounding that is too narrow for both.
+        Roughing leaves stock in a rounding that is too narrow for both. `rounds_begin`: the nose comes round an open
+        end from which the contour goes down, for it passes over that end.
 
         Raises:
             AlarmError: 61606 where the nose does not fit the contour.
@@ -184,12 +193,27 @@ class Work:
             path = parallel(contour, off, leaves_fillets=roughs)
         except ValueError:
             raise AlarmError("61606") from None
+        if rounds_begin:
+            path = [*self._round_begin(contour[0].edge, path[0].edge.start, off, contour[-1].edge.end), *path]
         return shifted(path, *self.pair(radius * first, radius * second))
 
+    def _round_begin(self, first: Edge, onto: Point, off: float, end: Point) -> Contour:
+        """The nose's way round the open end of a contour that goes down from there; nothing else needs one."""
+        begin = first.start
+        is_open = self.towards * (begin[1] - end[1]) >= 0.0
+        if not is_open or self.towards * first.departing[1] <= NO_WAY or abs(off) <= NO_WAY:
+            return []
+        above = (begin[0], begin[1] - self.towards * abs(off))
+        return [Piece(offset.arc(above, onto, begin, off < 0.0))]
+
     def clear(self, contour: Contour, end: Point, lift: float) -> None:
-        """Go past the contour before a rapid to a place, where that would touch it."""
+        """Go past the contour before a rapid to a place, where that would touch it; 61606 where no way is clear."""
         start = self.pair(*self.moves.point)
-        for stroke in way_clear(contour, start, end, towards=self.towards, lift=lift):
+        try:
+            way = way_clear(contour, start, end, towards=self.towards, lift=lift)
+        except ValueError:
+            raise AlarmError("61606") from None
+        for stroke in way:
             self.perform(stroke, 0.0)
 
     def perform(self, stroke: PlaneStroke, feed: float) -> None:
@@ -205,15 +229,17 @@ class Work:
 
 
 def onwards(contour: Contour) -> float:
-    """The direction of a contour along the cuts."""
+    """The direction of a contour along the cuts; 61605 where it has none."""
+    if abs(contour[-1].edge.end[0] - contour[0].edge.start[0]) <= NO_WAY:
+        raise AlarmError("61605")
     return copysign(1.0, contour[-1].edge.end[0] - contour[0].edge.start[0])
 
 
 def stock_removal(moves: Moves, a: Arguments) -> None:
     """CYCLE95: remove stock along a contour, lengthwise or across, outside or inside."""
     require_tool(moves)
-    number, rounding = a.integer("VARI") % 100, a.digit("VARI", 2)
-    if not 1 <= number <= 12 or rounding > WITHOUT_ROUNDING:
+    rounding, number = divmod(a.integer("VARI"), 100)
+    if not 1 <= number <= 12 or not 0 <= rounding <= WITHOUT_ROUNDING:
         raise AlarmError("61002")
     kind, side = divmod(number - 1, len(SIDES))
     across, towards = SIDES[side]
@@ -246,12 +272,17 @@ def _rough(work: Work, a: Arguments, contour: Contour, *, follows: bool) -> None
         raise AlarmError("61610")
     if work.towards * (contour[0].edge.start[1] - contour[-1].edge.end[1]) < 0.0:
         contour = turned_round(contour)
-    path = work.tool_path(contour, abs(a["FAL"]), roughs=True)
+    path = work.tool_path(contour, abs(a["FAL"]), roughs=True, rounds_begin=True)
     off_a, off_b = work.pair(abs(a["FALZ"]), abs(a["FALX"]))
-    path = shifted(path, -onwards(contour) * off_a, -work.towards * off_b)
+    try:
+        path = with_stock(path, (-onwards(contour) * off_a, -work.towards * off_b), work.towards)
+    except ValueError:
+        raise AlarmError("61606") from None
     straight = feed_of(a, "FF1")
     relief = a["FF2"] or straight
-    for cut in remove(path, Removal(a["MID"], _lift(a), work.towards, follows)):
+    for number, cut in enumerate(remove(path, Removal(a["MID"], _lift(a), work.towards, follows))):
+        if not number:
+            work.clear(path, cut.stroke.end, _lift(a))
         if cut.is_straight and a["DAM"] > 0.0:
             _in_steps(work, a, cut.stroke, straight)
         else:
@@ -278,7 +309,7 @@ def steps_of(total: float, step: float) -> list[float]:
 
 def _finish(work: Work, a: Arguments, contour: Contour) -> None:
     """The contour once, in its own direction, at the finished size."""
-    path = work.tool_path(contour, 0.0)
+    path = work.tool_path(contour, 0.0, rounds_begin=True)
     feed, lift = feed_of(a, "FF3"), _lift(a)
     start, end = path[0].edge.start, path[-1].edge.end
     before = _beside(start, path[0].edge.departing, onwards(contour), work.towards, lift)

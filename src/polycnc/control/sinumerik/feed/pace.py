@@ -11,9 +11,13 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik import gcodes, tables
+from polycnc.control.sinumerik.actions.overlay import left_to_path
+from polycnc.control.sinumerik.couplings.gears import Gears
+from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.tables import MINUTE
 from polycnc.deferred.records import dataclass
 from polycnc.toolpath.context import Pace
+from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.family import SinumerikChannel
@@ -46,8 +50,9 @@ class Overrides(State, lifetime=Lifetime.RESET):
 def pace(channel: SinumerikChannel, side: int) -> Pace | None:
     """The pace that holds now; `side` is that of the radius compensation. None where F says everything."""
     overrides = Overrides.of(channel)
+    left, left_pull = left_to_path(channel)
     own = Pace(
-        feed=overrides.percent.get(("OVR", ""), 100.0) / 100.0,
+        feed=overrides.percent.get(("OVR", ""), 100.0) / 100.0 * _revolutions(channel),
         rapid=overrides.percent.get(("OVRRAP", ""), 100.0) / 100.0,
         edge=EDGES[channel.mode["curve_feed"]] if side else "never",
         weights=_weights(channel),
@@ -58,8 +63,19 @@ def pace(channel: SinumerikChannel, side: int) -> Pace | None:
         jerk=_with_technology(channel, "JERKLIM", "$MA_MAX_AX_JERK", "jerk")
         if channel.mode["acceleration"] == "SOFT"
         else (),
+        left=left,
+        left_pull=left_pull,
     )
     return own if own != NOTHING else None
+
+
+def _revolutions(channel: SinumerikChannel) -> float:
+    """Revolutions of what a feed per revolution follows, for one of the spindle: its ratio for a gear's axis (FPR)."""
+    feed = PathFeed.of(channel)
+    if feed.axis < 0 or feed.mode is not FeedMode.PER_REVOLUTION:
+        return 1.0
+    gear = Gears.of(channel).defined.get(feed.axis)
+    return 0.0 if gear is None else abs(gear.ratio_to_spindle)
 
 
 def _weights(channel: SinumerikChannel) -> tuple[float, ...]:

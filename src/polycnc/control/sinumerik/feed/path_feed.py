@@ -24,6 +24,7 @@ class PathFeed(State, lifetime=Lifetime.RESET):
     Attributes:
         mode: How F is meant.
         spindle: The one that a feed per revolution follows (FPR); 0 for the master spindle.
+        axis: Column of the axis of a gear that it follows instead; -1 for none.
         tooth: What FZ has set; None before the first.
         of_corners: FRCM in internal units, NaN for the path feed.
         of_axes: Feeds of positioning axes (FA), mm/s or degrees/s, by column.
@@ -32,6 +33,7 @@ class PathFeed(State, lifetime=Lifetime.RESET):
 
     mode: FeedMode = FeedMode.PER_MINUTE
     spindle: int = 0
+    axis: int = -1
     tooth: ToothFeed | None = None
     of_corners: float = lasting(Lifetime.POWER, nan)
     of_axes: dict[int, float] = lasting(Lifetime.POWER, factory=dict)

@@ -9,6 +9,7 @@ from math import pi
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.states.state import Lifetime, State
+from polycnc.control.sinumerik.actions.axes import ActionAxes
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.arguments import Arguments
 from polycnc.control.sinumerik.errors import not_supported
@@ -81,12 +82,12 @@ def set_limit(channel: SinumerikChannel, datum: str, spindle: Spindle, speed: fl
 
 
 def highest(memory: Memory, spindle: Spindle, feed: str) -> float:
-    """The highest speed of a spindle under a function of group 15, rpm."""
+    """The highest speed of a spindle under a function of group 15, and at which axes can follow it, rpm."""
     name = f"S{spindle.number}"
     limit = memory.data.number(HIGHEST, name)
     if feed in SURFACE_LIMITED:
         limit = min(limit, memory.data.number(SURFACE_LIMIT, name) or limit)
-    return limit
+    return min(limit, spindle.most)
 
 
 def turning_speed(memory: Memory, spindle: Spindle, feed: str) -> float:
@@ -119,12 +120,24 @@ def speed_at(channel: SinumerikChannel, cutting_speed: float, limit: float) -> f
 def feed_source(channel: SinumerikChannel, args: Arguments) -> None:
     """FPR(spindle): the spindle that a feed per revolution follows; FPR() for the master spindle again.
 
-    PC0001 for an axis.
+    Of an axis whose gear a spindle leads it is what that turns the axis (job planning 9.4.5).
+
+    Raises:
+        AlarmError: PC0001 for another axis, and for another spindle while one leads an axis.
     """
     feed = PathFeed.of(channel)
-    feed.spindle = 0
+    feed.spindle, feed.axis = 0, -1
+    if args and isinstance(args[0], Axis) and args[0].name in channel.memory.columns:
+        column = channel.memory.column(args[0].name)
+        if column in ActionAxes.of(channel).geared:
+            feed.axis = column
+            channel.context_changed()
+            return
     if args:
         feed.spindle = channel.memory.spindles.get(_source(args[0])).number
+        for spindle in channel.memory.spindles.all.values():
+            if spindle.number != feed.spindle:
+                spindle.refuse_leading("FPR")
     channel.context_changed()
 
 

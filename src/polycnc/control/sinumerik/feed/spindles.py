@@ -6,10 +6,12 @@ Source: Fundamentals (S, M3, M4, M5, SPOS, SETMS, G96, LIMS, G25/G26 S).
 from __future__ import annotations
 
 from dataclasses import field
+from math import inf
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.data.machine_data import MachineData
+from polycnc.control.sinumerik.errors import not_supported
 from polycnc.deferred.records import dataclass
 from polycnc.messages import AlarmError
 
@@ -30,6 +32,8 @@ class Spindle:
         position: Degrees, 0 to 360.
         controlled: In position control (SPCON, SPOS).
         positioning: Speed of positioning that FA has told, degrees/s; 0 for that of the machine data.
+        most: While it leads axes (EGON), which follow what it turns by M3 and M4: the highest speed, rpm, at which they
+            can; infinite while it leads none.
         has_wheel_speed: S is the speed of the grinding wheel's circumference, m/s (GWPSON).
     """
 
@@ -41,6 +45,12 @@ class Spindle:
     controlled: bool = False
     positioning: float = 0.0
     has_wheel_speed: bool = False
+    most: float = inf
+
+    def refuse_leading(self, code: str) -> None:
+        """PC0001 for what turns a spindle in a way that no axis follows, while it leads one."""
+        if self.most < inf:
+            raise not_supported(f"{code}: EGON S{self.number}")
 
 
 @dataclass(slots=True)

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from polycnc.language.sinumerik.names.frame import NcFrame
 
 OK, WRONG_TARGET, NOT_CONFIGURED, NO_ROTATION = range(4)
-_TARGET = regex(r"(\$P_[A-Z]+)(?:\[(\d+)\])?")
+_TARGET = regex(r"(\$P_[A-Z0-9]+)(?:\[(\d+)\])?")
 #: Errors of writing a frame and what ADDFRAME returns for them.
 _ERRORS = {"18310": NO_ROTATION, "17020": NOT_CONFIGURED, "18311": NOT_CONFIGURED}
 #: The link of the chain to which a target belongs, and whether the number in brackets counts in it.

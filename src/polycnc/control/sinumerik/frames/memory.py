@@ -31,7 +31,9 @@ if TYPE_CHECKING:
 #: System frames by the name of their variable, in the order of the chain (job planning 5.7.2).
 BEFORE_BASE = ("$P_PARTFRAME", "$P_SETFRAME", "$P_EXTFRAME")
 AFTER_SETTABLE = ("$P_TOOLFRAME", "$P_WPFRAME", "$P_TRAFRAME")
-AFTER_PROGRAMMABLE = ("$P_CYCFRAME",)
+#: Those of the ISO dialect: its mirror, its rotation, and its scale, innermost.
+ISO_MIRROR, ISO_ROTATION, ISO_SCALE = "$P_ISO1FRAME", "$P_ISO2FRAME", "$P_ISO4FRAME"
+AFTER_PROGRAMMABLE = (ISO_MIRROR, ISO_ROTATION, "$P_ISO3FRAME", ISO_SCALE, "$P_CYCFRAME")
 SYSTEM_FRAMES = (*BEFORE_BASE, *AFTER_SETTABLE, *AFTER_PROGRAMMABLE)
 #: Number of every settable zero offset in its group.
 ZERO_OFFSETS = {word: gcodes.number_of(word) for word in gcodes.BY_NAME["wcs"].words}

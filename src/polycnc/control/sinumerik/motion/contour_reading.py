@@ -86,12 +86,18 @@ class Readings(State, lifetime=Lifetime.POWER):
     open: list[ContourReading] = field(default_factory=list)
 
 
-def reading_from_here(channel: SinumerikChannel, *, keeps_modes: bool) -> ContourReading:
+def reading_from_here(
+    channel: SinumerikChannel, *, keeps_modes: bool, recorder: Recorder | None = None
+) -> ContourReading:
     """A contour is going to be read: what there is before; with `keeps_modes` also the modal functions."""
     channel.flush()
     modes = channel.control.save(channel) if keeps_modes else None
     return ContourReading(
-        channel.coordinates.position.copy(), channel.feed, copy(LastMove.of(channel)), modes
+        channel.coordinates.position.copy(),
+        channel.feed,
+        copy(LastMove.of(channel)),
+        modes,
+        recorder or Recorder(),
     )
 
 

@@ -454,6 +454,8 @@ def special(
 ) -> None:
     """A straight move with curve parameters."""
     start = channel.coordinates.position
+    if kind is Kind.TAP:
+        channel.memory.spindles.get().refuse_leading("G331")
     if any(abs(a - b) > NO_WAY for a, b in zip(end, start, strict=True)):
         _begin(channel, start)
         channel.curve(kind, end, feed, parameters=parameters)
@@ -483,7 +485,7 @@ def reference_point(draft: Draft) -> Step | None:
     def run(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - values are ignored by the function
         seat.refuse_transformed(channel, columns, "17630")
         points = {column: channel.axis_data[column].reference_points[0] for column in columns}
-        _to_machine(channel, Kind.REF, points)
+        to_machine(channel, Kind.REF, points)
 
     return run
 
@@ -514,13 +516,13 @@ def fixed_point(draft: Draft) -> Step | None:
             column: memory.data.number("$MA_FIX_POINT_POS", point - 1, channel.axes[column])
             for column in columns
         }
-        _to_machine(channel, Kind.RAPID, points)
+        to_machine(channel, Kind.RAPID, points)
 
     return run
 
 
-def _to_machine(channel: SinumerikChannel, kind: Kind, points: dict[int, float]) -> None:
-    """Move some axes to machine positions, the others stay."""
+def to_machine(channel: SinumerikChannel, kind: Kind, points: dict[int, float]) -> None:
+    """Move some axes to machine positions, by column; the others stay."""
     coordinates = channel.coordinates
     machine = coordinates.machine
     for column, value in points.items():

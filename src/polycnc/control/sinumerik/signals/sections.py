@@ -64,7 +64,7 @@ def is_open(channel: SinumerikChannel, section: str) -> bool:
     return any(level is each for each in channel.stack)
 
 
-def _locks_pointer(channel: SinumerikChannel, _indices: Indices) -> bool:
+def locks_pointer(channel: SinumerikChannel, _indices: Indices = ()) -> bool:
     """`$P_IPTRLOCK`: a search cannot enter, for IPTRLOCK or for couplings that MD22680 names (8.5)."""
     mask = MachineData.of(channel).integer(AUTOMATIC)
     kinds = {kind for bit, kind in LOCKING.items() if mask >> bit & 1}
@@ -75,5 +75,5 @@ def _locks_pointer(channel: SinumerikChannel, _indices: Indices) -> bool:
 SECTION_VARIABLES: dict[str, RowWithStop] = {
     "$P_DELAYFST": (Type.INT, lambda channel, _indices: int(is_open(channel, STOP_DELAY)), None, False),
     "$AC_DELAYFST": (Type.INT, lambda channel, _indices: int(is_open(channel, STOP_DELAY)), None, True),
-    "$P_IPTRLOCK": (Type.BOOL, _locks_pointer, None, False),
+    "$P_IPTRLOCK": (Type.BOOL, locks_pointer, None, False),
 }

@@ -14,6 +14,8 @@ from polycnc.memory.encoding import encoded
 PARAMETERS = 25
 DP_TYPE, DP_TIP, DP_LENGTH, DP_RADIUS = 1, 2, 3, 6
 DP_CORNER_RADIUS, DP_HOLDER_ANGLE, DP_SIDE_ANGLE, DP_CLEARANCE = 7, 10, 11, 24
+#: Of contour tools the angle limits stand there.
+DP_LEAST_ANGLE, DP_LARGEST_ANGLE = DP_HOLDER_ANGLE, DP_SIDE_ANGLE
 #: The cutting direction of a turning tool stands where mills have their angle.
 DP_DIRECTION = DP_SIDE_ANGLE
 DP_WEAR_LENGTH, DP_WEAR_RADIUS, DP_BASE_LENGTH = 12, 15, 21
@@ -58,6 +60,11 @@ class Edge:
     def is_turning(self) -> bool:
         """Whether lengths and radius are those of a turning or grinding tool."""
         return self.type in TURNING_TYPES
+
+    @property
+    def has_angle_limits(self) -> bool:
+        """Whether it cuts between two angles only, as an edge of a contour tool (7.1)."""
+        return self.is_turning and any(self.total(n) for n in (DP_LEAST_ANGLE, DP_LARGEST_ANGLE))
 
     @property
     def is_grinding(self) -> bool:

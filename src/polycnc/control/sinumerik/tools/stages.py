@@ -169,9 +169,9 @@ def _settle_corner(channel: SinumerikChannel) -> None:
 
 def select_side(channel: SinumerikChannel) -> None:
     """G41, G42: the contour begins with the next move; alarm 10750 without a tool edge."""
-    memory = channel.memory
-    if memory.tools.edge is None:
+    if channel.memory.tools.edge is None:
         raise AlarmError("10750")
+    _check_shape(channel)
     _lead_walls(channel)
     if channel.mode["tool_offset"] in spatial.CODES:
         spatial.select_side(channel)
@@ -185,6 +185,14 @@ def select_side(channel: SinumerikChannel) -> None:
     Contour.of(channel).linear = channel.coordinates.zero.m
     lead(channel, stage, tool_plane(channel).frame)
     stage.engage(SIDES[channel.mode["compensation"]], radius(channel), tip(channel))
+
+
+def _check_shape(channel: SinumerikChannel) -> None:
+    """PC0001 for a contour tool (7.1): where the contour leaves the angles of an edge, the next one would cut."""
+    memory = channel.memory
+    edge = memory.tools.edge
+    if edge is not None and edge.has_angle_limits and memory.data.integer("$MC_MM_SHAPED_TOOLS_ENABLE"):
+        raise not_supported("$TC_DP10 $TC_DP11: G41 G42")
 
 
 def _lead_walls(channel: SinumerikChannel) -> None:
@@ -223,6 +231,7 @@ def changed_radius(channel: SinumerikChannel) -> None:
     spatial.follow(channel)
     stage = active_cutter(channel)
     if stage is not None and channel.mode["compensation"] != "G40":
+        _check_shape(channel)
         _settle_corner(channel)
         stage.change_radius(radius(channel), tip(channel))
         channel.context_changed()  # rows tell the distance from the contour

@@ -13,9 +13,9 @@ from polycnc.control.sinumerik.transformations import data_sets, seat
 from polycnc.control.sinumerik.transformations.posture import Orienting, Posture
 from polycnc.control.sinumerik.transformations.words import DIRECTION
 from polycnc.geometry.frames import IDENTITY
-from polycnc.machine.kinematics import unit
 from polycnc.transformation.orientation.directions import great_circle, tangent_at_end
 from polycnc.transformation.orientation.standing import StandRecord, stand
+from polycnc.transformation.orientation.stood import stand_record
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -51,34 +51,18 @@ def places_of(words: Words, mode: Mode, kind: str) -> tuple[int, int, int] | Non
 
 def record_of(channel: SinumerikChannel, mode: Mode, kind: str) -> array[float]:
     """What the kernel must know while a transformation acts; without two rotary joints it decides nothing."""
-    record = array("d", bytes(8 * StandRecord.SIZE))
-    record[StandRecord.OUTER] = -1.0
     point = seat.centre_point(channel)
-    turns = point.kinematics.turns if point is not None else ()
-    if point is None or len(turns) != 2 or kind not in WAYS:
-        return record
+    if point is None or kind not in WAYS:
+        return stand_record(None)
     posture = Posture.of(channel, mode)
-    for k, (joint, sense) in enumerate(turns):
-        column = posture.column(joint.axis)
-        shift = posture.seated.shifts[column] if posture.seated.shifts else 0.0
-        low, high = posture.travel(joint.axis)
-        record[StandRecord.OUTER + k], record[StandRecord.SENSE + k] = column, sense
-        _put(record, (StandRecord.OUTER_DIRECTION, StandRecord.INNER_DIRECTION)[k], unit(joint.direction))
-        record[StandRecord.ADDED + k] = point.zero[column] + shift
-        record[StandRecord.LOW + k], record[StandRecord.HIGH + k] = (
-            low + point.zero[column],
-            high + point.zero[column],
-        )
-    rows = (posture.seated.frame if posture.turned else IDENTITY).m
-    _put(record, StandRecord.ALONG, unit(point.kinematics.along))
-    _put(record, StandRecord.FRAME, (*rows[0], *rows[1], *rows[2]))
-    record[StandRecord.CONE] = data_sets.number_of(channel, "$MC_TRAFO5_POLE_LIMIT_1", 0, POLE_LIMIT)
-    record[StandRecord.EVENLY] = kind == "ORIAXES"
-    return record
-
-
-def _put(record: array[float], at: int, numbers: Sequence[float]) -> None:
-    record[at : at + len(numbers)] = array("d", numbers)
+    return stand_record(
+        point,
+        frame=posture.seated.frame if posture.turned else IDENTITY,
+        shifts=posture.seated.shifts,
+        travel=posture.travel,
+        cone_deg=data_sets.number_of(channel, "$MC_TRAFO5_POLE_LIMIT_1", 0, POLE_LIMIT),
+        evenly=kind == "ORIAXES",
+    )
 
 
 def turned_end(

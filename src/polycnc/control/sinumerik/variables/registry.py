@@ -32,6 +32,7 @@ from polycnc.control.sinumerik.feed.axis_settings import AXIS_VARIABLES
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.feed.tolerances import TOLERANCE_VARIABLES
 from polycnc.control.sinumerik.frames.variables import FRAME_VARIABLES
+from polycnc.control.sinumerik.iso.macro_words import MACRO_VARIABLES
 from polycnc.control.sinumerik.limits import working_area
 from polycnc.control.sinumerik.motion.indexing import INDEX_VARIABLES
 from polycnc.control.sinumerik.motion.repositioning import REPOS_VARIABLES
@@ -364,9 +365,9 @@ _STATES = (
     SystemVariable("$P_PROG", Type.STRING, _program_name),
     SystemVariable("$P_LINENO", Type.INT, _line_number),
     SystemVariable("$P_CHANNO", Type.INT, lambda channel, _indices: channel.number),
-    SystemVariable("$P_SEARCH", Type.BOOL, _always(False)),
+    SystemVariable("$P_SEARCH", Type.BOOL, lambda channel, _indices: channel.is_searched),
     SystemVariable("$P_TECCYCLE", Type.BOOL, _always(False)),
-    SystemVariable("$P_ISTEST", Type.BOOL, _always(False)),
+    SystemVariable("$P_ISTEST", Type.BOOL, lambda channel, _indices: channel.is_tested),
     SystemVariable("$P_SIM", Type.BOOL, _always(False)),
     SystemVariable("$P_DRYRUN", Type.BOOL, _always(False)),
     SystemVariable("$P_PROG_EVENT", Type.INT, _always(0)),
@@ -463,6 +464,7 @@ VARIABLES: dict[str, SystemVariable] = {
     **{name: SystemVariable(name, *row) for name, row in DEFINITION_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in {**SURROUNDINGS, **BLOCK_VARIABLES}.items()},
     **{name: SystemVariable(name, *row) for name, row in REPLACED_VARIABLES.items()},
+    **{name: SystemVariable(name, *row) for name, row in MACRO_VARIABLES.items()},
     **{name: SystemVariable(name, Type.INT, part_of_clock(part), stop=True) for name, part in PARTS.items()},
     **{
         name: SystemVariable(name, *row, of_actions=name in OF_ACTIONS)

@@ -9,7 +9,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, lasting, retained
+from polycnc.control.syntec.parameters import SyntecParameters
 from polycnc.control.word_address.coordinates.systems import ZeroState
+from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, Frame
 from polycnc.machine.kinematics import turn_about
@@ -17,6 +19,8 @@ from polycnc.memory.retained import WORK_TURNS
 from polycnc.transformation.planes.tilted import by_own_axes
 
 if TYPE_CHECKING:
+    from typing import Self
+
     from polycnc.channel.channel import Channel
     from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.syntec.memory import SyntecMemory
@@ -44,6 +48,18 @@ class TurnState(State, lifetime=Lifetime.RESET):
     def plane(self) -> Frame:
         """The tilted plane in the system of the work offset, before the table turns."""
         return self.work @ self.tilt
+
+
+@dataclass(slots=True)
+class PostureState(State, lifetime=Lifetime.RESET):
+    """Whether directions of the tool refer to the work system under G43.4 (#1848)."""
+
+    in_work: bool = False
+
+    @classmethod
+    def first(cls, channel: SyntecChannel) -> Self:
+        """As Pr3057 has it."""
+        return cls(SyntecParameters.naming(channel.setup.parameters).posture_in_work == 1)
 
 
 @dataclass(slots=True)
@@ -85,18 +101,28 @@ def renew_preset_frame(memory: SyntecMemory) -> None:
     zero.frame, zero.table, zero.plane = turn, state.table, state.plane
 
 
+def check_posture(channel: SyntecChannel, turn: Frame) -> None:
+    """PC0001 where rotary words would tell the tool's direction in a work system that is turned (2.28.3, note 8)."""
+    if PostureState.of(channel).in_work and not turn.is_identity:
+        raise channel.control.not_yet("G54.4 Pr3057 = 1")
+
+
 def renew_work_turn(channel: SyntecChannel) -> bool:
     """The angles of the chosen work system act from here on, with G54.4 P1; gives whether it turns otherwise now.
 
     Raises:
-        AlarmError: The tool's tip is led meanwhile, or a transformation is active: that is not executed.
+        AlarmError: A transformation is active that is no tip control, or directions of the tool would turn along
+            (G43.4 Q1): that is not executed.
     """
     state = TurnState.of(channel)
     turn = turn_of(channel, ZeroState.of(channel).system) if state.by_table else IDENTITY
     if turn == state.work:
         return False
-    if channel.coordinates.transformation is not None:
+    leads = TipState.of(channel).is_leading(channel)
+    if channel.coordinates.transformation is not None and not leads:
         raise channel.control.not_yet("G54.4")
+    if leads:
+        check_posture(channel, turn)
     state.work = turn
     renew_preset_frame(channel.memory)
     return True

@@ -1,7 +1,8 @@
 """Standing the tool on a tilted plane: G53.1, G53.3, G53.6 (manual 2.35, 2.36, 2.75).
 
 The rotary axes turn until the tool points along Z of the plane. A table that turns takes the plane with it, a head that
-turns takes the tool's length with it; so the frame of the plane is worked out anew for the angles reached.
+turns takes the tool's length with it; so the frame of the plane is worked out anew for the angles reached. Under tip
+control both go by themselves: there the tip is held on the work.
 """
 
 from __future__ import annotations
@@ -12,17 +13,22 @@ from typing import TYPE_CHECKING
 from polycnc.control.syntec.coordinates.turns import TurnState, renew_preset_frame
 from polycnc.control.syntec.five_axes import mechanism
 from polycnc.control.syntec.units import least_unit
-from polycnc.control.word_address.coordinates.systems import refresh_zero
+from polycnc.control.word_address.coordinates import tip
+from polycnc.control.word_address.coordinates.systems import ZeroState
 from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.tools import length
 from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.tools.radius import RadiusState
-from polycnc.control.word_address.transformations.tilted_plane import check_compensation
-from polycnc.machine.kinematics import Kinematics
+from polycnc.control.word_address.transformations.tilted_plane import (
+    check_compensation,
+    stand_along,
+    turn_about_tip,
+)
+from polycnc.geometry.frames import IDENTITY
 from polycnc.toolpath import Kind
 from polycnc.transformation.orientation import choice
 from polycnc.transformation.orientation.solutions import solutions_for
-from polycnc.transformation.planes.tilted import about_tip, table_turn
+from polycnc.transformation.planes.tilted import table_turn
 
 if TYPE_CHECKING:
     from polycnc.control.syntec.family import SyntecChannel
@@ -36,24 +42,17 @@ Angles = dict[str, float]
 
 
 def align_tool(channel: SyntecChannel, words: Words) -> None:
-    """G53.1 [P]: the rotary axes turn at rapid; X, Y and Z stay."""
+    """G53.1 [P]: the rotary axes turn at rapid; X, Y and Z stay, under tip control the tip does."""
     angles = _angles(channel, words, "G53.1")
-    end = _turned(channel, angles)
-    _stand_on_plane(channel, angles)
-    channel.straight(Kind.RAPID, channel.coordinates.from_machine(end), nan)
+    channel.straight(Kind.RAPID, _stood(channel, angles), nan)
 
 
 def align_and_position(channel: SyntecChannel, words: Words) -> None:
     """G53.3 [X] [Y] [Z] [H] [P]: with the length of H on, all axes move at rapid to a point of the plane."""
-    number = words.integer("H")
     angles = _angles(channel, words, "G53.3")
-    if number is not None:
-        LengthState.of(channel).number = number
-    end = _turned(channel, angles)
-    channel.mode = channel.mode.with_code("length", "G43")
-    _stand_on_plane(channel, angles)
+    _length_on(channel, words)
+    position = _stood(channel, angles)
     c = channel.coordinates
-    position = c.from_machine(end)
     for axis, value, incremental in words.axes():
         if axis not in c.geometry:
             raise words.fail("argument", channel.axes[axis])
@@ -63,26 +62,53 @@ def align_and_position(channel: SyntecChannel, words: Words) -> None:
 
 def align_about_tip(channel: SyntecChannel, words: Words) -> None:
     """G53.6 [H] [P] [R]: the tip, or the point R above it, stays where it is on the work while the tool turns."""
-    state = LengthState.of(channel)
-    c = channel.coordinates
     if RadiusState.of(channel).side:
         raise words.fail("tip_in_compensation", "G53.6")
-    number = words.integer("H")
-    state.number = state.number if number is None else number
-    if not state.number:
+    if not (words.integer("H") if "H" in words else LengthState.of(channel).number):
         raise words.fail("tip_without_length", "G53.6")
     angles = _angles(channel, words, "G53.6")
-    kinematics = Kinematics.of(channel.machine)
-    before = dict(zip(channel.axes, c.machine, strict=True))
-    arm = channel.control.length_value(channel, state.number) - (words.length("R") or 0.0)
-    end = _turned(channel, angles)
-    here = [end[axis] if axis >= 0 else 0.0 for axis in c.geometry]
-    for axis, value in zip(c.geometry, about_tip(kinematics, before, angles, here, arm), strict=True):
-        if axis >= 0:
-            end[axis] = value
-    channel.mode = channel.mode.with_code("length", "G43")
-    _stand_on_plane(channel, angles)
-    channel.straight(Kind.RAPID, c.from_machine(end), nan)
+    _length_on(channel, words)
+    number, state = LengthState.of(channel).number, TipState.of(channel)
+    led, frame = state.active if is_led(channel) else None, state.frame
+    arm = channel.control.length_value(channel, number)
+    turn_about_tip(channel, angles, arm, above=words.length("R") or 0.0)
+    if led is not None:
+        tip.lead(channel, led, frame, channel.coordinates.offsets)
+    stand_on_plane(channel, angles)
+
+
+def is_led(channel: SyntecChannel) -> bool:
+    """Whether words name the tip already (G43.4, G43.5)."""
+    return TipState.of(channel).is_leading(channel)
+
+
+def _length_on(channel: SyntecChannel, words: Words) -> None:
+    """The length of H, or the one before, counts along the tool; tip control goes on with it. The machine stays."""
+    number = words.integer("H")
+    if number is not None:
+        LengthState.of(channel).number = number
+    if not is_led(channel):
+        channel.mode = channel.mode.with_code("length", "G43")
+    elif number is not None:
+        length.renew_tip(channel)
+
+
+# ---- where the axes go to --------------------------------------------------------------------------------
+
+
+def _stood(channel: SyntecChannel, angles: Angles) -> list[float]:
+    """The tool stands on the plane: the position with the rotary axes turned, X Y Z or the tip where they were."""
+    c = channel.coordinates
+    if not is_led(channel):
+        end = _turned(channel, angles)
+        stand_on_plane(channel, angles)
+        return c.from_machine(end)
+    stand_on_plane(channel, angles)
+    position = c.position.copy()
+    for name, angle in angles.items():
+        axis = channel.axis_index[name]
+        position[axis] = angle - c.offsets[axis]
+    return position
 
 
 def _turned(channel: SyntecChannel, angles: Angles) -> list[float]:
@@ -93,19 +119,28 @@ def _turned(channel: SyntecChannel, angles: Angles) -> list[float]:
     return end
 
 
-def _stand_on_plane(channel: SyntecChannel, angles: Angles) -> None:
-    """The plane as the table has turned it, the length along the tool; the machine stays."""
-    memory = channel.memory
-    kinematics = Kinematics.of(channel.machine)
-    c = channel.coordinates
+def stand_on_plane(channel: SyntecChannel, angles: Angles) -> None:
+    """The plane as the table has turned it, the length along the tool; the machine stays.
+
+    Under tip control both are so already: the plane lies on the work there, and the table turns it.
+    """
+    c, kinematics = channel.coordinates, channel.control.kinematics(channel)
+    if is_led(channel):
+        LengthState.of(channel).direction = kinematics.tool_on_machine(angles)
+        return
     TurnState.of(channel).table = table_turn(kinematics, angles, (0.0, 0.0, 0.0))
-    renew_preset_frame(memory)
-    LengthState.of(channel).direction = kinematics.tool_on_machine(angles)
-    length.renew_direction(channel)
-    refresh_zero(channel)
+    renew_preset_frame(channel.memory)
+    stand_along(channel, angles)
     # The length is named with the plane: no later word travels it.
     c.pending = [0.0] * len(channel.axes)
     c.owes = False
+
+
+def leave_table(channel: SyntecChannel) -> None:
+    """Tip control begins: it turns the work with the table by itself, and the tool with the head."""
+    TurnState.of(channel).table = IDENTITY
+    renew_preset_frame(channel.memory)
+    ZeroState.of(channel).carried = (0.0, 0.0, 0.0)
 
 
 # ---- angles ----------------------------------------------------------------------------------------------
@@ -119,15 +154,13 @@ def _angles(channel: SyntecChannel, words: Words, code: str) -> Angles:
     c = channel.coordinates
     if channel.mode["rotation"] not in ("G68.2", "G68.3") and not state.by_table:
         raise words.fail("tilt_missing", code)
-    if TipState.of(channel).active is not None:
-        raise channel.control.not_yet(f"{code} G43.4")
     way = words.typed("P") if "P" in words else SHORTEST
     if way not in SENSES:
         raise words.fail("align_way", "P")
     channel.flush()
     near = dict(zip(channel.axes, c.machine, strict=True))
     wanted: Vector = state.plane.direct(0.0, 0.0, 1.0)
-    kinematics = Kinematics.of(channel.machine)
+    kinematics = channel.control.kinematics(channel)
     if not kinematics.axes and wanted[2] > 1.0 - 1e-9:
         return {}
     joints = (*kinematics.work, *kinematics.tool) if kinematics.work else kinematics.tool

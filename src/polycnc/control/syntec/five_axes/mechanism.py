@@ -1,13 +1,17 @@
 """The mechanism of five-axis machines: what Pr3001 to Pr3004 and Pr3013 say of it (manual 2.45).
 
 The machine file has the rotary joints, so it is what answers where the setup does not. A setup that says something else
-is refused where a function would act by it: nobody knows then which of the two is the machine.
+is refused where a function would act by it: nobody knows then which of the two is the machine. Pr3013 alone adds to it:
+how far the nose of a head lies from its last rotary axis.
 """
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from polycnc.control.syntec.units import least_unit
+from polycnc.geometry.vectors import times
 from polycnc.machine.kinematics import Kinematics
 
 if TYPE_CHECKING:
@@ -44,6 +48,15 @@ def value_of_machine(machine: Machine, number: int) -> int | None:
     return None
 
 
+def kinematics_of(channel: SyntecChannel) -> Kinematics:
+    """The joints of the machine file; Pr3013 is the way along the tool from the last axis of a head to the nose."""
+    kinematics, parameters = Kinematics.of(channel.machine), channel.memory.parameters
+    if not kinematics.tool or not parameters.holder_length:
+        return kinematics
+    holder = parameters.holder_length * least_unit(parameters)
+    return replace(kinematics, nose=times(kinematics.along, -holder))
+
+
 def check(channel: SyntecChannel, words: Words, code: str) -> None:
     """Refuse a five-axis function where the parameters name another mechanism than the machine has.
 
@@ -53,13 +66,11 @@ def check(channel: SyntecChannel, words: Words, code: str) -> None:
     given = parameters.five_axis_mechanism
     if given == NONE:
         raise words.fail("tip_machine", code)
-    holder = parameters.holder_length if own in (SPINDLE, MIXED) else 0
     contradicted = (
         ("Pr3001", given is not None and given != own),
         ("Pr3002", parameters.tool_direction not in (None, NOT_SET, ALONG_Z)),
         ("Pr3003", parameters.tool_lean_a % 360_000 != 0),
         ("Pr3004", parameters.tool_lean_b % 360_000 != 0),
-        ("Pr3013", holder != 0),
     )
     for name, is_so in contradicted:
         if is_so:

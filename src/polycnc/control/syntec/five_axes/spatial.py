@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 from polycnc.channel.moves.knots import knot_context
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.compensation.spatial import ARC_FIRST, INTERSECTION, Corners, Rules, SpatialStage
-from polycnc.control.syntec.five_axes.tip_control import PostureState
+from polycnc.control.syntec.coordinates.turns import PostureState
 from polycnc.control.word_address.block.rules import Rule
+from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.normal_stage import NormalStage
 from polycnc.control.word_address.transformations.polar_interpolation import PolarState
 from polycnc.deferred.records import dataclass
-from polycnc.machine.kinematics import Kinematics
 from polycnc.transformation.orientation.solutions import Posture
 
 if TYPE_CHECKING:
@@ -70,7 +70,8 @@ def start(channel: SyntecChannel, words: Words) -> None:
         raise words.fail("spatial_mixed", code)
     _check_start(channel, words, code)
     c = channel.coordinates
-    posture = Posture(Kinematics.of(channel.machine), channel.axes, tuple(c.offsets))
+    frame = TipState.of(channel).frame
+    posture = Posture(channel.control.kinematics(channel), channel.axes, tuple(c.offsets), frame)
     channel.flush()
     within = partial(knot_context, channel)
     channel.path.put(SpatialStage(c.geometry, posture, radius, SIDES[code], _corners(channel), RULES, within))

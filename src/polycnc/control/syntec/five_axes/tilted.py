@@ -6,16 +6,19 @@ is aligned by G53.1, G53.3 or G53.6 (`alignment`).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.control.syntec.coordinates.turns import TurnState, renew_preset_frame, renew_work_turn
-from polycnc.control.syntec.five_axes import mechanism
+from polycnc.control.syntec.five_axes import alignment, mechanism
 from polycnc.control.word_address.coordinates import frames as base_frames
 from polycnc.control.word_address.coordinates.systems import refresh_zero
 from polycnc.control.word_address.coordinates.tip import TipState
-from polycnc.control.word_address.tools import length
 from polycnc.control.word_address.tools.length import LengthState
-from polycnc.control.word_address.transformations.tilted_plane import check_compensation, named_point
+from polycnc.control.word_address.transformations.tilted_plane import (
+    check_compensation,
+    named_point,
+    stand_along,
+)
 from polycnc.geometry.frames import IDENTITY, Frame, rotation, translation
 from polycnc.machine.kinematics import Kinematics
 from polycnc.transformation.planes.tilted import by_euler, by_rotary_axes, square_on
@@ -23,7 +26,31 @@ from polycnc.transformation.planes.tilted import by_euler, by_rotary_axes, squar
 if TYPE_CHECKING:
     from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.words import Words
-    from polycnc.geometry.frames import Vector
+
+
+class Kept(NamedTuple):
+    """The tilted plane as Pr3014 keeps it over a reset: with its code, and with the tool standing on it if it did."""
+
+    tilt: Frame
+    code: str
+    stands: bool
+
+    @classmethod
+    def of(cls, channel: SyntecChannel) -> Kept:
+        """What there is in front of a reset; no plane where Pr3014 keeps none."""
+        tilt = TurnState.of(channel).tilt if channel.memory.parameters.keeps_tilt else IDENTITY
+        return cls(tilt, channel.mode["rotation"], LengthState.of(channel).direction is not None)
+
+    def restore(self, channel: SyntecChannel) -> None:
+        """The plane acts again behind the reset, or none does; nothing moves."""
+        if self.tilt is IDENTITY:
+            set_tilt(channel, IDENTITY)
+            return
+        channel.mode = channel.mode.with_code("rotation", self.code)
+        if self.stands:
+            _set_stood(channel, self.tilt)
+        else:
+            set_tilt(channel, self.tilt)
 
 
 def tilt_by_angles(channel: SyntecChannel, words: Words) -> None:
@@ -38,7 +65,7 @@ def tilt_by_tool(channel: SyntecChannel, words: Words) -> None:
     """G68.3 [P1] X Y Z R: the plane stands square on the tool; without X Y Z its origin is the present position.
 
     P1 turns the plane with the rotary axes; otherwise its X axis is square on the Z axes of work and tool, and R
-    turns it about the tool.
+    turns it about the tool. The tool stands on it as it is: no G53.1 is needed, G43 goes along the tool.
     """
     if not channel.memory.parameters.option_tilted_plane:
         raise channel.control.fail("option", address="G68.3", code="G68.3")
@@ -54,8 +81,12 @@ def tilt_by_tool(channel: SyntecChannel, words: Words) -> None:
     turn = tool_turn(channel)
     if words.typed("P") != 1:
         turn = square_on(turn.direct(0.0, 0.0, 1.0)) @ rotation(2, words.angle("R") or 0.0)
-    origin = named_point(channel, words, "argument") if given else _position_in_work_system(channel)
-    set_tilt(channel, translation(*origin) @ turn)
+    plane = translation(*named_point(channel, words, "argument")) @ turn
+    _set_stood(channel, plane)
+    if not given:
+        c = channel.coordinates
+        x, y, z = (c.position[axis] if axis >= 0 else 0.0 for axis in c.geometry)
+        _set_stood(channel, plane @ translation(x, y, z))
 
 
 def end_tilt(channel: SyntecChannel, words: Words) -> None:
@@ -88,17 +119,14 @@ def rotate_work_system(channel: SyntecChannel, *, on: bool) -> None:
         set_tilt(channel, state.tilt)
 
 
-def _position_in_work_system(channel: SyntecChannel) -> Vector:
-    c = channel.coordinates
-    here: Vector = TurnState.of(channel).tilt.apply(
-        *(c.position[axis] if axis >= 0 else 0.0 for axis in c.geometry)
-    )
-    return here
+def _set_stood(channel: SyntecChannel, tilt: Frame) -> None:
+    """A tilted plane on which the tool stands; the machine stays."""
+    set_tilt(channel, tilt)
+    alignment.stand_on_plane(channel, dict(zip(channel.axes, channel.coordinates.machine, strict=True)))
 
 
 def set_tilt(channel: SyntecChannel, tilt: Frame) -> None:
     """Another tilted plane, the tool not yet aligned with it; the machine stays."""
-    length_state = LengthState.of(channel)
     turn_state = TurnState.of(channel)
     memory = channel.memory
     c = channel.coordinates
@@ -106,10 +134,8 @@ def set_tilt(channel: SyntecChannel, tilt: Frame) -> None:
         raise channel.control.not_yet("G68.2 G12.1")
     turn_state.tilt, turn_state.table = tilt, IDENTITY
     renew_preset_frame(memory)
-    refresh_zero(channel)  # a change of the plane is not travelled, one of the length is
-    if length_state.direction is not None:
-        length_state.direction = None
-        length.renew_direction(channel)
+    if LengthState.of(channel).direction is not None:
+        stand_along(channel, None)
     refresh_zero(channel)
 
 

@@ -8,20 +8,21 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.syntec.coordinates import length as tool_length
-from polycnc.control.syntec.coordinates.turns import TurnState, renew_work_turn
-from polycnc.control.syntec.five_axes import mechanism
-from polycnc.control.syntec.parameters import SyntecParameters
+from polycnc.control.syntec.coordinates.turns import PostureState, TurnState, check_posture, renew_work_turn
+from polycnc.control.syntec.five_axes import alignment, mechanism
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words import Words
-from polycnc.control.word_address.coordinates.systems import refresh_zero
+from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
+from polycnc.control.word_address.coordinates.tip import TipState
+from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.transformations import normal_line, tool_center_point
 from polycnc.control.word_address.transformations.polar_interpolation import PolarState
 from polycnc.deferred.records import dataclass
+from polycnc.geometry.frames import IDENTITY
+from polycnc.language.bulk import declare, declared
 from polycnc.toolpath.context import Pace
 
 if TYPE_CHECKING:
-    from typing import Self
-
     from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
@@ -29,18 +30,6 @@ if TYPE_CHECKING:
 
 TIP_CODES = ("G43.4", "G43.5")
 MINUTE = 60.0
-
-
-@dataclass(slots=True)
-class PostureState(State, lifetime=Lifetime.RESET):
-    """Whether directions of the tool refer to the work system under G43.4 (#1848)."""
-
-    in_work: bool = False
-
-    @classmethod
-    def first(cls, channel: SyntecChannel) -> Self:
-        """As Pr3057 has it."""
-        return cls(SyntecParameters.naming(channel.setup.parameters).posture_in_work == 1)
 
 
 @dataclass(slots=True)
@@ -77,9 +66,9 @@ def start(channel: SyntecChannel, words: Words) -> None:
     if channel.mode["rotation"] == "G68.3":
         raise words.fail("tip_on_tool_plane", channel.mode["length"])
     renew_work_turn(channel)
-    if not TurnState.of(channel).work.is_identity:
-        raise channel.control.not_yet(f"G54.4 {channel.mode['length']}")
-    if PolarState.of(channel).plane is not None or not channel.coordinates.zero.is_identity:
+    turns, leads = TurnState.of(channel), TipState.of(channel).is_leading(channel)
+    turned = turns.tilt is not IDENTITY or not ZeroState.of(channel).frame.is_identity
+    if PolarState.of(channel).plane is not None or (turned and not leads):
         raise words.fail("tip_mode", channel.mode["length"])
     # I of G43.5 is a part of the tool's direction.
     fastest = (words.typed("I") or 0.0) if channel.mode["length"] == "G43.4" else 0.0
@@ -87,7 +76,9 @@ def start(channel: SyntecChannel, words: Words) -> None:
         raise words.fail("number", "I")
     FollowingState.of(channel).fastest = fastest
     state.in_work = state.in_work if frame is None else bool(frame)
+    check_posture(channel, turns.work)
     channel.flush()
+    alignment.leave_table(channel)
     tool_center_point.start_following(channel, words)
 
 
@@ -107,9 +98,17 @@ def cancel(channel: SyntecChannel, words: Words) -> None:
 
 
 def end(channel: SyntecChannel) -> None:
-    """The axes are named themselves again; nothing moves."""
-    if PolarState.of(channel).plane is None:
-        tool_center_point.end_following(channel)
+    """The axes are named themselves again; nothing moves.
+
+    A tool that was stood on a plane under tip control stands there still.
+    """
+    if PolarState.of(channel).plane is not None:
+        return
+    stands = TipState.of(channel).is_leading(channel) and LengthState.of(channel).direction is not None
+    tool_center_point.end_following(channel)
+    if stands:
+        angles = dict(zip(channel.axes, channel.coordinates.machine, strict=True))
+        alignment.stand_on_plane(channel, angles)
 
 
 def _plan_with_direction(builder: Builder, plan: Plan) -> Step | None:
@@ -130,7 +129,7 @@ def _plan_with_direction(builder: Builder, plan: Plan) -> Step | None:
             raise words.fail("tip_zero_direction", letters[0])
         step(channel, values)
 
-    return move
+    return declare(move, declared(step))
 
 
 #: Straight blocks that name the direction of the tool.

@@ -78,9 +78,10 @@ class ModalMacro:
 
 @dataclass(slots=True)
 class ModalMacroState(State, lifetime=Lifetime.RESET):
-    """The macro of G66 or G66.1 while one follows the blocks, else nothing."""
+    """The macro of G66 or G66.1 while one follows the blocks, else nothing; `due` follows the block that runs."""
 
     calls: list[ModalMacro] = field(default_factory=list)
+    due: ModalMacro | None = None
 
 
 # ---- words of a call -------------------------------------------------------------------------------------
@@ -157,21 +158,33 @@ def _program(channel: SyntecChannel, number: Value | None) -> Program:
 
 
 def _plan_modal_call(builder: Builder, plan: Plan) -> Step | None:
-    """What follows a block while G66 or G66.1 is active; None for a block that calls nothing."""
+    """What finds the macro behind a block while G66 or G66.1 is active; None for a block that calls nothing."""
     assert isinstance(builder, SyntecBuilder)  # the control makes no other
     each = builder.mode["macro"] == "G66.1"
     if builder.mode["macro"] == "G67" or not (each or builder.moves(plan)):
         return None
 
-    def follow(channel: SyntecChannel, values: list[Any]) -> None:
-        calls = ModalMacroState.of(channel).calls
-        if not calls or any(level.kind is LevelKind.MODAL for level in channel.stack):
+    def find(channel: SyntecChannel, values: list[Any]) -> None:
+        state = ModalMacroState.of(channel)
+        if not state.calls or any(level.kind is LevelKind.MODAL for level in channel.stack):
+            state.due = None
             return
-        modal = calls[-1]
-        modal.local.trapped = words_of(builder, values)
-        enter_macro(channel, modal.program, modal.local, modal.repeats, kind=LevelKind.MODAL)
+        state.due = state.calls[-1]
+        state.due.local.trapped = words_of(builder, values)
 
-    return follow
+    return find
+
+
+def _plan_following(builder: Builder, plan: Plan) -> Step | None:
+    """The macro begins when all of its block is done: an M99 of the block has left its program by then."""
+    return None if _plan_modal_call(builder, plan) is None else _follow
+
+
+def _follow(channel: SyntecChannel, _values: list[Any]) -> None:
+    state = ModalMacroState.of(channel)
+    modal, state.due = state.due, None
+    if modal is not None and not channel.finished:
+        enter_macro(channel, modal.program, modal.local, modal.repeats, kind=LevelKind.MODAL)
 
 
 def end_modal_call(channel: SyntecChannel, _words: Words) -> None:
@@ -384,4 +397,4 @@ def end_program(channel: SyntecChannel, _words: Words) -> None:
 #: Programs that codes call.
 RULE = Rule("macro calls", codes=CALLS, words=("T",), m_codes=True, where=may_call_by_g, replace=_plan_call)
 #: The macro that follows blocks.
-MODAL_RULE = Rule("modal macro calls", unless={"macro": "G67"}, after=_plan_modal_call)
+MODAL_RULE = Rule("modal macro calls", unless={"macro": "G67"}, after=_plan_modal_call, last=_plan_following)

@@ -7,7 +7,7 @@ whole increment. While M96 is active the modal state says so, so that only then 
 from __future__ import annotations
 
 from math import nan
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.channel.stack import LevelKind
 from polycnc.channel.states.state import Lifetime, State
@@ -16,7 +16,7 @@ from polycnc.control.syntec.motion.smoothing import SmoothingState
 from polycnc.control.syntec.spindles import SpindleState
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion import path, skip
-from polycnc.control.word_address.motion.arc_signals import made_arc, share_at
+from polycnc.control.word_address.motion.arc_signals import made_arc
 from polycnc.deferred.records import dataclass
 from polycnc.toolpath import Kind
 
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.words import Words
+    from polycnc.control.word_address.motion.arc_signals import MadeArc
     from polycnc.program import Program
 
 GROUP, ON, OFF = "interrupt", "M96", "M97"
@@ -39,10 +40,22 @@ STRAIGHT = {"G0": Kind.RAPID, "G1": Kind.FEED}
 
 @dataclass(slots=True)
 class Interrupt:
-    """What M96 has prepared: the program, the signal by its name, and whether it is still awaited."""
+    """What M96 has prepared.
+
+    Attributes:
+        program: The program.
+        signal: The name of the signal.
+        hold_s: How long it has to last before it calls.
+        left_s: How long it has still to last; None while it has not come.
+        rows: Rows of the toolpath behind the last move in which it has lasted.
+        armed: Whether it is still awaited.
+    """
 
     program: Program
     signal: str
+    hold_s: float = 0.0
+    left_s: float | None = None
+    rows: int = 0
     armed: bool = True
 
 
@@ -60,10 +73,10 @@ def interrupts_on(channel: SyntecChannel, words: Words) -> None:
         raise words.fail("interrupt_format", "M96")
     signal = _signal(words)
     _whole(words, "R", 0, 1)
-    if _whole(words, "L", 0, 2**31 - 1):
-        raise channel.control.not_yet("M96 L", "L")
+    hold_s = (_whole(words, "L", 0, 2**31 - 1) or 0) / 1000.0
     channel.flush()
-    InterruptState.of(channel).prepared = Interrupt(channel.control.find_program(channel, number), signal)
+    program = channel.control.find_program(channel, number)
+    InterruptState.of(channel).prepared = Interrupt(program, signal, hold_s)
     channel.mode = channel.mode.with_code(GROUP, ON)
 
 
@@ -112,8 +125,8 @@ def _with_interrupt(builder: Builder, plan: Plan, step: Step | None) -> Step | N
         if interrupt is None or not interrupt.armed or not at or _is_deaf(channel):
             step(channel, values)
             return
-        if kind is None:
-            _curve(channel, step, values, interrupt, at)
+        if kind is None or interrupt.hold_s:
+            _cut(channel, step, values, interrupt, at)
             return
         c = channel.coordinates
         end = c.to_position(path.target(channel, plan.axis_words, values))
@@ -128,10 +141,10 @@ def _with_interrupt(builder: Builder, plan: Plan, step: Step | None) -> Step | N
     return move
 
 
-def _curve(
+def _cut(
     channel: SyntecChannel, step: Step, values: list[float], interrupt: Interrupt, at: Mapping[str, float]
 ) -> None:
-    """An arc, cut where the signal comes.
+    """A move whose row is made first, and cut where the signal comes, or has lasted for the time of L.
 
     After the return its block is read from there: I, J and K count from the new start, as the manual warns (3.2.3, 7).
     """
@@ -140,18 +153,67 @@ def _curve(
     step(channel, values)
     if channel.toolpath.mark() == mark and c.position == start:
         return  # the first half of G02.4, a block without a way
-    arc = made_arc(channel, start, mark)
-    if arc is None:
+    row = _made_row(channel, start, mark)
+    if row is None:
         raise channel.control.not_yet(f"M96 {channel.mode['motion']}")
-    share = share_at(channel, arc, at)
+    share = _share_of_call(channel, row, mark, interrupt, at)
     if share is None:
         return
     interrupt.armed = False
     channel.toolpath.truncate(mark)
     c.arrive(start, programmed)
     if share > 0.0:
-        channel.curve(arc.kind, arc.position(share), arc.feed, center=arc.center, normal=arc.normal)
+        row.make(channel, share)
     _call(channel, interrupt.program)
+
+
+class MadeLine(NamedTuple):
+    """A straight move whose row stands in the toolpath: its kind and feed, where it begins and ends (display)."""
+
+    kind: Kind
+    feed: float
+    start: list[float]
+    end: list[float]
+
+    def share_at(self, channel: SyntecChannel, at: Mapping[str, float]) -> float | None:
+        """The share of the way after which a signal comes."""
+        return skip.fraction_at(channel, self.start, self.end, at)
+
+    def make(self, channel: SyntecChannel, share: float) -> None:
+        """The move up to a share of its way."""
+        end = [a + (b - a) * share for a, b in zip(self.start, self.end, strict=True)]
+        channel.straight(self.kind, end, self.feed)
+
+
+def _made_row(channel: SyntecChannel, start: list[float], mark: int) -> MadeArc | MadeLine | None:
+    """The move that is all that a block has made since a mark; None where it is something else."""
+    chunk = channel.toolpath.chunk
+    if len(chunk) == mark + 1 and chunk.kind[-1] in STRAIGHT.values() and channel.path.head is None:
+        return MadeLine(Kind(chunk.kind[-1]), chunk.feed[-1], start, channel.coordinates.position[:])
+    return made_arc(channel, start, mark)
+
+
+def _share_of_call(
+    channel: SyntecChannel, row: MadeArc | MadeLine, mark: int, interrupt: Interrupt, at: Mapping[str, float]
+) -> float | None:
+    """The share of a made move after which the program is called; None where that is not in it.
+
+    The time that the signal has to last goes on in the moves behind the one in which it came. Where something else has
+    taken time between them, or a clock runs, it is not known.
+    """
+    came, left_s = 0.0, interrupt.left_s
+    if left_s is None:
+        share = row.share_at(channel, at)
+        if share is None or not interrupt.hold_s:
+            return share
+        came, left_s = share, interrupt.hold_s
+    elif len(channel.toolpath) - 1 != interrupt.rows:
+        raise channel.control.not_yet("M96 L", "L")
+    if channel.move_times is None:
+        raise channel.control.not_yet("M96 L", "L")
+    share, interrupt.left_s = channel.move_times.later_on_row(channel, mark, row.start, came, left_s)
+    interrupt.rows = len(channel.toolpath)
+    return share
 
 
 def _is_deaf(channel: SyntecChannel) -> bool:

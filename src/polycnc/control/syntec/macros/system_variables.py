@@ -6,8 +6,7 @@ from math import isnan
 from typing import TYPE_CHECKING, cast
 
 from polycnc.control.syntec.coordinates.systems import WORK_SYSTEMS
-from polycnc.control.syntec.coordinates.turns import TurnState, renew_preset_frame
-from polycnc.control.syntec.five_axes.tip_control import PostureState
+from polycnc.control.syntec.coordinates.turns import PostureState, TurnState, renew_preset_frame
 from polycnc.control.syntec.macros.machine_parameters import read_long
 from polycnc.control.syntec.macros.variables import (
     BitState,

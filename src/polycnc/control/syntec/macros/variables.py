@@ -49,6 +49,8 @@ SHOWN_REGISTERS = (range(700, 719), range(761, 777))
 DELIVERED_REGISTERS = {19: 100}
 #: Windows of `@` on R registers: first `@`, last `@`, first R.
 REGISTER_WINDOWS = ((401, 655, 1), (10000, 14095, 0), (100000, 165535, 0))
+#: What outlives the power: R registers (tool guide), `@` variables beside the windows (macro variable specification).
+RETENTIVE_REGISTERS, RETENTIVE_GLOBALS = range(103, 256), (range(656, 2000), range(60000, 80000))
 #: Other `@` variables that exist.
 GLOBAL_RANGES = ((1, 400), (656, 1999), (60000, 79999))
 BYTES_PER_VARIABLE = 4
@@ -203,10 +205,16 @@ def put(values: dict[int, Value], index: int, value: Value) -> None:
 
 @dataclass(slots=True)
 class GlobalState(State, lifetime=Lifetime.RETAINED):
-    """The `@` variables and the R registers, which all axis groups share."""
+    """The `@` variables and the R registers, which all axis groups share: also those that go with the power."""
 
     values: dict[int, Value] = retained(VARIABLES, of_control=True)
     registers: dict[int, int] = retained(REGISTERS, of_control=True)
+
+    def forget(self) -> None:
+        """Power-on: what does not outlive the power is as delivered."""
+        for kept, table in ((is_retentive_register, self.registers), (is_retentive_global, self.values)):
+            for index in [index for index in table if not kept(index)]:
+                del table[index]
 
     def read(self, index: Value) -> Value:
         """The value of `@index`."""
@@ -285,6 +293,19 @@ def register_of(index: int) -> int | None:
 def _check_global(index: int) -> None:
     if not any(first <= index <= last for first, last in GLOBAL_RANGES):
         raise AlarmError(NO_SUCH_VARIABLE, variable=f"@{index}")
+
+
+def is_retentive_register(register: int) -> bool:
+    """Whether an R register outlives the power."""
+    return register in RETENTIVE_REGISTERS
+
+
+def is_retentive_global(index: int) -> bool:
+    """Whether `@index` outlives the power; in a window its register says so."""
+    register = register_of(index)
+    if register is not None:
+        return is_retentive_register(register)
+    return any(index in kept for kept in RETENTIVE_GLOBALS)
 
 
 def is_local(index: int) -> bool:

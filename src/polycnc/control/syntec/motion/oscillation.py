@@ -224,9 +224,12 @@ def override(channel: SyntecChannel) -> float:
 
 
 def override_set(channel: SyntecChannel) -> None:
-    """R19 holds another value: the axis of this axis group goes on at it."""
-    if OscillationState.of(channel).running is not None:
-        Oscillator.of(channel).change_override(override(channel))
+    """R19 holds another value: every axis that oscillates goes on at it, whichever axis group has begun it."""
+    group = channel.group
+    assert group is not None  # a session always runs a group
+    for each in group.channels:
+        if OscillationState.of(each).running is not None:
+            Oscillator.of(each).change_override(override(channel), channel)
 
 
 def _place_of_hold(channel: SyntecChannel, oscillation: Oscillation, *, precise: bool) -> float | None:

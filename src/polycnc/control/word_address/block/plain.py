@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.machine_words import may_refuse_moves
 from polycnc.control.word_address.motion import arcs
+from polycnc.control.word_address.transformations import tool_center_point
 from polycnc.geometry.planes import PLANES
 from polycnc.language.bulk import Arc, Conditions, Recipe, Spelling
-from polycnc.language.bulk.layout import FIRST_CODE, FIRST_FORMULA, FORMS
+from polycnc.language.bulk.layout import FIRST_CODE, FIRST_FORMULA, FIRST_M_CODE, FORMS
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.plan import Plan
     from polycnc.control.word_address.family import WordAddressChannel
     from polycnc.kernels.layout import Floats
+    from polycnc.language.bulk.routines.running import RoutineDialect
     from polycnc.language.bulk.scanner import LastMoves
 
 #: How a number was written, as the scanner counts it; see `language.word_address.words`.
@@ -34,7 +36,10 @@ class PlainBlocks:
 
     Attributes:
         spelling: How the control's text looks.
+        routines: What the scanner asks of programs that are called; None where the interpreter calls them.
     """
+
+    routines: RoutineDialect | None = None
 
     def __init__(self, spelling: Spelling) -> None:
         self.spelling = spelling
@@ -84,12 +89,13 @@ class PlainBlocks:
     def put_variables(self, _channel: Channel, _variables: Floats) -> None:
         """No formulas read any."""
 
-    def tool(self, channel: WordAddressChannel) -> Sequence[float]:  # noqa: ARG002 - as the scanner asks
-        """No plain block names a direction."""
-        return ()
+    def tool(self, channel: WordAddressChannel) -> Sequence[float]:
+        """Blocks of G43.5 name directions."""
+        by_vector = channel.mode.codes.get("length") == "G43.5"
+        return tool_center_point.record_of(channel) if by_vector else ()
 
     def turned(self, channel: WordAddressChannel, start: list[float], end: list[float]) -> None:
-        """No plain block names a direction."""
+        """How the tool has turned is not remembered."""
 
     def moved(self, channel: WordAddressChannel, last: LastMoves) -> None:
         """Nothing is remembered of a move."""
@@ -126,6 +132,8 @@ def _keeps_circles(channel: WordAddressChannel) -> bool:
 
 def _key(key: int) -> str:
     """The scanner's key as one of a signature."""
+    if key >= FIRST_M_CODE:
+        return f"M{key - FIRST_M_CODE}"
     if key >= FIRST_CODE:
         return f"G{key - FIRST_CODE}"
     letter, form = divmod(key, FORMS)

@@ -18,13 +18,13 @@ from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.memory import SentCodes
 from polycnc.control.word_address.motion.path_modes import end_of_exact_stop, exact_stop_block
 from polycnc.deferred.records import dataclass
-from polycnc.language.bulk import Idle, Note, declare
+from polycnc.language.bulk import Idle, Later, Note, declare, declared
 from polycnc.language.word_address.words import FORMS, is_fixed_code
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import Auxiliary
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Mapping
+    from collections.abc import Callable, Collection, Iterable, Mapping
 
     from polycnc.channel.channel import Channel
     from polycnc.channel.mode import Mode
@@ -245,8 +245,13 @@ class Builder:
         return length_converter(self.slots[address][1], self.rules, inch=self.inch, diameter=diameter)
 
     def handled(self, handler: Handler, plan: Plan) -> Step:
-        """A step that calls a handler with the block's words."""
-        return lambda channel, values: handler(channel, Words(plan, values))
+        """A step that calls a handler with the block's words; it says what the handler says of its plans."""
+
+        def step(channel: Channel, values: list[float]) -> None:
+            handler(channel, Words(plan, values))
+
+        tell: Callable[[Plan], object] | None = declared(handler)  # type: ignore[assignment]
+        return step if tell is None else declare(step, Later(lambda: tell(plan)))
 
     @property
     def drills(self) -> bool:
@@ -358,7 +363,9 @@ class Builder:
         if any(row.handler is exact_stop_block for row in rows):
             steps.append(end_of_exact_stop)
         behind = [rule.after(self, plan) for rule in self.acting if rule.after is not None]
-        plan.steps = (*steps, *(step for step in behind if step is not None), *after)
+        last = [rule.last(self, plan) for rule in self.acting if rule.last is not None]
+        steps += [*(step for step in behind if step is not None), *after]
+        plan.steps = (*steps, *(step for step in last if step is not None))
         untaken = self._untaken()
         if untaken and not (self._is_open or any(row.open for row in rows)):
             raise self.control.untaken(untaken[0], self)

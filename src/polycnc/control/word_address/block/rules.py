@@ -10,7 +10,8 @@ when its plan is made:
 3. `motion`: the step of the axis words, unless a one-shot code takes them; the first rule that has one decides. Where
    none has, the active motion code does. `corner` and `convert` are asked by the planners of motion and of axis words.
 4. `wrap`: the step of the motion again, each rule round what the rules in front of it have made of it.
-5. `after`: a step behind the motion and behind the codes that act there.
+5. `after`: a step behind the motion and behind the codes that act there, in front of M codes that act last.
+6. `last`: a step behind everything: a program that the block calls begins when all of the block is done.
 """
 
 from __future__ import annotations
@@ -70,6 +71,7 @@ class Rule:
         convert: What turns a word of an axis (by its form, and by what would do it otherwise) into internal units.
         wrap: What becomes of the motion's step, None where there is no motion.
         after: A step behind.
+        last: A step behind everything.
     """
 
     name: str
@@ -94,6 +96,7 @@ class Rule:
     convert: Callable[[Builder, int, str, Convert | None], Convert | None] | None = None
     wrap: Callable[[Builder, Plan, Step | None], Step | None] | None = None
     after: Callable[[Builder, Plan], Step | None] | None = None
+    last: Callable[[Builder, Plan], Step | None] | None = None
 
     def concerns(self, builder: Builder) -> bool:
         """Whether the rule is asked of a block."""

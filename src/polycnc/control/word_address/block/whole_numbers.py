@@ -115,7 +115,7 @@ def plan_signs(builder: Builder, _plan: Plan) -> Step | None:
             if values[slot] < 0.0:
                 raise control.fail("minus", address=address)
 
-    # Of these words plain blocks have S alone, whose own step leaves negative numbers to the interpreter.
+    # Of these words plain blocks have S, P and L, whose own steps leave negative numbers to the interpreter.
     return declare(check, Idle())
 
 

@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import MacroChannel, WordAddressChannel
+    from polycnc.geometry.frames import Vector
+    from polycnc.transformation.planes.misplaced import Misplaced
 
 
 @dataclass(slots=True)
@@ -36,6 +38,9 @@ class ZeroState(State, lifetime=Lifetime.POWER):
         frame: Turn of the work coordinate system; identity on most controls.
         table: How the table has turned since the tilted plane was told, machine coordinates.
         plane: The tilted plane within the work.
+        fixture: Of the fixture on a rotary table; X, Y, Z, mm.
+        misplaced: How the workpiece lies on the table, beside where it should; None for there.
+        carried: What makes good how far the head has taken the tool away while it stands on that plane; X, Y, Z, mm.
     """
 
     system: str = lasting(Lifetime.RESET, "G54")
@@ -45,6 +50,9 @@ class ZeroState(State, lifetime=Lifetime.POWER):
     frame: Frame = lasting(Lifetime.RESET, IDENTITY)
     table: Frame = lasting(Lifetime.RESET, IDENTITY)
     plane: Frame = lasting(Lifetime.RESET, IDENTITY)
+    fixture: Vector = lasting(Lifetime.RESET, (0.0, 0.0, 0.0))
+    misplaced: Misplaced | None = lasting(Lifetime.RESET, None)
+    carried: Vector = lasting(Lifetime.RESET, (0.0, 0.0, 0.0))
 
     @classmethod
     def first(cls, channel: Channel) -> Self:
@@ -56,11 +64,11 @@ class ZeroState(State, lifetime=Lifetime.POWER):
 def refresh_zero(channel: WordAddressChannel, *, travelled: bool = False) -> None:
     """Work out the shift from display to machine anew: external + work + local + G92 offset + tool length."""
     offsets, leading = zero_offsets(channel), tip.TipState.of(channel)
-    frame = work_frame(channel, offsets)
-    if leading.active is not None and leading.is_leading(channel):
-        if not leading.lies_at(
-            frame, offsets
-        ):  # or the way to the machine and back would leave rounding noise
+    leads = leading.active is not None and leading.is_leading(channel)
+    frame = frame_on_table(channel, offsets) if leads else work_frame(channel, offsets)
+    if leading.active is not None and leads:
+        # Or the way to the machine and back would leave rounding noise.
+        if not leading.lies_at(frame, offsets):
             tip.lead(channel, leading.active, frame, offsets)
     else:
         channel.coordinates.set_zero(frame, offsets, travelled=travelled)
@@ -75,13 +83,37 @@ def work_frame(channel: WordAddressChannel, offsets: list[float]) -> Frame:
     zero = ZeroState.of(channel)
     inner = zero.plane
     if not zero.table.is_identity:
-        place = [
-            offsets[axis] - zero.length[axis] if axis >= 0 else 0.0 for axis in channel.coordinates.geometry
-        ]
-        shift = translation(place[0], place[1], place[2])
+        inner = plane_on_table(channel, offsets)
+        shift = translation(*work_zero(channel, offsets))
         inner = shift.inverse() @ zero.table @ shift @ inner
+    elif zero.misplaced is not None:
+        inner = zero.misplaced.seen(work_zero(channel, offsets)) @ inner
     frame = zero.frame @ inner
     return IDENTITY if frame.is_identity else frame
+
+
+def frame_on_table(channel: WordAddressChannel, offsets: list[float]) -> Frame:
+    """From the display to axes counted from a work zero with the table at zero: tip control turns it by itself."""
+    frame = ZeroState.of(channel).frame @ plane_on_table(channel, offsets)
+    return IDENTITY if frame.is_identity else frame
+
+
+def plane_on_table(channel: WordAddressChannel, offsets: list[float]) -> Frame:
+    """The tilted plane on the work as that lies on the table, with the table at zero."""
+    zero = ZeroState.of(channel)
+    if zero.misplaced is None:
+        return zero.plane
+    return zero.misplaced.on_table(work_zero(channel, offsets)) @ zero.plane
+
+
+def work_zero(channel: WordAddressChannel, offsets: list[float]) -> Vector:
+    """The work zero on the machine, without the tool, mm."""
+    zero = ZeroState.of(channel)
+    x, y, z = (
+        offsets[axis] - zero.length[axis] - carried if axis >= 0 else 0.0
+        for axis, carried in zip(channel.coordinates.geometry, zero.carried, strict=True)
+    )
+    return (x, y, z)
 
 
 def zero_offsets(channel: WordAddressChannel) -> list[float]:
@@ -95,7 +127,11 @@ def zero_offsets(channel: WordAddressChannel) -> list[float]:
         zero.length,
         strict=True,
     )
-    return [sum(values) for values in parts]
+    offsets = [sum(values) for values in parts]
+    for axis, *shifts in zip(channel.coordinates.geometry, zero.fixture, zero.carried, strict=True):
+        if axis >= 0:
+            offsets[axis] += sum(shifts)
+    return offsets
 
 
 def select_work_offset(channel: MacroChannel, words: Words) -> None:
@@ -120,10 +156,14 @@ def set_local_system(channel: WordAddressChannel, words: Words) -> None:
 
 
 def set_position(channel: WordAddressChannel, words: Words) -> None:
-    """G92: the present position gets these coordinates; every work coordinate system shifts with it (Hartford 3.2)."""
-    position = channel.coordinates.position
+    """G92: the present position gets these coordinates; every work coordinate system shifts with it (Hartford 3.2).
+
+    A local system (G52) of these axes ends with it (macro B 10.3).
+    """
+    state, position = ZeroState.of(channel), channel.coordinates.position
     for axis, value, _ in words.axes():
-        ZeroState.of(channel).preset[axis] += position[axis] - value
+        state.preset[axis] += position[axis] + state.local[axis] - value
+        state.local[axis] = 0.0
     refresh_zero(channel)
 
 

@@ -16,6 +16,7 @@ from polycnc.transformation.seated import Seated
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.family import WordAddressChannel
+    from polycnc.geometry.frames import Vector
     from polycnc.transformation.contract import Transformation
     from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
 
@@ -31,10 +32,14 @@ class TipState(State, lifetime=Lifetime.RESET):
         """Whether words name the tip now."""
         return self.active is not None and channel.coordinates.transformation is self.seated
 
+    @property
+    def frame(self) -> Frame:
+        """How the work system is turned against the axes."""
+        return self.seated.frame if isinstance(self.seated, Seated) else IDENTITY
+
     def lies_at(self, frame: Frame, offsets: list[float]) -> bool:
         """Whether the work system is turned and shifted so already."""
-        turned = self.seated.frame if isinstance(self.seated, Seated) else IDENTITY
-        return self.active is not None and self.active.zero == tuple(offsets) and turned == frame
+        return self.active is not None and self.active.zero == tuple(offsets) and self.frame == frame
 
 
 def lead(channel: WordAddressChannel, active: ToolCentrePoint, frame: Frame, offsets: list[float]) -> None:
@@ -45,7 +50,6 @@ def lead(channel: WordAddressChannel, active: ToolCentrePoint, frame: Frame, off
     channel.coordinates.transform(state.seated, None, (IDENTITY, offsets))
 
 
-def direction(channel: WordAddressChannel, named: tuple[float, float, float]) -> tuple[float, float, float]:
+def direction(channel: WordAddressChannel, named: Vector) -> Vector:
     """A direction of the work system, as the axes see it."""
-    seated = TipState.of(channel).seated
-    return seated.frame.direct(*named) if isinstance(seated, Seated) else named
+    return TipState.of(channel).frame.direct(*named)

@@ -1,4 +1,4 @@
 """Cycles over a point: `drilling` (G73 to G89), `hole_patterns` (circle, line, arc, grid).
 
-`plunge` writes the rows of a plain hole at once.
+`plunge` writes the rows of a plain hole at once; `shift` is the way off the wall in G76 and G87.
 """

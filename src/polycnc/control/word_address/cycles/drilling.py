@@ -21,6 +21,7 @@ from polycnc.control.word_address.block.numbers import length_converter
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.whole_numbers import DecimalPoint
 from polycnc.control.word_address.cycles.plunge import STROKES_OF_A_BLOCK, plunges
+from polycnc.control.word_address.cycles.shift import shift_by_center_words, shift_off_axis
 from polycnc.control.word_address.motion.path import FEED_MODES, reach
 from polycnc.control.word_address.tools.radius import suspended
 from polycnc.cycles.drilling import lathe
@@ -150,13 +151,6 @@ def no_relief(_channel: WordAddressChannel, _code: str) -> float:
 
 def nothing_to_check(_channel: WordAddressChannel, _code: str) -> None:
     """The control has no conditions of its own."""
-
-
-def shift_by_center_words(
-    _channel: WordAddressChannel, data: CycleData, plane: tuple[int, int]
-) -> tuple[float, float]:
-    """I, J, K are the shift along X, Y, Z."""
-    return data.amount("IJK"[plane[0]]), data.amount("IJK"[plane[1]])
 
 
 class Halts(Enum):
@@ -431,12 +425,14 @@ def drill_here(channel: WordAddressChannel) -> None:
 
 
 def _hole(channel: WordAddressChannel, code: str, data: CycleData) -> Hole:
-    """Levels and amounts of the next hole."""
+    """Levels and amounts of the next hole; a scale acts on levels only (macro B 10.5)."""
     rules: Drilling = channel.control.drilling_rules(channel)
     cycle = rules.cycles[code]
     r = data.level("R", data.initial)
     bottom = data.level(BOTTOM, data.initial if cycle.bottom_from_initial and BOTTOM in data else r)
     dwell = data.amount("P") if cycle.dwells else 0.0
+    w = channel.coordinates.geometry.index(data.axis) if data.axis in channel.coordinates.geometry else -1
+    scale = abs(channel.coordinates.programming.m[w][w]) if w >= 0 else 1.0
     return Hole(
         data.initial,
         r,
@@ -444,8 +440,8 @@ def _hole(channel: WordAddressChannel, code: str, data: CycleData) -> Hole:
         back=r if channel.mode.codes.get("return") == "G99" else data.initial,
         dwell_s=dwell,
         dwell_out_s=dwell if rules.dwells_at_r else 0.0,
-        peck=abs(data.amount("Q")) if cycle.pecks else 0.0,
-        relief=rules.relief(channel, code),
+        peck=abs(data.amount("Q")) / scale if cycle.pecks else 0.0,
+        relief=rules.relief(channel, code) / scale,
         by_r=rules.by_r,
     )
 
@@ -521,7 +517,7 @@ def _work(channel: WordAddressChannel, strokes: Iterator[Stroke], data: CycleDat
         if number % STROKES_OF_A_BLOCK == STROKES_OF_A_BLOCK - 1:
             channel.once_more()
         if stroke.action is Action.SHIFT:
-            _shift(channel, center, data, stroke.value)
+            shift_off_axis(channel, center, data, stroke.value)
         elif stroke.action is Action.DWELL:
             stand(channel, stroke.value)
         elif stroke.action is Action.SPINDLE:
@@ -559,21 +555,6 @@ def _stroke(channel: WordAddressChannel, axis: int, stroke: Stroke) -> None:
         rules: Drilling = channel.control.drilling_rules(channel)
         parameters = (rules.lead(channel), 0.0, stroke.factor, rules.largest_override(channel))
         channel.curve(Kind.TAP, position, feed, parameters=parameters, programmed=end)
-
-
-def _shift(channel: WordAddressChannel, center: list[float], data: CycleData, part: float) -> None:
-    """Off the hole's axis by the shift, or back over it; only the axes of the plane."""
-    c = channel.coordinates
-    w = c.geometry.index(data.axis)
-    plane = ((w + 1) % 3, (w + 2) % 3)
-    end = c.programmed[:]
-    for i, amount in zip(
-        plane, channel.control.drilling_rules(channel).shift(channel, data, plane), strict=True
-    ):
-        axis = c.geometry[i]
-        if axis >= 0:
-            end[axis] = center[axis] + part * amount
-    channel.straight(Kind.RAPID, c.to_position(end), nan, end)
 
 
 #: While a cycle is active the axis words of a block are a hole.

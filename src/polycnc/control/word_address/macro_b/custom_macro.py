@@ -31,13 +31,6 @@ if TYPE_CHECKING:
     from polycnc.geometry.arcs import Point
     from polycnc.program import Program
 
-_MACRO_KINDS = (
-    LevelKind.MACRO,
-    LevelKind.MODAL,
-    LevelKind.G_MACRO,
-    LevelKind.M_MACRO,
-    LevelKind.EVERY_BLOCK,
-)
 #: Letters of 1022: the basic axes X, Y, Z; their parallels count four more.
 _BASIC_ROLES = {"X": 1, "Y": 2, "Z": 3}
 
@@ -49,6 +42,7 @@ class CustomMacroControl(WordAddressControl):
         FURTHER_REFERENCES: Reference points that G30 may name.
         EXTENDED_WORK_SYSTEMS: How many G54.1 P systems there are.
         CALL_LEVELS: Levels of macros, of subprograms, and together (FANUC macro B reference §5.1).
+        MACRO_KINDS: Kinds of levels that count as macros.
         PLANE_HELD_BY_ROTATION: Another plane within a rotation is refused where it is chosen.
         JOINING_HINT: What to do where AND, OR, XOR join conditions that may not be joined.
     """
@@ -67,6 +61,9 @@ class CustomMacroControl(WordAddressControl):
     FURTHER_REFERENCES: ClassVar[tuple[int, ...]] = (2, 3, 4)
     EXTENDED_WORK_SYSTEMS: ClassVar[int] = 300
     CALL_LEVELS: ClassVar[tuple[int, int, int]] = (5, 10, 15)
+    MACRO_KINDS: ClassVar[frozenset[LevelKind]] = frozenset((
+        LevelKind.MACRO, LevelKind.MODAL, LevelKind.G_MACRO, LevelKind.M_MACRO, LevelKind.EVERY_BLOCK,
+    ))  # fmt: skip
     PLANE_HELD_BY_ROTATION: ClassVar[bool] = False
     parameter_class: ClassVar[type[MacroParameters[MacroAxisParameters]]]
 
@@ -135,7 +132,9 @@ class CustomMacroControl(WordAddressControl):
         from polycnc.control.word_address.macro_b.plain import MacroPlainBlocks  # for long programs only
 
         plain = super().plain_blocks(channel)
-        return None if plain is None else MacroPlainBlocks(replace(plain.spelling, formulas=True))
+        return (
+            None if plain is None else MacroPlainBlocks(replace(plain.spelling, formulas=True, m_codes=True))
+        )
 
     # ---- programs ------------------------------------------------------------------------------------
 
@@ -158,12 +157,12 @@ class CustomMacroControl(WordAddressControl):
         """Alarm for one level of calls too many."""
         macros = 0
         for level in channel.stack:
-            macros += level.kind in _MACRO_KINDS
+            macros += level.kind in self.MACRO_KINDS
         others = len(channel.stack) - 1 - macros
         most_macros, most_others, most = self.CALL_LEVELS
-        if kind in _MACRO_KINDS and macros >= most_macros:
+        if kind in self.MACRO_KINDS and macros >= most_macros:
             raise self.fail("nesting_macro")
-        if (kind not in _MACRO_KINDS and others >= most_others) or macros + others >= most:
+        if (kind not in self.MACRO_KINDS and others >= most_others) or macros + others >= most:
             raise self.fail("nesting_sub")
 
     def end_of_program(self, channel: Channel) -> None:

@@ -15,7 +15,7 @@ from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.block.codes import MCode
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.macro_b.variables import LOCALS
-from polycnc.control.word_address.motion.arc_signals import made_arc, share_at
+from polycnc.control.word_address.motion.arc_signals import made_arc
 from polycnc.control.word_address.motion.skip import signal_position
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.tolerances import NO_WAY
@@ -147,7 +147,7 @@ def _stop(
     """Where on the way just made an input comes."""
     if arc is None:
         return signal_position(channel, start, end, dict(at))
-    share = share_at(channel, arc, at)
+    share = arc.share_at(channel, at)
     return None if share is None else arc.position(share)
 
 

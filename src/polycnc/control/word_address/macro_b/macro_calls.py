@@ -11,10 +11,11 @@ from polycnc.control.word_address.block.numbers import length_converter
 from polycnc.control.word_address.block.plan import Arguments
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words import Words
-from polycnc.control.word_address.macro_b import subprograms
+from polycnc.control.word_address.macro_b import calls_as_data, subprograms
 from polycnc.control.word_address.macro_b.variables import LOCALS
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.units import INCH_MM
+from polycnc.language.bulk import declare
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -51,9 +52,10 @@ class ModalCall:
 
 @dataclass(slots=True)
 class ModalCallState(State, lifetime=Lifetime.RESET):
-    """The modal calls that are active, the last one called first."""
+    """The modal calls that are active, the last one called first; `due` follows the block that runs."""
 
     calls: list[ModalCall] = field(default_factory=list)
+    due: ModalCall | None = None
 
 
 def arguments_of(words: Words, skip: str = "", *, without_m: int | None = None) -> list[float | None]:
@@ -63,6 +65,18 @@ def arguments_of(words: Words, skip: str = "", *, without_m: int | None = None) 
     closes when a letter comes that is not behind the last one. Of two words for one variable the later one
     counts.
     """
+    arguments = _arguments(words, skip, without_m)
+    local: list[float | None] = [None] * LOCALS
+    values = words.values
+    for variable, slot, convert in arguments.typed:
+        local[variable] = values[slot] if convert is None else convert(values[slot])
+    for variable, value in arguments.fixed:
+        local[variable] = value
+    return local
+
+
+def _arguments(words: Words, skip: str, without_m: int | None) -> Arguments:
+    """Which words of a block are arguments; known for all blocks of its shape once one has run."""
     plan = words.plan
     arguments = plan.arguments.get((skip, without_m))
     if arguments is None:
@@ -73,13 +87,7 @@ def arguments_of(words: Words, skip: str = "", *, without_m: int | None = None) 
         ]
         arguments = Arguments(tuple(_typed_arguments(words, skip)), tuple(fixed))
         plan.arguments[skip, without_m] = arguments
-    local: list[float | None] = [None] * LOCALS
-    values = words.values
-    for variable, slot, convert in arguments.typed:
-        local[variable] = values[slot] if convert is None else convert(values[slot])
-    for variable, value in arguments.fixed:
-        local[variable] = value
-    return local
+    return arguments
 
 
 def _typed_arguments(words: Words, skip: str) -> Iterator[tuple[int, int, Convert | None]]:
@@ -108,7 +116,7 @@ def _argument_converter(plan: Plan, form: str) -> Convert | None:
     if form or convert is None:
         return None
     unit = INCH_MM if plan.inch else 1.0
-    return lambda value: convert(value) / unit
+    return (lambda value: convert(value) / unit) if plan.inch else convert
 
 
 def call_macro(channel: MacroChannel, words: Words) -> None:
@@ -117,6 +125,9 @@ def call_macro(channel: MacroChannel, words: Words) -> None:
     refuse_g_behind(words, "G65")
     program, repeats = _macro(channel, words)
     enter_macro(channel, program, arguments_of(words, "PLG"), repeats)
+
+
+declare(call_macro, lambda plan: calls_as_data.macro(plan, _arguments(Words(plan, []), "PLG", None)))
 
 
 def start_modal_call(channel: MacroChannel, words: Words) -> None:
@@ -178,7 +189,7 @@ def enter_macro(
 
 
 def plan_modal_call(builder: Builder, plan: Plan) -> Step | None:
-    """What follows the blocks of a shape while a modal call is active, or None.
+    """What finds the macro that follows the blocks of a shape while a modal call is active, or None.
 
     A move in a modal macro is followed by the macro that was called before it, and so on (nested G66).
     """
@@ -189,14 +200,24 @@ def plan_modal_call(builder: Builder, plan: Plan) -> Step | None:
     if not plan.axis_words or any(row.axis_words and row.code == "G4" for row in builder.codes):
         return None
 
-    def follow(channel: MacroChannel, _values: list[float]) -> None:
-        calls = ModalCallState.of(channel).calls
+    def find(channel: MacroChannel, _values: list[float]) -> None:
+        state = ModalCallState.of(channel)
         inside = sum(1 for level in channel.stack if level.kind in (LevelKind.MODAL, LevelKind.EVERY_BLOCK))
-        if inside < len(calls):
-            call = calls[-1 - inside]
-            enter_macro(channel, call.program, list(call.arguments), call.repeats, kind=LevelKind.MODAL)
+        state.due = state.calls[-1 - inside] if inside < len(state.calls) else None
 
-    return follow
+    return find
+
+
+def plan_following(builder: Builder, plan: Plan) -> Step | None:
+    """The macro begins when all of its block is done: an M99 of the block has left its program by then."""
+    return None if plan_modal_call(builder, plan) is None else _follow
+
+
+def _follow(channel: MacroChannel, _values: list[float]) -> None:
+    state = ModalCallState.of(channel)
+    call, state.due = state.due, None
+    if call is not None and not channel.finished:
+        enter_macro(channel, call.program, list(call.arguments), call.repeats, kind=LevelKind.MODAL)
 
 
 def plan_argument_block(builder: Builder, plan: Plan) -> Step | None:
@@ -251,4 +272,5 @@ RULE = Rule(
     modes={"macro": ("G66", "G66.1")},
     replace=plan_argument_block,
     after=plan_modal_call,
+    last=plan_following,
 )

@@ -7,6 +7,7 @@ from math import nan
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.block.plain import PlainBlocks
+from polycnc.control.word_address.macro_b.routines import MacroRoutines
 from polycnc.language.bulk.postfix import formulas
 from polycnc.language.word_address.patterns import MEMORIES
 from polycnc.language.word_address.words import is_fixed_code
@@ -17,10 +18,15 @@ if TYPE_CHECKING:
 
     from polycnc.control.word_address.family import MacroChannel
     from polycnc.kernels.layout import Floats
+    from polycnc.language.bulk import Spelling
 
 
 class MacroPlainBlocks(PlainBlocks):
     """What the scanner asks of a control with custom macro B."""
+
+    def __init__(self, spelling: Spelling) -> None:
+        super().__init__(spelling)
+        self.routines = MacroRoutines()
 
     def formulas(self, channel: MacroChannel, line: str) -> tuple[tuple[str, ...], tuple[int, ...] | None]:
         """What the reader makes of the line, if the scanner can calculate it."""
@@ -32,7 +38,7 @@ class MacroPlainBlocks(PlainBlocks):
             return (), None
         words, spots = found
         valued = [key for key in words.keys if not is_fixed_code(key)]
-        if any(key.startswith("M") for key in words.keys) or len(valued) != len(words.codes) or None in spots:
+        if "M" in words.keys or len(valued) != len(words.codes) or None in spots:
             return (), None
         coded = list(zip(valued, words.codes, strict=True))
         typed = {code[1] for key, code in coded if not key.endswith("#")}

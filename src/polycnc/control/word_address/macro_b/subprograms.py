@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.channel.stack import LevelKind
+from polycnc.control.word_address.macro_b import calls_as_data
+from polycnc.language.bulk import declare
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.block.words import Words
@@ -35,6 +37,9 @@ def call_subprogram(channel: MacroChannel, words: Words, *, begins_at: str = "Q"
     else:
         program = called_program(channel, words, number)
     enter_subprogram(channel, program, repeats, sequence)
+
+
+declare(call_subprogram, calls_as_data.subprogram)
 
 
 def called_program(channel: MacroChannel, words: Words, number: int | None = None) -> Program:
@@ -125,3 +130,6 @@ def return_from_subprogram(channel: MacroChannel, words: Words) -> None:
     if sequence is not None:
         caller = channel.level
         caller.index = caller.code.find_sequence(sequence, caller.current, "no_return_sequence")
+
+
+declare(return_from_subprogram, calls_as_data.subprogram_end)

@@ -82,6 +82,29 @@ class MadeArc(NamedTuple):
             if turned <= abs(self.sweep) + NO_WAY:
                 yield min(turned / abs(self.sweep), 1.0)
 
+    def share_at(self, channel: WordAddressChannel, at: Mapping[str, float]) -> float | None:
+        """The share of the arc after which a signal comes: where all axes that it names are where it says.
+
+        Where they never are so together, each has to have been there, as on a straight way.
+        """
+        values = {
+            axis: channel.control.from_display(channel, axis, value)
+            for name, value in at.items()
+            if (axis := channel.axis_index.get(name)) is not None
+        }
+        found = [sorted(self.shares(axis, value)) for axis, value in values.items()]
+        if not found or not all(found):
+            return None
+        for share in sorted(share for each in found for share in each):
+            place = self.position(share)
+            if all(abs(place[axis] - value) <= SAME_RADIUS / 100.0 for axis, value in values.items()):
+                return share
+        return max(each[0] for each in found)
+
+    def make(self, channel: WordAddressChannel, share: float) -> None:
+        """The arc up to a share of it."""
+        channel.curve(self.kind, self.position(share), self.feed, center=self.center, normal=self.normal)
+
 
 def made_arc(channel: WordAddressChannel, start: list[float], mark: int) -> MadeArc | None:
     """The arc that is all that a block has made since a mark; None where it is something else."""
@@ -98,23 +121,3 @@ def made_arc(channel: WordAddressChannel, start: list[float], mark: int) -> Made
         return None
     sweep = arcs.sweep_angle(first, last, middle, row.kind in CCW_KINDS)
     return MadeArc(row.kind, row.feed, start, end, center, normal, plane, middle, sweep)
-
-
-def share_at(channel: WordAddressChannel, arc: MadeArc, at: Mapping[str, float]) -> float | None:
-    """The share of an arc after which a signal comes: where all axes that it names are where it says.
-
-    Where they never are so together, each has to have been there, as on a straight way.
-    """
-    values = {
-        axis: channel.control.from_display(channel, axis, value)
-        for name, value in at.items()
-        if (axis := channel.axis_index.get(name)) is not None
-    }
-    found = [sorted(arc.shares(axis, value)) for axis, value in values.items()]
-    if not found or not all(found):
-        return None
-    for share in sorted(share for each in found for share in each):
-        place = arc.position(share)
-        if all(abs(place[axis] - value) <= SAME_RADIUS / 100.0 for axis, value in values.items()):
-            return share
-    return max(each[0] for each in found)

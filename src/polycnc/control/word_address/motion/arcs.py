@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.geometry import arcs
 from polycnc.geometry.frames import IDENTITY
+from polycnc.geometry.tolerances import NO_WAY
 from polycnc.geometry.vectors import axis_vector
 from polycnc.toolpath import Kind
 from polycnc.toolpath.kinds import arc_kind
@@ -66,7 +67,7 @@ def emit_arc(
     point[u], point[v] = center
     normal = axis_vector(w)
     third = c.geometry[w]
-    helix = third >= 0 and programmed[third] != c.programmed[third]
+    helix = third >= 0 and abs(programmed[third] - c.programmed[third]) > NO_WAY
     position = c.to_position(programmed)
     middle: Vector = (point[0], point[1], point[2])
     if c.programming is not IDENTITY:
@@ -157,7 +158,7 @@ def write_with_rest(
     middle = [c.position[axis] if axis >= 0 else 0.0 for axis in c.geometry]
     middle[u], middle[v] = center
     third = c.geometry[w]
-    helix = third >= 0 and on_circle[third] != c.position[third]
+    helix = third >= 0 and abs(on_circle[third] - c.position[third]) > NO_WAY
     normal = axis_vector(w)
     channel.curve(
         arc_kind(ccw=ccw, helix=helix),

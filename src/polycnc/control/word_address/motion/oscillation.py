@@ -91,8 +91,12 @@ class Oscillator(State, lifetime=Lifetime.POWER):
             if not low <= place <= high:
                 raise channel.control.over_travel(channel.axes[column], 1 if place > high else -1)
 
+        self.override = (
+            override  # not with the start: another channel may change it before the axes are there
+        )
+
         def start() -> None:
-            self.column, self.source, self.home, self.override = column, source, home, override
+            self.column, self.source, self.home = column, source, home
             self.phase = Phase.STROKES
             clocked.watch(self)
             clocked.move_static(column, static=True)
@@ -111,8 +115,8 @@ class Oscillator(State, lifetime=Lifetime.POWER):
 
         self.channel.event(Deed("OSCILLATION", None, do, is_silent=False))
 
-    def change_override(self, override: float) -> None:
-        """Another override holds at once when the axes are there, within a stroke too."""
+    def change_override(self, override: float, commander: Channel | None = None) -> None:
+        """Another override holds at once when the axes of the channel that commands it are there, in a stroke too."""
 
         def do() -> None:
             self.override = override
@@ -121,7 +125,7 @@ class Oscillator(State, lifetime=Lifetime.POWER):
                 clocked.commanded(self.column).change_speed(self._speed)
                 clocked.wake()
 
-        self.channel.event(Deed("OSCILLATION", None, do, is_silent=False))
+        (commander or self.channel).event(Deed("OSCILLATION", None, do, is_silent=False))
 
     def finish(self, last: float | None) -> bool:
         """The strokes end at a machine position, or at once; whether the axis belongs to the path again.

@@ -101,23 +101,23 @@ def signal_position(
     by the clock counts in the move from where the channel stands; where a main run executes the move, it gives it.
     """
     if not isinstance(signal, SkipInput):
-        fraction = _fraction_at(channel, start, end, signal)
+        fraction = fraction_at(channel, start, end, signal)
     else:
         c, geometry = channel.coordinates, channel.coordinates.geometry
-        shares = [_fraction_at(channel, start, end, signal.at)]
+        shares = [fraction_at(channel, start, end, signal.at)]
         if signal.surfaces and c.transformation is None:
             places = ([c.to_machine(place)[i] if i >= 0 else 0.0 for i in geometry] for place in (start, end))
             (x, y, z), (x1, y1, z1) = places
             shares.append(first_touch(signal.surfaces, (x, y, z), (x1, y1, z1)))
-        if signal.after_s is not None and channel.share_after is not None and start == c.position:
-            shares.append(channel.share_after(channel, end, channel.feed, signal.after_s))
+        if signal.after_s is not None and channel.move_times is not None and start == c.position:
+            shares.append(channel.move_times.share_after(channel, end, channel.feed, signal.after_s))
         fraction = min((share for share in shares if share is not None), default=None)
     if fraction is None:
         return None
     return [s + (e - s) * fraction for s, e in zip(start, end, strict=True)]
 
 
-def _fraction_at(
+def fraction_at(
     channel: WordAddressChannel, start: list[float], end: list[float], at: object
 ) -> float | None:
     """The share of the way after which every axis that a work position names has reached it."""

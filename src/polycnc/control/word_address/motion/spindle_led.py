@@ -109,7 +109,7 @@ class SpindleLed(State, lifetime=Lifetime.POWER):
         """The end of the program ends the couplings, and waits until their axes stand."""
         clocked = self.channel.on_clock()
         for column in tuple(self.leads):
-            if not self.leads[column].ratio:
+            if self.leads[column] == Lead(0.0):
                 continue
             self.leads[column] = Lead(0.0)
             clocked.follow(column, ())

@@ -5,20 +5,18 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.tools import radius
-from polycnc.control.word_address.tools.radius import RadiusState, place_of_block
-from polycnc.geometry.planes import PLANES
+from polycnc.control.word_address.tools.radius import RadiusState, direction_of, place_of_block
 
 if TYPE_CHECKING:
     from polycnc.compensation import CutterCompensation
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import WordAddressChannel
-    from polycnc.geometry.arcs import Point
 
 
 def hold_vector(channel: WordAddressChannel, words: Words) -> None:
     """G38: the vector at the end of the block in front is kept; with I J K it is square on that direction."""
     stage = _stage(channel, words, "G38")
-    direction = _direction(channel, words)
+    direction = direction_of(channel, words)
     if direction is None:
         stage.hold_vector()
     else:
@@ -27,7 +25,7 @@ def hold_vector(channel: WordAddressChannel, words: Words) -> None:
 
 def corner_arc(channel: WordAddressChannel, words: Words) -> None:
     """G39: an arc of the tool's radius about the corner; I J K give the direction on which it ends square."""
-    _stage(channel, words, "G39").corner_arc(place_of_block(channel), _direction(channel, words))
+    _stage(channel, words, "G39").corner_arc(place_of_block(channel), direction_of(channel, words))
 
 
 def compensate_left(channel: WordAddressChannel, words: Words) -> None:
@@ -43,7 +41,7 @@ def compensate_right(channel: WordAddressChannel, words: Words) -> None:
 
 
 def _force(channel: WordAddressChannel, words: Words) -> None:
-    direction, stage = _direction(channel, words), radius.active_compensation(channel)
+    direction, stage = direction_of(channel, words), radius.active_compensation(channel)
     if direction is not None and stage is not None:
         stage.forced_vector(direction)
 
@@ -53,9 +51,3 @@ def _stage(channel: WordAddressChannel, words: Words, code: str) -> CutterCompen
     if stage is None or not RadiusState.of(channel).side:
         raise words.fail("comp_format", code)
     return stage
-
-
-def _direction(channel: WordAddressChannel, words: Words) -> Point | None:
-    u, v, _ = PLANES[channel.mode["plane"]]
-    first, second = words.length("IJK"[u]) or 0.0, words.length("IJK"[v]) or 0.0
-    return (first, second) if first or second else None

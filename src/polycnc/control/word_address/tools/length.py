@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import field
+from dataclasses import field, replace
 from math import isclose, nan
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
+from polycnc.control.word_address.coordinates import tip
 from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
 from polycnc.control.word_address.cycles import drilling
 from polycnc.deferred.records import dataclass
@@ -122,6 +123,8 @@ def plan_length_number(builder: Builder) -> Step | None:
             _shift(channel)
             if not moved:
                 _travel(channel)
+        else:
+            renew_tip(channel)
 
     return change
 
@@ -130,6 +133,20 @@ def renew_length(channel: WordAddressChannel) -> None:
     """The offset memory has changed: an active compensation takes the new value with its next move."""
     if channel.mode["length"] in _SIGN:
         _shift(channel)
+    else:
+        renew_tip(channel)
+
+
+def renew_tip(channel: WordAddressChannel) -> None:
+    """The length is another one: where tip control leads, the tip lies elsewhere from here on; the machine stays."""
+    state, number = tip.TipState.of(channel), LengthState.of(channel).number
+    if state.active is not None and state.is_leading(channel):
+        value = channel.control.length_value(channel, number) if number else 0.0
+        active = replace(state.active, tip=(0.0, 0.0, -value))
+        if active != state.active:
+            channel.flush()
+            tip.lead(channel, active, state.frame, channel.coordinates.offsets)
+            channel.context_changed()
 
 
 def _apply(channel: WordAddressChannel, words: Words) -> None:
@@ -139,22 +156,25 @@ def _apply(channel: WordAddressChannel, words: Words) -> None:
         _travel(channel)
 
 
+def active_value(channel: WordAddressChannel) -> float:
+    """The length that G43 or G44 adds along the tool, mm; 0 without them, and where a control has none."""
+    sign, number = _SIGN.get(channel.mode.codes.get("length", ""), 0.0), LengthState.of(channel).number
+    return sign * channel.control.length_value(channel, number) if sign and number else 0.0
+
+
 def _shift(channel: WordAddressChannel) -> None:
     zero_state = ZeroState.of(channel)
     length_state = LengthState.of(channel)
     z = channel.coordinates.geometry[2]
     if z < 0:
         raise channel.control.fail("plane")
-    sign = _SIGN.get(channel.mode["length"], 0.0)
-    value = (
-        channel.control.length_value(channel, length_state.number) if sign and length_state.number else 0.0
-    )
+    value = active_value(channel)
     if length_state.direction is None:
-        zero_state.length[z] = 0.0 if z in length_state.lost else sign * value
+        zero_state.length[z] = 0.0 if z in length_state.lost else value
     else:
         for axis, part in zip(channel.coordinates.geometry, length_state.direction, strict=True):
             if axis >= 0:
-                zero_state.length[axis] = 0.0 if axis in length_state.lost else sign * value * part
+                zero_state.length[axis] = 0.0 if axis in length_state.lost else value * part
     refresh_zero(channel, travelled=True)
 
 

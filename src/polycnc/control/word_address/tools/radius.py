@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import WordAddressChannel
+    from polycnc.geometry.arcs import Point
 
 #: What each violation is called in a control's table of mistakes.
 MISTAKES = {
@@ -105,9 +106,7 @@ def cancel_compensation(channel: WordAddressChannel, words: Words, *, takes_wall
     _refuse_arc(channel, words)
     corners.refuse_change(channel)
     state.side = state.engaged_side = 0
-    u, v, _ = PLANES[channel.mode["plane"]]
-    wall = (words.length("IJK"[u]) or 0.0, words.length("IJK"[v]) or 0.0)
-    stage.cancel(wall if takes_wall and wall != (0.0, 0.0) else None, place=place_of_block(channel))
+    stage.cancel(direction_of(channel, words) if takes_wall else None, place=place_of_block(channel))
     channel.context_changed()
 
 
@@ -182,6 +181,22 @@ def side_on_display(channel: WordAddressChannel) -> int:
     side: int = RadiusState.of(channel).side
     plane = PLANES[channel.mode["plane"]]
     return -side if mirrors_plane(channel.coordinates.programming, plane) else side
+
+
+def direction_of(channel: WordAddressChannel, words: Words) -> Point | None:
+    """The direction that I, J, K give in the plane, as it lies on the display; None without."""
+    u, v, _ = PLANES[channel.mode["plane"]]
+    first, second = words.length("IJK"[u]) or 0.0, words.length("IJK"[v]) or 0.0
+    return on_display(channel, first, second) if first or second else None
+
+
+def on_display(channel: WordAddressChannel, first: float, second: float) -> Point:
+    """A direction of the plane as the program sees it, by mirror and rotation on the display."""
+    u, v, _ = PLANES[channel.mode["plane"]]
+    typed = [0.0, 0.0, 0.0]
+    typed[u], typed[v] = first, second
+    shown = channel.coordinates.programming.direct(typed[0], typed[1], typed[2])
+    return shown[u], shown[v]
 
 
 def active_compensation(channel: WordAddressChannel) -> CutterCompensation | None:

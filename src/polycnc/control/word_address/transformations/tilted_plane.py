@@ -11,18 +11,26 @@ from math import nan
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
-from polycnc.control.word_address.coordinates import frames
-from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
+from polycnc.control.word_address.coordinates import frames, on_table
+from polycnc.control.word_address.coordinates.on_table import OnTable
+from polycnc.control.word_address.coordinates.systems import (
+    ZeroState,
+    frame_on_table,
+    plane_on_table,
+    refresh_zero,
+    work_zero,
+)
 from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.tools import length
 from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, Frame, rotation, translation
-from polycnc.machine.kinematics import Kinematics
+from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 from polycnc.transformation.orientation import choice
-from polycnc.transformation.orientation.solutions import angles_for, solutions_for
+from polycnc.transformation.orientation.solutions import solutions_for
+from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
 from polycnc.transformation.planes.tilted import (
     by_directions,
     by_euler,
@@ -31,7 +39,9 @@ from polycnc.transformation.planes.tilted import (
     by_projections,
     square_on,
     table_turn,
+    tool_carrier,
 )
+from polycnc.transformation.seated import Seated
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.block.words import Words
@@ -83,22 +93,22 @@ def tilt_by_tool(channel: WordAddressChannel, words: Words) -> None:
     X of the plane is square on the tool and on Z of the machine; R turns it about the tool.
     """
     _check_state(channel, words, "G68.3")
-    c, kinematics = channel.coordinates, Kinematics.of(channel.machine)
+    c, kinematics = channel.coordinates, channel.control.kinematics(channel)
     given = {axis for axis, _, _ in words.axes()}
     if given and len(given & set(c.geometry)) < len(c.geometry):
         raise words.fail("tilt_format", "G68.3")
     angles = dict(zip(channel.axes, c.machine, strict=True))
-    tool, zero = kinematics.tool_on_machine(angles), _work_zero(channel)
-    turn = square_on(tool) @ rotation(2, words.angle("R") or 0.0)
+    zero = work_zero(channel, c.offsets)
+    turn = square_on(kinematics.tool_on_machine(angles)) @ rotation(2, words.angle("R") or 0.0)
     table, turned = table_turn(kinematics, angles, zero), table_turn(kinematics, angles, MACHINE_ZERO)
     place = table.apply(*named_point(channel, words, "tilt_format"))
     plane = table.inverse() @ translation(*place) @ turn
-    _renew(channel, turned, plane, tool)
+    _renew(channel, turned, plane, angles)
     if not given:
         here = tuple(c.position[axis] if axis >= 0 else 0.0 for axis in c.geometry)
         place = (translation(*place) @ turn).apply(here[0], here[1], here[2])
         plane = table.inverse() @ translation(*place) @ turn
-        _renew(channel, turned, plane, tool)
+        _renew(channel, turned, plane, angles)
     TiltState.of(channel).plane = plane
 
 
@@ -109,6 +119,11 @@ def _check_state(channel: WordAddressChannel, words: Words, code: str) -> None:
     """
     if TipState.of(channel).active is not None:
         raise words.fail("tip_mode", code)
+    state = OnTable.of(channel)
+    if state.fixture or (state.error and code == "G68.3"):
+        raise AlarmError(
+            "PC0001", hint="hint.not-supported", code=f"G54.{'2' if state.fixture else '4'}: {code}"
+        )
     check_compensation(channel, words, code)
 
 
@@ -198,49 +213,88 @@ def _align(channel: WordAddressChannel, words: Words, code: str, *, holds_tip: b
     c, plane = channel.coordinates, TiltState.of(channel).plane
     if plane is None:
         raise words.fail("tilt_missing", code)
-    kinematics = Kinematics.of(channel.machine)
+    kinematics = channel.control.kinematics(channel)
     near = dict(zip(channel.axes, c.machine, strict=True))
-    wanted = plane.direct(0.0, 0.0, 1.0)
+    wanted = plane_on_table(channel, c.offsets).direct(0.0, 0.0, 1.0)
     if not kinematics.axes and abs(wanted[2] - 1.0) < 1e-9:
         return
-    angles = _angles(words, kinematics, wanted, near)
+    angles = _angles(channel, words, wanted, near)
     if angles is None or not set(angles) <= set(channel.axes):
         raise words.fail("tilt_unreachable", code)
-    tip, end = c.position, c.machine
-    for name, angle in angles.items():
-        end[channel.axis_index[name]] = angle
     table = table_turn(kinematics, angles, MACHINE_ZERO)
-    _renew(channel, table, plane, kinematics.tool_on_machine(angles))
-    goal = c.from_machine(end)
     if holds_tip:
-        for axis in c.geometry:
-            goal[axis] = tip[axis]
+        if -1 in c.geometry:
+            raise words.fail("tip_machine", code)
+        turn_about_tip(channel, angles, length.active_value(channel))
+        _renew(channel, table, plane, angles)
         for axis in c.geometry:
             c.pending[axis] = 0.0
-    channel.straight(Kind.RAPID, goal, nan)
+        return
+    end = c.machine
+    for name, angle in angles.items():
+        end[channel.axis_index[name]] = angle
+    _renew(channel, table, plane, angles)
+    channel.straight(Kind.RAPID, c.from_machine(end), nan)
 
 
-def _angles(words: Words, kinematics: Kinematics, wanted: Vector, near: Angles) -> dict[str, float] | None:
+def turn_about_tip(channel: WordAddressChannel, angles: Angles, arm: float, above: float = 0.0) -> None:
+    """Rapid of the rotary axes; a point of the tool stays where it is on the work, for tip control leads meanwhile.
+
+    Behind it nothing leads the axes: the caller says what lies between display and machine.
+
+    Args:
+        channel: All three linear axes exist.
+        angles: Where the rotary axes go to, degrees by name.
+        arm: From the tip along the tool to the nose, mm.
+        above: From the tip along the tool to the point, mm.
+    """
+    c = channel.coordinates
+    channel.flush()
+    offsets = c.offsets.copy()
+    if "length" in channel.mode.codes:  # on lathes they do not count along the tool
+        for axis, place in zip(c.geometry, work_zero(channel, offsets), strict=True):
+            offsets[axis] = place
+    kinematics = channel.control.kinematics(channel)
+    led = ToolCentrePoint(kinematics, channel.axes, c.geometry, tuple(offsets), (0.0, 0.0, above - arm))
+    frame = frame_on_table(channel, c.offsets) @ translation(0.0, 0.0, above)
+    c.transform(Seated(led, frame), None, (IDENTITY, offsets))
+    channel.context_changed()
+    end = c.position.copy()
+    for name, angle in angles.items():
+        axis = channel.axis_index[name]
+        end[axis] = angle - offsets[axis]
+    channel.straight(Kind.RAPID, end, nan)
+    channel.flush()
+    c.transform(None)
+
+
+def _angles(
+    channel: WordAddressChannel, words: Words, wanted: Vector, near: Angles
+) -> dict[str, float] | None:
     """Positions of the rotary axes: the nearest ones, by P1 and P2 those to which the first axis turns up or down.
 
     The first axis is the one that carries the other.
     """
+    kinematics = channel.control.kinematics(channel)
     way = words.integer("P") if "P" in words else NEAREST
     if way not in SENSES:
         raise words.fail("tilt_format", "P")
     if way == NEAREST or not kinematics.axes:
-        return angles_for(kinematics, wanted, near)
-    first = (kinematics.work or kinematics.tool)[0].axis
-    found = [
+        return nearest_angles(channel, wanted, near)
+    first, ranges = (kinematics.work or kinematics.tool)[0].axis, channel.control.rotary_ranges(channel)
+    led = [
         choice.led(solution, near, first, SENSES[way]) for solution in solutions_for(kinematics, wanted, near)
     ]
+    found = [solution for solution in led if choice.all_within(solution, ranges)]
     return next(iter(choice.by_way_of(found, near, first)), None)
 
 
-def _work_zero(channel: WordAddressChannel) -> list[float]:
-    """The work zero on the machine, without the tool, mm."""
-    c, length_state = channel.coordinates, ZeroState.of(channel).length
-    return [c.offsets[axis] - length_state[axis] if axis >= 0 else 0.0 for axis in c.geometry]
+def nearest_angles(channel: WordAddressChannel, wanted: Vector, near: Angles) -> dict[str, float] | None:
+    """The nearest positions of the rotary axes within their ranges that stand the tool along a direction."""
+    ranges = channel.control.rotary_ranges(channel)
+    found = solutions_for(channel.control.kinematics(channel), wanted, near)
+    placed = (choice.on_turns_within(solution, near, ranges) for solution in found)
+    return choice.nearest([solution for solution in placed if solution is not None], near)
 
 
 def end_tilt(channel: WordAddressChannel, words: Words) -> None:
@@ -254,11 +308,28 @@ def end_tilt(channel: WordAddressChannel, words: Words) -> None:
         _renew(channel, IDENTITY, IDENTITY, None)
 
 
-def _renew(channel: WordAddressChannel, table: Frame, plane: Frame, tool: Vector | None) -> None:
-    """Another plane of the work, which the table may have turned, and the direction of the tool; the machine stays."""
+def _renew(channel: WordAddressChannel, table: Frame, plane: Frame, angles: Angles | None) -> None:
+    """Another plane of the work, which the table may have turned; the machine stays.
+
+    With angles the tool stands on it as the rotary axes turn it.
+    """
     state = ZeroState.of(channel)
     state.table, state.plane = table, plane
+    stand_along(channel, angles)
+    if OnTable.of(channel).error:
+        on_table.follow(channel)
+
+
+def stand_along(channel: WordAddressChannel, angles: Angles | None) -> None:
+    """The length counts along the tool as the rotary axes turn it; without angles as they stand it at zero.
+
+    The display follows: an incremental word travels what was owed to it before, and no other direction of the length.
+    """
+    c, kinematics = channel.coordinates, channel.control.kinematics(channel)
+    owed = c.pending.copy()
+    ZeroState.of(channel).carried = (0.0, 0.0, 0.0) if angles is None else tool_carrier(kinematics, angles).t
     refresh_zero(channel)  # a change of the plane is not travelled, one of the length is
-    LengthState.of(channel).direction = tool
+    LengthState.of(channel).direction = None if angles is None else kinematics.tool_on_machine(angles)
     length.renew_direction(channel)
     refresh_zero(channel)
+    c.pending, c.owes = owed, any(owed)

@@ -66,15 +66,22 @@ class Needs:
     Attributes:
         words: Addresses and procedures of its effects.
         axes: Axes that it commands; None in it stands for one that only the main run knows.
+        shifts: Axes that it shifts beside everything else (`$AA_OFF`); None likewise.
         reads: System variables that it reads in every cycle.
     """
 
     words: frozenset[str] = frozenset()
     axes: frozenset[str | None] = frozenset()
     reads: frozenset[str] = frozenset()
+    shifts: frozenset[str | None] = frozenset()
 
     def __or__(self, other: Needs) -> Needs:
-        return Needs(self.words | other.words, self.axes | other.axes, self.reads | other.reads)
+        return Needs(
+            self.words | other.words,
+            self.axes | other.axes,
+            self.reads | other.reads,
+            self.shifts | other.shifts,
+        )
 
 
 @unchanging

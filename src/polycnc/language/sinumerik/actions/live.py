@@ -59,6 +59,10 @@ def is_live(variable: str) -> bool:
     return variable.startswith(("$A", "$V", "$R", "$$"))
 
 
+#: What shifts an axis beside everything else.
+OVERLAY = "$AA_OFF"
+
+
 def is_synchronised(variable: str) -> bool:
     """Whether a user variable is one of those that actions read and write (SYG_…, 10.3.3)."""
     return variable.startswith("SYG_")
@@ -280,8 +284,16 @@ class LiveReader(ExpressionReader):
         )
         if not found:
             raise NcSyntaxError("12580", token.column, token.text)
-        self.needs |= Needs(words=frozenset({token.text}))
+        shifts = frozenset({self._named_axis()} if token.text == OVERLAY else ())
+        self.needs |= Needs(words=frozenset({token.text}), shifts=shifts)
         return self.scope.place(self, token)
+
+    def _named_axis(self) -> str | None:
+        """The axis that stands in the brackets of a variable; None for one that only the main run knows."""
+        names = [token.text for token in self.tokens[self.place : self.place + 3]]
+        known = names[:1] == ["["] and names[2:] == ["]"] and self.scope.find(names[1]) is None
+        axis = self.scope.memory.axes.get(names[1]) if known else None
+        return None if axis is None else axis.name
 
     def _store(self, place: Place, code: Code) -> None:
         if place.type is Type.INT:  # 10.3.2: a REAL beyond the range of INT is an alarm

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import wraps
-from math import nan
+from math import copysign, nan
 from typing import TYPE_CHECKING, TypeVar
 
 from polycnc.channel.states.state import Lifetime, State
@@ -260,6 +260,24 @@ def rotate(channel: LatheChannel, words: Words) -> None:
     parts.rotation = rotation_frame(channel, [center[i] if i >= 0 else 0.0 for i in c.geometry], angle)
     # 11600#5 AX1 = 0: an axis that the next block does not name keeps the value that it had before the rotation.
     c.set_programming(parts.product(), parts.shift, stays=memory.parameters.AX1)
+
+
+def sense(channel: LatheChannel, axis: int) -> float:
+    """-1 for an axis that a mirror turns round (G51.1, G68), else 1.
+
+    What a cycle adds to a point along the axis lies on the other side then: tapers, allowances, escapes, strokes.
+    """
+    geometry, matrix = channel.coordinates.geometry, channel.coordinates.programming.m
+    if axis not in geometry:
+        return 1.0
+    i = geometry.index(axis)
+    return copysign(1.0, matrix[i][i])
+
+
+def senses(channel: LatheChannel) -> tuple[float, float]:
+    """Those of the first and second axis of the plane."""
+    first, second = plane_axes(channel)
+    return sense(channel, first), sense(channel, second)
 
 
 def without_rotation(cycle: Callable[[LatheChannel, T], None]) -> Callable[[LatheChannel, T], None]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.code_calls import PROGRAM_M
-from polycnc.control.fanuc.lathe.coordinates.systems import plane_axes
+from polycnc.control.fanuc.lathe.coordinates.systems import plane_axes, sense
 from polycnc.control.fanuc.lathe.cycles.modal import GrindingState
 from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.word_address.block.numbers import length_converter
@@ -135,8 +135,8 @@ def _stroke(
     """One stroke; whether the gauge's signal came in it. An infeed stops where the signal comes."""
     start = channel.coordinates.position
     end = start[:]
-    end[axes[0]] += stroke.infeed
-    end[axes[1]] += stroke.along
+    end[axes[0]] += stroke.infeed * sense(channel, axes[0])
+    end[axes[1]] += stroke.along * sense(channel, axes[1])
     at = channel.setup.switches.skip_input if gauged else None
     reached = signal_position(channel, start, end, at)
     if reached is not None and not stroke.along:

@@ -6,12 +6,13 @@ Normal format: two blocks; the first, without shape or end point, stores amounts
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import groupby
 from math import copysign, nan
 from typing import TYPE_CHECKING
 
 from polycnc.channel.stack import Level, LevelKind
-from polycnc.control.fanuc.lathe.coordinates.systems import plane_axes, set_rotation, without_rotation
+from polycnc.control.fanuc.lathe.coordinates.systems import plane_axes, senses, set_rotation, without_rotation
 from polycnc.control.fanuc.lathe.cycles.drilling import is_series_15
 from polycnc.control.fanuc.lathe.cycles.modal import FINISHING, GROUP, ThreadDepthState
 from polycnc.control.fanuc.lathe.cycles.shape import (
@@ -227,6 +228,8 @@ def repeat_pattern(channel: LatheChannel, words: Words) -> None:
     if not shape.first_code:
         raise channel.control.fail("shape_first_block", address="P")
     _halt_in_passes(channel, shape, passes)
+    first_sense, second_sense = senses(channel)
+    escape = (escape[0] * first_sense, escape[1] * second_sense)
     _cut(channel, pattern_strokes(contour, escape, passes, _allowance(channel, words)))
     _go_on_behind(channel, shape)
 
@@ -308,8 +311,10 @@ def _check_monotone(channel: LatheChannel, contour: Contour, along: int, *, pock
 def _allowance(channel: LatheChannel, words: Words) -> tuple[float, float]:
     """Finishing allowances along the first and second axis, mm of radius; the words follow their axis."""
     found = []
-    for axis, address in zip(plane_axes(channel), INCREMENTS[channel.mode["plane"]], strict=True):
-        found.append(words.length(address, diameter=channel.control.is_diameter(channel, axis)) or 0.0)
+    named = zip(plane_axes(channel), INCREMENTS[channel.mode["plane"]], senses(channel), strict=True)
+    for axis, address, sense in named:
+        amount = words.length(address, diameter=channel.control.is_diameter(channel, axis)) or 0.0
+        found.append(sense * amount)
     return found[0], found[1]
 
 
@@ -373,9 +378,11 @@ def _peck(channel: LatheChannel, words: Words, *, along: int) -> None:
         if min(amounts) < 0.0:
             raise words.fail("peck_amount", "Q" if amounts[0] < 0.0 else "P")
         relief = words.length("R") or 0.0
-    pecks = Pecks(amounts[along], memory.parameters.groove_return, amounts[1 - along], relief)
     start, end = _turned(start, along), _turned(end, along)
+    pecks = Pecks(amounts[along], memory.parameters.groove_return, amounts[1 - along], relief)
     _check_pecks(words, start, end, pecks)
+    if start[1] == end[1]:
+        pecks = replace(pecks, relief=relief * senses(channel)[1 - along])
     strokes = peck_columns(start, end, pecks)
     uncompensated_cycle(channel, (swapped_stroke(stroke) for stroke in strokes) if along else strokes)
 
@@ -452,6 +459,7 @@ def thread(channel: LatheChannel, words: Words) -> None:
     if cuts.least > height:
         raise words.fail("thread_least", "Q")
     out = runout(channel, lead)
+    taper *= senses(channel)[1]
     passes = thread_passes(start, end, taper, cuts, half_angle_deg=angle / 2.0, zigzag=method in (2, 4))
     for number, (begin, last) in enumerate(passes):
         if number >= MAX_PASSES:

@@ -5,7 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.code_calls import PROGRAM_M
-from polycnc.control.fanuc.lathe.coordinates.systems import feed_number, plane_axes, without_rotation
+from polycnc.control.fanuc.lathe.coordinates.systems import (
+    feed_number,
+    plane_axes,
+    senses,
+    without_rotation,
+)
 from polycnc.control.fanuc.lathe.cycles import grinding
 from polycnc.control.fanuc.lathe.cycles.drilling import is_series_15
 from polycnc.control.fanuc.lathe.cycles.modal import GrindingState, SingleCycleState
@@ -89,7 +94,7 @@ def _run(channel: LatheChannel, code: str, axes: tuple[int, int], angle: float) 
     target = c.to_position(corner_point)
     start: Point = (c.position[axes[0]], c.position[axes[1]])
     corner: Point = (target[axes[0]], target[axes[1]])
-    taper = data.taper or 0.0
+    taper = (data.taper or 0.0) * senses(channel)[0 if code == "G94" else 1]
     if code == "G92":
         lead = data.lead or lead_in_force(channel)
         begin = (start[0], corner[1] + taper)

@@ -1,4 +1,7 @@
-"""Axes that move beside the program on the lathe: G51.2 polygon turning, G81 electronic gear box, G81.1 oscillation."""
+"""Axes that move beside the program on the lathe: G51.2, G81, G81.5, G51.4, G81.1.
+
+Polygon turning, electronic gear box, its two pairs, synchronous control, oscillation.
+"""
 
 from __future__ import annotations
 
@@ -23,19 +26,38 @@ if TYPE_CHECKING:
 
 POLYGON, POLYGON_OFF = "polygon", "G50.2"
 LARGEST_RATIO = 999
+#: G81.5: turns of the spindle that T may name, and how many axes may follow.
+MOST_TURNS, PAIRS = 5000, 2
+#: Codes whose axis words are no moves.
+NO_MOVES = frozenset({"G4", "G81.5", "G80.5"})
 TURN = 360.0
 
 
 @dataclass(slots=True)
 class BesideState(State, lifetime=Lifetime.RESET):
-    """Axes that move beside the program, by their columns; -1 for none."""
+    """Axes that move beside the program, by their columns; -1 for none.
+
+    Attributes:
+        polygon: The tool axis of polygon turning.
+        gear: The workpiece axis of the gear box.
+        oscillating: The axis that oscillates.
+        pairs: Those of G81.5.
+        slaves: Those that follow another axis (G51.4).
+    """
 
     polygon: int = -1
     gear: int = -1
     oscillating: int = -1
+    pairs: frozenset[int] = frozenset()
+    slaves: frozenset[int] = frozenset()
+
+    @property
+    def columns(self) -> set[int]:
+        """All of them."""
+        return {self.polygon, self.gear, self.oscillating, *self.pairs, *self.slaves} - {-1}
 
 
-def _took(channel: LatheChannel, **columns: int) -> None:
+def _took(channel: LatheChannel, **columns: int | frozenset[int]) -> None:
     """Note which axes move beside the program from here on."""
     state = BesideState.of(channel)
     for name, column in columns.items():
@@ -118,6 +140,75 @@ def end_gear(channel: LatheChannel, _words: object) -> None:
         _took(channel, oscillating=-1)
 
 
+# ---- two pairs of the gear box -----------------------------------------------------------------------------------
+
+
+def start_pair(channel: LatheChannel, words: Words) -> None:
+    """G81.5 T C: the axis moves so far, or with L turns so often, while the spindle makes T turns."""
+    state, named = BesideState.of(channel), words.axes()
+    turns, often = words.integer("T"), words.integer("L") if "L" in words else None
+    if "P" in words:
+        raise AlarmError("PC0001", hint="hint.not-supported", address="P", code="G81.5 P")
+    if len(named) != 1 or turns is None or not 1 <= turns <= MOST_TURNS:
+        raise words.fail("gear_format", "G81.5")
+    column, way, _ = named[0]
+    if (often is not None) == (way != 0.0) or (often is not None and not channel.axis_data[column].rotary):
+        raise words.fail("gear_format", "L" if often is not None else words.plan.axis_words[0].address)
+    if column in state.columns or len(state.pairs) >= PAIRS:
+        raise words.fail("gear_mode", "G81.5")
+    ratio = (often if often is not None else way / TURN) / turns
+    SpindleLed.of(channel).begin(column, Lead(ratio))
+    _took(channel, pairs=state.pairs | {column})
+
+
+def end_pair(channel: LatheChannel, words: Words) -> None:
+    """G80.5 C0: the pair of this axis opens, without an axis both do."""
+    state = BesideState.of(channel)
+    named = {column for column, _, _ in words.axes()}
+    if any(value for _, value, _ in words.axes()):
+        raise words.fail("gear_format", "G80.5")
+    for column in sorted(state.pairs & named if named else state.pairs):
+        SpindleLed.of(channel).release(column)
+        _took(channel, pairs=state.pairs - {column})
+
+
+# ---- synchronous control -----------------------------------------------------------------------------------------
+
+
+def start_synchronous(channel: LatheChannel, words: Words) -> None:
+    """G51.4 P Q: the slave Q makes every move of its master P; both by 12600, in one path."""
+    if "L" in words and words.integer("L"):
+        raise AlarmError("PC0001", hint="hint.not-supported", address="L", code="G51.4 L")
+    state = BesideState.of(channel)
+    master, slave = (_identified(channel, words, address) for address in "PQ")
+    if master == slave or state.columns & {master, slave}:
+        raise words.fail("synchronous_composition", "G51.4")
+    sense = -1.0 if channel.memory.parameters.of(channel.axes[slave]).SMR else 1.0
+    law = Ratio(master, sense, channel.coordinates.machine[master])
+    SpindleLed.of(channel).begin(slave, Lead(0.0, (law,)))
+    _took(channel, slaves=state.slaves | {slave})
+
+
+def end_synchronous(channel: LatheChannel, words: Words) -> None:
+    """G50.4 Q: the slave belongs to the program again, where it then stands."""
+    slave = _identified(channel, words, "Q")
+    state = BesideState.of(channel)
+    if slave in state.slaves:
+        SpindleLed.of(channel).release(slave)
+        _took(channel, slaves=state.slaves - {slave})
+
+
+def _identified(channel: LatheChannel, words: Words, address: str) -> int:
+    """Column of the axis that has a number of 12600; PC0001 where another path may have it."""
+    number, of = words.integer(address), channel.memory.parameters.of
+    for column, name in enumerate(channel.axes):
+        if number and of(name).identification == number:
+            return column
+    if len(channel.machine.channels) > 1:
+        raise AlarmError("PC0001", hint="hint.not-supported", address=address, code=f"G51.4 {address}")
+    raise words.fail("synchronous_axis", address)
+
+
 # ---- oscillation -------------------------------------------------------------------------------------------------
 
 
@@ -151,8 +242,10 @@ def _check_block(builder: Builder) -> None:
         state.polygon: "polygon_move",
         state.gear: "gear_mode",
         state.oscillating: "oscillation_command",
+        **dict.fromkeys(state.pairs, "gear_mode"),
+        **dict.fromkeys(state.slaves, "synchronous_move"),
     }
-    if any(row.code == "G4" for row in builder.codes):
+    if any(row.code in NO_MOVES for row in builder.codes):
         return
     for address in builder.slots:
         target = builder.control.axis_of_address(builder.channel, address, builder)
@@ -165,8 +258,7 @@ def _end_by_drilling_code(_builder: Builder, _plan: Plan) -> Step:
 
 
 def _none_moves(channel: LatheChannel) -> bool:
-    state = BesideState.of(channel)
-    return max(state.polygon, state.gear, state.oscillating) < 0
+    return not BesideState.of(channel).columns
 
 
 #: Axes that move beside the program belong to none of its blocks.

@@ -53,6 +53,7 @@ class TurningCorner(CornerStage):
         }
         super().__init__(Plane(u, v, w, channel.coordinates.geometry), _COMMANDED, codes)
         self._control: WordAddressControl = control
+        self._coordinates = channel.coordinates
         self._codes = codes
         self._expected: Expected | None = None
         self._first = False
@@ -81,7 +82,8 @@ class TurningCorner(CornerStage):
     def _check(self, move: Move, expected: Expected) -> None:
         if move.kind is not Kind.FEED:
             raise self._fail("corner_next_block", expected)
-        way = [end - start for start, end in zip(move.start, move.end, strict=True)]
+        begin, last = (self._coordinates.to_programmed(list(place)) for place in (move.start, move.end))
+        way = [end - start for start, end in zip(begin, last, strict=True)]
         others = any(abs(value) > 1e-9 for i, value in enumerate(way) if i != expected.axis)
         if others or way[expected.axis] == 0.0 or way[expected.axis] * expected.direction < 0.0:
             raise self._fail("corner_no_move", expected)

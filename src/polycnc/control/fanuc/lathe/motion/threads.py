@@ -29,7 +29,6 @@ if TYPE_CHECKING:
     from polycnc.control.fanuc.lathe.family import LatheChannel
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
-    from polycnc.control.word_address.block.words import Words
     from polycnc.geometry.arcs import Point
     from polycnc.geometry.frames import Vector
     from polycnc.toolpath import Context
@@ -314,11 +313,6 @@ def retract_speed(channel: LatheChannel) -> float:
     """1466, mm/s; 0 for rapid traverse, as with 1611#0 CFR."""
     parameters = channel.memory.parameters
     return 0.0 if parameters.CFR else parameters.thread_retract_speed / 60.0
-
-
-def prepare_retract(channel: LatheChannel, words: Words) -> None:
-    """G10.6: axes and ways of a retract that the operator asks for; without words none is prepared."""
-    ThreadState.of(channel).retract_axes = frozenset(axis for axis, _, _ in words.axes())
 
 
 def note_retract(channel: LatheChannel, end: list[float]) -> None:

@@ -109,14 +109,7 @@ def corner_arc(channel: LatheChannel, words: Words) -> None:
     """G39 [I K]: an arc about the corner; no motion in its block."""
     stage = radius.active_compensation(channel)
     if stage is not None:
-        stage.corner_arc(radius.place_of_block(channel), _direction(channel, words))
-
-
-def _direction(channel: LatheChannel, words: Words) -> tuple[float, float] | None:
-    """The direction that I, J, K give in the plane, None without."""
-    u, v, _ = PLANES[channel.mode["plane"]]
-    direction = (words.length("IJK"[u]) or 0.0, words.length("IJK"[v]) or 0.0)
-    return None if direction == (0.0, 0.0) else direction
+        stage.corner_arc(radius.place_of_block(channel), radius.direction_of(channel, words))
 
 
 def plan_travel(builder: Builder, plan: Plan, step: Step | None) -> Step | None:
@@ -146,7 +139,7 @@ def plan_line_words(builder: Builder) -> Callable[[LatheChannel, list[float]], o
         stage = radius.active_compensation(channel)
         if stage is not None:
             direction = [0.0 if s is None else (c(values[s]) if c else values[s]) for s, c in words]
-            stage.forced_vector((direction[0], direction[1]))
+            stage.forced_vector(radius.on_display(channel, direction[0], direction[1]))
 
     return force
 

@@ -23,7 +23,7 @@ from polycnc.control.sinumerik.cycles.milling import (
 from polycnc.control.sinumerik.cycles.moves import require_tool
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.cycles.milling import contour_pocket, region
-from polycnc.cycles.milling.contour_pocket import ContourPocket, InsertionError
+from polycnc.cycles.milling.contour_pocket import ContourPocket, InsertionError, StartError
 from polycnc.cycles.milling.pockets import Insertion
 from polycnc.cycles.milling.region import RegionError
 from polycnc.cycles.milling.stroke import steps
@@ -46,6 +46,8 @@ _INSERTION_PLACE, _START_PLACE = 1, 4
 _HUNDREDS = 2
 POCKETS, SPIGOT = (0, 1), 2
 ONLY_START = 2
+#: Who chooses the start point: ten-thousands of VARI.
+BY_CYCLE, BY_CALL = 0, 1
 #: What is wrong with contours, and the alarm of it; else preparation failed.
 REGION_ALARMS = {
     "open": "61605",
@@ -62,7 +64,8 @@ def mill(moves: Moves, a: Arguments) -> None:
     Raises:
         AlarmError: As the other milling cycles; 61605 for contours that are open, cross, lie in each other or are too
             few, 61606 where they cannot be followed, 61105 for a cutter that goes in nowhere, 61108 for a helix or an
-            oscillation without room; PC0001 for residual material, chamfers, own start points, a mere calculation.
+            oscillation without room, 61607 for a start point from which it cannot go on; PC0001 for residual material,
+            chamfers, a mere calculation, a start point of an oscillation or of edges.
     """
     radius = cutter(moves)
     kind = a.digit("_VARI", 0)
@@ -101,6 +104,7 @@ def mill(moves: Moves, a: Arguments) -> None:
         helix,
         pitch,
         angle,
+        (a["_XS"], a["_YS"]) if a.digit("_VARI", _START_PLACE) == BY_CALL else None,
     )
     total = _above_allowance(found, base_allowance)
     levels = [found.depth]
@@ -125,13 +129,20 @@ def _refuse(a: Arguments, kind: int) -> None:
         raise AlarmError("61109")
     unknown = {
         "_TR": a.cycle == "CYCLE63" and bool(a.text("_TR").strip()),
-        "_VARI": kind in (REST, CHAMFER) or a.digit("_VARI", _START_PLACE) != 0,
+        "_VARI": kind in (REST, CHAMFER) or _start_is_unknown(a, kind),
         "_GMODE": a.digit("_GMODE", _HUNDREDS) >= ONLY_START,
         "_DMODE": a.digit("_DMODE", _HUNDREDS) not in (*POCKETS, SPIGOT),
     }
     for name, wrong in unknown.items():
         if wrong:
             raise not_supported(f"{a.cycle} {name}")
+
+
+def _start_is_unknown(a: Arguments, kind: int) -> bool:
+    """Whether a call names a start point in a way that is not executed."""
+    chooser = a.digit("_VARI", _START_PLACE)
+    is_slope = INSERTIONS.get(a.digit("_VARI", _INSERTION_PLACE)) is Insertion.OSCILLATION
+    return chooser not in (BY_CYCLE, BY_CALL) or (chooser == BY_CALL and (kind == EDGE or is_slope))
 
 
 def _with_walls(a: Arguments, shape: ContourPocket, contours: list[Contour]) -> ContourPocket:
@@ -156,6 +167,8 @@ def _mill(
         raise AlarmError(REGION_ALARMS.get(str(error), "61606")) from None
     except InsertionError:
         raise AlarmError("61108") from None
+    except StartError:
+        raise AlarmError("61607") from None
     perform(moves, strokes)
 
 

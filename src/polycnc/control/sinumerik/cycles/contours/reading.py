@@ -11,21 +11,32 @@ from functools import partial
 from math import nan
 from typing import TYPE_CHECKING, NamedTuple
 
+from polycnc.channel.moves.path import Recorder
+from polycnc.channel.stack import LevelKind
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.motion.contour_reading import ContourReading, reading_from_here, without_away
 from polycnc.cycles.turning.contour import Contour, Piece
 from polycnc.deferred.records import dataclass
 from polycnc.geometry import offset
+from polycnc.geometry.tolerances import NO_WAY
 from polycnc.language.sinumerik.statements.calls import call_section, call_without_arguments, named_program
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
+from polycnc.toolpath.events import (
+    Auxiliary,
+    HFunction,
+    SecondAuxiliary,
+    SpindleSpeed,
+    Stop,
+    ToolSelection,
+)
 from polycnc.toolpath.kinds import CCW_KINDS
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from polycnc.channel.moves.path import Move
+    from polycnc.channel.moves.path import Move, PlacedEvent
     from polycnc.control.sinumerik.cycles.arguments import Arguments
     from polycnc.control.sinumerik.cycles.moves import Moves
     from polycnc.control.sinumerik.family import SinumerikChannel
@@ -87,15 +98,22 @@ def _place(channel: SinumerikChannel, name: str) -> Place:
     """What "NAME" and "LABEL1:LABEL2" mean; an empty name is what CYCLE62 has chosen, once.
 
     Raises:
-        AlarmError: PC0001 where it has chosen several.
+        AlarmError: PC0001 where it has chosen several, or the cycle is modal.
     """
     if not name.strip():
-        places = ChosenContour.of(channel).take()
+        places = _take(channel)
         if len(places) > 1:
             raise not_supported("CYCLE62: two contours")
         return places[0] if places else Place("")
     first, _, last = (part.strip() for part in name.partition(":"))
     return Place("", first.upper(), last.upper()) if last else Place(first)
+
+
+def _take(channel: SinumerikChannel) -> list[Place]:
+    """What CYCLE62 has chosen; PC0001 for a modal cycle, for which it chooses nothing but for its first call."""
+    if channel.level.kind is LevelKind.MODAL:
+        raise not_supported("MCALL: CYCLE62")
+    return ChosenContour.of(channel).take()
 
 
 def _call(channel: SinumerikChannel, place: Place) -> None:
@@ -133,9 +151,9 @@ def read_chosen(moves: Moves, use: Callable[[list[Contour]], None]) -> None:
     """Read all contours that calls of CYCLE62 have chosen, one after the other, as `read` does.
 
     Raises:
-        AlarmError: As `read`; 61605 where none is chosen.
+        AlarmError: As `read`; 61605 where none is chosen, PC0001 for a modal cycle.
     """
-    places = ChosenContour.of(moves.channel).take()
+    places = _take(moves.channel)
     found: list[Contour] = []
 
     def go_on(contour: Contour | None = None) -> None:
@@ -156,6 +174,55 @@ def _read(moves: Moves, place: Place, use: Callable[[Contour], None]) -> None:
     moves.act(reading.end)
 
 
+#: Events of a contour that would have to happen along it, and the word that each is told by.
+EVENTS = {
+    Auxiliary: "M",
+    SecondAuxiliary: "B",
+    HFunction: "H",
+    SpindleSpeed: "S",
+    ToolSelection: "T",
+    Stop: "M0",
+}
+#: What a contour consists of.
+KINDS = frozenset((Kind.RAPID, Kind.FEED, Kind.CW, Kind.CCW))
+
+
+class ContourRecorder(Recorder):
+    """Keeps the moves of a contour; what else its blocks do is refused, for the cycle does not do it.
+
+    Args:
+        moves: The cycle that reads; its plane is that of the contour.
+
+    Raises:
+        AlarmError: PC0001 for auxiliary functions, 10930 for what is neither line nor arc, 10931 for a move that leaves
+            the plane behind the first point.
+    """
+
+    def __init__(self, moves: Moves) -> None:
+        super().__init__()
+        self._columns = moves.columns
+
+    def event(self, event: PlacedEvent) -> None:
+        """An event of a block."""
+        letter = EVENTS.get(type(event.event))
+        if letter is not None:
+            code = event.event.code if isinstance(event.event, Auxiliary) else ""
+            raise not_supported(f"CYCLE62: {letter}{code}")
+
+    def move(self, move: Move) -> None:
+        """A move of a block."""
+        if move.kind not in KINDS:
+            raise AlarmError("10930", text="G4" if move.kind is Kind.DWELL else move.kind.name)
+        away = (
+            abs(b - a)
+            for i, (a, b) in enumerate(zip(move.start, move.end, strict=True))
+            if i not in self._columns[:2]
+        )
+        if self.moves and max(away, default=0.0) > NO_WAY:
+            raise AlarmError("10931", text="CYCLE62")
+        super().move(move)
+
+
 class _Reading:
     """A contour that is being read.
 
@@ -172,7 +239,7 @@ class _Reading:
     def begin(self) -> None:
         """The contour runs as a program level, and its moves are caught."""
         moves, channel = self._moves, self._moves.channel
-        self._reading = reading_from_here(channel, keeps_modes=True)
+        self._reading = reading_from_here(channel, keeps_modes=True, recorder=ContourRecorder(moves))
         _call(channel, self._place)
         self._reading.begin(channel, moves.columns[:2])
 

@@ -3,5 +3,6 @@
 lists       NEWT, GETT, GETSELT, GETEXET, GETACTT, TCA, and which of several tools of a name T means
 monitoring  $TC_MOP, SETPIECE, RESETMON
 environments  TOOLENV, DELTOOLENV, GETTENV, and LENTOAX
+components  GETTCOR
 magazines   $TC_MAP, $TC_MPP, GETFREELOC, MVTOOL, CHKDM
 """

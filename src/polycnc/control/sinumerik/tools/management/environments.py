@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 DONE, NOTHING, NO_NAME = 0, -1, -4
 LONGEST_NAME = 31
 #: Geometry axes of abscissa, ordinate and applicate by the plane.
-_ORDER = {"G17": (0, 1, 2), "G18": (2, 0, 1), "G19": (1, 2, 0)}
+ORDER = {"G17": (0, 1, 2), "G18": (2, 0, 1), "G19": (1, 2, 0)}
 #: Systems of LENTOAX: the work, and the basic one, which is that of the machine where no transformation acts.
 _WORK, _BASIC = ("W", "WCS"), ("B", "BCS", "M", "MCS")
 #: What counts as no part of a direction.
@@ -74,7 +74,7 @@ def forget(channel: SinumerikChannel, args: Arguments) -> int:
 def numbers_of(channel: SinumerikChannel, args: Arguments) -> int:
     """GETTENV(name, VAR field): T, D and DL of an environment go into a field of three INT. 0; -1 for no such name."""
     found = Environments.of(channel).named.get(str(args[0]))
-    _field("GETTENV", args[1], (3,))
+    field_of("GETTENV", args[1], (3,))
     if found is None:
         return NOTHING
     args[1].items[:3] = [found.tool, found.edge, found.additive]
@@ -95,8 +95,8 @@ def assignment(channel: SinumerikChannel, args: Arguments) -> int:
     system = str(args[2]).upper() if len(args) > 2 and args[2] is not None else "WCS"
     if system not in (*_WORK, *_BASIC):
         raise not_supported(f"LENTOAX {system}")
-    _field("LENTOAX", lengths, (3,))
-    _field("LENTOAX", matrix, (3, 3))
+    field_of("LENTOAX", lengths, (3,))
+    field_of("LENTOAX", matrix, (3, 3))
     tools, plane = channel.memory.tools, channel.mode["plane"]
     edge = tools.edge
     if edge is None:
@@ -109,7 +109,7 @@ def assignment(channel: SinumerikChannel, args: Arguments) -> int:
     for axis in axes:
         sign = -1.0 if rules.mirrors_lengths and rules.mirrored[axis] else 1.0
         columns.append(back.direct(*turned.direct(*(sign if k == axis else 0.0 for k in range(3)))))
-    rows = [[column[axis] for column in columns] for axis in _ORDER[plane]]
+    rows = [[column[axis] for column in columns] for axis in ORDER[plane]]
     matrix.items[:9] = [value for row in rows for value in row]
     lengths.items[:3] = [_length_of(row) for row in rows]
     return DONE
@@ -121,7 +121,7 @@ def _length_of(row: list[float]) -> int:
     return parts[0] if len(parts) == 1 else 99 if parts else 0
 
 
-def _field(name: str, array: Any, dims: tuple[int, ...]) -> None:
+def field_of(name: str, array: Any, dims: tuple[int, ...]) -> None:
     """Alarm 12360 for a field of another size."""
     if tuple(getattr(array, "dims", ())) != dims:
         raise AlarmError("12360", text=name)

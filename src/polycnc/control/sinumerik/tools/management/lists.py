@@ -145,7 +145,7 @@ def _count(channel: SinumerikChannel, _indices: Indices) -> int:
 def _number(channel: SinumerikChannel, indices: Indices) -> int:
     """`$P_TOOLT[i]`: T number of the tool i, from 1; 0 beyond the last one."""
     numbers = sorted(channel.memory.tools.tools)
-    place = indices[0] if indices else 0
+    place = indices[0] if indices and isinstance(indices[0], int) else 0
     return numbers[place - 1] if 1 <= place <= len(numbers) else 0
 
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from math import atan2, cos, hypot, pi, sin
 from typing import TYPE_CHECKING, NamedTuple
 
+from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS, Kind
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
@@ -39,6 +41,21 @@ class ArcPath(NamedTuple):
     def length(self) -> float:
         """Of the way, mm."""
         return hypot(self.planar, self.lift)
+
+
+def path_of_row(
+    kind: int,
+    start: Sequence[float],
+    end: Sequence[float],
+    curve: Sequence[float],
+    geometry: tuple[int, int, int],
+) -> Path:
+    """The points of any row: a circular thread is an arc too, what has no curve a line."""
+    if kind in ARC_KINDS and curve:
+        return arc_path(start, end, curve, geometry, ccw=kind in CCW_KINDS).at
+    if kind == Kind.THREAD and any(curve[5:8]):
+        return arc_path(start, end, (*curve[2:8], 0.0, 0.0), geometry, ccw=True).at
+    return line_path(start, end)
 
 
 def line_path(start: Sequence[float], end: Sequence[float]) -> Path:

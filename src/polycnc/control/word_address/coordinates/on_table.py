@@ -1,0 +1,98 @@
+"""Work zeros that go with the table: fixture offsets (G54.2) and errors of the workpiece (G54.4).
+
+Both hold for one position of the rotary axes of the table. They are worked out anew when these turn: in front of the
+move of a block, for where they stand at its end (`follow`).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.channel.states.state import Lifetime, State, retained
+from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
+from polycnc.deferred.records import dataclass
+from polycnc.geometry.frames import IDENTITY, Frame, translation
+from polycnc.memory.retained import WORKPIECE_ERRORS
+from polycnc.transformation.planes.misplaced import Misplaced
+from polycnc.transformation.planes.tilted import by_fixed_axes
+
+if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
+    from polycnc.control.word_address.family import WordAddressChannel
+    from polycnc.machine.kinematics import Angles
+
+#: Fixture offsets by number from 1; workpiece errors by number from 0, which is added to all others.
+FIXTURES, ERRORS = 8, 7
+COMMON_ERROR = 0
+#: Values of an error: along X, Y, Z (mm), about X, Y, Z, and where the rotary axes of the table stood (degrees).
+ERROR_VALUES, LINEAR, TURNS, TABLE = 8, slice(0, 3), slice(3, 6), slice(6, 8)
+ROUND_X_Y_Z = (0, 1, 2)
+#: The variables of error 0, and how many numbers lie between those of two errors.
+FIRST_VARIABLE, VARIABLES = 26000, 10
+
+
+@dataclass(slots=True)
+class OnTable(State, lifetime=Lifetime.RESET):
+    """Which fixture offset (G54.2 P) and which workpiece error (G54.4 P) act; 0 for none."""
+
+    fixture: int = 0
+    error: int = 0
+
+    @property
+    def acts(self) -> bool:
+        """Whether the work zero depends on the table."""
+        return bool(self.fixture or self.error)
+
+
+@dataclass(slots=True)
+class WorkpieceErrors(State, lifetime=Lifetime.RETAINED):
+    """The errors of workpieces by number; `ERROR_VALUES` values each."""
+
+    by_number: dict[int, list[float]] = retained(WORKPIECE_ERRORS)
+
+
+def values_of(channel: Channel, number: int) -> list[float]:
+    """The values of an error; zeros until they are set."""
+    return WorkpieceErrors.of(channel).by_number.setdefault(number, [0.0] * ERROR_VALUES)
+
+
+def fixture_name(number: int) -> str:
+    """The name of a fixture offset among the work offsets; of rotary axes it holds the reference angles."""
+    return f"G54.2 P{number}"
+
+
+def table_axes(channel: WordAddressChannel) -> tuple[str, ...]:
+    """Rotary axes of the table, the one nearest to the base first."""
+    return tuple(joint.axis for joint in channel.control.kinematics(channel).work)
+
+
+def follow(channel: WordAddressChannel, angles: Angles | None = None) -> None:
+    """The work zero as these positions of the rotary axes (degrees by name), else the present ones, turn it.
+
+    The machine stays.
+    """
+    state, zero = OnTable.of(channel), ZeroState.of(channel)
+    here = dict(zip(channel.axes, channel.coordinates.machine, strict=True)) if angles is None else angles
+    kinematics = channel.control.kinematics(channel)
+    turn = kinematics.work_turn(here)
+    zero.fixture, zero.misplaced = (0.0, 0.0, 0.0), None
+    if state.fixture:
+        values = channel.memory.work_offset(fixture_name(state.fixture))
+        x, y, z = (values[axis] if axis >= 0 else 0.0 for axis in channel.coordinates.geometry)
+        reference = kinematics.work_turn(dict(zip(channel.axes, values, strict=True)))
+        zero.fixture = turn.direct(*reference.inverse().direct(x, y, z))
+    if state.error:
+        error, places = _error(channel, state.error)
+        if not error.is_identity:
+            measured = kinematics.work_turn(dict(zip(table_axes(channel), places, strict=False)))
+            zero.misplaced = Misplaced(error, measured, turn)
+    refresh_zero(channel)
+
+
+def _error(channel: WordAddressChannel, number: int) -> tuple[Frame, list[float]]:
+    """The error of a number with the common one: shifts, turns about X, Y, Z in this order; where the table stood."""
+    pairs = zip(values_of(channel, COMMON_ERROR), values_of(channel, number), strict=True)
+    values = [common + own for common, own in pairs]
+    if not any(values[LINEAR]) and not any(values[TURNS]):
+        return IDENTITY, values[TABLE]
+    return translation(*values[LINEAR]) @ by_fixed_axes(ROUND_X_Y_Z, values[TURNS]), values[TABLE]

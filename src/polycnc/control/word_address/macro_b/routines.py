@@ -1,0 +1,202 @@
+"""Subprograms, macros and loops of custom macro B, for the scanner: what their lines do, and what a call leaves."""
+
+from __future__ import annotations
+
+from math import isnan
+from typing import TYPE_CHECKING
+
+from polycnc.channel.stack import LevelKind
+from polycnc.control.word_address.macro_b.variables import LOCALS
+from polycnc.language.bulk.layout import Operation
+from polycnc.language.bulk.postfix import OtherError, Postfix
+from polycnc.language.bulk.routines.layout import NO_LOOP, LineKind
+from polycnc.language.bulk.routines.statements import BLOCK, NOTHING, REFUSED, Statement
+from polycnc.language.word_address.executable import empty_block
+from polycnc.language.word_address.patterns import MEMORIES
+from polycnc.language.word_address.statements import Assignment, ConditionalJump, Jump, LoopBegin, LoopEnd
+from polycnc.language.word_address.words import ExpressionBlock, WordBlock
+from polycnc.messages import AlarmError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from polycnc.channel.stack import Level
+    from polycnc.control.word_address.family import MacroChannel
+    from polycnc.language.word_address.executable import WordAddressProgram
+    from polycnc.language.word_address.macro_b import Lifting
+    from polycnc.program import Program
+
+#: Longer numbers hold how often a program runs, or are a matter of a parameter.
+_LAST_PROGRAM = 9_999
+
+
+class MacroRoutines:
+    """What the scanner asks of routines on a control with custom macro B."""
+
+    def most_frames(self, channel: MacroChannel) -> int:
+        """How many programs may be called within each other from here on, of whatever kind."""
+        macros = sum(level.kind in channel.control.MACRO_KINDS for level in channel.stack)
+        others = len(channel.stack) - 1 - macros
+        most_macros, most_others, most = channel.control.CALL_LEVELS
+        return min(most_macros - macros, most_others - others, most - macros - others)
+
+    def program_called(self, channel: MacroChannel, number: int) -> Program | None:
+        """The program of a number, None for one that the interpreter calls."""
+        if number > _LAST_PROGRAM:
+            return None
+        try:
+            program: Program = channel.control.find_program(channel, number)
+        except AlarmError:
+            return None
+        return program
+
+    # ---- lines ---------------------------------------------------------------------------------------
+
+    def told(self, code: WordAddressProgram, index: int) -> Statement:
+        """What a step of a program does."""
+        try:
+            return _told(code, code.compile(code.lines[index], index))
+        except (AlarmError, OtherError):
+            return REFUSED  # the interpreter comes to the same line and raises it
+
+    # ---- levels of the program stack -----------------------------------------------------------------
+
+    def enter(
+        self,
+        channel: MacroChannel,
+        code: WordAddressProgram,
+        repeats: int,
+        first: int,
+        variables: Sequence[float] | None,
+    ) -> None:
+        """Put a program on the stack: a macro with local variables, or a subprogram, which shares the caller's."""
+        if variables is None:
+            kind, values = LevelKind.SUBPROGRAM, channel.level.locals
+        else:
+            kind, values = LevelKind.MACRO, [None, *map(_value, variables[1:LOCALS])]
+            channel.memory.locals = values
+        channel.push(code.program, kind=kind, repeats=repeats, index=first, local=values)
+
+    def take_locals(self, channel: MacroChannel, before: Sequence[float], after: Sequence[float]) -> None:
+        """Local variables of the running level that have changed."""
+        _take(channel.memory.locals, before, after, range(1, LOCALS))
+
+    def take_common(self, channel: MacroChannel, before: Sequence[float], after: Sequence[float]) -> None:
+        """Common variables that have changed."""
+        memory = channel.memory
+        _take(memory.common, before, after, MEMORIES["common"])
+        _take(memory.kept, before, after, MEMORIES["kept"])
+
+    def put_loops(self, level: Level[WordAddressProgram], loops: Sequence[int]) -> list[int]:
+        """By their numbers the steps behind those that have opened the loops of a level."""
+        return [
+            loop.start + 1 if (loop := level.data.get(number)) is not None else NO_LOOP
+            for number in range(len(loops))
+        ]
+
+    def take_loops(
+        self, level: Level[WordAddressProgram], before: Sequence[int], after: Sequence[int]
+    ) -> None:
+        """Loops of a level that have been opened or have ended."""
+        for number, (old, new) in enumerate(zip(before, after, strict=True)):
+            if new == NO_LOOP and old != NO_LOOP:
+                del level.data[number]
+            elif new != old:
+                opened = level.code.compile(level.code.lines[new - 1], new - 1)
+                assert isinstance(opened, LoopBegin)
+                level.data[number] = opened.loop
+
+    def loop_around(self, channel: MacroChannel) -> tuple[int, int]:
+        """First step, and how many there are, of the outermost loop that the running level is in; none: 0 and 0."""
+        level = channel.level
+        around = [
+            (loop.start, loop.end) for loop in level.data.values() if loop.start < level.index <= loop.end
+        ]
+        if not around:
+            return 0, 0
+        first, last = min(start for start, _ in around), max(end for _, end in around)
+        return first, last + 1 - first
+
+
+def _told(code: WordAddressProgram, step: object) -> Statement:
+    if isinstance(step, (WordBlock, ExpressionBlock)):
+        return BLOCK
+    if step is empty_block:
+        return NOTHING
+    if isinstance(step, Assignment):
+        postfix = _postfix(step.statement)
+        postfix.assignment(step.statement.code)
+        return Statement(LineKind.STATEMENT, tuple(postfix.done), step.statement.numbers)
+    if isinstance(step, ConditionalJump):
+        return _told_condition(step)
+    if isinstance(step, Jump):
+        return Statement(LineKind.JUMP, target=step.target)
+    if isinstance(step, LoopBegin):
+        formulas, numbers = _condition(step)
+        return Statement(LineKind.LOOP, formulas, numbers, step.loop.end + 1, step.number)
+    if isinstance(step, LoopEnd):
+        return _told_end(code, step)
+    raise OtherError
+
+
+def _told_condition(step: ConditionalJump) -> Statement:
+    """`IF … GOTO n`, `IF … THEN #1=…`."""
+    lifting, jump = step.condition.lifting, step.jump
+    if isinstance(jump, Jump):
+        postfix = _postfix(lifting)
+        postfix.condition(lifting.code)
+        return Statement(LineKind.JUMP, tuple(postfix.done), lifting.numbers, jump.target)
+    if not isinstance(jump, Assignment):
+        raise OtherError
+    numbers = (*lifting.numbers, *jump.statement.numbers)
+    postfix = Postfix({i: i for i in range(len(lifting.numbers))}, lifting.numbers)
+    postfix.condition(lifting.code)
+    behind = Postfix(
+        {i: i + len(lifting.numbers) for i in range(len(jump.statement.numbers))}, jump.statement.numbers
+    )
+    behind.assignment(jump.statement.code)
+    return Statement(LineKind.STATEMENT, (*postfix.done, Operation.UNLESS, 0, *behind.done), numbers)
+
+
+def _told_end(code: WordAddressProgram, end: LoopEnd) -> Statement:
+    """`END m`, by the DO that belongs to it."""
+    for index in range(end.index - 1, -1, -1):
+        begin = code.compile(code.lines[index], index)
+        if isinstance(begin, LoopBegin) and begin.number == end.number:
+            if begin.loop.end != end.index:
+                break
+            formulas, numbers = _condition(begin)
+            return Statement(LineKind.LOOP_END, formulas, numbers, index + 1, end.number)
+    raise OtherError
+
+
+def _condition(begin: LoopBegin) -> tuple[tuple[int, ...], tuple[float, ...]]:
+    if begin.condition is None:
+        return (), ()
+    lifting = begin.condition.lifting
+    postfix = _postfix(lifting)
+    postfix.condition(lifting.code)
+    return tuple(postfix.done), lifting.numbers
+
+
+def _postfix(lifting: Lifting) -> Postfix:
+    return Postfix({i: i for i in range(len(lifting.numbers))}, lifting.numbers)
+
+
+def _value(number: float) -> float | None:
+    return None if isnan(number) else number
+
+
+def _take(
+    target: list[float | None] | dict[int, float | None],
+    before: Sequence[float],
+    after: Sequence[float],
+    numbers: range,
+) -> None:
+    """Variables of some numbers whose values have changed."""
+    if before[numbers.start : numbers.stop] == after[numbers.start : numbers.stop]:
+        return
+    for number in numbers:
+        old, new = before[number], after[number]
+        if new != old and not (isnan(new) and isnan(old)):
+            target[number] = _value(new)

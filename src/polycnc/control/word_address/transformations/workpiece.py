@@ -1,0 +1,154 @@
+"""G54.2 dynamic fixture offset of a rotary table, G54.4 workpiece setting error (FANUC 30i; macro B reference §12).
+
+The reference has the names of both; what they do is general knowledge of the control. `coordinates/on_table.py` works
+out the work zero. Rotary axes of the table may turn in rapids and straight cuts.
+"""
+
+from __future__ import annotations
+
+from math import nan
+from typing import TYPE_CHECKING
+
+from polycnc.control.word_address.block.rules import Rule
+from polycnc.control.word_address.coordinates import on_table
+from polycnc.control.word_address.coordinates.on_table import OnTable
+from polycnc.control.word_address.coordinates.tip import TipState
+from polycnc.control.word_address.motion.path import reach
+from polycnc.control.word_address.tools import data_input
+from polycnc.control.word_address.transformations.tilted_plane import TiltState, check_compensation
+from polycnc.messages import AlarmError
+from polycnc.toolpath import Kind
+
+if TYPE_CHECKING:
+    from polycnc.control.word_address.block.codes import Step
+    from polycnc.control.word_address.block.plan import Builder, Plan
+    from polycnc.control.word_address.block.words import Words
+    from polycnc.control.word_address.family import MillingChannel, WordAddressChannel
+
+#: Modal groups of the two codes; empty while they are off.
+FIXTURE, ERROR = "fixture", "workpiece_error"
+#: L of G10.
+FIXTURE_DATA = 21
+STRAIGHT = {"G0": Kind.RAPID, "G1": Kind.FEED}
+
+
+def offset_fixture(channel: MillingChannel, words: Words) -> None:
+    """G54.2 P: the work zero goes with the fixture on the table, P0 ends it; the tool goes along unless 7570#0 FTP."""
+    number = _number(channel, words, "G54.2", on_table.FIXTURES)
+    if number and (TiltState.of(channel).plane is not None or OnTable.of(channel).error):
+        raise _not_yet("G54.2: G54.4, G68.2")
+    OnTable.of(channel).fixture = number
+    channel.mode = channel.mode.with_code(FIXTURE, "G54.2" if number else "")
+    c, programmed = channel.coordinates, channel.coordinates.programmed[:]
+    on_table.follow(channel)
+    if channel.control.goes_with_fixture(channel) and c.programmed != programmed:
+        kind = STRAIGHT.get(channel.mode["motion"], Kind.FEED)
+        channel.straight(kind, c.to_position(programmed), _feed(channel, kind), programmed)
+
+
+def correct_workpiece(channel: MillingChannel, words: Words) -> None:
+    """G54.4 P: the work lies where its error says, P0 ends it; nothing moves."""
+    number = _number(channel, words, "G54.4", on_table.ERRORS)
+    if number and OnTable.of(channel).fixture:
+        raise _not_yet("G54.4: G54.2")
+    OnTable.of(channel).error = number
+    channel.mode = channel.mode.with_code(ERROR, "G54.4" if number else "")
+    on_table.follow(channel)
+
+
+def input_data(channel: MillingChannel, words: Words) -> None:
+    """G10 L21 P: a fixture offset, linear axes by length and rotary ones by reference angle; G91 adds. Else G10."""
+    if words.integer("L") != FIXTURE_DATA:
+        data_input.input_data(channel, words)
+        return
+    number = words.integer("P")
+    if number is None or not 1 <= number <= on_table.FIXTURES:
+        raise words.fail("g10_number", "P" if number is not None else "G10")
+    offset = channel.memory.work_offset(on_table.fixture_name(number))
+    for axis, value, incremental in words.axes():
+        offset[axis] = offset[axis] + value if incremental else value
+    if OnTable.of(channel).acts:
+        on_table.follow(channel)
+
+
+def _number(channel: MillingChannel, words: Words, code: str, last: int) -> int:
+    number = words.integer("P")
+    if number is None or not 0 <= number <= last:
+        raise words.fail("offset_number", "P" if number is not None else code)
+    if TipState.of(channel).active is not None and number:
+        raise _not_yet(f"{code}: {channel.mode['length']}")
+    check_compensation(channel, words, code)
+    channel.flush()
+    return number
+
+
+def _feed(channel: WordAddressChannel, kind: Kind) -> float:
+    if kind == Kind.RAPID:
+        return nan
+    if not channel.feed > 0.0:
+        raise channel.control.fail("no_feed")
+    return channel.feed
+
+
+def _not_yet(code: str) -> AlarmError:
+    return AlarmError("PC0001", hint="hint.not-supported", code=code)
+
+
+# ---- rotary axes of the table ------------------------------------------------------------------------------
+
+
+def _turning(builder: Builder, plan: Plan) -> list[int]:
+    """Columns of the table's axes that a block names."""
+    named = on_table.table_axes(builder.channel)
+    return [word.axis for word in plan.axis_words if builder.channel.axes[word.axis] in named]
+
+
+def _plan(builder: Builder, plan: Plan) -> Step | None:
+    """The work zero is that of the block's end; the axes go straight to where its words are then."""
+    turning = _turning(builder, plan)
+    if TipState.of(builder.channel).active is not None:
+        if any(builder.channel.axis_data[word.axis].rotary for word in plan.axis_words):
+            raise _not_yet(f"{builder.mode['length']}: {builder.mode[ERROR]}")
+        return None
+    if not turning:
+        return None
+    motion, words = builder.mode["motion"], plan.axis_words
+    if motion not in STRAIGHT or builder.mode["cycle"] != "G80":
+        raise _not_yet(f"{builder.mode[FIXTURE] or builder.mode[ERROR]}: {motion}")
+    kind, names_feed = STRAIGHT[motion], builder.has("F")
+    polar = builder.mode.codes.get("polar") == "G16"
+
+    def move(channel: MillingChannel, values: list[float]) -> None:
+        c = channel.coordinates
+        feed = channel.feed if names_feed and kind == Kind.RAPID else _feed(channel, kind)
+        before = c.programmed
+        goal = channel.control.polar_target(channel, plan, values) if polar else reach(channel, words, values)
+        angles = dict(zip(channel.axes, c.machine, strict=True))
+        for axis in turning:
+            angles[channel.axes[axis]] = goal[axis] + c.offsets[axis]
+        on_table.follow(channel, angles)
+        if not OnTable.of(channel).fixture or not channel.control.goes_with_fixture(channel):
+            end = c.programmed[:]
+            for word in words:
+                way = goal[word.axis] - before[word.axis]
+                end[word.axis] = end[word.axis] + way if word.incremental else goal[word.axis]
+            goal = end
+        channel.straight(kind, c.to_position(goal), feed, goal)
+
+    return move
+
+
+def _behind(builder: Builder, plan: Plan) -> Step | None:
+    """Behind G28, G53 and their like the work zero is that of where the table has come to."""
+    if not _turning(builder, plan):
+        return None
+    return lambda channel, _values: on_table.follow(channel)
+
+
+#: What turns of the table do to the work zero.
+RULE = Rule(
+    "work zero on a rotary table",
+    modes={FIXTURE: ("G54.2",), ERROR: ("G54.4",)},
+    motion=_plan,
+    after=_behind,
+)

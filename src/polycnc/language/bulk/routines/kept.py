@@ -1,0 +1,141 @@
+"""Lines of routines as the kernels read them: what is read once, however often it runs."""
+
+from __future__ import annotations
+
+from array import array
+from typing import TYPE_CHECKING, NamedTuple
+
+from polycnc.language.bulk import layout
+from polycnc.language.bulk.kernels import NO_BLOCK, read_block
+from polycnc.language.bulk.routines.flow import NOT_SCANNED
+from polycnc.language.bulk.routines.layout import Line, LineKind
+from polycnc.language.bulk.routines.statements import BLOCK, REFUSED
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from polycnc.language.bulk.recipe import Spelling
+    from polycnc.language.bulk.routines.statements import Statement
+    from polycnc.language.bulk.scannable import Scannable
+    from polycnc.language.bulk.shapes import Shapes
+
+    Tell = Callable[[Scannable, int], Statement]
+
+#: Longer programs are no routines.
+MOST_LINES = 1_000
+#: No state has this root: the shape of a block has not been looked for.
+_NO_ROOT = -1
+
+
+class Kept(NamedTuple):
+    """A routine: its program, its first step, and how many steps it has."""
+
+    code: Scannable
+    first: int
+    steps: int
+
+
+class Routines:
+    """Routines that are known, in the kernels' tables.
+
+    Args:
+        shapes: Keeps what statements calculate.
+        spelling: How the control's text looks.
+        tell: What a step of a program does; `BLOCK` where the scanner must read it.
+
+    Attributes:
+        kept: The routines by their numbers.
+        routines, lines, line_keys, line_values, callees: See `kernels.Tables`.
+    """
+
+    def __init__(self, shapes: Shapes, spelling: Spelling, tell: Tell) -> None:
+        self.kept: list[Kept] = []
+        self.routines = array("i")
+        self.lines = array("i")
+        self.line_keys = array("i")
+        self.line_values = array("d")
+        self.callees = array("i")
+        self._shapes = shapes
+        self._tell = tell
+        self._numbers: dict[tuple[int, int, int], int] = {}
+        self._state = layout.new_state(0)
+        self._state.scan.grammar, self._state.scan.most_digits = spelling.flags, spelling.max_digits
+
+    def number(self, code: Scannable, first: int, count: int, program: int) -> int:
+        """The routine of some steps of a program; `program` is its number in the toolpath."""
+        key = id(code), first, count
+        number = self._numbers.get(key)
+        if number is None:
+            number = self._numbers[key] = len(self.kept)
+            self.kept.append(Kept(code, first, count))
+            self.routines.extend((len(self.lines) // Line.SIZE, first, count, program))
+            for step in range(first, first + count):
+                self._add_line(code, step)
+        return number
+
+    def learn_callee(self, number: int, code: Scannable | None, program: int) -> None:
+        """Keep which routine the number of a program calls; none for what the interpreter calls."""
+        routine = NOT_SCANNED
+        if code is not None and len(code.program.lines) <= MOST_LINES:
+            routine = self.number(code, 0, len(code.program.lines), program)
+        self.callees.extend((number, routine))
+
+    @property
+    def tables(self) -> tuple[array[int], array[int], array[int], array[float], array[int]]:
+        """As `kernels.Tables` ends."""
+        return self.routines, self.lines, self.line_keys, self.line_values, self.callees
+
+    def line_of(self, routine: int, step: int) -> str:
+        """The text of a step of a routine."""
+        return self.kept[routine].code.program.lines[step]
+
+    def _add_line(self, code: Scannable, step: int) -> None:
+        told = self._tell(code, step)
+        if len(told.numbers) > layout.MOST_LITERALS or told.loop >= layout.LOOPS:
+            told = REFUSED
+        line = array("i", bytes(4 * Line.SIZE))
+        line[Line.KIND], line[Line.NUMBER], line[Line.ROOT] = told.kind, code.line(step), _NO_ROOT
+        line[Line.FIRST_KEY], line[Line.FIRST_VALUE] = len(self.line_keys), len(self.line_values)
+        line[Line.LITERALS], line[Line.TARGET], line[Line.LOOP] = len(told.numbers), told.target, told.loop
+        self.line_values.extend(told.numbers)
+        if told.formulas:
+            line[Line.FORMULAS] = self._shapes.add_formulas(told.formulas)
+        if told is BLOCK:
+            self._read(code.program.lines[step], line)
+        self.lines.extend(line)
+
+    def _read(self, text: str, line: array[int]) -> None:
+        """Keep keys and values of a block as the kernel reads them."""
+        state, empty, no_numbers = self._state, array("i"), array("d")
+        state.scan.place = state.scan.root = 0
+        content = array("B", f"{text}\n".encode("utf-8", "replace"))
+        tables = layout.Tables(
+            content,
+            self._shapes.nexts,
+            empty,
+            empty,
+            no_numbers,
+            empty,
+            empty,
+            empty,
+            empty,
+            no_numbers,
+            empty,
+        )
+        place, node = read_block(tables, state)
+        if place < 0:
+            line[Line.KIND] = LineKind.REFUSED
+            return
+        if node == NO_BLOCK:
+            line[Line.KIND] = LineKind.NOTHING
+            return
+        keys = list(state.keys[: state.scan.keys])
+        tokens = [key - layout.FIRST_TOKEN for key in keys]
+        words = sum(
+            key < layout.FIRST_CODE or layout.FIRST_FORMULA <= key < layout.FIRST_TOKEN for key in keys
+        )
+        literals = sum(token in (layout.Token.VARIABLE, layout.Token.NUMBER) for token in tokens)
+        line[Line.KEYS], line[Line.WORDS], line[Line.LITERALS] = len(keys), words, literals
+        self.line_keys.extend(keys)
+        self.line_values.extend(state.values[:words])
+        self.line_values.extend(state.values[layout.MOST_WORDS : layout.MOST_WORDS + literals])

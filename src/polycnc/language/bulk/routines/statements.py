@@ -1,0 +1,29 @@
+"""How a control tells what a line of a routine does beside blocks of words."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from polycnc.language.bulk.routines.layout import LineKind
+
+
+class Statement(NamedTuple):
+    """What a line does that is no block of words.
+
+    Attributes:
+        kind: One of `LineKind`.
+        formulas: What it calculates: pairs of `Operation` and argument; what is left is its condition.
+        numbers: The numbers in them.
+        target: The step to which it jumps.
+        loop: The number of the loop that it begins or ends.
+    """
+
+    kind: int
+    formulas: tuple[int, ...] = ()
+    numbers: tuple[float, ...] = ()
+    target: int = 0
+    loop: int = 0
+
+
+#: A line that is the interpreter's, one without a block, one whose block the scanner reads.
+REFUSED, NOTHING, BLOCK = (Statement(kind) for kind in (LineKind.REFUSED, LineKind.NOTHING, LineKind.BLOCK))

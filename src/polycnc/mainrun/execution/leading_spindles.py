@@ -1,0 +1,66 @@
+"""Spindles that lead axes: what they turn with is looked at in every interpolation cycle, as long as one is led."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from polycnc.mainrun.axes.spindle_turning import DEGREES_S, SpindleTurning
+from polycnc.transformation.couplings.laws import Ratio
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from polycnc.mainrun.axes.commanded import Leading
+    from polycnc.mainrun.execution.clock import Clock
+    from polycnc.mainrun.execution.interpolator import Led
+    from polycnc.transformation.couplings.laws import Law
+
+
+class LeadingSpindles:
+    """Follows the spindles of a channel that lead axes; satisfies the clock's `Watch`.
+
+    Args:
+        run: The channel in the main run.
+        clock: The time.
+    """
+
+    def __init__(self, run: Led, clock: Clock) -> None:
+        self._run, self._clock = run, clock
+        self._turning: dict[int, SpindleTurning] = {}
+        self._led: dict[int, tuple[int, ...]] = {}
+
+    def led_by(self, column: int, ratios: Mapping[int, float]) -> list[tuple[Leading, Law]]:
+        """What leads an axis from now on: by degrees that it turns for one of each spindle, its number.
+
+        A law is told by the column of the axis that it leads: a spindle has none.
+        """
+        was_armed = bool(self._led)
+        self._led.pop(column, None)
+        if ratios:
+            self._led[column] = tuple(ratios)
+        used = {number for numbers in self._led.values() for number in numbers}
+        self._turning = {
+            number: self._turning.get(number) or self._begun(number, column, ratios[number])
+            for number in used
+        }
+        if used and not was_armed:
+            self._clock.arm(self)
+            self._run.execution.attention = True  # time does not go on before the next cycle
+        elif was_armed and not used:
+            self._clock.disarm(self)
+        return [(self._turning[number], Ratio(column, ratio)) for number, ratio in ratios.items()]
+
+    def look(self, time: float) -> None:
+        """An interpolation cycle has come."""
+        state = self._run.spindle
+        turning = self._turning.get(state.number)
+        if turning is not None:
+            turning.turn_with(state.rpm * state.direction, time)
+
+    def _begun(self, number: int, column: int, ratio: float) -> SpindleTurning:
+        """A spindle begins to lead: it gets to other speeds no faster than the axis can follow."""
+        state, spindle = self._run.spindle, self._run.channel.machine.spindle[number]
+        rpm = state.rpm * state.direction if state.number == number else 0.0
+        follows = self._run.axes[column].data.acceleration / (DEGREES_S * abs(ratio)) if ratio else 0.0
+        pulls = [pull for pull in (spindle.acceleration_rpm_s, follows) if pull > 0.0]
+        return SpindleTurning(rpm, min(pulls, default=0.0), self._clock.time)

@@ -1,0 +1,64 @@
+"""Words of a program under edit by the keys of the MDI unit (FANUC controls, mode EDIT)."""
+
+from __future__ import annotations
+
+import pytest
+
+from polycnc.panel.screens.words import Edited, Place, spans
+
+
+@pytest.mark.parametrize(
+    ("block", "words"),
+    [
+        ("N10 G0X10.5Y-3 ;", ["N10", "G0", "X10.5", "Y-3"]),
+        ("/2 (A B) Z[#1+SIN[#2]]F#3", ["/2", "(A B)", "Z[#1+SIN[#2]]", "F#3"]),
+        ("IF [#1 EQ 2] GOTO 10", ["IF", "[#1 EQ 2]", "GOTO", "10"]),
+        ("#100=#101*2", ["#100=#101*2"]),
+        ("", []),
+    ],
+)
+def test_a_block_has_words(block: str, words: list[str]) -> None:
+    assert [block[start:end] for start, end in spans(block)] == words
+
+
+def edited(row: int, word: int) -> Edited:
+    return Edited(["O1", "G0X1. Y2.", "M30"], Place(row, word))
+
+
+def test_insert_goes_behind_the_word() -> None:
+    program = edited(1, 0)
+    program.insert("Z3.")
+    assert (program.text, program.place) == ("O1\nG0 Z3. X1. Y2.\nM30\n", Place(1, 1))
+    program.insert("F100;M8;")
+    assert (program.text, program.place) == ("O1\nG0 Z3. F100\nM8\nX1. Y2.\nM30\n", Place(2, 1))
+
+
+def test_insert_behind_the_end_of_a_block_begins_the_next_one() -> None:
+    program = edited(1, 3)
+    program.insert("X9.;")
+    assert (program.text, program.place) == ("O1\nG0X1. Y2.\nX9.\nM30\n", Place(2, 1))
+
+
+def test_alter_and_delete() -> None:
+    program = edited(1, 1)
+    program.alter("X-5.")
+    assert (program.text, program.place) == ("O1\nG0 X-5. Y2.\nM30\n", Place(1, 1))
+    program.delete()
+    assert (program.text, program.place) == ("O1\nG0 Y2.\nM30\n", Place(1, 1))
+    program.delete_block()
+    assert program.text == "O1\nG0 M30\n"
+
+
+def test_the_end_of_a_block_can_be_deleted() -> None:
+    program = edited(1, 3)
+    program.delete()
+    assert program.text == "O1\nG0X1. Y2. M30\n"
+
+
+def test_the_cursor_goes_from_block_to_block() -> None:
+    program = edited(0, 0)
+    assert program.move(1) == Place(0, 1)
+    assert program.move(1) == Place(1, 0)
+    assert program.move(-1) == Place(0, 1)
+    assert program.move(-9) == Place(0, 0)
+    assert program.move(99) == Place(2, 1)
