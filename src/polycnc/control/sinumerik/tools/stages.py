@@ -219,6 +219,18 @@ def leave_contour(channel: SinumerikChannel) -> None:
         stage.cancel()
 
 
+def begin_anew(channel: SinumerikChannel) -> None:
+    """The next move leads from where the tool stands beside a contour to another one (REPOS)."""
+    stage = active_cutter(channel)
+    if stage is None or channel.mode["compensation"] == "G40" or not stage.holds_vector:
+        return
+    channel.flush()
+    stands = stage.beside(channel.coordinates.position)
+    stage.discard()
+    channel.coordinates.arrive(stands)
+    select_side(channel)
+
+
 def changed_radius(channel: SinumerikChannel) -> None:
     """Another edge, TOFFR, OFFN or ISD while compensation is active."""
     spatial.follow(channel)
