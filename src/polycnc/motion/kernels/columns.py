@@ -249,6 +249,8 @@ class RunState(Structure):
         chord_ease: Factor on the limits along the last chord.
         tolerance: Contour tolerance along it.
         corner_top2: Highest x at a corner behind the row before, where that is led by a tip; 0 for no bound.
+        passed: With limited jerk: highest speed at the last joint; `lone` likewise, 0 where it is in a row (`jerk.py`).
+        gap: Way from there to the row before.
     """
 
     stop: float
@@ -282,6 +284,9 @@ class RunState(Structure):
     chord_ease: float
     tolerance: float
     corner_top2: float
+    passed: float
+    lone: float
+    gap: float
 
 
 @record
