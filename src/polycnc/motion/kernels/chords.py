@@ -32,6 +32,7 @@ from polycnc.motion.kernels.jerk import (
     LONE,
     bow_jerk,
     bow_top2,
+    forget_bow,
     step_jerk,
     step_top2,
 )
@@ -54,7 +55,8 @@ def lay_chord(
     """Give a spline's chord the tangents and the curvature of the curve through its points.
 
     At a point between two chords the tangent is their mean direction, the shorter one counting more: the derivative of
-    the parabola through the three points. `unit` is the chord, `tangent` the one before.
+    the parabola through the three points; with limited jerk that of the cubic through one more (`follow_change`), and
+    at an end in rest the curve bends evenly (`mirror`). `unit` is the chord, `tangent` the one before.
     """
     unit, here = state.unit, at + PieceRecord.VECTORS
     soft = contexts[record + ContextRecord.RAMP_S] > 0.0
@@ -78,6 +80,8 @@ def lay_chord(
                 pieces[at + PieceRecord.HOLD2], pieces[at + PieceRecord.ENTRY2]
             )
         state.run.exit2 = pieces[at + PieceRecord.CAP2]
+    if soft and state.run.smooth != 2.0:
+        forget_bow(n, state)
     if soft:
         state.run.chord, state.run.tolerance = OPEN, contexts[record + ContextRecord.TOLERANCE]
         state.run.chord_ease = min(state.row.ease, state.share_ease[AT_START], state.share_ease[AT_END])
@@ -99,8 +103,10 @@ def meet_chord(
     """
     unit, tangent, bend = state.unit, state.tangent, state.bend
     here, before = at + PieceRecord.VECTORS, at + PieceRecord.VECTORS - piece_width(n)
+    if soft:
+        follow_change(n, state, length)
     for i in range(n):
-        bend[i] = unit[i] * state.run.length + tangent[i] * length
+        bend[i] += unit[i] * state.run.length + tangent[i] * length
     size, mean = norm(bend, n, limits, weight), 0.5 * (length + state.run.length)
     cap2, turn2 = pieces[at + PieceRecord.ENTRY2], 0.0
     for i in range(n):
@@ -125,6 +131,23 @@ def meet_chord(
             pieces[chord + PieceRecord.ENTRY2], pieces[chord + PieceRecord.CAP2]
         )
     return cap2
+
+
+def follow_change(n: int, state: State, length: float) -> None:
+    """Set `bend` to what makes the tangent between two chords that of the cubic through one point more before them.
+
+    By the parabola's tangents alone q'' would change along each chord three times as fast as that of the curve, and
+    step back between them. Only where it changes by less than half: else the points are none of a smooth curve.
+    """
+    mean, before = 0.5 * (length + state.run.length), state.run.chord_mm
+    part = (
+        0.5 * length * state.run.length / (before + length + state.run.length) * (length + state.run.length)
+    )
+    for i in range(n):
+        bowed, bow = (state.unit[i] - state.tangent[i]) / mean, state.bow[i]
+        is_smooth = before > 0.0 and abs(bowed - bow) < 0.5 * max(abs(bowed), abs(bow))
+        state.bend[i] = (bow - bowed) * part if is_smooth else 0.0
+        state.bow[i] = bowed
 
 
 def mirror(
@@ -216,6 +239,7 @@ def end_chord(pieces: Floats, n: int, limits: Limits, state: State) -> None:
             longer = 1.0 - 0.125 * min(turn2, 4.0)
             pieces[at + PieceRecord.CAP2] = min(pieces[at + PieceRecord.CAP2] * longer, top2)
         close_chord(pieces, at, n, limits, state)
+        forget_bow(n, state)
     state.run.chord_mm = 0.0
 
 

@@ -361,8 +361,8 @@ class State(NamedTuple):
         bend: Room for one q''.
         bent_before: q'' at the end of the last piece; with limited jerk its mean over the last chord of a spline.
         turn: What q' changes by at the joint at hand.
-        bow: With limited jerk: what q' has changed by at the last joint of two lines, over their mean length; zero
-            from rest and behind a curve.
+        bow: With limited jerk: what q' has changed by at the last joint of two lines, or two chords of a spline, over
+            their mean length; zero from rest, and where the one follows the other.
         room: For what `linkage` works out.
     """
 

@@ -52,7 +52,7 @@ def join(
     cap2 = min(cap2, state.run.exit2)
     if smooth and cosine > SMOOTH_COS:
         state.run.smooth = 2.0
-        begin_anew(n, state)
+        state.run.passed = state.run.lone = state.run.gap = 0.0
         return cap2
     shorter = min(length, state.run.length)
     tolerance = contexts[record + ContextRecord.TOLERANCE]

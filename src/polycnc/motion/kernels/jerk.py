@@ -25,8 +25,8 @@ ARC_ACROSS, ARC_JERK, ARC_DEVIATION = 0.85, 0.3, 0.98
 #: At a joint that no other one is near to: part of the jerk along the path; all that is given away.
 LONE_ALONG, LONE = 0.2, 0.98
 #: In a row of corners: part of the acceleration across the path. Of tents that are `h` of their half width apart, less
-#: than one, no more than `MOST_TENTS/h` add up anywhere.
-ROW_ACROSS, MOST_TENTS = 0.8, 1.125
+#: than one, no more than `(1 + h²/TENTS)/h` add up anywhere, and no more than `MOST_TENTS/h`.
+ROW_ACROSS, TENTS, MOST_TENTS = 0.8, 3.5, 1.125
 #: Parts of the jerk: of one corner; of a row of short lines; where the curvature changes; on a
 #: curve by its speed and by its change of speed; at a corner by the change of speed; by the uneven q'' of a chord.
 JERK_CORNER, JERK_LINES, JERK_ENTRY, JERK_CURVE, JERK_BOTH, JERK_TURN = 0.5, 0.3, 0.4, 0.25, 0.2, 0.25
@@ -176,7 +176,8 @@ def row_hold2(
         if limits.rotary[i] != 0.0:
             change = abs((unit[i] - tangent[i]) / mean - bow[i])
         if most * mean > NO_TURN:
-            x2 = min(x2, max(JERK_LINES * j * blend / most, step_top2(j, blend, change, mean, JERK_LINES)))
+            most2 = max(JERK_LINES * j * blend / most, step_top2(j, blend, change, mean, JERK_LINES))
+            x2 = min(x2, max(most2, shorter * shorter / (blend * blend)))
         if step > NO_TURN:
             jump, near = part * j * blend * blend / step, ROW_ACROSS * a * blend * blend / step
             x2 = min(x2, jump * jump, near * min(near, shorter / MOST_TENTS) / (blend * blend))
@@ -186,7 +187,7 @@ def row_hold2(
         x2 = min(x2, row_deviation2(part * tolerance / turn, shorter, blend), rounding * rounding)
     v, slow = sqrt(x2), 1.0
     for i in range(n):
-        asks = row_jerk(state, i, mean, blend, v)
+        asks = row_jerk(state, i, shorter, mean, blend, v)
         slow = min(slow, ROW * state.joint.ease * limits.jerk[i] / max(asks, 1e-300))
     v *= slow
     row_pull(contexts, record, n, limits, state, shorter, mean, v, arc, curved)
@@ -231,11 +232,15 @@ def most_bow(state: State, i: int, mean: float) -> float:
     return max(abs(bowed), abs(bow), abs(bowed - bow))
 
 
-def row_jerk(state: State, i: int, mean: float, blend: float, v: float) -> float:
-    """Jerk of an axis at a joint in a row that is passed at v: by the turn itself, and by what changes of q''."""
+def row_jerk(state: State, i: int, shorter: float, mean: float, blend: float, v: float) -> float:
+    """Jerk of an axis at a joint in a row that is passed at v: by the turn itself, and by what changes of q''.
+
+    Where the average sees no more than one joint before and one behind a place, those are all.
+    """
     change = abs((state.unit[i] - state.tangent[i]) / mean - state.bow[i])
     begins: float = v * v * most_bow(state, i, mean) / blend
-    return v * row_step(state, i, mean) / (blend * blend) + min(begins, step_jerk(v, blend, change, mean))
+    turns: float = v * row_step(state, i, mean) / (blend * blend)
+    return turns if v * blend <= shorter else turns + min(begins, step_jerk(v, blend, change, mean))
 
 
 def row_deviation2(part: float, shorter: float, blend: float) -> float:
@@ -265,7 +270,7 @@ def row_pull(
     Or to the parts that are left whatever a joint needs, where these are more and all of the row turns to one side.
     """
     ramp, blend = contexts[record + ContextRecord.RAMP_S], contexts[record + ContextRecord.BLEND_S]
-    parts, left, turns, seen = inf, inf, False, max(1.0 / blend, MOST_TENTS * v / shorter)
+    parts, left, turns, seen = inf, inf, False, tents(v, blend, shorter)
     for i in range(n):
         a, j = state.joint.ease * limits.acceleration[i], state.joint.ease * limits.jerk[i]
         step, bow = row_step(state, i, mean), most_bow(state, i, mean)
@@ -279,7 +284,7 @@ def row_pull(
         if arc > NO_TURN:
             parts = min(parts, JERK_BOTH * j / max(3.0 * v * arc, 1e-300))
         if way > 0.0:
-            free = LONE * j - row_jerk(state, i, mean, blend, v)
+            free = LONE * j - row_jerk(state, i, shorter, mean, blend, v)
             left = min(
                 left, free / (2.0 * way / ramp + step * seen + 2.0 * bow * v), (a - v * step * seen) / way
             )
@@ -300,9 +305,17 @@ def step_top2(j: float, blend: float, step: float, spacing: float, part: float) 
     return top2
 
 
+def tents(v: float, blend: float, spacing: float) -> float:
+    """Largest sum of the average's weights, 1/s, at places that are `spacing` mm apart and passed at a speed."""
+    if v * blend <= spacing:
+        return 1.0 / blend
+    h = spacing / (v * blend)
+    return min(MOST_TENTS, 1.0 + h * h / TENTS) * v / spacing
+
+
 def step_jerk(v: float, blend: float, step: float, spacing: float) -> float:
     """Jerk by such steps at a speed: of one, or of as many as the average sees."""
-    return v * v * step * max(1.0 / blend, MOST_TENTS * v / spacing)
+    return v * v * step * tents(v, blend, spacing)
 
 
 def bow_top2(j: float, blend: float, bow: float, length: float) -> float:
