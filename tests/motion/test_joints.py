@@ -29,8 +29,8 @@ class Walk:
 
     def line(self, length: float, turn: float = 0.0) -> Walk:
         self.heading += turn
-        x, y, _ = self.rows.end
-        self.rows.feed(x + length * cos(self.heading), y + length * sin(self.heading), 0.0, feed=self.feed)
+        x, y, z = self.rows.end
+        self.rows.feed(x + length * cos(self.heading), y + length * sin(self.heading), z, feed=self.feed)
         return self
 
     def arc(self, radius: float, angle: float) -> Walk:
@@ -42,6 +42,16 @@ class Walk:
         end = cx + side * sin(self.heading), cy - side * cos(self.heading), 0.0
         kind = Kind.CCW if angle > 0.0 else Kind.CW
         self.rows.row(kind, *end, feed=self.feed, curve=(cx, cy, 0.0, 0.0, 0.0, 1.0, 0.0))
+        return self
+
+    def spiral(self, radius: float, last: float, angle: float, rise: float) -> Walk:
+        """To the left by an angle, from one radius to another."""
+        x, y, z = self.rows.end
+        cx, cy = x - radius * sin(self.heading), y + radius * cos(self.heading)
+        self.heading += angle
+        end = cx + last * sin(self.heading), cy - last * cos(self.heading), z + rise
+        turns = float(int(angle / (2.0 * pi)))
+        self.rows.row(Kind.HELIX_CCW, *end, feed=self.feed, curve=(cx, cy, 0.0, 0.0, 0.0, 1.0, turns))
         return self
 
 
@@ -119,6 +129,26 @@ def test_arcs_and_lines_that_touch_each_other(
         walk.arc(10.0**radius, 10.0**angle if left else -(10.0**angle))
         walk.line(10.0**line, turn)
     keeps_all(walk.line(30.0).rows, context, machine)
+
+
+@settings(max_examples=300 if EXPLORES else 3, deadline=None)
+@given(
+    st.lists(
+        st.tuples(st.floats(-1.0, 1.3), st.floats(-1.3, 1.3), st.floats(0.3, 12.0), st.floats(-20.0, 20.0)),
+        min_size=1,
+        max_size=1,
+    ),
+    contexts,
+)
+@example([(-0.52, -0.74, 11.84, 14.9)], FINE)
+def test_spirals_that_grow_and_rise_by_much(
+    spirals: list[tuple[float, float, float, float]], context: Context
+) -> None:
+    """A steep helix turns its q'' faster than a circle of its curvature."""
+    walk = Walk(context, 0.4, 400.0).line(10.0)
+    for radius, growth, angle, rise in spirals:
+        walk.spiral(10.0**radius, 10.0 ** (radius + growth), angle, rise if angle > 3.0 else 0.0).line(3.0)
+    keeps_all(walk.rows, context, MILL)
 
 
 def test_a_corner_far_from_others_takes_what_the_axes_can_do() -> None:

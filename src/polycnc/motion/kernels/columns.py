@@ -251,6 +251,7 @@ class RunState(Structure):
         corner_top2: Highest x at a corner behind the row before, where that is led by a tip; 0 for no bound.
         passed: With limited jerk: highest speed at the last joint; `lone` likewise, 0 where it is in a row (`jerk.py`).
         gap: Way from there to the row before.
+        rate: Angle that the arc before turns by a mm at its end, 0 of a line; at the joint to an arc the larger one.
     """
 
     stop: float
@@ -287,6 +288,7 @@ class RunState(Structure):
     passed: float
     lone: float
     gap: float
+    rate: float
 
 
 @record

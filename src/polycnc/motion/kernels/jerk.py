@@ -113,7 +113,7 @@ def lone_speed(
 
     It sees none on τ before and behind the joint, nor one that is seen with that: the next joint must be so far away
     that both can be passed so. The jerk of a corner is `Δq'·v/τ²`, that of a step of curvature `Δq''·v²/τ`, that of the
-    curves themselves `κ²·v³`; by a change of speed come `2·q'·u/T`, `Δq'·u/τ` and `3·κ·v·u`. `bow` is κ.
+    curves themselves `κ·ω·v³` (`arc_hold`); by a change of speed come `2·q'·u/T`, `Δq'·u/τ` and `3·κ·v·u`. `bow` is κ.
     """
     ramp, blend = contexts[record + ContextRecord.RAMP_S], contexts[record + ContextRecord.BLEND_S]
     unit, tangent, bend, before = state.unit, state.tangent, state.bend, state.bent_before
@@ -136,7 +136,7 @@ def lone_speed(
         way = max(abs(unit[i]), abs(tangent[i]))
         if way > 0.0 or bend[i] != 0.0 or before[i] != 0.0:
             push = v * (step / blend + v * bow)
-            asks = v * (step / blend + v * change) / blend + bow * bow * v * v * v
+            asks = v * (step / blend + v * change) / blend + bow * max(bow, state.run.rate) * v * v * v
             slow = min(slow, (LONE - LONE_ALONG) * j / max(asks, 1e-300), ARC_ACROSS * a / max(push, 1e-300))
             along = LONE_ALONG * j / (2.0 * way / ramp + step / blend + 3.0 * v * bow)
             state.joint.pull = min(state.joint.pull, along, (1.0 - ARC_ACROSS) * a / max(way, 1e-3))
@@ -216,7 +216,7 @@ def curve_joint2(blend: float, tolerance: float, n: int, limits: Limits, state: 
         if change > NO_TURN:
             x2 = min(x2, JERK_ENTRY * j * blend / change)
         if arc > NO_TURN and (unit[i] != 0.0 or bend[i] != 0.0 or before[i] != 0.0):
-            x2 = min(x2, ACROSS * a / arc, (JERK_CURVE * j / (arc * arc)) ** (2.0 / 3.0))
+            x2 = min(x2, ACROSS * a / arc, (JERK_CURVE * j / (arc * max(arc, state.run.rate))) ** (2.0 / 3.0))
     return x2
 
 
@@ -340,15 +340,16 @@ def bow_jerk(v: float, blend: float, bow: float, length: float) -> float:
 
 
 def arc_hold(
-    contexts: Floats, record: int, limits: Limits, state: State, curvature: float, speed: float
+    contexts: Floats, record: int, limits: Limits, state: State, curvature: float, speed: float, rate: float
 ) -> tuple[float, float]:
-    """Largest x and acceleration along an arc of a curvature (1/mm) that is asked to run at a speed.
+    """Largest x and acceleration along an arc of a curvature κ (1/mm) that is asked to run at a speed.
 
-    Across the path the axes accelerate by `κ·v²`, along it by u; their jerk is `2·u/T + κ²·v³` along the path and
-    `3·κ·v·u` across it. A spiral of the growth g by a radian adds `g/r` of `κ²·v³` at most, in any direction.
+    Across the path the axes accelerate by `κ·v²`, along it by u; their jerk is `2·u/T + κ·ω·v³` along the arc and
+    `3·κ·v·u` across it, ω being the angle by the way (`rate`, κ but on a helix). A spiral of the growth g by a radian
+    adds `g/r` of `κ·ω·v³` in any direction, and no more than half of it; where it rises too, three times as much.
     """
     ramp, blend = contexts[record + ContextRecord.RAMP_S], contexts[record + ContextRecord.BLEND_S]
-    a, j, pull = inf, inf, inf
+    a, j, pull, twist = inf, inf, inf, curvature * max(curvature, rate)
     for k in range(3):
         i = limits.geometry[k]
         if i >= 0:
@@ -360,11 +361,12 @@ def arc_hold(
         ARC_ACROSS * a / curvature,
         12.0 * ARC_DEVIATION * contexts[record + ContextRecord.TOLERANCE] / (blend * blend * curvature),
     )
-    cap2 = min(cap2, (ARC_JERK * j / (curvature * curvature)) ** (2.0 / 3.0))
+    cap2 = min(cap2, (ARC_JERK * j / twist) ** (2.0 / 3.0))
     radius = max(min(state.arc.radius, state.arc.radius + state.arc.growth), NO_TURN)
     grows = abs(state.arc.growth / state.arc.sweep) / radius
-    turning = curvature * curvature * cap2 * sqrt(cap2) / j
-    left = LONE - min(grows, 0.5) * turning
+    grows = min(grows, 0.5) if state.arc.rise == 0.0 else min(3.0 * grows, 1.8)
+    turning = twist * cap2 * sqrt(cap2) / j
+    left = LONE - grows * turning
     along, both = 2.0 / (ramp * j), 3.0 * curvature * sqrt(cap2) / j
     both2 = along * along + both * both
     least = along * turning

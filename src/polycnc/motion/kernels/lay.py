@@ -349,7 +349,7 @@ def lay_straight(
         state.tangent[i] = unit[i]
         if state.run.chord != OPEN:
             state.bent_before[i] = state.bend[i]
-    state.run.exit_pull = pull
+    state.run.exit_pull, state.run.rate = pull, 0.0
     state.run.length, state.run.metric, state.run.smooth = (
         length,
         weight,
