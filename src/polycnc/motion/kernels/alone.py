@@ -23,7 +23,10 @@ NO_TURN, LONGEST_RUN = 1e-9, 4096
 #: Part by which speeds that count as one may differ.
 SAME_SPEED = 1e-9
 #: Part of the acceleration that is reckoned with on a line that is not alone.
-SHARED = 0.35
+SHARED = 0.5
+#: What a corner slower than its lines costs beside what is reckoned here: this part, all of it where it is slower by
+#: a third.
+SLOWED, BY_THIRDS = 0.06, 3.0
 
 
 def best_ramp(length: float, top: float, pull: float, jerk: float) -> float:
@@ -146,7 +149,7 @@ def pays_to_rest(
             passing += way / corner
         else:
             passing += window + rest_to_rest(way - held, corner, top, SHARED * pull)
-    return resting < passing
+    return resting < passing * (1.0 + SLOWED * min(1.0, BY_THIRDS * (1.0 - corner / top)))
 
 
 def rest_to_rest(way: float, slow: float, top: float, pull: float) -> float:
