@@ -6,7 +6,7 @@ from array import array
 from math import inf
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
-from polycnc.channel.states.snapshot import unchanging
+from polycnc.channel.states.unchanging import unchanging
 from polycnc.language.bulk import layout
 from polycnc.language.bulk.guard import Guard, notes_before
 from polycnc.language.bulk.layout import State, Tables, new_state
