@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.plan import Plan
     from polycnc.control.word_address.family import WordAddressChannel
     from polycnc.kernels.layout import Floats
+    from polycnc.language.bulk.recipe import Drilled
     from polycnc.language.bulk.routines.running import RoutineDialect
     from polycnc.language.bulk.scanner import LastMoves
 
@@ -91,6 +92,14 @@ class PlainBlocks:
     def tool(self, channel: WordAddressChannel) -> Sequence[float]:  # noqa: ARG002 - as the scanner asks
         """No plain block names a direction."""
         return ()
+
+    def drilled(self, channel: WordAddressChannel) -> Drilled | None:
+        """The strokes of the active cycle."""
+        if not channel.mode.codes.get("cycle"):
+            return None
+        from polycnc.control.word_address.cycles.holes_as_data import next_hole  # for long programs only
+
+        return next_hole(channel)
 
     def turned(self, channel: WordAddressChannel, start: list[float], end: list[float]) -> None:
         """No plain block names a direction."""

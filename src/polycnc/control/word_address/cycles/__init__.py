@@ -1,4 +1,4 @@
 """Cycles over a point: `drilling` (G73 to G89), `hole_patterns` (circle, line, arc, grid).
 
-`plunge` writes the rows of a plain hole at once.
+`plunge` writes the rows of a plain hole at once, `holes_as_data` tells the scanner of it.
 """
