@@ -31,7 +31,8 @@ if TYPE_CHECKING:
 
 #: A run of so many blocks is worth its beginning.
 WORTHWHILE = 16
-#: Blocks of a loop that one call of the kernel runs: between two calls it can be interrupted.
+#: Blocks that one call of the kernel runs at the most where it may loop: between two calls it can be interrupted, and
+#: a loop that waits for ever is found.
 MOST_BLOCKS = 1 << 18
 #: Notes that one call of the kernel may give.
 MOST_NOTES = 4096
@@ -266,6 +267,7 @@ class Scanner:
         at = self._state.scan
         if calls and self._routines is not None:
             self._routines.allow_calls(channel)
+            at.most_blocks = min(at.most_blocks, MOST_BLOCKS)
         if most_blocks is not None:
             at.most_blocks = min(at.most_blocks, most_blocks)
         if most_rows is not None:
