@@ -146,7 +146,9 @@ def close_chord(pieces: Floats, at: int, n: int, limits: Limits, state: State) -
         if limits.rotary[i] == 0.0:
             first2, last2 = first2 + first * first, last2 + last * last
         mean, most = 0.5 * (first + last), max(abs(first), abs(last))
-        joint2 = min(joint2, step_top2(j, blend, abs(mean - state.bent_before[i]), spacing, JERK_ENTRY))
+        joint2 = min(
+            joint2, step_top2(j, blend, abs(mean - state.bent_before[i]), spacing, JERK_ENTRY, joint2)
+        )
         state.bent_before[i] = mean
         if most > NO_BEND:
             way = pieces[here + PLACES * n + n + i] - pieces[here + PLACES * n + i]

@@ -27,6 +27,8 @@ JERK_BOW = 0.15
 DEVIATION_CORNER, DEVIATION_CURVE = 0.5, 0.5
 #: Turns smaller than this count as none.
 NO_TURN = 1e-9
+#: One number is above another for certain, whatever was rounded, if it is above so many times that.
+SURELY = 1.000001
 
 
 def window_s(ramp: float, blend: float) -> float:
@@ -77,7 +79,8 @@ def corner_hold2(
         if step > NO_TURN:
             jump = min(JERK_CORNER * j * blend * blend, CORNER * a * blend) / step
             begins2 = JERK_LINES * j * blend * shorter / step
-            goes_on2 = step_top2(j, blend, abs(bowed - bow[i]), mean, JERK_LINES)
+            enough = max(x2, begins2)
+            goes_on2 = step_top2(j, blend, abs(bowed - bow[i]), mean, JERK_LINES, enough)
             x2 = min(x2, jump * jump, ACROSS * a * shorter / step, max(begins2, goes_on2))
             if goes_on2 > begins2:
                 least = min(least, j / abs(bowed))
@@ -106,16 +109,21 @@ def left_across(a: float, j: float, blend: float, along: float) -> float:
     return max(ACROSS * a, a - corner - along)
 
 
-def step_top2(j: float, blend: float, step: float, spacing: float, part: float) -> float:
+def step_top2(j: float, blend: float, step: float, spacing: float, part: float, enough: float) -> float:
     """Largest x where the mean of an axis's q'' changes by a step from chord to chord, which are `spacing` mm apart.
 
     `part` is that of the jerk for one step. On a way shorter than that the average of the positions sees one step,
-    `x·step/τ`; on a longer one as many as lie in it, which is `v³·step/spacing`.
+    `x·step/τ`; on a longer one as many as lie in it, which is `v³·step/spacing`. What is above `enough` is above it
+    here too, and need not be known: most rows do without the root.
     """
     if step <= NO_TURN:
         return inf
-    top2: float = min(part * j * blend / step, (JERK_CURVE * j * spacing / step) ** (2.0 / 3.0))
-    return top2
+    top2, cube = part * j * blend / step, JERK_CURVE * j * spacing / step
+    least = min(top2, enough)
+    if cube * cube > SURELY * least * least * least:
+        return top2
+    root2: float = cube ** (2.0 / 3.0)
+    return min(top2, root2)
 
 
 def bow_top2(j: float, blend: float, bow: float, length: float) -> float:
