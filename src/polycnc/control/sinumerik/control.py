@@ -7,7 +7,7 @@ from functools import cached_property
 from math import inf
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from polycnc.channel.states.snapshot import unchanging
+from polycnc.channel.states.unchanging import unchanging
 from polycnc.control.alarm_text import alarm_catalogue
 from polycnc.control.sinumerik import axis_names, gcodes, replaced, tables
 from polycnc.control.sinumerik.actions import actions, overlay

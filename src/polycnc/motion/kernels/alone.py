@@ -130,8 +130,9 @@ def pays_to_rest(
     if state.run.alone == 0.0:
         return False
     passing, resting, window = 0.0, 0.0, state.run.window
-    top = min(wanted, state.run.wanted)
-    corner = min(sqrt(corner2), top)
+    top, corner = min(wanted, state.run.wanted), sqrt(corner2)
+    if corner >= top:
+        return False  # nobody is slower for the corner
     for side in range(2):
         direction = state.tangent if side == 0 else state.unit
         way = state.run.length if side == 0 else length

@@ -188,7 +188,7 @@ def close_chord(pieces: Floats, at: int, n: int, limits: Limits, state: State) -
         if limits.rotary[i] == 0.0:
             first2, last2 = first2 + first * first, last2 + last * last
         step, most = abs(0.5 * (first + last) - state.bent_before[i]), max(abs(first), abs(last))
-        joint2 = min(joint2, step_top2(j, blend, step, spacing, JERK_ENTRY))
+        joint2 = min(joint2, step_top2(j, blend, step, spacing, JERK_ENTRY, joint2))
         if most > NO_BEND:
             cap2 = min(cap2, ARC_ACROSS * a / most, bow_top2(j, blend, 0.5 * abs(last - first), length))
     if first2 > 0.0 or last2 > 0.0:

@@ -37,6 +37,8 @@ ROW = 0.85
 DEVIATION_CORNER, DEVIATION_CURVE = 0.5, 0.5
 #: Turns smaller than this count as none.
 NO_TURN = 1e-9
+#: One number is above another for certain, whatever was rounded, if it is above so many times that.
+SURELY = 1.000001
 
 
 def window_s(ramp: float, blend: float) -> float:
@@ -176,7 +178,7 @@ def row_hold2(
         if limits.rotary[i] != 0.0:
             change = abs((unit[i] - tangent[i]) / mean - bow[i])
         if most * mean > NO_TURN:
-            most2 = max(JERK_LINES * j * blend / most, step_top2(j, blend, change, mean, JERK_LINES))
+            most2 = max(JERK_LINES * j * blend / most, step_top2(j, blend, change, mean, JERK_LINES, x2))
             x2 = min(x2, max(most2, shorter * shorter / (blend * blend)))
         if step > NO_TURN:
             jump, near = part * j * blend * blend / step, ROW_ACROSS * a * blend * blend / step
@@ -293,16 +295,21 @@ def row_pull(
     state.joint.pull = min(state.joint.pull, parts)
 
 
-def step_top2(j: float, blend: float, step: float, spacing: float, part: float) -> float:
+def step_top2(j: float, blend: float, step: float, spacing: float, part: float, enough: float) -> float:
     """Largest x where the mean of an axis's q'' changes by a step from chord to chord, which are `spacing` mm apart.
 
     `part` is that of the jerk for one step. On a way shorter than that the average of the positions sees one step,
-    `x·step/τ`; on a longer one as many as lie in it, which is `v³·step/spacing`.
+    `x·step/τ`; on a longer one as many as lie in it, which is `v³·step/spacing`. What is above `enough` is above it
+    here too, and need not be known: most rows do without the root.
     """
     if step <= NO_TURN:
         return inf
-    top2: float = min(part * j * blend / step, (JERK_CURVE * j * spacing / step) ** (2.0 / 3.0))
-    return top2
+    top2, cube = part * j * blend / step, JERK_CURVE * j * spacing / step
+    least = min(top2, enough)
+    if cube * cube > SURELY * least * least * least:
+        return top2
+    root2: float = cube ** (2.0 / 3.0)
+    return min(top2, root2)
 
 
 def tents(v: float, blend: float, spacing: float) -> float:

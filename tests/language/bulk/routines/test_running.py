@@ -183,3 +183,10 @@ def test_a_macro_leaves_the_variables_of_its_caller_alone() -> None:
     text = text_of("G65P3A7.\n" * 30).replace("#100=#100+1", "#100=#100+#1\n#1=99\n#33=5")
     told = variables(run(text, "fanuc-m", SETUP, PLAIN))
     assert (told["#1"], told["#100"], "#33" in told) == ("1.5", repr(33.3333 + sum([7.0] * 30)), False)
+
+
+def test_the_shape_of_a_finishing_cycle_calls_nothing() -> None:
+    shape = "N5 G0 X10.\nG1 Z-5.\nM98P2\nN6 X50.\n"
+    text = f"O1\nG98 G1 F100.\nX50. Z5.\nM98P2\nM98P2\nG70 P5 Q6\nM30\n{shape}M30\nO2\nW-1.\nM99\n"
+    assert run(text, "fanuc-0i-tf").alarms
+    assert differences(text, "fanuc-0i-tf") == []
