@@ -226,3 +226,10 @@ def test_discard_forgets_the_held_move() -> None:
 
 def test_policies_are_data() -> None:
     assert replace(FANUC_CORNERS, idle_blocks=1, shrinks=True) == SINUMERIK_CORNERS
+
+
+def test_a_corner_is_that_of_the_machine_where_the_zero_is_moved_in_front_of_it() -> None:
+    path = Path().insert(Shape.CHAMFER, 5).to(20, 0)
+    path.position = [-80.0, 30.0, 0.0]  # what was X20 Y0
+    assert path.to(-80, 50).rows() == [("feed", 15, 0), ("feed", 20, 5), ("feed", -80, 50)]
+    assert path.recorder.moves[2].start == [-80.0, 35.0, 0.0]

@@ -467,3 +467,13 @@ def test_the_way_out_may_cross_the_way_in(policy: Policy) -> None:
 def test_a_contour_may_overlap_its_beginning(policy: Policy) -> None:
     recorder = run(policy, "G1 G41 X0 Y0\nY50\nX50\nY0\nX0\nY3\nG40 X-20", start=(-30.0, 0.0, 0.0))
     assert recorder.points == [(-5, 0), (-5, 55), (55, 55), (55, -5), (-5, -5), (-5, 3), (-20, 3)]
+
+
+@pytest.mark.parametrize("policy", [policies.FANUC_A, policies.SINUMERIK_NORM_G451])
+def test_a_corner_is_that_of_the_machine_where_the_zero_is_moved_in_front_of_it(policy: Policy) -> None:
+    reader = Reader(policy)
+    reader.block("G1 G41 X10 Y0")
+    reader.block("X40")
+    reader.position = [-60.0, 30.0, 0.0]  # what was X40 Y0
+    recorder = reader.run("Y60\nX-100")
+    assert recorder.rows[:3] == [("feed", 10, 5), ("feed", 35, 5), ("feed", -65, 55)]

@@ -114,6 +114,7 @@ CHANGED_BY = {
     "Ranges": "sinumerik-newconf-limit",
     "Readings": "sinumerik-def-open",
     "Records": "syntec-records-variables-in-names",
+    "ReferenceAxis": "sin-g96-reference-axis",
     "ReferenceState": "fanuc-0i-tf-offset-t-beside-g29",
     "Repositioning": "sinumerik-asub-in-subprogram",
     "RetractState": "syntec-f2-fast",

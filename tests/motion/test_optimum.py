@@ -13,7 +13,7 @@ from tests.motion.paths import MILL
 
 SOFT = Settings(acceleration=AccelerationMode.JERK_LIMITED)
 #: Times over the optimum: the median, and the worst path. The aim is 1.15 and 1.3.
-MEDIAN, WORST = 1.95, 3.5
+MEDIAN, WORST = 1.57, 2.42
 #: The optimum is discretised, and finds up to this part too little.
 COARSE = 0.97
 

@@ -183,6 +183,21 @@ def test_a_following_geometry_axis_counts_where_it_is() -> None:
     assert box(used.machine, 1) == (lowest, highest)
 
 
+@pytest.mark.parametrize(
+    "couple",
+    [
+        "TRAILON(Y,X,1)",
+        'EGDEF(Y,X,1)\nEGON(Y,"NOC",X,1,1)',
+        "MASLDEF(Y,X)\nMASLON(Y)",
+        "CTABDEF(Y,X,1,0)\nG1 X0 Y0 F100\nX60 Y60\nCTABEND\nLEADON(Y,X,1)",
+    ],
+)
+def test_so_it_is_with_every_coupling(couple: str) -> None:
+    _, used = usage(f"G0 Z5\n{couple}\nG1 X50 F500\nM30\n", "sinumerik-840d")
+    assert box(used.tools[0].work, 1) == (0, 50)
+    assert box(used.machine, 1) == (0, 50)
+
+
 def test_a_peak_of_a_table_within_a_row_counts() -> None:
     table = "CTABDEF(Y,X,1,0)\nG1 X0 Y0 F1000\nX77 Y50\nX200 Y0\nCTABEND\n"
     _, used = usage(f"{table}G0 Z5\nLEADON(Y,X,1)\nG1 X200 F1000\nLEADOF(Y)\nM30\n", "sinumerik-840d")

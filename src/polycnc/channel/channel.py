@@ -90,8 +90,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
             that look ahead it is no block.
         moved_by_hand: The last intervention in front of a block that was not prepared yet.
         block_by_block: With it, behind every other block too.
-        is_searched: The program is gone through without motion, to a block of it.
-        is_tested: It runs while the axes stand.
+        is_searched: A block is searched, without motion; `is_tested`: the program runs while the axes stand.
         main_run: What executes the rows while the channel runs; None where nobody waits for that.
         actual: Where its axes are now.
         move_times: How long single moves take; None where a clock runs, which knows.

@@ -155,6 +155,10 @@ class Interpolator(Protocol):
         """Whether the block in execution is not as the program has it, and whether the one behind it is not."""
 
     @property
+    def operator_override(self) -> float:
+        """The feed override that the operator has set, 1 for 100 %."""
+
+    @property
     def runs_programs(self) -> bool:
         """Whether the control is in the mode in which the channel's program was started."""
 

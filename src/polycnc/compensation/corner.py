@@ -10,14 +10,15 @@ from __future__ import annotations
 
 from dataclasses import field, replace
 from enum import Enum
-from math import degrees, isnan, nan, radians
+from math import degrees, hypot, isnan, nan, radians
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.moves import origins
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import END_OF_BLOCK, EndOfBlock, Item, Move, PlacedEvent, Rank, Stage
 from polycnc.deferred.records import dataclass
-from polycnc.geometry import offset
+from polycnc.geometry import arcs, offset
+from polycnc.geometry.tolerances import SAME_POINT_MM
 from polycnc.messages import AlarmError
 from polycnc.toolpath.context import SHORTENED
 from polycnc.toolpath.kinds import Kind
@@ -168,7 +169,13 @@ class CornerStage(Stage):
             return
         held, wanted, self._wanted = self._held, self._wanted, None
         if held is not None:
-            move = self._join(held, move)
+            # The zero may have been moved between the two: the corner is that of the machine.
+            seam = arcs.minus(self.plane.point(held.move.end), self.plane.point(move.start))
+            if hypot(*seam) > SAME_POINT_MM:
+                near = self._join(held, self.plane.moved(move, seam))
+                move = self.plane.moved(near, (-seam[0], -seam[1]))
+            else:
+                move = self._join(held, move)
         request = wanted or (None if move.kind is Kind.RAPID else self._modal)
         if request is None:
             self._pass(move)

@@ -25,7 +25,9 @@ while a vector stands, this shift stands with it (FANUC 0i-TF Plus 5.2).
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import pairwise
+from math import hypot
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.path import END_OF_BLOCK, Item, Move, PlacedEvent, Rank, Stage
@@ -37,7 +39,7 @@ from polycnc.compensation.rows import RowWriter
 from polycnc.compensation.step import NO_VECTOR, Role, Step
 from polycnc.geometry import arcs, offset
 from polycnc.geometry.offset import Corner
-from polycnc.geometry.tolerances import NO_WAY, ROUNDED_MM
+from polycnc.geometry.tolerances import NO_WAY, ROUNDED_MM, SAME_POINT_MM
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -268,11 +270,7 @@ class CutterCompensation(Stage):
         self._forced, self._holds, self._starts_square = None, False, False
         step.edge = self._checked(step)
         if self._window:
-            if step.policy.leaves_out_arcs and self._window[-1].is_chord and not step.is_chord:
-                self._leave_out_arcs(step)
-            self._close(self._window[-1], step)
-            if step.suspended or self._window[-1].suspended:
-                self._release_all()  # no way round leads past such a stretch
+            self._follow(self._window[-1], step)
         self._window.append(step)
         if self._role is Role.START:
             self._role = Role.CONTOUR
@@ -280,6 +278,21 @@ class CutterCompensation(Stage):
             step.corner, step.shift = Corner([NO_VECTOR]), NO_VECTOR
             self._release_all()
             self._forget()
+
+    def _follow(self, before: Step, step: Step) -> None:
+        """A step comes behind the last one of the window."""
+        seam = arcs.minus(before.contour.end, step.contour.start)
+        if hypot(*seam) > SAME_POINT_MM:
+            # The zero has been moved between them: their corner is found as if it had not, and no check looks past it.
+            self._close(before, replace(step, contour=step.contour.moved(seam), edge=step.edge.moved(seam)))
+            self._release_all()
+            step.first = self._rows.vector
+            return
+        if step.policy.leaves_out_arcs and before.is_chord and not step.is_chord:
+            self._leave_out_arcs(step)
+        self._close(self._window[-1], step)
+        if step.suspended or self._window[-1].suspended:
+            self._release_all()  # no way round leads past such a stretch
 
     def _shift(self) -> Point:
         """What stands beside every vector (nose centre to tip), mm."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import hypot
 from typing import TYPE_CHECKING
 
@@ -63,6 +64,11 @@ class Plane:
             return None
         center = move.center
         return self.vector(center[self.u] + by[0], center[self.v] + by[1], center[self.w])
+
+    def moved(self, move: Move, by: Point) -> Move:
+        """A move elsewhere in the plane."""
+        start, end = (self.at(place, arcs.plus(self.point(place), by)) for place in (move.start, move.end))
+        return replace(move, start=start, end=end, center=self.moved_center(move, by))
 
     @property
     def normal(self) -> Vector:

@@ -48,6 +48,11 @@ class Edge(NamedTuple):
     center: Point | None = None
     ccw: bool = True
 
+    def moved(self, by: Point) -> Edge:
+        """The same line or arc elsewhere."""
+        center = None if self.center is None else arcs.plus(self.center, by)
+        return self._replace(start=arcs.plus(self.start, by), end=arcs.plus(self.end, by), center=center)
+
     @property
     def length(self) -> float:
         """Length, mm."""

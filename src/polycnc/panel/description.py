@@ -22,7 +22,7 @@ PANELS = {
     "meldas-m": ("hartford.toml", "meldas-m.toml"),
     "fanuc-0i-tf": ("standard.toml", "fanuc-0i-tf.toml"),
     "sinumerik-840d": ("standard.toml", "sinumerik-840d.toml"),
-    "syntec-mill": ("standard.toml",),
+    "syntec-mill": ("standard.toml", "syntec-mill.toml"),
 }
 #: Mark of an axis that is back at its restart position (Hartford 5.2.4.8 f: the figure has RP, the text PR).
 RETURNED = "RP"
@@ -104,11 +104,16 @@ class Switch:
 
 @dataclass(frozen=True)
 class ModePosition:
-    """A position of the mode switch, and the mode of the control that it stands for."""
+    """A position of the mode switch, and the mode of the control that it stands for.
+
+    Attributes:
+        signal: A signal that is on in this position; empty for none.
+    """
 
     id: str
     name: Mapping[str, str]
     mode: Mode
+    signal: str = ""
 
 
 @dataclass(frozen=True)
@@ -117,6 +122,7 @@ class MdiUnit:
 
     Attributes:
         soft_keys: Soft keys below it.
+        label: What stands on the key that chooses it; empty for its inches.
         side_keys: Soft keys at its side, where a chapter's pages stand then; 0 for none.
     """
 
@@ -126,6 +132,12 @@ class MdiUnit:
     soft_keys: int
     keys: tuple[str, ...]
     side_keys: int = 0
+    label: str = ""
+
+    @property
+    def short(self) -> str:
+        """What stands on the key that chooses it."""
+        return self.label or f"{self.inches:g}″"
 
 
 @dataclass(frozen=True)
@@ -154,7 +166,8 @@ def describe(control: str, axes: Sequence[str]) -> PanelDescription:
         for kind, rows in tables.items():
             rows += data.get(kind, [])
         for name, row in data.get("mode", {}).items():
-            modes[name] = ModePosition(name, {k: row[k] for k in ("en", "zh-TW")}, Mode(row["mode"]))
+            names = {k: row[k] for k in ("en", "zh-TW")}
+            modes[name] = ModePosition(name, names, Mode(row["mode"]), row.get("signal", ""))
     lamps = [lamp for row in tables["lamp"] if (lamp := _lamp(row, axes)) is not None]
     return PanelDescription(
         keys={row["id"]: Key(**_tuples(row)) for row in tables["key"]},

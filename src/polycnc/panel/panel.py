@@ -217,7 +217,7 @@ class Panel:
         self._check_locked(axis, direction)
         if mode == "zero" and direction > 0:
             self.control.home(axis)  # once started, the return goes on by itself
-        elif mode in ("jog", "rapid"):
+        elif mode in ("jog", "rapid", "repos"):
             self.control.jog(axis, direction, rapid=mode == "rapid")
             self._pressed.add(name)
         else:
@@ -269,6 +269,9 @@ class Panel:
         self._pressed = {name for name in self._pressed if not self._axis_of(name)}
         self.control.select_mode(self.description.modes[position].mode)
         self.positions["mode"] = position
+        for each in self.description.modes.values():
+            if each.signal:
+                self.control.signals[each.signal] = float(each.id == position)
 
     def _apply(self, switch: Switch) -> None:
         value = switch.value(self.positions[switch.id])

@@ -40,8 +40,8 @@ _UNITS = {
 _STANDING = frozenset((Kind.DWELL, Kind.EVENT))
 #: Parts of a row at whose ends it is looked at where displays show something else; steps of the search around one.
 LOOKS, NARROWINGS = 32, 40
-#: From so many rows on they are looked at by whole columns first.
-MANY = 200
+#: From so many rows on they are looked at by whole columns first, in so many parts; of very many the ends alone.
+MANY, PARTS, VERY_MANY = 200, 4, 5000
 
 
 @dataclass(slots=True)
@@ -273,8 +273,9 @@ def _far_rows(chunk: Chunk, rows: range, start: Sequence[float], seers: Sequence
     starts = np.vstack((start if len(start) else ends[0], ends[:-1]))
     far = {rows.start + i for i, row in enumerate(rows) if chunk.curve[row] >= 0}
     for seen in seers:
-        for k in range(1, LOOKS + 1):
-            for column in seen(list((starts + (ends - starts) * (k / LOOKS)).T)):
+        parts = PARTS if len(rows) < VERY_MANY else 1
+        for k in range(1, parts + 1):
+            for column in seen(list((starts + (ends - starts) * (k / parts)).T)):
                 far.update((rows.start + int(np.argmin(column)), rows.start + int(np.argmax(column))))
     return sorted(far)
 

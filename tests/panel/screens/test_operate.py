@@ -127,6 +127,44 @@ def test_modes_move_axes_run_typed_blocks_and_run_programs(lang: str) -> None:
     assert control.positions.work["X"] == pytest.approx(2.0)
 
 
+@pytest.mark.feature("sie.b.modes", control="sinumerik-840d")
+@pytest.mark.parametrize("lang", ["en", "zh-TW"])
+def test_repos_leads_axes_back_to_the_interruption_and_no_farther(lang: str) -> None:
+    screen = sinumerik()
+    control, panel = screen.control, Panel(screen.control)
+    assert panel.description.modes["repos"].name[lang] == {"en": "Repos", "zh-TW": "重新定位"}[lang]
+    control.load("G0 X10\nM0\nG1 X20 F1000\nM30\n")
+    control.cycle_start()
+    assert control.run() is State.STOPPED
+    panel.turn("mode", "jog")
+    panel.press("X+")
+    control.step(0.5)
+    panel.release("X+")
+    control.run()
+    assert control.positions.machine["X"] > 12.0
+    panel.turn("mode", "repos")
+    for key in ("X+", "Y-"):
+        with pytest.raises(CommandRefused, match=key[0]):
+            panel.press(key)
+    panel.press("X-")
+    control.step(0.1)
+    panel.release("X-")
+    control.run()
+    assert control.positions.machine["X"] > 10.0
+    panel.press("X-")
+    control.run()
+    assert control.positions.machine["X"] == pytest.approx(10.0)
+    panel.release("X-")
+    panel.turn("mode", "auto")
+    panel.press("START")
+    assert control.run() is State.READY
+    assert control.positions.machine["X"] == pytest.approx(20.0)
+    panel.turn("mode", "jog")
+    panel.press("X+")
+    control.step(0.2)
+    panel.release("X+")
+
+
 @pytest.mark.feature("sie.b.keyswitch", control="sinumerik-840d")
 @pytest.mark.parametrize("lang", ["en", "zh-TW"])
 @pytest.mark.parametrize("needed", [7, 6, 5, 4, 3])

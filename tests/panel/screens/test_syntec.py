@@ -232,3 +232,33 @@ def test_a_set_may_be_the_one_of_the_start_and_lets_rapids_alone() -> None:
     assert runs(bench.control, rapid) == pytest.approx(plain[0])
     assert runs(bench.control, cut) > 2.0 * plain[1]
     assert runs(bench.control, CUT.format("G120.1 P1 Q1\n")) == pytest.approx(plain[1])
+
+
+@pytest.mark.feature("syn.g120_1_screen", control="syntec-mill")
+@pytest.mark.parametrize("lang", LANGS)
+@pytest.mark.parametrize(
+    ("unit", "keys"),
+    [("keys-8", ("F10", 2, 5, 4)), ("keys-5", ("F10", 2, "F10", 0, 4))],
+)
+def test_the_function_keys_of_the_manual_lead_to_the_defaults(
+    lang: str, unit: str, keys: tuple[str | int, ...]
+) -> None:
+    bench = syntec(lang)
+    bench.unit = unit
+    assert len(bench.view.soft_keys) == int(unit[-1])
+    bench.screen.menu = "root"  # the manual begins at the main row
+    for key in keys:
+        if isinstance(key, str):
+            bench.keys(key)
+        else:
+            bench.screen.soft(key)
+    assert bench.view.page == "conditions-default"
+    assert bench.says("P1Q1 roughing, speed first", "P1Q1 粗加工，速度優先") in bench.text
+
+
+def test_f10_leads_from_a_row_without_further_keys_to_those_of_the_main_row() -> None:
+    bench = syntec("en")
+    bench.keys("COOR", "F10")
+    assert [key.text for key in bench.view.soft_keys][:3] == ["Graph", "PLC state", "Parameter"]
+    bench.keys("F10")
+    assert bench.view.soft_keys[0].text == "Coordinates"

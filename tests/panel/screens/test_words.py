@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from time import process_time
+
 import pytest
 
-from polycnc.panel.screens.words import Edited, Place, spans
+from polycnc.panel.screens.words import Edited, Place, moved, spans
+from tests.panel.bench import Bench
 
 
 @pytest.mark.parametrize(
@@ -56,9 +59,26 @@ def test_the_end_of_a_block_can_be_deleted() -> None:
 
 
 def test_the_cursor_goes_from_block_to_block() -> None:
-    program = edited(0, 0)
-    assert program.move(1) == Place(0, 1)
-    assert program.move(1) == Place(1, 0)
-    assert program.move(-1) == Place(0, 1)
-    assert program.move(-9) == Place(0, 0)
-    assert program.move(99) == Place(2, 1)
+    lines = ["O1", "G0X1. Y2.", "M30"]
+    assert moved(lines, Place(0, 0), 1) == Place(0, 1)
+    assert moved(lines, Place(0, 1), 1) == Place(1, 0)
+    assert moved(lines, Place(1, 0), -1) == Place(0, 1)
+    assert moved(lines, Place(0, 1), -9) == Place(0, 0)
+    assert moved(lines, Place(0, 0), 99) == Place(2, 1)
+    assert moved((), Place(3, 4), 1) == Place(0, 0)
+
+
+def test_a_long_program_is_edited_on_the_screen() -> None:
+    panel = Bench("fanuc-m", "en", "O1\n" + "G1 X1. F500.\n" * 50_000 + "M30\n")
+    panel.turn("mode", "edit")
+    panel.keys("PROG")
+    panel.screen.look_at(40_000)
+    panel.keys("RIGHT")
+    began = process_time()
+    for _ in range(20):
+        panel.keys("RIGHT")
+        assert panel.view.windows
+    assert process_time() - began < 0.5
+    panel.typed("M8", "INSERT")
+    assert panel.message == ""
+    assert "M8" in panel.text

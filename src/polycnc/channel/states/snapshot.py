@@ -29,10 +29,11 @@ from fractions import Fraction
 from functools import partial
 from pathlib import PurePath
 from random import Random
-from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from polycnc.channel.mode import Mode
 from polycnc.channel.states.state import State, States
+from polycnc.channel.states.unchanging import UNCHANGING
 from polycnc.deferred.records import is_frozen
 from polycnc.deferred.regexes import Regex
 from polycnc.geometry.frames import Frame
@@ -50,7 +51,6 @@ Undo: TypeAlias = "Callable[[], None]"
 #: How objects of a class are noted: gives what they refer to, and adds what brings them back.
 Walker: TypeAlias = "Callable[[Any, list[Undo]], Iterable[object]]"
 
-_Class = TypeVar("_Class", bound=type)
 _MISSING = object()
 #: Classes of objects that never change, or are none of a snapshot's: they are not followed.
 _ATOMS: set[type] = {
@@ -62,17 +62,11 @@ _ATOMS: set[type] = {
 _METHODS = (types.MethodType, types.BuiltinMethodType, types.MethodWrapperType)
 _RUNNING = (types.GeneratorType, types.CoroutineType, types.AsyncGeneratorType)
 _WALKERS: dict[type, Walker] = {}
-_UNCHANGING: set[type] = {Frame, Mode, Machine, Parameters, Setup, Program, PurePath}
+UNCHANGING.update((Frame, Mode, Machine, Parameters, Setup, Program, PurePath))
 
 
 class SnapshotError(Exception):
     """No snapshot can be taken here."""
-
-
-def unchanging(cls: _Class) -> _Class:
-    """Class decorator: snapshots do not follow its objects. They do not change, are a cache, or lie outside."""
-    _UNCHANGING.add(cls)
-    return cls
 
 
 class Snapshot:
@@ -176,7 +170,7 @@ def _walker_of(cls: type) -> Walker | None:
     """How objects of a class are noted, worked out once; None for atoms."""
     if issubclass(cls, _RUNNING):
         return _refuse
-    if issubclass(cls, type | enum.Enum) or any(base in _UNCHANGING for base in cls.__mro__):
+    if issubclass(cls, type | enum.Enum) or any(base in UNCHANGING for base in cls.__mro__):
         _ATOMS.add(cls)
         return None
     walker = _OF_BUILTIN.get(cls) or _object_walker(cls)

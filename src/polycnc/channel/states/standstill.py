@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.channel.states.snapshot import SnapshotError, contents, unchanging
+from polycnc.channel.states.unchanging import unchanging
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -42,6 +42,8 @@ class Standstill:
         Raises:
             AlarmError: PC0013: the state is the very one in which the channel was at this block before.
         """
+        from polycnc.channel.states.snapshot import SnapshotError, contents  # for long runs only
+
         ways, place = channel.toolpath.ways, _place(channel)
         if ways != self._ways:
             self._ways, self._state, self._span = ways, None, PATIENCE

@@ -7,7 +7,7 @@ from functools import cached_property
 from math import inf
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from polycnc.channel.states.snapshot import unchanging
+from polycnc.channel.states.unchanging import unchanging
 from polycnc.control.alarm_text import alarm_catalogue
 from polycnc.control.sinumerik import axis_names, gcodes, replaced, tables
 from polycnc.control.sinumerik.actions import actions, overlay
@@ -377,7 +377,7 @@ class Sinumerik:
         diameters = sum(1 << i for i, function in enumerate(shown) if function in positions.SHOWS_DIAMETERS)
         side = sides.SIDES.get(mode["compensation"], 0)
         turn = smoothing.turn(channel, mode)
-        delays_stops = sections.is_open(channel, sections.STOP_DELAY)
+        delays_stops = sections.delays_stops(channel)
         return Context(
             plane=mode["plane"],
             inch=False,

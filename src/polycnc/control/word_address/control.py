@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from polycnc.channel.stack import LevelKind
-from polycnc.channel.states.snapshot import unchanging
+from polycnc.channel.states.unchanging import unchanging
 from polycnc.compensation import Policy
 from polycnc.compensation.corner import CornerPolicy
 from polycnc.control.alarm_text import alarm_catalogue

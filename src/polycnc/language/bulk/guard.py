@@ -5,7 +5,7 @@ from __future__ import annotations
 from array import array
 from typing import TYPE_CHECKING
 
-from polycnc.channel.states.snapshot import unchanging
+from polycnc.channel.states.unchanging import unchanging
 from polycnc.language.bulk.layout import NoteRecord
 from polycnc.language.bulk.reach import rows_within
 from polycnc.transformation.orientation.linkage import room_for

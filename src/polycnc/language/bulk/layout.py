@@ -25,6 +25,29 @@ LOCALS, LOOPS = 34, 4
 #: Routines that may have called each other.
 MOST_FRAMES = 8
 
+#: Strokes of a hole that the scanner makes.
+MOST_STROKES = 128
+
+
+class Strokes(Places):
+    """What the tool does at the end of a block that drills: strokes along one axis.
+
+    How many, -1 for what the interpreter must do; root of the modal state in which that is so; the axis; where the tool
+    must stand on it, and at which feed; where it stands behind them; how many blocks they count; the lowest and the
+    highest of their places. Then kind, feed and place of each.
+    """
+
+    COUNT = place()
+    ROOT = place()
+    AXIS = place()
+    LEVEL = place()
+    FEED = place()
+    END = place()
+    BLOCKS = place()
+    RANGE = place(2)
+    FIRST = place(3 * MOST_STROKES)
+
+
 # ---- what a scan carries along ------------------------------------------------------------------------------
 
 
@@ -107,6 +130,7 @@ class State(NamedTuple):
         variables: Variables that formulas read, by number.
         stack: What is being calculated.
         frames: Of every call that runs, what was left (`routines.layout.Frame`).
+        strokes: The strokes of a hole at the end of a block that drills (`Strokes`).
         loops: By the number of a loop the step behind the one that opened it; 0 for none.
         saved: Local variables of those who have called macros.
         geometry: For X, Y, Z of the geometry their columns, or -1.
@@ -132,6 +156,7 @@ class State(NamedTuple):
     variables: Floats
     stack: Floats
     frames: Ints
+    strokes: Floats
     loops: Ints
     saved: Floats
     geometry: Ints
@@ -196,6 +221,7 @@ def new_state(axes: int) -> State:
         array("d", (inf,)) * VARIABLES,
         zeros(STACK),
         array("q", bytes(8 * Frame.SIZE * MOST_FRAMES)),
+        zeros(Strokes.SIZE),
         array("q", bytes(8 * LOOPS)),
         zeros(LOCALS * MOST_FRAMES),
         array("q", bytes(24)),
@@ -252,6 +278,8 @@ class Rule(Places):
     #: Whether the block calls a routine or leaves one (`Flow`), the words of the program and of how often it runs. Axis
     #: words are arguments, their axes variables.
     FLOW = place()
+    #: The axis, plus one, along which strokes follow behind its move; 0 for none.
+    DRILLS = place()
     CALLED = place(2)
     REPEATS = place(2)
 

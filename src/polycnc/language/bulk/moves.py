@@ -11,7 +11,17 @@ from math import copysign, floor, nan, sqrt
 from typing import NamedTuple
 
 from polycnc.kernels.layout import Bytes, Floats, Ints, Ints32, Words16, Words32
-from polycnc.language.bulk.layout import HALF, TARGET_WIDTH, Factor, Motion, NoteRecord, Reading, Rule, State
+from polycnc.language.bulk.layout import (
+    HALF,
+    TARGET_WIDTH,
+    Factor,
+    Motion,
+    NoteRecord,
+    Reading,
+    Rule,
+    State,
+    Strokes,
+)  # fmt: skip
 from polycnc.toolpath.kinds import Kind
 from polycnc.toolpath.table import CURVE_WIDTH, NO_CURVE
 from polycnc.transformation.orientation.standing import StandRecord, stand
@@ -60,6 +70,9 @@ def act(state: State, rules: Ints32, factors: Floats, number: int, columns: Colu
         turns, rows = rules[rule + Rule.HAS_DIRECTION] != 0, state.scan.rows
         if turns and not stood(state, rules, rule):
             return False
+        drills = rules[rule + Rule.DRILLS]
+        if drills and not may_drill(state, drills - 1, feed):
+            return False
         if motion == Motion.ARC:
             done = arc(state, rules, factors, rule, factor, feed, columns)
         else:
@@ -70,8 +83,41 @@ def act(state: State, rules: Ints32, factors: Floats, number: int, columns: Colu
             return False
         if turns:
             note_turn(state, state.scan.rows > rows)
+        if drills:
+            drill(state, columns)
     state.scan.feed = feed
     return True
+
+
+def may_drill(state: State, axis: int, feed: float) -> bool:
+    """Whether the strokes of a hole along an axis can be made at the target; else the interpreter must."""
+    strokes, scan = state.strokes, state.scan
+    count = int(strokes[Strokes.COUNT])
+    if count < 0 or axis != int(strokes[Strokes.AXIS]) or scan.root != strokes[Strokes.ROOT]:
+        return False
+    if feed != strokes[Strokes.FEED] or state.position[axis] != strokes[Strokes.LEVEL]:
+        return False
+    if scan.rows + count >= scan.most_rows or scan.blocks + strokes[Strokes.BLOCKS] >= scan.most_blocks:
+        return False
+    level, is_free = state.new_position[axis], True
+    for i in range(2):
+        state.new_position[axis] = strokes[Strokes.RANGE + i]
+        is_free = is_free and within_limits(state)
+    state.new_position[axis] = level
+    return is_free
+
+
+def drill(state: State, columns: Columns) -> None:
+    """Make the strokes of a hole."""
+    strokes = state.strokes
+    axis = int(strokes[Strokes.AXIS])
+    for i in range(int(strokes[Strokes.COUNT])):
+        stroke = Strokes.FIRST + 3 * i
+        state.new_position[axis] = strokes[stroke + 2]
+        put_row(state, int(strokes[stroke]), strokes[stroke + 1], NO_CURVE, columns)
+    state.position[axis] = state.programmed[axis] = strokes[Strokes.END]
+    state.pending[axis] = 0.0
+    state.scan.blocks += int(strokes[Strokes.BLOCKS])
 
 
 def stood(state: State, rules: Ints32, rule: int) -> bool:

@@ -92,6 +92,7 @@ class Straight(NamedTuple):
             out from the display.
         skips_tiny: A way below rounding noise is none, and the position stays.
         direction: Indices of the values of the direction in which the tool stands at its end, -1 for zero.
+        drills: The axis along which strokes of the active cycle follow (`Drilled`); -1 for none.
     """
 
     rapid: bool
@@ -101,6 +102,26 @@ class Straight(NamedTuple):
     absolute: bool = True
     skips_tiny: bool = False
     direction: tuple[int, int, int] | None = None
+    drills: int = -1
+
+
+class Drilled(NamedTuple):
+    """The strokes of the next hole.
+
+    Attributes:
+        axis: Along which they go.
+        level: Where the tool stands on it, `feed` the feed in force: for others they are not known.
+        end: Where it stands behind them.
+        blocks: How many blocks they count.
+        strokes: Kind, feed and place of each.
+    """
+
+    axis: int
+    level: float
+    feed: float
+    end: float
+    blocks: int
+    strokes: tuple[tuple[int, float, float], ...]
 
 
 class Arc(NamedTuple):

@@ -6,7 +6,7 @@ from array import array
 from math import inf
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
-from polycnc.channel.states.snapshot import unchanging
+from polycnc.channel.states.unchanging import unchanging
 from polycnc.language.bulk import layout
 from polycnc.language.bulk.guard import Guard, notes_before
 from polycnc.language.bulk.layout import State, Tables, new_state
@@ -25,13 +25,14 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.geometry.frames import Frame
     from polycnc.kernels.layout import Floats
-    from polycnc.language.bulk.recipe import Recipe, Spelling
+    from polycnc.language.bulk.recipe import Drilled, Recipe, Spelling
     from polycnc.language.bulk.routines.running import RoutineDialect
     from polycnc.language.bulk.scannable import ScannedChannel
 
 #: A run of so many blocks is worth its beginning.
 WORTHWHILE = 16
-#: Blocks of a loop that one call of the kernel runs: between two calls it can be interrupted.
+#: Blocks that one call of the kernel runs at the most where it may loop: between two calls it can be interrupted, and
+#: a loop that waits for ever is found.
 MOST_BLOCKS = 1 << 18
 #: Notes that one call of the kernel may give.
 MOST_NOTES = 4096
@@ -77,6 +78,9 @@ class Dialect(Protocol):
 
     def tool(self, channel: Channel) -> Sequence[float]:
         """What must be known to stand the tool along a direction; nothing where no block names one."""
+
+    def drilled(self, channel: Channel) -> Drilled | None:
+        """The strokes of the next hole; None where the interpreter drills."""
 
     def turned(self, channel: Channel, start: list[float], end: list[float]) -> None:
         """Blocks have stood the tool along directions, the last one between two positions."""
@@ -393,6 +397,7 @@ class Scanner:
         at.feed, at.tolerance = channel.feed, dialect.tolerance(channel)
         at.turned, state.tool[0] = 0, -1.0
         _put(state.tool, dialect.tool(channel))
+        _put_strokes(state.strokes, at.root, dialect.drilled(channel))
         _put(state.position, c.position)
         _put(state.programmed, c.programmed)
         _put(state.pending, c.pending)
@@ -462,6 +467,17 @@ _NO_ROUTINES = array("i"), array("i"), array("i"), array("d"), array("i")
 def _put(vector: Floats, values: Iterable[float]) -> None:
     for i, value in enumerate(values):
         vector[i] = value
+
+
+def _put_strokes(numbers: Floats, root: int, drilled: Drilled | None) -> None:
+    """Give the kernel the strokes of the next hole."""
+    numbers[layout.Strokes.COUNT] = -1.0
+    if drilled is None or len(drilled.strokes) > layout.MOST_STROKES:
+        return
+    axis, level, feed, end, blocks, strokes = drilled
+    places = [place for _, _, place in strokes] or [level]
+    head = (len(strokes), root, axis, level, feed, end, blocks, min(places), max(places))
+    _put(numbers, (*head, *(number for stroke in strokes for number in stroke)))
 
 
 def _put_frame(numbers: Floats, frame: Frame) -> bool:

@@ -144,6 +144,7 @@ def _put_straight(rule: array[int], motion: Straight) -> None:
     rule[layout.Rule.NAMES_FEED] = motion.names_feed
     rule[layout.Rule.ABSOLUTE] = motion.absolute
     rule[layout.Rule.SKIPS_TINY] = motion.skips_tiny
+    rule[layout.Rule.DRILLS] = motion.drills + 1
     rule[layout.Rule.HAS_DIRECTION] = motion.direction is not None
     for i, slot in enumerate(motion.direction or ()):
         rule[layout.Rule.DIRECTION + i] = slot

@@ -11,7 +11,7 @@ from array import array
 from bisect import bisect_left
 from typing import TYPE_CHECKING
 
-from polycnc.channel.states.snapshot import unchanging
+from polycnc.channel.states.unchanging import unchanging
 from polycnc.channel.steps import forget_steps, kept_steps
 from polycnc.deferred.regexes import regex
 from polycnc.language.expressions.joined import led_by

@@ -197,7 +197,7 @@ SPELLINGS = {"RMIBL": "RMI", "RMBBL": "RMB", "RMEBL": "RME", "RMNBL": "RMN"}
 SQUARE = frozenset({"DELDL"})
 
 #: Procedures whose axis may stand in brackets: `FINEA[X]`.
-BRACKETED = frozenset({"FINEA", "COARSEA", "IPOENDA", "FOCON", "FOCOF"})
+BRACKETED = frozenset({"FINEA", "COARSEA", "IPOENDA", "FOCON", "FOCOF", "SCC"})
 
 #: Machining cycles of the control; a program of the same name in a cycle directory comes first.
 CYCLES = _words(

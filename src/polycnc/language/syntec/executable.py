@@ -7,7 +7,7 @@ from bisect import bisect_left, bisect_right
 from operator import attrgetter
 from typing import TYPE_CHECKING
 
-from polycnc.channel.states.snapshot import unchanging
+from polycnc.channel.states.unchanging import unchanging
 from polycnc.channel.steps import several
 from polycnc.deferred.regexes import regex
 from polycnc.language.syntec.blocks import TypedBlock

@@ -7,7 +7,7 @@ from bisect import bisect_right
 from dataclasses import field
 from typing import TYPE_CHECKING
 
-from polycnc.channel.states.snapshot import unchanging
+from polycnc.channel.states.unchanging import unchanging
 from polycnc.channel.steps import kept_steps, several
 from polycnc.deferred.records import dataclass
 from polycnc.deferred.regexes import regex

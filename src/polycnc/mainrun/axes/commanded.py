@@ -20,8 +20,10 @@ if TYPE_CHECKING:
     from polycnc.machine.model import Axis as AxisData
     from polycnc.transformation.couplings.laws import Law
 
-#: Speeds are differences over so many seconds; an axis that catches up is no slower than this, mm/s or degrees/s.
-SHORT_S, LEAST_SPEED = 1e-6, 1.0
+#: Speeds are differences over so many seconds.
+SHORT_S = 1e-6
+#: Parts of velocity and acceleration with which an axis catches up; what leads it has the rest.
+OWN_SPEED, OWN_PULL = 0.2, 0.5
 
 
 class Leading(Protocol):
@@ -83,27 +85,28 @@ class CommandedAxis:
             smoothly: What its speed would change at once it makes up by itself: it catches up with those that lead it,
                 or brakes where none does.
         """
-        self.stop()
         time = self._clock()
-        place, before = self.place(time), self._share_speed(time) if smoothly else 0.0
+        before = self.velocity(time) + self._share_speed(time) if smoothly else 0.0
+        self.stop()
+        place = self.place(time)
         self._led = tuple(led)
         self._place = place - self._shares(time)
         self._lead = self._target = None
         after = self._share_speed(time) if smoothly else 0.0
         if before != after:
-            self._make_up(before - after, abs(after), time)
+            self._make_up(before - after, time)
 
     def _share_speed(self, time: float) -> float:
         """How fast those that lead it move it."""
         return (self._shares(time + SHORT_S) - self._shares(time)) / SHORT_S
 
-    def _make_up(self, velocity: float, spent: float, time: float) -> None:
+    def _make_up(self, velocity: float, time: float) -> None:
         """Come from a velocity to rest: at its place where others lead it, where it can where none does."""
-        pull, target = self._data.acceleration or 1e9, self._place
+        pull, target = OWN_PULL * (self._data.acceleration or 1e9), self._place
         if not self._led:
             target += copysign(0.5 * velocity * velocity / pull, velocity)
-        speed = max((self._data.rapid or inf) - spent, LEAST_SPEED)
-        self._lead = axis_move(self._place, velocity, target, min(speed, 1e9), pull, time)
+        speed = OWN_SPEED * (self._data.rapid or 1e9)
+        self._lead = axis_move(self._place, velocity, target, speed, pull, time)
         self._law = MotionLaw(time, self._place)
         self._law.run(time, self._place, self._lead.phases)
         self._law.forget(time - self._ramp)

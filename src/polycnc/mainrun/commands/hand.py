@@ -29,6 +29,8 @@ TURNS_ABOUT_TIP = "TRAORI"
 #: Signals: axes are moved by hand in the machine coordinate system, each by itself; geometry axes in that of the tool,
 #: or of the work. The first one that is on counts.
 IN_MACHINE_SYSTEM, IN_TOOL_SYSTEM, IN_WORK_SYSTEM = "JOG_MCS", "JOG_TCS", "JOG_WCS"
+#: A signal: keys lead axes back to where the program waits (SINUMERIK's REPOS).
+TO_PATH = "JOG_REPOS"
 #: A line is straight in the axes where they are no farther beside it than this, mm, over `TRIAL_MM` of it.
 STRAIGHT_MM, TRIAL_MM = 1e-6, 10.0
 
@@ -55,6 +57,9 @@ class HandCommands:
         run, i = self._axis(axis, channel)
         self._permission.ask_machine(*_move_words(run, i))
         here = self._take_in_hand(run)
+        if self._signals[TO_PATH]:
+            self._return(run, i, direction, here, rapid=rapid)
+            return
         if (line := self._line(run, i, here)) is not None:
             line.send(direction * ENDLESS, self._speed(run, i, rapid=rapid), self._clock.time)
             return
@@ -62,6 +67,16 @@ class HandCommands:
         for axis_, hand in _hands(run, i):
             target = hand.end_of_travel(direction, here[axis_])
             self._send(run, axis_, target, self._speed(run, i, rapid=rapid), about_tip)
+
+    def _return(
+        self, run: ChannelRun, axis: int, direction: int, here: Sequence[float], *, rapid: bool
+    ) -> None:
+        """Back to where the program waits for the axis, and no farther."""
+        target = run.without_hand[axis]
+        if not run.is_active or (target - here[axis]) * direction <= NO_WAY:
+            raise CommandRefused("mainrun.no-way-back", axis=run.channel.axes[axis])
+        for i, _ in _hands(run, axis):
+            self._send(run, i, run.without_hand[i], self._speed(run, axis, rapid=rapid), None)
 
     def stop_jog(self, axis: str | None, *, channel: int) -> None:
         """Let a jog key go; all of them where no axis is named."""

@@ -250,6 +250,12 @@ class ChannelInterpolator:
         return self._parts.split(items) if self._parts is not None else (False, False)
 
     @property
+    def operator_override(self) -> float:
+        """The feed override that the operator has set, 1 for 100 %."""
+        operator = self._run.execution.rates.operator
+        return 1.0 if operator.feed_cancelled else operator.feed
+
+    @property
     def modal(self) -> Mapping[str, str]:
         """Active codes in the block in execution."""
         return self._run.execution.modal

@@ -2,18 +2,37 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
+from polycnc.mainrun.axes.commanded import OWN_PULL
 from polycnc.mainrun.axes.spindle_turning import DEGREES_S, SpindleTurning
 from polycnc.transformation.couplings.laws import Ratio
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from polycnc.channel.channel import Channel
+    from polycnc.mainrun.axes.channel_axes import ChannelAxes
     from polycnc.mainrun.axes.commanded import Leading
     from polycnc.mainrun.execution.clock import Clock
-    from polycnc.mainrun.execution.interpolator import Led
+    from polycnc.mainrun.execution.execution import Execution
+    from polycnc.mainrun.reading.snapshot import SpindleState
     from polycnc.transformation.couplings.laws import Law
+
+
+class Turning(Protocol):
+    """A channel, and what turns in it."""
+
+    execution: Execution
+    axes: ChannelAxes
+
+    @property
+    def channel(self) -> Channel:
+        """The channel."""
+
+    @property
+    def spindle(self) -> SpindleState:
+        """The spindle of the block in execution."""
 
 
 class LeadingSpindles:
@@ -24,7 +43,7 @@ class LeadingSpindles:
         clock: The time.
     """
 
-    def __init__(self, run: Led, clock: Clock) -> None:
+    def __init__(self, run: Turning, clock: Clock) -> None:
         self._run, self._clock = run, clock
         self._turning: dict[int, SpindleTurning] = {}
         self._led: dict[int, tuple[int, ...]] = {}
@@ -61,6 +80,7 @@ class LeadingSpindles:
         """A spindle begins to lead: it gets to other speeds no faster than the axis can follow."""
         state, spindle = self._run.spindle, self._run.channel.machine.spindle[number]
         rpm = state.rpm * state.direction if state.number == number else 0.0
-        follows = self._run.axes[column].data.acceleration / (DEGREES_S * abs(ratio)) if ratio else 0.0
+        pull = (1.0 - OWN_PULL) * self._run.axes[column].data.acceleration
+        follows = pull / (DEGREES_S * abs(ratio)) if ratio else 0.0
         pulls = [pull for pull in (spindle.acceleration_rpm_s, follows) if pull > 0.0]
         return SpindleTurning(rpm, min(pulls, default=0.0), self._clock.time)

@@ -36,7 +36,9 @@ class MainLoop:
         """Whether something runs or moves."""
         operation = self._operation
         moving = operation.runs.move or operation.runs.move_beside_path
-        return moving or operation.status.state in (State.RUNNING, State.BRAKING)
+        execute = [run.execution for run in operation.runs]
+        delayed = any(each.context.stop_delay and each.next_event < inf for each in execute)
+        return moving or delayed or operation.status.state in (State.RUNNING, State.BRAKING)
 
     def step(self, seconds: float | None) -> None:
         """Let the time pass in whole interpolation cycles; one where none is named."""

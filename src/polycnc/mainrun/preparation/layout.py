@@ -10,7 +10,7 @@ from __future__ import annotations
 from array import array
 from typing import TYPE_CHECKING, NamedTuple
 
-from polycnc.channel.states.snapshot import unchanging
+from polycnc.channel.states.unchanging import unchanging
 from polycnc.deferred.records import dataclass
 from polycnc.kernels.layout import contents_of, put_back
 from polycnc.motion.kernels.columns import MAIN_RUN, RAPID, TAP, THREAD

@@ -23,7 +23,10 @@ NO_TURN, LONGEST_RUN = 1e-9, 4096
 #: Part by which speeds that count as one may differ.
 SAME_SPEED = 1e-9
 #: Part of the acceleration that is reckoned with on a line that is not alone.
-SHARED = 0.35
+SHARED = 0.5
+#: What a corner slower than its lines costs beside what is reckoned here: this part, all of it where it is slower by
+#: a third.
+SLOWED, BY_THIRDS = 0.06, 3.0
 
 
 def best_ramp(length: float, top: float, pull: float, jerk: float) -> float:
@@ -127,8 +130,9 @@ def pays_to_rest(
     if state.run.alone == 0.0:
         return False
     passing, resting, window = 0.0, 0.0, state.run.window
-    top = min(wanted, state.run.wanted)
-    corner = min(sqrt(corner2), top)
+    top, corner = min(wanted, state.run.wanted), sqrt(corner2)
+    if corner >= top:
+        return False  # nobody is slower for the corner
     for side in range(2):
         direction = state.tangent if side == 0 else state.unit
         way = state.run.length if side == 0 else length
@@ -146,7 +150,7 @@ def pays_to_rest(
             passing += way / corner
         else:
             passing += window + rest_to_rest(way - held, corner, top, SHARED * pull)
-    return resting < passing
+    return resting < passing * (1.0 + SLOWED * min(1.0, BY_THIRDS * (1.0 - corner / top)))
 
 
 def rest_to_rest(way: float, slow: float, top: float, pull: float) -> float:

@@ -185,8 +185,10 @@ def lay_arc(
     speed = min(bounded(asked_speed(curves, contexts, record, state, length, radius), state), highest)
     entry2, pull = point_cap2(n, limits, state, margin), inf
     if gentle:
-        cap2, pull = arc_hold(contexts, record, limits, state, curvature(n, limits, weight, state), speed)
+        bend = curvature(n, limits, weight, state)
+        cap2, pull = arc_hold(contexts, record, limits, state, bend, speed, 1.0 / way)
         entry2 = min(entry2, cap2)
+    state.run.rate = max(state.run.rate, 1.0 / way)
     entry2 = join(contexts, record, n, limits, state, length, weight, min(entry2, speed * speed), 0.0)
     if state.joint.rest > 0.0 or state.run.window == 0.0:
         settle_alone(pieces, n, limits, state)
@@ -220,7 +222,8 @@ def lay_arc(
         if gentle:
             bend = max(bend, curvature(n, limits, weight, state))
             before = pull
-            cap2, pull = arc_hold(contexts, record, limits, state, bend, min(speed, own))
+            rate = 1.0 / min(way, next_way)
+            cap2, pull = arc_hold(contexts, record, limits, state, bend, min(speed, own), rate)
             pieces[at + PieceRecord.CAP2], pieces[at + PieceRecord.PULL] = (
                 min(cap2, pieces[at + PieceRecord.CAP2]),
                 pull,
@@ -236,7 +239,7 @@ def lay_arc(
         state.tangent[i] = state.unit[i]
         state.bent_before[i] = state.bend[i]
         state.bow[i] = 0.0
-    state.run.exit_pull = pull
+    state.run.exit_pull, state.run.rate = pull, 1.0 / end_way
     state.run.exit2, state.run.length, state.run.metric, state.run.smooth = entry2, length, weight, 0.0
     return True
 

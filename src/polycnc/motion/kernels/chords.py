@@ -26,11 +26,14 @@ from polycnc.motion.kernels.columns import (
 from polycnc.motion.kernels.feeds import norm
 from polycnc.motion.kernels.hold import hold
 from polycnc.motion.kernels.jerk import (
-    DEVIATION_CURVE,
-    JERK_BOTH,
+    ARC_ACROSS,
+    ARC_DEVIATION,
     JERK_ENTRY,
+    LONE,
+    bow_jerk,
     bow_top2,
-    left_across,
+    forget_bow,
+    step_jerk,
     step_top2,
 )
 
@@ -52,7 +55,8 @@ def lay_chord(
     """Give a spline's chord the tangents and the curvature of the curve through its points.
 
     At a point between two chords the tangent is their mean direction, the shorter one counting more: the derivative of
-    the parabola through the three points. `unit` is the chord, `tangent` the one before.
+    the parabola through the three points; with limited jerk that of the cubic through one more (`follow_change`), and
+    at an end in rest the curve bends evenly (`mirror`). `unit` is the chord, `tangent` the one before.
     """
     unit, here = state.unit, at + PieceRecord.VECTORS
     soft = contexts[record + ContextRecord.RAMP_S] > 0.0
@@ -76,6 +80,8 @@ def lay_chord(
                 pieces[at + PieceRecord.HOLD2], pieces[at + PieceRecord.ENTRY2]
             )
         state.run.exit2 = pieces[at + PieceRecord.CAP2]
+    if soft and state.run.smooth != 2.0:
+        forget_bow(n, state)
     if soft:
         state.run.chord, state.run.tolerance = OPEN, contexts[record + ContextRecord.TOLERANCE]
         state.run.chord_ease = min(state.row.ease, state.share_ease[AT_START], state.share_ease[AT_END])
@@ -97,8 +103,10 @@ def meet_chord(
     """
     unit, tangent, bend = state.unit, state.tangent, state.bend
     here, before = at + PieceRecord.VECTORS, at + PieceRecord.VECTORS - piece_width(n)
+    if soft:
+        follow_change(n, state, length)
     for i in range(n):
-        bend[i] = unit[i] * state.run.length + tangent[i] * length
+        bend[i] += unit[i] * state.run.length + tangent[i] * length
     size, mean = norm(bend, n, limits, weight), 0.5 * (length + state.run.length)
     cap2, turn2 = pieces[at + PieceRecord.ENTRY2], 0.0
     for i in range(n):
@@ -112,6 +120,8 @@ def meet_chord(
     if not soft:
         for chord in (at - piece_width(n), at):
             cap2 = min(cap2, bend_chord(pieces, chord, n, limits))
+    if soft and pieces[at - piece_width(n) + PieceRecord.PAUSE] > 0.0:
+        mirror(pieces, before, before + n, n, limits, tangent, weight)
     # In the middle of its chord the curve is longer than the chord by `turn²/16` at most (a cubic, `run.py`).
     for chord in (at - piece_width(n), at):
         top2 = chord_top2(pieces, chord, n, limits)
@@ -121,6 +131,38 @@ def meet_chord(
             pieces[chord + PieceRecord.ENTRY2], pieces[chord + PieceRecord.CAP2]
         )
     return cap2
+
+
+def follow_change(n: int, state: State, length: float) -> None:
+    """Set `bend` to what makes the tangent between two chords that of the cubic through one point more before them.
+
+    By the parabola's tangents alone q'' would change along each chord three times as fast as that of the curve, and
+    step back between them. Only where it changes by less than half: else the points are none of a smooth curve.
+    """
+    mean, before = 0.5 * (length + state.run.length), state.run.chord_mm
+    part = (
+        0.5 * length * state.run.length / (before + length + state.run.length) * (length + state.run.length)
+    )
+    for i in range(n):
+        bowed, bow = (state.unit[i] - state.tangent[i]) / mean, state.bow[i]
+        is_smooth = before > 0.0 and abs(bowed - bow) < 0.5 * max(abs(bowed), abs(bow))
+        state.bend[i] = (bow - bowed) * part if is_smooth else 0.0
+        state.bow[i] = bowed
+
+
+def mirror(
+    pieces: Floats, free: int, known: int, n: int, limits: Limits, unit: Floats, weight: float
+) -> None:
+    """Give an end of a chord at which the axes rest the tangent with which it bends evenly: the other one's, mirrored.
+
+    `free` and `known` are the places of both tangents, `unit` is the direction of the chord.
+    """
+    along = 0.0
+    for i in range(n):
+        w = weight if limits.rotary[i] != 0.0 else 1.0
+        along += w * w * unit[i] * pieces[known + i]
+    for i in range(n):
+        pieces[free + i] = 2.0 * along * unit[i] - pieces[known + i]
 
 
 def close_chord(pieces: Floats, at: int, n: int, limits: Limits, state: State) -> None:
@@ -137,32 +179,25 @@ def close_chord(pieces: Floats, at: int, n: int, limits: Limits, state: State) -
         pieces[at + PieceRecord.LENGTH],
         pieces[at + PieceRecord.BLEND],
     )
-    cap2, pull, joint2 = pieces[at + PieceRecord.CAP2], pieces[at + PieceRecord.PULL], inf
-    least, first2, last2 = inf, 0.0, 0.0
+    cap2, joint2 = pieces[at + PieceRecord.CAP2], inf
+    first2, last2 = 0.0, 0.0
     spacing = 0.5 * (length + state.run.chord_mm) if state.run.chord_mm > 0.0 else inf
     for i in range(n):
         a, j = state.run.chord_ease * limits.acceleration[i], state.run.chord_ease * limits.jerk[i]
         first, last = pieces[here + 2 * n + i], pieces[here + 3 * n + i]
         if limits.rotary[i] == 0.0:
             first2, last2 = first2 + first * first, last2 + last * last
-        mean, most = 0.5 * (first + last), max(abs(first), abs(last))
-        joint2 = min(joint2, step_top2(j, blend, abs(mean - state.bent_before[i]), spacing, JERK_ENTRY))
-        state.bent_before[i] = mean
+        step, most = abs(0.5 * (first + last) - state.bent_before[i]), max(abs(first), abs(last))
+        joint2 = min(joint2, step_top2(j, blend, step, spacing, JERK_ENTRY, joint2))
         if most > NO_BEND:
-            way = pieces[here + PLACES * n + n + i] - pieces[here + PLACES * n + i]
-            share = max(abs(pieces[here + i]), abs(pieces[here + n + i]), 1.5 * abs(way) / length)
-            cap2 = min(
-                cap2,
-                left_across(a, j, blend, share * pull) / most,
-                bow_top2(j, blend, 0.5 * abs(last - first), length),
-            )
-            least = min(least, j / most)
+            cap2 = min(cap2, ARC_ACROSS * a / most, bow_top2(j, blend, 0.5 * abs(last - first), length))
     if first2 > 0.0 or last2 > 0.0:
         cap2 = min(
-            cap2, 12.0 * DEVIATION_CURVE * state.run.tolerance / (blend * blend * sqrt(max(first2, last2)))
+            cap2, 12.0 * ARC_DEVIATION * state.run.tolerance / (blend * blend * sqrt(max(first2, last2)))
         )
-    if least < inf and cap2 > 0.0:
-        pull = min(pull, JERK_BOTH * least / (3.0 * sqrt(cap2)))
+    pull = chord_pull(pieces, at, n, limits, state, sqrt(cap2), sqrt(min(cap2, joint2)), spacing)
+    for i in range(n):
+        state.bent_before[i] = 0.5 * (pieces[here + 2 * n + i] + pieces[here + 3 * n + i])
     pieces[at + PieceRecord.CAP2], pieces[at + PieceRecord.PULL] = cap2, pull
     pieces[at + PieceRecord.ENTRY2] = min(pieces[at + PieceRecord.ENTRY2], cap2)
     pieces[at + PieceRecord.HOLD2] = min(pieces[at + PieceRecord.HOLD2], cap2, joint2)
@@ -170,17 +205,48 @@ def close_chord(pieces: Floats, at: int, n: int, limits: Limits, state: State) -
     state.run.chord_mm, state.run.exit2, state.run.exit_pull = length, cap2, pull
 
 
+def chord_pull(
+    pieces: Floats, at: int, n: int, limits: Limits, state: State, v: float, joint: float, spacing: float
+) -> float:
+    """Acceleration along a chord at speeds up to `v`, up to `joint` at its start: what its q'' leaves of each axis."""
+    here, pull, ramp = at + PieceRecord.VECTORS, pieces[at + PieceRecord.PULL], pieces[at + PieceRecord.RAMP]
+    length, blend = pieces[at + PieceRecord.LENGTH], pieces[at + PieceRecord.BLEND]
+    for i in range(n):
+        a, j = state.run.chord_ease * limits.acceleration[i], state.run.chord_ease * limits.jerk[i]
+        first, last = pieces[here + 2 * n + i], pieces[here + 3 * n + i]
+        way = pieces[here + PLACES * n + n + i] - pieces[here + PLACES * n + i]
+        share = max(abs(pieces[here + i]), abs(pieces[here + n + i]), 1.5 * abs(way) / length)
+        most = max(abs(first), abs(last))
+        if most > NO_BEND and share > 0.0:
+            step = abs(0.5 * (first + last) - state.bent_before[i])
+            left = LONE * j - step_jerk(joint, blend, step, spacing)
+            left -= bow_jerk(v, blend, 0.5 * abs(last - first), length)
+            pull = min(pull, left / (2.0 * share / ramp + 3.0 * most * v), (a - most * v * v) / share)
+    return pull
+
+
 def end_chord(pieces: Floats, n: int, limits: Limits, state: State) -> None:
-    """Close the last chord: the row at hand does not go on with it."""
+    """Close the last chord: the row at hand does not go on with it; perhaps the axes rest before that."""
     if state.run.chord == OPEN:
-        close_chord(pieces, (state.run.pieces - 1) * piece_width(n), n, limits, state)
+        at = (state.run.pieces - 1) * piece_width(n)
+        here = at + PieceRecord.VECTORS
+        if state.run.stop != 0.0 and pieces[at + PieceRecord.PAUSE] == 0.0:
+            mirror(pieces, here + n, here, n, limits, state.tangent, state.run.metric)
+            top2, turn2 = chord_top2(pieces, at, n, limits), 0.0
+            for i in range(n):
+                w = state.run.metric if limits.rotary[i] != 0.0 else 1.0
+                turn2 += (w * (pieces[here + n + i] - pieces[here + i])) ** 2
+            longer = 1.0 - 0.125 * min(turn2, 4.0)
+            pieces[at + PieceRecord.CAP2] = min(pieces[at + PieceRecord.CAP2] * longer, top2)
+        close_chord(pieces, at, n, limits, state)
+        forget_bow(n, state)
     state.run.chord_mm = 0.0
 
 
 def settle(pieces: Floats, n: int, limits: Limits, state: State) -> None:
     """The axes come to rest behind the last row: nothing goes on with its chord or its line any more."""
     if state.run.chord != 0.0 and state.run.pieces > 0:
-        last = state.run.pieces - 1
+        last, state.run.stop = state.run.pieces - 1, 1.0
         end_chord(pieces, n, limits, state)
         hold(pieces, last, n, state)
     settle_alone(pieces, n, limits, state)

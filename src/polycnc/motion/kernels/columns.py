@@ -249,6 +249,9 @@ class RunState(Structure):
         chord_ease: Factor on the limits along the last chord.
         tolerance: Contour tolerance along it.
         corner_top2: Highest x at a corner behind the row before, where that is led by a tip; 0 for no bound.
+        passed: With limited jerk: highest speed at the last joint; `lone` likewise, 0 where it is in a row (`jerk.py`).
+        gap: Way from there to the row before.
+        rate: Angle that the arc before turns by a mm at its end, 0 of a line; at the joint to an arc the larger one.
     """
 
     stop: float
@@ -282,6 +285,10 @@ class RunState(Structure):
     chord_ease: float
     tolerance: float
     corner_top2: float
+    passed: float
+    lone: float
+    gap: float
+    rate: float
 
 
 @record
@@ -356,8 +363,8 @@ class State(NamedTuple):
         bend: Room for one q''.
         bent_before: q'' at the end of the last piece; with limited jerk its mean over the last chord of a spline.
         turn: What q' changes by at the joint at hand.
-        bow: With limited jerk: what q' has changed by at the last joint of two lines, over their mean length; zero
-            from rest and behind a curve.
+        bow: With limited jerk: what q' has changed by at the last joint of two lines, or two chords of a spline, over
+            their mean length; zero from rest, and where the one follows the other.
         room: For what `linkage` works out.
     """
 

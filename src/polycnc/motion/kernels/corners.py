@@ -8,7 +8,7 @@ from polycnc.kernels.layout import Floats
 from polycnc.motion.kernels.alone import pays_to_rest
 from polycnc.motion.kernels.columns import SMOOTH_COS, SPLINE, ContextRecord, Limits, State
 from polycnc.motion.kernels.feeds import is_rapid
-from polycnc.motion.kernels.jerk import corner_hold2, window_s
+from polycnc.motion.kernels.jerk import corner_hold2, forget_bow, window_s
 from polycnc.motion.kernels.rounding import bend_corner
 
 #: Directions that differ by less count as one; a path whose turn has a cosine below this turns back.
@@ -41,18 +41,18 @@ def join(
     smooth = state.row.kind == SPLINE and state.run.smooth != 0.0
     state.run.stop = state.run.smooth = 0.0
     if stopped:
-        forget_bow(n, state)
+        begin_anew(n, state)
         state.joint.rest, state.joint.pull = state.run.window, inf
         return 0.0
     cosine = cosine_of_turn(n, limits, state, weight)
     if cosine <= TURNS_BACK:
-        forget_bow(n, state)
+        begin_anew(n, state)
         state.joint.rest, state.joint.pull = state.run.window, inf
         return 0.0
     cap2 = min(cap2, state.run.exit2)
     if smooth and cosine > SMOOTH_COS:
         state.run.smooth = 2.0
-        forget_bow(n, state)
+        state.run.passed = state.run.lone = state.run.gap = 0.0
         return cap2
     shorter = min(length, state.run.length)
     tolerance = contexts[record + ContextRecord.TOLERANCE]
@@ -74,16 +74,16 @@ def join(
     if ramp > 0.0:
         cap2 = corner_hold2(contexts, record, n, limits, state, length, cap2)
         if wanted > 0.0 and pays_to_rest(n, limits, state, length, cap2, wanted):
-            forget_bow(n, state)
+            begin_anew(n, state)
             state.joint.rest, state.joint.pull = state.run.window, inf
             return 0.0
     return cap2
 
 
-def forget_bow(n: int, state: State) -> None:
-    """No row of short lines goes on."""
-    for i in range(n):
-        state.bow[i] = 0.0
+def begin_anew(n: int, state: State) -> None:
+    """The axes rest, or a spline goes on: no row of short lines does, and no joint is near."""
+    state.run.passed = state.run.lone = state.run.gap = 0.0
+    forget_bow(n, state)
 
 
 def cosine_of_turn(n: int, limits: Limits, state: State, weight: float) -> float:

@@ -7,7 +7,8 @@ second turns what is left into bounded jerk: a jump of velocity, Δv at a corner
 changes, a jerk of `Δa/τ`; a steady acceleration a across the path deviates by `a·τ²/12`.
 
 Each of these gets a part of the axis's jerk and acceleration and of the contour tolerance; the parts that can
-come together add up to no more than one.
+come together add up to no more than one. On a line, and along an arc, nothing else needs a part but at the joints, as
+far as the averages reach: there the joint's own bounds hold (`hold.py`).
 """
 
 from __future__ import annotations
@@ -15,18 +16,29 @@ from __future__ import annotations
 from math import inf, sqrt
 
 from polycnc.kernels.layout import Floats
-from polycnc.motion.kernels.columns import ContextRecord, Limits, State
+from polycnc.motion.kernels.columns import SPLINE, ContextRecord, Limits, State
 
-#: Parts of the acceleration: along the path; across it; in corners.
-ALONG, ACROSS, CORNER = 0.7, 0.3, 0.3
+#: Parts of the acceleration beside a joint in a row: along the path, across it.
+ALONG, ACROSS = 0.7, 0.3
+#: On an arc away from its ends: part of the acceleration across the path, of the jerk by its speed, of the tolerance.
+ARC_ACROSS, ARC_JERK, ARC_DEVIATION = 0.85, 0.3, 0.98
+#: At a joint that no other one is near to: part of the jerk along the path; all that is given away.
+LONE_ALONG, LONE = 0.2, 0.98
+#: In a row of corners: part of the acceleration across the path. Of tents that are `h` of their half width apart, less
+#: than one, no more than `(1 + h²/TENTS)/h` add up anywhere, and no more than `MOST_TENTS/h`.
+ROW_ACROSS, TENTS, MOST_TENTS = 0.8, 3.5, 1.125
 #: Parts of the jerk: of one corner; of a row of short lines; where the curvature changes; on a
 #: curve by its speed and by its change of speed; at a corner by the change of speed; by the uneven q'' of a chord.
 JERK_CORNER, JERK_LINES, JERK_ENTRY, JERK_CURVE, JERK_BOTH, JERK_TURN = 0.5, 0.3, 0.4, 0.25, 0.2, 0.25
-JERK_BOW = 0.15
+JERK_BOW = 0.25
+#: All that the joints of a row need, beside the acceleration along the path.
+ROW = 0.85
 #: Parts of the tolerance: of one corner, of the acceleration across the path.
 DEVIATION_CORNER, DEVIATION_CURVE = 0.5, 0.5
 #: Turns smaller than this count as none.
 NO_TURN = 1e-9
+#: One number is above another for certain, whatever was rounded, if it is above so many times that.
+SURELY = 1.000001
 
 
 def window_s(ramp: float, blend: float) -> float:
@@ -43,7 +55,7 @@ def axis_pull(ramp: float, limits: Limits, i: int) -> float:
 
 
 def line_pull(contexts: Floats, record: int, n: int, limits: Limits, state: State, alone: bool) -> float:
-    """Acceleration along the row at hand, from `unit`; `alone`: from rest to rest, so that nothing else needs a part.
+    """Acceleration along the row at hand, from `unit`; `alone`: from rest to rest.
 
     Else it does not depend on the direction: then it is the same on both sides of most joints.
     """
@@ -52,7 +64,7 @@ def line_pull(contexts: Floats, record: int, n: int, limits: Limits, state: Stat
         share = abs(state.unit[i])
         if share > 0.0:
             own = axis_pull(contexts[record + ContextRecord.RAMP_S], limits, i)
-            pull = min(pull, own / share if alone else ALONG * own / max(share, 1.0))
+            pull = min(pull, own / share if alone else own / max(share, 1.0))
     return pull
 
 
@@ -61,61 +73,256 @@ def corner_hold2(
 ) -> float:
     """Largest x up to `cap2` at the joint between two rows; lowers the joint's pull, the acceleration around it.
 
-    Short lines make the axes accelerate like a curve, by the change of direction over the mean length, `bow`. What
-    of that is as it was at the joint before needs no jerk: `JERK_LINES` is for what changes.
+    A joint that no other one is near to may use what there is; else it gets the parts of one in a row. `run.lone` says
+    how fast the last lone joint is passed: as long as the average sees that one, no other one may need a part.
     """
-    unit, tangent, bow = state.unit, state.tangent, state.bow
-    bend, before = state.bend, state.bent_before
-    blend, x2, least = contexts[record + ContextRecord.BLEND_S], cap2, inf
-    shorter, mean, turn = min(length, state.run.length), 0.5 * (length + state.run.length), 0.0
+    run, pull, is_spline = state.run, state.joint.pull, state.row.kind == SPLINE or state.run.chord != 0.0
+    blend, turn, bow = contexts[record + ContextRecord.BLEND_S], 0.0, 0.0
+    run.gap += run.length
     for i in range(n):
-        a = state.joint.ease * limits.acceleration[i]
-        j = state.joint.ease * limits.jerk[i]
-        step, bowed = abs(unit[i] - tangent[i]), (unit[i] - tangent[i]) / mean
-        if limits.rotary[i] == 0.0:
-            turn += step * step
-        if step > NO_TURN:
-            jump = min(JERK_CORNER * j * blend * blend, CORNER * a * blend) / step
-            begins2 = JERK_LINES * j * blend * shorter / step
-            goes_on2 = step_top2(j, blend, abs(bowed - bow[i]), mean, JERK_LINES)
-            x2 = min(x2, jump * jump, ACROSS * a * shorter / step, max(begins2, goes_on2))
-            if goes_on2 > begins2:
-                least = min(least, j / abs(bowed))
-            state.joint.pull = min(state.joint.pull, JERK_TURN * j * blend / step)
-        bow[i] = bowed
-        change = abs(bend[i] - before[i])
-        if change > NO_TURN:
-            x2 = min(x2, JERK_ENTRY * j * blend / change)
-    turn = sqrt(turn)
-    if turn > NO_TURN:
-        deviation = contexts[record + ContextRecord.TOLERANCE] / (blend * turn)
-        x2 = min(
-            x2,
-            12.0 * DEVIATION_CURVE * deviation / blend * shorter,
-            (6.0 * DEVIATION_CORNER * deviation) ** 2,
-            (contexts[record + ContextRecord.ROUNDING] / blend) ** 2,
-        )
-    if least < inf and x2 > 0.0:
-        state.joint.pull = min(state.joint.pull, JERK_BOTH * least / (3.0 * sqrt(x2)))
+        step, before = state.unit[i] - state.tangent[i], 0.0 if run.chord != 0.0 else state.bent_before[i]
+        turn = max(turn, abs(step), abs(state.bow[i]) * run.length)
+        bow += max(state.bend[i] * state.bend[i], before * before)
+    bow = sqrt(bow)
+    if turn <= NO_TURN and bow <= NO_TURN and not is_spline:
+        forget_bow(n, state)
+        return cap2
+    if run.lone > 0.0:
+        left = max(run.gap / blend - run.lone, 0.0)
+        cap2 = min(cap2, left * left)
+    lone = 0.0
+    if not is_spline:
+        lone = lone_speed(contexts, record, n, limits, state, length, sqrt(cap2), bow)
+    lone_pull, state.joint.pull = state.joint.pull, pull
+    x2 = row_hold2(contexts, record, n, limits, state, length, cap2, bow, is_spline or bow > NO_TURN)
+    run.lone = run.gap = 0.0
+    if lone * lone > x2:
+        state.joint.pull, x2, run.lone = lone_pull, lone * lone, lone
+    run.passed = sqrt(x2)
     return x2
 
 
-def left_across(a: float, j: float, blend: float, along: float) -> float:
-    """What is left of an axis's acceleration on a curve, beside that along the path and that of a corner."""
-    corner = min(CORNER * a, JERK_CORNER * j * blend)
-    return max(ACROSS * a, a - corner - along)
+def forget_bow(n: int, state: State) -> None:
+    """No row of short lines goes on."""
+    for i in range(n):
+        state.bow[i] = 0.0
 
 
-def step_top2(j: float, blend: float, step: float, spacing: float, part: float) -> float:
+def lone_speed(
+    contexts: Floats, record: int, n: int, limits: Limits, state: State, length: float, cap: float, bow: float
+) -> float:
+    """Largest speed up to `cap` at the joint at hand if the average sees no other one with it; sets `joint.pull`.
+
+    It sees none on τ before and behind the joint, nor one that is seen with that: the next joint must be so far away
+    that both can be passed so. The jerk of a corner is `Δq'·v/τ²`, that of a step of curvature `Δq''·v²/τ`, that of the
+    curves themselves `κ·ω·v³` (`arc_hold`); by a change of speed come `2·q'·u/T`, `Δq'·u/τ` and `3·κ·v·u`. `bow` is κ.
+    """
+    ramp, blend = contexts[record + ContextRecord.RAMP_S], contexts[record + ContextRecord.BLEND_S]
+    unit, tangent, bend, before = state.unit, state.tangent, state.bend, state.bent_before
+    turn2 = 0.0
+    for i in range(n):
+        if limits.rotary[i] == 0.0:
+            turn2 += (unit[i] - tangent[i]) ** 2
+    turn = sqrt(turn2)
+    v = min(cap, 0.5 * length / blend, state.run.gap / blend - state.run.passed)
+    if turn > NO_TURN:
+        v = min(v, contexts[record + ContextRecord.ROUNDING] / blend)
+    deviates = (v * turn / 6.0 + v * v * bow * blend / 12.0) * blend
+    if v <= 0.0:
+        return 0.0
+    v *= min(1.0, ARC_DEVIATION * contexts[record + ContextRecord.TOLERANCE] / max(deviates, 1e-300))
+    slow = 1.0
+    for i in range(n):
+        a, j = state.joint.ease * limits.acceleration[i], state.joint.ease * limits.jerk[i]
+        step, change = abs(unit[i] - tangent[i]), abs(bend[i] - before[i])
+        way = max(abs(unit[i]), abs(tangent[i]))
+        if way > 0.0 or bend[i] != 0.0 or before[i] != 0.0:
+            push = v * (step / blend + v * bow)
+            asks = v * (step / blend + v * change) / blend + bow * max(bow, state.run.rate) * v * v * v
+            slow = min(slow, (LONE - LONE_ALONG) * j / max(asks, 1e-300), ARC_ACROSS * a / max(push, 1e-300))
+            along = LONE_ALONG * j / (2.0 * way / ramp + step / blend + 3.0 * v * bow)
+            state.joint.pull = min(state.joint.pull, along, (1.0 - ARC_ACROSS) * a / max(way, 1e-3))
+    return v * slow
+
+
+def row_hold2(
+    contexts: Floats,
+    record: int,
+    n: int,
+    limits: Limits,
+    state: State,
+    length: float,
+    cap2: float,
+    arc: float,
+    curved: bool,
+) -> float:
+    """Largest x up to `cap2` at a joint in a row of joints; lowers the joint's pull, the acceleration around it.
+
+    Short lines make the axes accelerate like a curve, by the change of direction over the mean length, `bow`. What
+    of that is as it was at the joint before needs no jerk: `JERK_LINES` is for what changes. `arc` is the curvature of
+    arcs beside it, `curved` that one of the rows is a curve.
+    """
+    unit, tangent, bow = state.unit, state.tangent, state.bow
+    blend, tolerance = contexts[record + ContextRecord.BLEND_S], contexts[record + ContextRecord.TOLERANCE]
+    x2 = cap2 if not curved else min(cap2, curve_joint2(blend, tolerance, n, limits, state, arc))
+    shorter, mean, turn, changes = min(length, state.run.length), 0.5 * (length + state.run.length), 0.0, 0.0
+    for i in range(n):
+        step = unit[i] - tangent[i]
+        if limits.rotary[i] == 0.0:
+            turn, changes = turn + step * step, changes + (step / mean - bow[i]) ** 2
+    turn, changes = sqrt(turn), sqrt(changes)
+    for i in range(n):
+        a, j = state.joint.ease * limits.acceleration[i], state.joint.ease * limits.jerk[i]
+        part = ROW if (unit[i] - tangent[i]) * bow[i] < 0.0 else JERK_CORNER
+        step, most, change = row_step(state, i, mean), most_bow(state, i, mean), changes
+        if limits.rotary[i] != 0.0:
+            change = abs((unit[i] - tangent[i]) / mean - bow[i])
+        if most * mean > NO_TURN:
+            most2 = max(JERK_LINES * j * blend / most, step_top2(j, blend, change, mean, JERK_LINES, x2))
+            x2 = min(x2, max(most2, shorter * shorter / (blend * blend)))
+        if step > NO_TURN:
+            jump, near = part * j * blend * blend / step, ROW_ACROSS * a * blend * blend / step
+            x2 = min(x2, jump * jump, near * min(near, shorter / MOST_TENTS) / (blend * blend))
+    if turn > NO_TURN:
+        rounding = contexts[record + ContextRecord.ROUNDING] / blend
+        part = DEVIATION_CORNER if curved else ARC_DEVIATION
+        x2 = min(x2, row_deviation2(part * tolerance / turn, shorter, blend), rounding * rounding)
+    v, slow = sqrt(x2), 1.0
+    for i in range(n):
+        asks = row_jerk(state, i, shorter, mean, blend, v)
+        slow = min(slow, ROW * state.joint.ease * limits.jerk[i] / max(asks, 1e-300))
+    v *= slow
+    row_pull(contexts, record, n, limits, state, shorter, mean, v, arc, curved)
+    for i in range(n):
+        bow[i] = (unit[i] - tangent[i]) / mean
+    return v * v
+
+
+def curve_joint2(blend: float, tolerance: float, n: int, limits: Limits, state: State, arc: float) -> float:
+    """Largest x at a joint in a row beside a spline or arcs of a curvature `arc`: by that, and by what it changes by.
+
+    Lines before an arc may have its curvature already. Whether lines behind one go on with it is not known yet.
+    """
+    unit, bend, before, bow = state.unit, state.bend, state.bent_before, state.bow
+    x2, begins = inf, 0.0
+    if arc > NO_TURN:
+        x2 = 12.0 * DEVIATION_CURVE * tolerance / (blend * blend * arc)
+    for i in range(n):
+        begins += abs(bend[i])
+    for i in range(n):
+        a, j = state.joint.ease * limits.acceleration[i], state.joint.ease * limits.jerk[i]
+        change = abs(before[i])
+        if begins > 0.0:
+            change = abs(bend[i] - before[i] - bow[i])
+            bow[i] = 0.0
+        if change > NO_TURN:
+            x2 = min(x2, JERK_ENTRY * j * blend / change)
+        if arc > NO_TURN and (unit[i] != 0.0 or bend[i] != 0.0 or before[i] != 0.0):
+            x2 = min(x2, ACROSS * a / arc, (JERK_CURVE * j / (arc * max(arc, state.run.rate))) ** (2.0 / 3.0))
+    return x2
+
+
+def row_step(state: State, i: int, mean: float) -> float:
+    """What an axis's q' changes by at the joint at hand: where it turns to the other side, with what it did before."""
+    step, before = state.unit[i] - state.tangent[i], state.bow[i] * mean
+    return abs(step - before) if step * before < 0.0 else abs(step)
+
+
+def most_bow(state: State, i: int, mean: float) -> float:
+    """The largest q'' of an axis that the lines around the joint at hand make, or change of it."""
+    bowed, bow = (state.unit[i] - state.tangent[i]) / mean, state.bow[i]
+    return max(abs(bowed), abs(bow), abs(bowed - bow))
+
+
+def row_jerk(state: State, i: int, shorter: float, mean: float, blend: float, v: float) -> float:
+    """Jerk of an axis at a joint in a row that is passed at v: by the turn itself, and by what changes of q''.
+
+    Where the average sees no more than one joint before and one behind a place, those are all.
+    """
+    change = abs((state.unit[i] - state.tangent[i]) / mean - state.bow[i])
+    begins: float = v * v * most_bow(state, i, mean) / blend
+    turns: float = v * row_step(state, i, mean) / (blend * blend)
+    return turns if v * blend <= shorter else turns + min(begins, step_jerk(v, blend, change, mean))
+
+
+def row_deviation2(part: float, shorter: float, blend: float) -> float:
+    """Largest x in a row of corners that leave the path by no more than `part` mm a unit of their turn.
+
+    A corner leaves it by `Δq'·v·τ/6`, and less and less up to `v·τ` around it. Of corners that are `shorter` apart
+    there are so many that together they leave it by `Δq'·(v²·τ²/shorter + shorter)/12` at most.
+    """
+    way, tau2 = 6.0 * part, blend * blend
+    return way * way / tau2 if way <= shorter else (2.0 * way - shorter) * shorter / tau2
+
+
+def row_pull(
+    contexts: Floats,
+    record: int,
+    n: int,
+    limits: Limits,
+    state: State,
+    shorter: float,
+    mean: float,
+    v: float,
+    arc: float,
+    curved: bool,
+) -> None:
+    """Lower the joint's pull in a row of joints that is passed at v: to what its own demands leave of each axis.
+
+    Or to the parts that are left whatever a joint needs, where these are more and all of the row turns to one side.
+    """
+    ramp, blend = contexts[record + ContextRecord.RAMP_S], contexts[record + ContextRecord.BLEND_S]
+    parts, left, turns, seen = inf, inf, False, tents(v, blend, shorter)
+    for i in range(n):
+        a, j = state.joint.ease * limits.acceleration[i], state.joint.ease * limits.jerk[i]
+        step, bow = row_step(state, i, mean), most_bow(state, i, mean)
+        way, bowed = max(abs(state.unit[i]), abs(state.tangent[i])), (state.unit[i] - state.tangent[i]) / mean
+        turns = turns or bowed * state.bow[i] < 0.0
+        parts = min(parts, ALONG * state.joint.ease * axis_pull(ramp, limits, i))
+        if step > NO_TURN:
+            parts = min(parts, JERK_TURN * j * blend / step)
+            if step_jerk(v, blend, abs(bowed - state.bow[i]), mean) < v * v * bow / blend:
+                parts = min(parts, JERK_BOTH * j / max(3.0 * v * bow, 1e-300))
+        if arc > NO_TURN:
+            parts = min(parts, JERK_BOTH * j / max(3.0 * v * arc, 1e-300))
+        if way > 0.0:
+            free = LONE * j - row_jerk(state, i, shorter, mean, blend, v)
+            left = min(
+                left, free / (2.0 * way / ramp + step * seen + 2.0 * bow * v), (a - v * step * seen) / way
+            )
+    if turns or not curved:
+        parts = left if turns else max(parts, left)
+    state.joint.pull = min(state.joint.pull, parts)
+
+
+def step_top2(j: float, blend: float, step: float, spacing: float, part: float, enough: float) -> float:
     """Largest x where the mean of an axis's q'' changes by a step from chord to chord, which are `spacing` mm apart.
 
     `part` is that of the jerk for one step. On a way shorter than that the average of the positions sees one step,
-    `x·step/τ`; on a longer one as many as lie in it, which is `v³·step/spacing`.
+    `x·step/τ`; on a longer one as many as lie in it, which is `v³·step/spacing`. What is above `enough` is above it
+    here too, and need not be known: most rows do without the root.
     """
     if step <= NO_TURN:
         return inf
-    top2: float = min(part * j * blend / step, (JERK_CURVE * j * spacing / step) ** (2.0 / 3.0))
-    return top2
+    top2, cube = part * j * blend / step, JERK_CURVE * j * spacing / step
+    least = min(top2, enough)
+    if cube * cube > SURELY * least * least * least:
+        return top2
+    root2: float = cube ** (2.0 / 3.0)
+    return min(top2, root2)
+
+
+def tents(v: float, blend: float, spacing: float) -> float:
+    """Largest sum of the average's weights, 1/s, at places that are `spacing` mm apart and passed at a speed."""
+    if v * blend <= spacing:
+        return 1.0 / blend
+    h = spacing / (v * blend)
+    return min(MOST_TENTS, 1.0 + h * h / TENTS) * v / spacing
+
+
+def step_jerk(v: float, blend: float, step: float, spacing: float) -> float:
+    """Jerk by such steps at a speed: of one, or of as many as the average sees."""
+    return v * v * step * tents(v, blend, spacing)
 
 
 def bow_top2(j: float, blend: float, bow: float, length: float) -> float:
@@ -133,26 +340,43 @@ def bow_top2(j: float, blend: float, bow: float, length: float) -> float:
     return top2
 
 
+def bow_jerk(v: float, blend: float, bow: float, length: float) -> float:
+    """Jerk by such a change at a speed."""
+    long: float = v * bow * length / (blend * blend)
+    return min(long, 2.0 * v * v * bow * (v / length + 1.0 / blend))
+
+
 def arc_hold(
-    contexts: Floats, record: int, limits: Limits, state: State, curvature: float, speed: float
+    contexts: Floats, record: int, limits: Limits, state: State, curvature: float, speed: float, rate: float
 ) -> tuple[float, float]:
-    """Largest x and acceleration along an arc of a curvature (1/mm) that is asked to run at a speed."""
-    blend = contexts[record + ContextRecord.BLEND_S]
-    a, j, pull = inf, inf, inf
+    """Largest x and acceleration along an arc of a curvature κ (1/mm) that is asked to run at a speed.
+
+    Across the path the axes accelerate by `κ·v²`, along it by u; their jerk is `2·u/T + κ·ω·v³` along the arc and
+    `3·κ·v·u` across it, ω being the angle by the way (`rate`, κ but on a helix). A spiral of the growth g by a radian
+    adds `g/r` of `κ·ω·v³` in any direction, and no more than half of it; where it rises too, three times as much.
+    """
+    ramp, blend = contexts[record + ContextRecord.RAMP_S], contexts[record + ContextRecord.BLEND_S]
+    a, j, pull, twist = inf, inf, inf, curvature * max(curvature, rate)
     for k in range(3):
         i = limits.geometry[k]
         if i >= 0:
-            pull = min(
-                pull,
-                ALONG * state.row.ease * axis_pull(contexts[record + ContextRecord.RAMP_S], limits, i),
-            )
+            pull = min(pull, state.row.ease * axis_pull(ramp, limits, i))
             if state.basis[k] != 0.0 or state.basis[3 + k] != 0.0:
                 a, j = min(a, limits.acceleration[i]), min(j, limits.jerk[i])
-    tolerance = contexts[record + ContextRecord.TOLERANCE]
     cap2 = min(
         speed * speed,
-        ACROSS * a / curvature,
-        12.0 * DEVIATION_CURVE * tolerance / (blend * blend * curvature),
+        ARC_ACROSS * a / curvature,
+        12.0 * ARC_DEVIATION * contexts[record + ContextRecord.TOLERANCE] / (blend * blend * curvature),
     )
-    cap2 = min(cap2, (JERK_CURVE * j / (curvature * curvature)) ** (2.0 / 3.0))
-    return cap2, min(pull, JERK_BOTH * state.row.ease * j / (3.0 * curvature * sqrt(cap2)))
+    cap2 = min(cap2, (ARC_JERK * j / twist) ** (2.0 / 3.0))
+    radius = max(min(state.arc.radius, state.arc.radius + state.arc.growth), NO_TURN)
+    grows = abs(state.arc.growth / state.arc.sweep) / radius
+    grows = min(grows, 0.5) if state.arc.rise == 0.0 else min(3.0 * grows, 1.8)
+    turning = twist * cap2 * sqrt(cap2) / j
+    left = LONE - grows * turning
+    along, both = 2.0 / (ramp * j), 3.0 * curvature * sqrt(cap2) / j
+    both2 = along * along + both * both
+    least = along * turning
+    own = (sqrt(least * least + both2 * (left * left - turning * turning)) - least) / both2
+    across = curvature * cap2
+    return cap2, min(pull, state.row.ease * own, state.row.ease * sqrt(a * a - across * across))

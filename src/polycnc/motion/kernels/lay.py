@@ -7,7 +7,7 @@ from math import inf
 from polycnc.kernels.layout import Floats
 from polycnc.motion.kernels.alone import alone_pull, alone_top, best_ramp, goes_straight_on, settle_alone
 from polycnc.motion.kernels.arcs import find_arc, lay_arc
-from polycnc.motion.kernels.chords import close_chord, end_chord, lay_chord
+from polycnc.motion.kernels.chords import end_chord, lay_chord
 from polycnc.motion.kernels.columns import (
     AT_END,
     AT_START,
@@ -188,7 +188,8 @@ def lay_move(
         overlap(contexts, record, pieces, first, n, limits, state)
     stands = stands or contexts[record + ContextRecord.EXACT_STOP] != 0.0
     if stands and state.run.pieces > first:
-        close_chord(pieces, (state.run.pieces - 1) * piece_width(n), n, limits, state)
+        state.run.stop = 1.0
+        end_chord(pieces, n, limits, state)
     if contexts[record + ContextRecord.RAMP_S] > 0.0:
         hold(pieces, not_held, n, state)
     else:
@@ -347,7 +348,7 @@ def lay_straight(
         state.tangent[i] = unit[i]
         if state.run.chord != OPEN:
             state.bent_before[i] = state.bend[i]
-    state.run.exit_pull = pull
+    state.run.exit_pull, state.run.rate = pull, 0.0
     state.run.length, state.run.metric, state.run.smooth = (
         length,
         weight,

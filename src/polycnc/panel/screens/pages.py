@@ -203,6 +203,8 @@ class Family:
         sequence: How the title line writes the block number (`N{n:05}`); empty for not at all.
         measures: It has measured input B.
         next_key: What the key ▷ is called on this control; empty for ▷.
+        root: The main row of soft keys: where a row has no further keys, ▷ leads to the further ones of this; empty for
+            not at all. A row `name-5` is there in the place of `name` on displays with five soft keys.
         more_keys: Keys that edit, beside those that every control has.
         tasks: The maintenance schedule of the machine; `periods` and `works` have its words by their ids.
         data_mode: The mode in which data are transferred; empty for every mode.
@@ -235,6 +237,7 @@ class Family:
     next_page: Text = ""
     clock: bool = False
     next_key: str = ""
+    root: str = ""
     more_keys: tuple[str, ...] = ()
 
 
@@ -242,6 +245,7 @@ class Family:
 _PLAIN = (
     "modes", "states", "layout", "data_mode", "modal_by_column", "modal_digits", "axis_parameters", "sequence",
     "measures", "periods", "works", "message_line", "next_page", "clock", "next_key",
+    "root",
 )  # fmt: skip
 
 

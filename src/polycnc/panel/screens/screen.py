@@ -182,7 +182,10 @@ class Screen(ScreenState):
 
     def _turn_menu(self) -> None:
         """▷: the next soft keys of the row."""
-        keys = self._row
+        keys, root = self._row, self.family.root
+        if root and self.menu != root and len(keys) <= self.rows:
+            self.menu, self.turned = root, 0
+            keys = self._row
         self.turned = self.turned + self.rows if self.turned + self.rows < len(keys) else 0
 
     @property
@@ -195,7 +198,9 @@ class Screen(ScreenState):
         return self._present_keys(self._below)
 
     def _present_keys(self, menu: str) -> tuple[SoftKey, ...]:
-        return tuple(key for key in self.family.menus.get(menu, ()) if self.holds(key.when))
+        menus = self.family.menus
+        keys = menus.get(f"{menu}-{self.rows}") or menus.get(menu, ())
+        return tuple(key for key in keys if self.holds(key.when))
 
     @property
     def _below(self) -> str:

@@ -13,7 +13,7 @@ from polycnc.messages import UserError
 from polycnc.panel.screens.card import Card
 from polycnc.panel.screens.measuring import SIGNALS, Measuring
 from polycnc.panel.screens.pages import family_of
-from polycnc.panel.screens.words import Edited, Place, spans
+from polycnc.panel.screens.words import Edited, Place, moved, on_words, spans
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -259,7 +259,7 @@ class ScreenState:
         if self.measuring is not None and self.measuring.leads_cursor:
             return
         if self.edits and columns and not rows:
-            place = self.edited.move(columns)
+            place = moved(self._lines, self.edit_place, columns)
             self.program_row, self.program_word = place.row, place.word
             return
         if self.shows("program") and table is None and not self.shows("mask"):
@@ -327,9 +327,18 @@ class ScreenState:
     @property
     def edited(self) -> Edited:
         """The main program with the cursor in it; an empty one where none is loaded."""
-        name = self.control.program
+        return Edited(self._lines, self.edit_place)
+
+    @property
+    def edit_place(self) -> Place:
+        """The word on which the cursor stands."""
         place = Place(self.program_row if self.program_row is not None else 0, self.program_word)
-        return Edited(self.control.program_lines(name) if name else (), place)
+        return on_words(self._lines, place)
+
+    @property
+    def _lines(self) -> Sequence[str]:
+        name = self.control.program
+        return self.control.program_lines(name) if name else ()
 
     def _hear(self, record: Record) -> None:
         """The record button of the machine keeps where the axes are (III.2.1.2, PRC); a sensor measures (III.2.1.3)."""

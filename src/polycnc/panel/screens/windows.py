@@ -142,7 +142,7 @@ def _program(at: Asked) -> Rows:
     top = max(0, min((active if cursor is None else cursor) - _BEFORE, len(lines) - at.spec.shown))
     shown = range(top, min(top + at.spec.shown, len(lines)))
     if at.screen.edits:
-        place = at.screen.edited.place
+        place = at.screen.edit_place
         return tuple(_words(lines[row], place.word if row == place.row else -1) for row in shown)
     return tuple(
         (Cell(lines[index], "active" if index == active else "code", cursor=index == cursor),)

@@ -56,6 +56,26 @@ class Place:
     word: int
 
 
+def on_words(lines: Sequence[str], place: Place) -> Place:
+    """The place, or the nearest one that the program has; looks at its own row alone."""
+    row = max(0, min(place.row, len(lines) - 1))
+    last = len(spans(lines[row])) if lines else 0
+    return Place(row, max(0, min(place.word, last)))
+
+
+def moved(lines: Sequence[str], place: Place, words: int) -> Place:
+    """The cursor goes some words on, or back; from block to block."""
+    place = on_words(lines, place)
+    row, word = place.row, place.word + words
+    while word < 0 and row > 0:
+        row -= 1
+        word += len(spans(lines[row])) + 1
+    while row < len(lines) - 1 and word > (last := len(spans(lines[row]))):
+        word -= last + 1
+        row += 1
+    return on_words(lines, Place(row, word))
+
+
 class Edited:
     """The text of a program with a cursor.
 
@@ -66,25 +86,12 @@ class Edited:
 
     def __init__(self, lines: Sequence[str], place: Place) -> None:
         self._lines = [line.rstrip().removesuffix(END).rstrip() for line in lines] or [""]
-        row = max(0, min(place.row, len(self._lines) - 1))
-        self.place = Place(row, max(0, min(place.word, len(spans(self._lines[row])))))
+        self.place = on_words(self._lines, place)
 
     @property
     def text(self) -> str:
         """The program as it is stored."""
         return "\n".join(self._lines) + "\n"
-
-    def move(self, words: int) -> Place:
-        """The cursor goes some words on, or back; from block to block."""
-        row, word = self.place.row, self.place.word + words
-        while word < 0 and row > 0:
-            row -= 1
-            word += len(spans(self._lines[row])) + 1
-        while word > (last := len(spans(self._lines[row]))) and row < len(self._lines) - 1:
-            word -= last + 1
-            row += 1
-        self.place = Place(row, max(0, min(word, len(spans(self._lines[row])))))
-        return self.place
 
     def insert(self, typed: str) -> None:
         """INSERT: what was typed goes behind the word at the cursor, which is then on the last word of it."""

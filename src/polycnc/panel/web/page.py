@@ -28,6 +28,8 @@ if TYPE_CHECKING:
 
     from polycnc.panel.web.desk import Desk
 
+#: So many displays have a key each.
+KEYS_FOR_DISPLAYS = 2
 #: How often a page looks for what has changed, s.
 REFRESH_S = 0.04
 #: Keys of a keyboard, and the key of the MDI unit that each one is.
@@ -192,10 +194,7 @@ class Page:
             )
             tools = ui.label("").classes("tools").props('role="status"')
             with ui.element("div").classes("flow"):
-                if len(description.mdi_units) > 1:
-                    for unit in description.mdi_units:
-                        hint = in_language(unit.name, self._lang)
-                        self._key(f"{unit.inches:g}″", partial(self._display, unit.id), hint=hint)
+                self._displays()
                 for lang in LANGUAGES:
                     self._key({"en": "EN", "zh-TW": "中"}.get(lang, lang), partial(self._speak, lang))
                 self._key("☀", self._day, hint=text("panel.theme", self._lang))
@@ -233,6 +232,29 @@ class Page:
         self._refreshers.append(lambda: self._light(modes, {**keys, **lamps}))
         self._refreshers.append(lambda: self._dim(keys))
         self._refreshers.append(lambda: self._show_tools(tools))
+
+    def _displays(self) -> None:
+        """The displays that the control may have: keys for two, a list for more."""
+        units = self._desk.panel.description.mdi_units
+        names = {unit.id: in_language(unit.name, self._lang) for unit in units}
+        if len(units) == KEYS_FOR_DISPLAYS:
+            for unit in units:
+                self._key(unit.short, partial(self._display, unit.id), hint=names[unit.id])
+        elif units[1:]:
+            label = text("panel.display", self._lang)
+            chosen = ui.element("select").classes("dial").props(f'aria-label="{_quoted(label)}"')
+            with chosen:
+                for unit in units:
+                    now = " selected" if unit.id == self._desk.unit else ""
+                    option = ui.element("option").props(
+                        f'value="{unit.id}" title="{_quoted(names[unit.id])}"{now}'
+                    )
+                    option.add_slot("default", unit.short)
+            chosen.on(
+                "change",
+                lambda event: self._display(str(event.args)),
+                js_handler="(e) => emit(e.target.value)",
+            )
 
     def _group(self, title: str) -> ui.element:
         group = ui.element("section").classes("group")

@@ -43,7 +43,7 @@ def places(
     return np.array(found)
 
 
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=6, deadline=None)
 @given(
     st.sampled_from((3, 4)),
     st.integers(5, 2000),
@@ -61,7 +61,7 @@ def test_the_axis_keeps_its_limits(
         if overridden and cycle == 200:
             control.override(spindle=0.5)
 
-    places("\n".join((DEFINITION, *first, "G4 F1", "M5", "G4 F1", "EGOFS(A)", "M30\n")), override)
+    places("\n".join((DEFINITION, *first, "G4 F1", "M5", "G4 F0.5", "EGOFS(A)", "M30\n")), override)
 
 
 @pytest.mark.parametrize("turns", [False, True])
@@ -84,7 +84,6 @@ def test_a_spindle_is_held_to_what_the_axis_can_do() -> None:
 @pytest.mark.parametrize(
     "lines",
     [
-        ("EGDEF(S1,X,1)",),
         ("CTABDEF(A,X,1,0)", "G1 X0 A0 F100", "X9 A9", "CTABEND", DEFINITION, 'EGON(A,"NOC",S1,1,0)'),
         (DEFINITION, 'EGON(A,"NOC",S1,1,9)', "SPOS=90"),
         (DEFINITION, 'EGON(A,"NOC",S1,1,9)', "G1 A10 F100"),
@@ -126,3 +125,9 @@ def test_a_gear_outlives_a_reset() -> None:
     assert control.alarms == ()
     assert control.positions.real["A"] == pytest.approx(stood - 10.0 + 1.0, abs=0.5)
     assert control.positions.machine["A"] == pytest.approx(control.positions.real["A"])
+
+
+@pytest.mark.parametrize(("mask", "locked"), [(0, 0), (1, 1), (2, 0)])
+def test_a_search_cannot_enter_where_a_spindle_leads_if_the_machine_says_so(mask: int, locked: int) -> None:
+    lines = (DEFINITION, 'EGON(A,"NOC",S1,1,9)', "R1=$P_IPTRLOCK")
+    assert run(*lines, machine=MACHINE, parameters={"22680": mask}).variables["R1"] == locked

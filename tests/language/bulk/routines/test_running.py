@@ -204,3 +204,10 @@ def test_a_routine_that_waits_for_ever_is_found(call: str, monkeypatch: pytest.M
     session.channel.bulk = PLAIN
     (alarm,) = session.run().alarms
     assert (alarm.code, alarm.program) == ("PC0013", "O0002")
+
+
+def test_the_shape_of_a_finishing_cycle_calls_nothing() -> None:
+    shape = "N5 G0 X10.\nG1 Z-5.\nM98P2\nN6 X50.\n"
+    text = f"O1\nG98 G1 F100.\nX50. Z5.\nM98P2\nM98P2\nG70 P5 Q6\nM30\n{shape}M30\nO2\nW-1.\nM99\n"
+    assert run(text, "fanuc-0i-tf").alarms
+    assert differences(text, "fanuc-0i-tf") == []

@@ -76,11 +76,5 @@ def surface_speed(channel: LatheChannel, words: Words) -> None:
     channel.context_changed()
 
 
-def switch_by_q(_channel: LatheChannel, words: Words) -> None:
-    """G05.4 Q1, Q0: another current loop of the drives; the path is unchanged."""
-    if words.integer("Q") not in (0, 1):
-        raise words.fail("preview_value", "Q")
-
-
 def note_fluctuation(_channel: LatheChannel, _words: Words) -> None:
     """G26 P Q R I: the spindle's speed is watched; an ideal spindle never leaves the window."""

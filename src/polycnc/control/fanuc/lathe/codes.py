@@ -88,7 +88,7 @@ ROWS: tuple[Row, ...] = (
     *same(GCode("G4.1", handler=turning_auxiliary.wait_for_blocks, takes="P")),
     *same(GCode("G5", handler=path_modes.high_speed_machining, takes="P")),
     *same(GCode("G5.1", handler=path_modes.contour_control, takes="Q R")),
-    *same(GCode("G5.4", handler=turning_auxiliary.switch_by_q, takes="Q")),
+    *same(GCode("G5.4", handler=path_modes.select_current_loop, takes="Q")),
     *same(GCode("G8", handler=path_modes.advance_preview, takes="P")),
     *same(GCode("G9", handler=path_modes.exact_stop_block)),
     *same(_point("G10", data_input.input_data, "L P R Q C E F")),

@@ -77,6 +77,7 @@ ROWS = table(
     moves("G4", functions.dwell, "X P U"),
     GCode("G5", handler=path_modes.high_speed_machining, takes="P"),
     GCode("G5.1", handler=path_modes.contour_control, takes="Q R"),
+    GCode("G5.4", handler=path_modes.select_current_loop, takes="Q"),
     GCode("G8", handler=path_modes.advance_preview, takes="P"),
     GCode("G9", handler=path_modes.exact_stop_block),
     moves("G10", workpiece.input_data, "L P R"),
@@ -159,7 +160,7 @@ ROWS = table(
     GCode("G98", "return"),
     GCode("G99", "return"),
     not_yet(
-        "G5.4", "G10.9", "G41.2", "G41.3", "G41.4", "G41.5", "G41.6", "G42.2", "G42.4", "G42.5", "G42.6",
+        "G10.9", "G41.2", "G41.3", "G41.4", "G41.5", "G41.6", "G42.2", "G42.4", "G42.5", "G42.6",
     ),
 )  # fmt: skip
 G_CODES = with_aliases(ROWS, ALIASES)

@@ -29,10 +29,14 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.variables.row import Indices, RowWithStop
 
-#: `$AA_AXCHANGE_TYP`: of the program, commanded by an action, neutral.
-PROGRAM, COMMANDED, NEUTRAL = 0, 1, 3
+#: `$AA_AXCHANGE_TYP`: of the program, commanded by an action, neutral; commanded, and asked for by the program or as
+#: neutral.
+PROGRAM, COMMANDED, NEUTRAL, FOR_PROGRAM, FOR_NEUTRAL = 0, 1, 3, 7, 8
 #: `$AA_TYP` of the same.
-_TYPES = {PROGRAM: 1, COMMANDED: 8, NEUTRAL: 2}
+_TYPES = {PROGRAM: 1, COMMANDED: 8, NEUTRAL: 2, FOR_PROGRAM: 8, FOR_NEUTRAL: 8}
+#: What an axis is that is asked for once more (GET), and what it is once it stands.
+_ASKED = {COMMANDED: FOR_NEUTRAL, FOR_NEUTRAL: FOR_PROGRAM, NEUTRAL: PROGRAM}
+_AT_REST = {COMMANDED: NEUTRAL, FOR_NEUTRAL: NEUTRAL, FOR_PROGRAM: PROGRAM}
 
 
 @dataclass(slots=True)
@@ -44,7 +48,7 @@ class ActionAxes(State, lifetime=Lifetime.RESET):
         states: Who has an axis, by column, where it is not the program.
         speeds: FA of actions, mm/s or degrees/s, by column.
         held: Columns of axes that oscillate: they are not free, though they rest at reversal points.
-        geared: Columns of axes that a spindle leads (EGON): the program does not move them.
+        geared: Columns of axes that a spindle leads (EGON), or a generated value: the program does not move them.
         along: Columns of what a positioned axis moves, by its column: several where a transformation makes it.
     """
 
@@ -96,11 +100,11 @@ def give_back(channel: SinumerikChannel, columns: Iterable[int]) -> None:
 
     Raises:
         PreprocessingStop: The main run is behind, or an axis moves.
-        AlarmError: PC0001 for an axis that a spindle leads.
+        AlarmError: PC0001 for an axis that a spindle leads, or a generated value.
     """
     axes, columns = ActionAxes.of(channel), tuple(columns)
     for column in sorted(axes.geared.intersection(columns)):
-        raise not_supported(f"EGON: {channel.axes[column]}")
+        raise not_supported(f"EGON LEADON: {channel.axes[column]}")
     taken = [column for column in columns if column in axes.may_move]
     clocked = channel.actual.clocked
     if not taken or clocked is None:
@@ -210,18 +214,37 @@ def release(channel: SinumerikChannel, args: Arguments) -> None:
 
 
 def get(channel: SinumerikChannel, args: Arguments) -> None:
-    """GET: the axes are the program's."""
+    """GET: a neutral axis is the program's; one that moves gets neutral, and the program's if asked for twice."""
     for axis in args:
-        ActionAxes.of(channel).states.pop(arguments.column(channel, axis), None)
+        column = arguments.column(channel, axis)
+        state = _state_of(channel, column)
+        ActionAxes.of(channel).states[column] = _ASKED.get(state, state)
+
+
+def to_channel(channel: SinumerikChannel, args: Arguments) -> None:
+    """AXTOCHAN(axis, n, …): to the own channel as GET does (1.16).
+
+    Raises:
+        AlarmError: PC0001 for another channel, whose program may have prepared blocks of the axis.
+    """
+    if not args or len(args) % 2:
+        raise AlarmError("14020", text="AXTOCHAN")
+    for axis, value in zip(args[::2], args[1::2], strict=True):
+        if arguments.whole(value) != channel.number:
+            raise not_supported(f"DO AXTOCHAN({arguments.whole(value)})")
+        get(channel, (axis,))
+
+
+def _state_of(channel: SinumerikChannel, column: int) -> int:
+    """Who has an axis now."""
+    clocked = channel.actual.clocked
+    state = ActionAxes.of(channel).states.get(column, PROGRAM)
+    rests = clocked is not None and not clocked.commanded(column).moves
+    return _AT_REST.get(state, state) if rests else state
 
 
 def _state(channel: SinumerikChannel, indices: Indices) -> int:
-    column = arguments.column(channel, indices[0] if indices else None)
-    clocked = channel.actual.clocked
-    state = ActionAxes.of(channel).states.get(column, PROGRAM)
-    if state == COMMANDED and clocked is not None and not clocked.commanded(column).moves:
-        return NEUTRAL
-    return state
+    return _state_of(channel, arguments.column(channel, indices[0] if indices else None))
 
 
 EXCHANGE_VARIABLES: dict[str, RowWithStop] = {

@@ -38,6 +38,8 @@ def _pair(run: Running, name: str, args: Arguments, least: int, most: int) -> tu
     following, leading = (arguments.column(run.channel, axis) for axis in args[:2])
     if following == leading:
         raise AlarmError("16785", axis=run.channel.axes[following])
+    if name == "LEADON" and run.channel.memory.data.integer("$SA_LEAD_TYPE", run.channel.axes[leading]) == 2:
+        raise not_supported("DO LEADON: $SA_LEAD_TYPE=2")
     if Couplings.of(run.channel).links:
         raise not_supported(f"DO {name}: TRAILON LEADON EGON")
     return following, leading

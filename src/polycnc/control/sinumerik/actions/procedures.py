@@ -102,8 +102,13 @@ def release_axes(run: Running, args: Arguments) -> None:
 
 
 def get_axes(run: Running, args: Arguments) -> None:
-    """GET: the axes are the program's."""
+    """GET: the axes are the program's, as soon as they stand."""
     action_axes.get(run.channel, args)
+
+
+def to_channel(run: Running, args: Arguments) -> None:
+    """AXTOCHAN: to the own channel as GET does."""
+    action_axes.to_channel(run.channel, args)
 
 
 def lines_at_once(run: Running, _args: Arguments) -> None:
@@ -157,6 +162,7 @@ PROCEDURES: dict[str, Callable[[Running, Arguments], None]] = {
     "SETAL": alarm,
     "RELEASE": release_axes,
     "GET": get_axes,
+    "AXTOCHAN": to_channel,
     "PRESETON": preset,
     "FTOC": fine_offset,
     "ICYCOF": lines_at_once,

@@ -58,6 +58,17 @@ def _set_override(channel: SinumerikChannel, _indices: Indices, value: float) ->
     _influence(channel).factor = max(value, 0.0) / _PERCENT
 
 
+def _of_operator(channel: SinumerikChannel, _indices: Indices) -> float:
+    """$AC_PLC_OVR: what the operator has set."""
+    clocked = channel.actual.clocked
+    return _PERCENT * (1.0 if clocked is None else clocked.operator_override)
+
+
+def _total_override(channel: SinumerikChannel, indices: Indices) -> float:
+    """$AC_TOTAL_OVR: per cent of per cent (10.4.29)."""
+    return _influence(channel).factor * _of_operator(channel, indices)
+
+
 def _added_feed(channel: SinumerikChannel, _indices: Indices) -> float:
     return _influence(channel).addend * MINUTE
 
@@ -100,8 +111,8 @@ _PATH: dict[str, RowWithStop] = {
     "$AC_DELT": (Type.REAL, lambda channel, _indices: Deleted.of(channel).path, None, True),
     "$AC_OVR": (Type.REAL, _override, _set_override, True),
     "$AC_VC": (Type.REAL, _added_feed, _add_feed, True),
-    "$AC_PLC_OVR": (Type.REAL, lambda _channel, _indices: _PERCENT, None, True),
-    "$AC_TOTAL_OVR": (Type.REAL, _override, None, True),
+    "$AC_PLC_OVR": (Type.REAL, _of_operator, None, True),
+    "$AC_TOTAL_OVR": (Type.REAL, _total_override, None, True),
 }
 
 

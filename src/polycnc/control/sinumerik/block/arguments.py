@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.language.sinumerik.names.spindles import spindle_number
 from polycnc.language.sinumerik.names.values import Axis
-from polycnc.language.sinumerik.names.variables import Reference
+from polycnc.language.sinumerik.names.variables import Array, Reference
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -57,4 +57,6 @@ def give_back(place: Any, value: int) -> None:
 
 
 def _shown(value: Any) -> str:
+    if isinstance(value, Reference | Array):
+        return str(value.variable.name)
     return value.name if isinstance(value, Axis) else str(value)

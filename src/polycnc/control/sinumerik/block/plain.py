@@ -170,6 +170,9 @@ class SinumerikPlainBlocks:
         """MD21000, mm."""
         return float(channel.memory.data.number("$MC_CIRCLE_ERROR_CONST"))
 
+    def drilled(self, _channel: SinumerikChannel) -> None:
+        """Cycles are the interpreter's."""
+
     def put_variables(self, _channel: SinumerikChannel, _variables: Floats) -> None:
         """No formulas read any."""
 

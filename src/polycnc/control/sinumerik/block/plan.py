@@ -32,7 +32,7 @@ from polycnc.control.sinumerik.limits import working_area
 from polycnc.control.sinumerik.motion import circles, involutes, moves, repositioning, splines
 from polycnc.control.sinumerik.oscillation import words as oscillation
 from polycnc.control.sinumerik.punching import block as punching
-from polycnc.control.sinumerik.signals import measuring
+from polycnc.control.sinumerik.signals import measuring, sections
 from polycnc.control.sinumerik.tangential import definitions as tangential
 from polycnc.control.sinumerik.tools import online, selection, smooth_approach, stages
 from polycnc.control.sinumerik.tools.holders import active as carriers
@@ -117,7 +117,7 @@ def make_plan(channel: SinumerikChannel, block: Block) -> Plan:
     mode = _axis_diameters(channel, block, _mode_after(channel.mode, modal), codes)
     draft = Draft(channel, block, mode, codes)
     if mode is not channel.mode or any(name in IN_CONTEXT for name, _ in modal):
-        draft.steps.append(_enter(mode, modal, changes=mode is not channel.mode))
+        draft.steps.append(_enter(mode, modal, before=channel.mode))
     draft.steps += _early_effects(draft, modal)
     if punching.GROUP in codes:
         draft.steps += punching.select(draft)
@@ -299,10 +299,11 @@ def _is_bare_motion(block: Block, codes: dict[str, str]) -> bool:
     return codes.get("motion") in LINEAR or bool(block.words and all(w.address in "SF" for w in block.words))
 
 
-def _enter(mode: Mode, modal: list[tuple[str, str]], *, changes: bool) -> Step:
-    """A step that brings the modal state about."""
+def _enter(mode: Mode, modal: list[tuple[str, str]], *, before: Mode) -> Step:
+    """A step that brings the modal state about, behind another one."""
+    changes, taps = mode is not before, not sections.RIGID_TAPS.isdisjoint((mode["motion"], before["motion"]))
     compresses = mode["compressor"] != "COMPOF" and any(name == "motion" for name, _ in modal)
-    matters = not modal or compresses or any(name in IN_CONTEXT for name, _ in modal)
+    matters = not modal or compresses or taps or any(name in IN_CONTEXT for name, _ in modal)
 
     def run(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
         channel.mode = mode

@@ -264,6 +264,12 @@ def _rotary_target(now: float, value: float, term: AxisTerm) -> float:
     return now + way
 
 
+def of_display(channel: SinumerikChannel, column: int, value: float) -> float:
+    """A position of the work as displays show it (setups tell inputs so), as a radius."""
+    is_shown = is_diameter(channel.mode, Dimension.ABSOLUTE, column, channel.memory.transverse)
+    return 0.5 * value if is_shown else value
+
+
 def shown(channel: SinumerikChannel, column: int, value: float, *, work: bool = True) -> float:
     """A position as a program reads it: in diameter, inches under G700, modulo axes within a turn."""
     axis = channel.memory.axes[column]

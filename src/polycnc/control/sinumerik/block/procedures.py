@@ -15,7 +15,7 @@ from polycnc.control.sinumerik.block.arguments import Arguments
 from polycnc.control.sinumerik.block.positions import DIAMETER_OF_AXIS, diameter_of_channel
 from polycnc.control.sinumerik.channels import axis_containers, axis_exchange, coordination
 from polycnc.control.sinumerik.contours import preparation, use
-from polycnc.control.sinumerik.couplings import gears, leading, masters, synchronous, trailing
+from polycnc.control.sinumerik.couplings import gear_words, leading, masters, synchronous, trailing
 from polycnc.control.sinumerik.curve_tables import administration, definition
 from polycnc.control.sinumerik.data import archive
 from polycnc.control.sinumerik.errors import not_supported
@@ -261,6 +261,7 @@ PROCEDURES: dict[str, Callable[[SinumerikChannel, Arguments], None]] = {
     "JERKA": dynamics("JERK"),
     "FGROUP": path_group,
     "FPR": spindle_speed.feed_source,
+    "SCC": spindle_speed.reference_axis,
     "FPRAON": spindle_speed.axis_feed_source,
     "FPRAOF": spindle_speed.axis_feed_source_off,
     **wheels.PROCEDURES,
@@ -269,6 +270,8 @@ PROCEDURES: dict[str, Callable[[SinumerikChannel, Arguments], None]] = {
     "IPTRLOCK": sections.begin(sections.POINTER_LOCK),
     "IPTRUNLOCK": sections.end(sections.POINTER_LOCK),
     **{name: axis_settings.motion_end(name) for name in axis_settings.MOTION_ENDS},
+    "QECLRNON": axis_settings.learn_friction,
+    "QECLRNOF": axis_settings.end_learning,
     "SETDNO": renumber,
     "DZERO": d_numbers.invalidate,
     "DELDL": d_numbers.without_status(d_numbers.delete_additive),
@@ -311,7 +314,7 @@ PROCEDURES: dict[str, Callable[[SinumerikChannel, Arguments], None]] = {
     **definition.PROCEDURES,
     **trailing.PROCEDURES,
     **leading.PROCEDURES,
-    **gears.PROCEDURES,
+    **gear_words.PROCEDURES,
     **synchronous.PROCEDURES,
     **masters.PROCEDURES,
     **administration.PROCEDURES,

@@ -66,7 +66,7 @@ def halts(channel: SinumerikChannel, level: Level[NcExecutable]) -> bool:
     block = RunningBlock.of(channel)
     acted, block.acted = block.acted, False
     kind = channel.setup.switches.single_block
-    if _runs_through(channel) or sections.is_open(channel, sections.STOP_DELAY):
+    if _runs_through(channel) or sections.delays_stops(channel):
         return False
     is_on = level.data.get("single_block", True) or kind == "SBL3"
     if not any(level is each for each in channel.stack):

@@ -4,8 +4,10 @@ links      which axes follow which, how long that lasts, and their seat behind f
 switching  a coupling changes in its place on the path
 trailing   TRAILON, TRAILOF
 leading    LEADON, LEADOF
+generated  LEADON by master values that programs and actions write (`$SA_LEAD_TYPE` 2)
 stage      lets an axis wait for its place on a curve while the leading axis moves
-gears      EGDEF, EGON, EGONSYN, EGONSYNE, EGOFS, EGOFC, EGDEL
+gears      EGDEF, EGON, EGONSYN, EGONSYNE, EGOFS, EGDEL of axes
+gear_words the same and EGOFC of spindles that follow; which of both a word means
 approach   a following axis goes to its synchronous place first
 spindle_pairs  what spindles that follow others turn with, and where they stand
 synchronous    COUPDEF, COUPON, COUPOF …, WAITC

@@ -37,12 +37,12 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from polycnc.channel.interpolator import Interpolator
-    from polycnc.control.sinumerik.block.arguments import Arguments, Procedure
+    from polycnc.control.sinumerik.block.arguments import Arguments
     from polycnc.control.sinumerik.family import SinumerikChannel
 
 MOST_LEADING = 5
-#: Speed of an axis without limit, degrees/s.
-LARGE = 1e9
+#: Speed of an axis without limit, degrees/s; part of its speed at which a spindle may lead it: it has to catch up too.
+LARGE, LED_PART = 1e9, 0.8
 #: When the block of a gear ends.
 BLOCK_CHANGES = frozenset(("NOC", "FINE", "COARSE", "IPOSTOP"))
 #: Ways of approach: to the next tooth gap; to the place itself by the shorter way, downwards, upwards.
@@ -74,7 +74,7 @@ class Gear:
         wheels: What it was switched on with, by the column of the leading axis.
         place: Synchronous place of the following axis.
         block_change: When the block that switched it on ended.
-        beside: It is on, and a spindle leads it: beside the path.
+        beside: It is on, and a spindle leads it: beside the path, or as a spindle itself.
     """
 
     types: dict[int, int]
@@ -92,7 +92,7 @@ class Gear:
 
 @dataclass(slots=True)
 class Gears(State, lifetime=Lifetime.POWER):
-    """Gears that are defined, by the column of the following axis."""
+    """Gears that are defined, by the column of the following axis, or the number of the following spindle, negative."""
 
     defined: dict[int, Gear] = field(default_factory=dict)
 
@@ -114,7 +114,7 @@ def define(channel: SinumerikChannel, args: Arguments) -> None:
         raise AlarmError("16785", axis=channel.axes[following])
     if following in Gears.of(channel).defined or following in Couplings.of(channel).links:
         raise AlarmError("16797", axis=channel.axes[following])
-    _stop(channel, "EGDEF")
+    stop(channel, "EGDEF")
     types = map(arguments.whole, args[2::2])
     Gears.of(channel).defined[following] = Gear(dict(zip(leading, types, strict=True)))
 
@@ -124,14 +124,14 @@ def delete(channel: SinumerikChannel, args: Arguments) -> None:
     following = _following(channel, "EGDEL", args, only=True)
     if is_on(channel, following):
         raise AlarmError("16797", axis=channel.axes[following])
-    _stop(channel, "EGDEL")
+    stop(channel, "EGDEL")
     Gears.of(channel).defined.pop(following, None)
 
 
 def switch_on(channel: SinumerikChannel, args: Arguments) -> None:
     """EGON(following,block change,leading,numerator,denominator,…): from where the axes are."""
     following = _begin(channel, "EGON", args)
-    wheels = list(_wheels(channel, "EGON", following, args[2:], width=3))
+    wheels = list(wheels_of(channel, "EGON", following, args[2:], width=3))
     switching.begin(channel, "EGON")
     _engage(channel, following, wheels)
 
@@ -155,7 +155,7 @@ def switch_off(channel: SinumerikChannel, args: Arguments) -> None:
     """EGOFS(following[,leading,…]): the gear ends, or leading axes are taken out of it; a preprocessing stop."""
     following = _following(channel, "EGOFS", args)
     leading = [key_of(channel, axis) for axis in args[1:]]
-    _stop(channel, "EGOFS")
+    stop(channel, "EGOFS")
     gear = Gears.of(channel).defined.get(following)
     if gear is not None and gear.beside:
         _leave_beside(channel, following, gear, leading)
@@ -170,7 +170,7 @@ def switch_off(channel: SinumerikChannel, args: Arguments) -> None:
 
 
 def leave_turning(channel: SinumerikChannel, args: Arguments) -> None:
-    """EGOFC(spindle): of spindles alone; 14020 for an axis, PC0001 for a spindle."""
+    """EGOFC: of spindles alone; 14020 for an axis."""
     _following(channel, "EGOFC", args, only=True)
     raise AlarmError("14020", text="EGOFC")
 
@@ -208,7 +208,8 @@ def _following(channel: SinumerikChannel, name: str, args: Arguments, *, only: b
     return _column(channel, args[0])
 
 
-def _stop(channel: SinumerikChannel, name: str) -> None:
+def stop(channel: SinumerikChannel, name: str) -> None:
+    """A preprocessing stop of a word; 10942 in a curve table."""
     curve_definition.refuse(channel, name)
     channel.flush()
     channel.synchronise()
@@ -230,7 +231,7 @@ def _begin(channel: SinumerikChannel, name: str, args: Arguments) -> int:
     return following
 
 
-def _wheels(
+def wheels_of(
     channel: SinumerikChannel, name: str, following: int, args: Sequence[Any], *, width: int
 ) -> Iterator[Wheel]:
     """The leading axes of a call; 16796 for one that the definition does not name, 14020 for one twice."""
@@ -298,7 +299,7 @@ def _synchronise(
     channel: SinumerikChannel, name: str, following: int, place: Any, how: str, args: Sequence[Any]
 ) -> None:
     """The axis goes to its place, and the gear is on from there."""
-    wheels = list(_wheels(channel, name, following, args, width=4))
+    wheels = list(wheels_of(channel, name, following, args, width=4))
     switching.begin(channel, name)
     for wheel in wheels:
         if wheel.leading < 0 and (turns(channel, -wheel.leading) or not wheel.denominator):
@@ -400,23 +401,11 @@ def _bound_spindles(channel: SinumerikChannel) -> None:
     """Spindles that lead axes turn no faster than these can follow; what the axes go by the path is not looked at."""
     most = dict.fromkeys(channel.memory.spindles.all, inf)
     for column, gear in Gears.of(channel).defined.items():
-        for key, wheel in gear.wheels.items() if gear.beside else ():
+        for key, wheel in gear.wheels.items() if gear.beside and column >= 0 else ():
             if key < 0 and wheel.numerator:
-                degrees = (channel.axis_data[column].rapid or LARGE) * abs(
-                    wheel.denominator / wheel.numerator
-                )
+                top = LED_PART * (channel.axis_data[column].rapid or LARGE)
+                degrees = top * abs(wheel.denominator / wheel.numerator)
                 most[-key] = min(most[-key], degrees * tables.MINUTE / tables.TURN)
     for number, spindle in channel.memory.spindles.all.items():
         spindle.most = most[number]
     channel.context_changed()
-
-
-PROCEDURES: dict[str, Procedure] = {
-    "EGDEF": define,
-    "EGDEL": delete,
-    "EGON": switch_on,
-    "EGONSYN": switch_on_in_place,
-    "EGONSYNE": switch_on_by_approach,
-    "EGOFS": switch_off,
-    "EGOFC": leave_turning,
-}

@@ -9,20 +9,16 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.block import arguments
-from polycnc.control.sinumerik.couplings import switching
+from polycnc.control.sinumerik.couplings import generated, switching
 from polycnc.control.sinumerik.couplings.links import Couplings, Kind, Link
 from polycnc.control.sinumerik.couplings.stage import SynchronisationStage
 from polycnc.control.sinumerik.curve_tables.memory import table_of
-from polycnc.control.sinumerik.errors import not_supported
 from polycnc.messages import AlarmError
 from polycnc.transformation.couplings.laws import ByCurve
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.block.arguments import Arguments, Procedure
     from polycnc.control.sinumerik.family import SinumerikChannel
-
-#: `$SA_LEAD_TYPE`: master values that somebody writes.
-GENERATED = 2
 
 
 def switch_on(channel: SinumerikChannel, args: Arguments) -> None:
@@ -38,8 +34,14 @@ def switch_on(channel: SinumerikChannel, args: Arguments) -> None:
     table = table_of(channel, arguments.whole(args[2]))
     if following == leading:
         raise AlarmError("16785", axis=channel.axes[following])
-    if channel.memory.data.integer("$SA_LEAD_TYPE", channel.axes[leading]) == GENERATED:
-        raise not_supported("LEADON $SA_LEAD_TYPE=2")
+    followers = generated.MasterValues.of(channel).led
+    if following in followers:
+        if (followers[following].leading, followers[following].table) == (leading, table):
+            return
+        raise AlarmError("16797", axis=channel.axes[following])
+    if generated.is_generated(channel, leading) and not Couplings.of(channel).links.get(following):
+        generated.lead(channel, following, leading, table)
+        return
     links, state = [], Couplings.of(channel)
     for link in state.links.get(following, []):
         if link.kind is not Kind.LEAD:
@@ -64,6 +66,12 @@ def switch_on(channel: SinumerikChannel, args: Arguments) -> None:
 
 def switch_off(channel: SinumerikChannel, args: Arguments) -> None:
     """LEADOF(following[,leading]): the coupling ends, the axis stays where it is."""
+    column = arguments.column(channel, args[0]) if len(args) in (1, 2) and args[0] is not None else -1
+    follower = generated.MasterValues.of(channel).led.get(column)
+    if follower is not None:
+        if len(args) == 1 or args[1] is None or arguments.column(channel, args[1]) == follower.leading:
+            generated.leave(channel, column)
+        return
     switching.end(channel, args, "LEADOF", Kind.LEAD)
 
 

@@ -1,4 +1,4 @@
-"""Spindles that follow others: synchronous spindles (COUPDEF), slaves of a master (MASLDEF); job planning 9.5, 9.6.
+"""Spindles that follow others: synchronous (COUPDEF), slaves (MASLDEF), in gears (EGON); job planning 9.4 to 9.6.
 
 A following spindle turns with the speed of its leading spindle times the ratio, and with a difference speed of its own
 on top. Where both stand, its position is that of the leading one times the ratio, and an offset. Spindles have no
@@ -44,6 +44,7 @@ class Pair:
         block_change: What the block that switches on waits for.
         type: `DV` by set points, `AV` by actual values, `VV` by speeds: alike where nothing lags.
         is_slave: Of a master (MASLDEF): no difference speed, no synchronous state.
+        is_gear: Of an electronic gear (EGON).
         acts: It is switched on.
         overlaid: What M3, M4 and S of the following spindle say is a difference speed.
         offset: From the leading spindle's position to that of the following one, degrees.
@@ -57,11 +58,17 @@ class Pair:
     block_change: str = "IPOSTOP"
     type: str = "DV"
     is_slave: bool = False
+    is_gear: bool = False
     acts: bool = False
     overlaid: bool = False
     offset: float = 0.0
     settles_s: float = 0.0
     since: tuple[float, int] = (0.0, 0)
+
+    @property
+    def is_synchronous(self) -> bool:
+        """Whether it is one of synchronous spindles (COUPDEF)."""
+        return not (self.is_slave or self.is_gear)
 
     @property
     def ratio(self) -> float:
@@ -88,7 +95,7 @@ class SpindlePairs(State, lifetime=Lifetime.POWER):
             mask = MachineData.of(channel).integer("$MC_RESET_MODE_MASK")
             if not (mask & 1 and mask >> KEPT_BY_MASK & 1):
                 for pair in self.by_following.values():
-                    pair.acts, pair.overlaid = pair.acts and pair.is_slave, False
+                    pair.acts, pair.overlaid = pair.acts and not pair.is_synchronous, False
 
 
 def refuse_ring(channel: SinumerikChannel, following: int, leading: int) -> None:

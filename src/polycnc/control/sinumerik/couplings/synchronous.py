@@ -46,7 +46,7 @@ def define(channel: SinumerikChannel, args: Arguments) -> None:
     pairs = SpindlePairs.of(channel).by_following
     before = pairs.get(following)
     pair = Pair(leading)
-    if before is not None and before.leading == leading and not before.is_slave:
+    if before is not None and before.leading == leading and before.is_synchronous:
         pair = before
     elif before is not None and before.acts:
         raise AlarmError("16797", axis=f"S{following}")
@@ -80,7 +80,7 @@ def switch_on(name: str, channel: SinumerikChannel, args: Arguments, *, takes_ov
     following, pair = _defined(channel, name, args)
     offset = _angle(name, _padded(args, 3)[2])
     others = [each for each in SpindlePairs.of(channel).by_following.values() if each is not pair]
-    if sum(each.acts and not each.is_slave for each in others) >= MOST_PAIRS:
+    if sum(each.acts and each.is_synchronous for each in others) >= MOST_PAIRS:
         raise AlarmError("16792", axis=f"S{following}")
     spindle_pairs.refuse_ring(channel, following, pair.leading)
     before, stood = turns(channel, following), spindle_pairs.offset_of(channel, following, pair)
@@ -240,7 +240,7 @@ def _defined(channel: SinumerikChannel, name: str, args: Arguments) -> tuple[int
     following = _spindle(channel, name, args[0] if args else None)
     pair = SpindlePairs.of(channel).by_following.get(following)
     leading = arguments.spindle(args[1]) if len(args) > 1 else None
-    if pair is None or pair.is_slave or (leading is not None and leading != pair.leading):
+    if pair is None or not pair.is_synchronous or (leading is not None and leading != pair.leading):
         raise AlarmError("16796", axis=f"S{following}")
     return following, pair
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.positions import shown
-from polycnc.control.sinumerik.couplings import masters
+from polycnc.control.sinumerik.couplings import generated, masters
 from polycnc.control.sinumerik.couplings.gears import Gears, key_of, name_of
 from polycnc.control.sinumerik.couplings.links import Couplings, Kind
 from polycnc.control.sinumerik.couplings.spindle_pairs import SYNCHRONOUS, SpindlePairs
@@ -18,6 +18,8 @@ from polycnc.messages import AlarmError
 from polycnc.transformation.couplings.laws import ByCurve
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from polycnc.control.sinumerik.couplings.gears import Gear
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.variables.row import Indices, Reader, RowWithStop
@@ -32,12 +34,16 @@ def _acts(channel: SinumerikChannel, indices: Indices) -> int:
     number = spindle_number(named) if isinstance(named, Axis) else None
     if number is not None:
         pair = SpindlePairs.of(channel).acting(channel.memory.spindles.get(number).number)
-        return 0 if pair is None or pair.is_slave else SYNCHRONOUS
+        if pair is None or pair.is_slave:
+            return 0
+        return Kind.GEAR if pair.is_gear else SYNCHRONOUS
     column = arguments.column(channel, named)
     kinds = {link.kind for link in Couplings.of(channel).links.get(column, ())}
     clocked, gear = channel.actual.clocked, Gears.of(channel).defined.get(column)
     if gear is not None and gear.beside:
         kinds.add(Kind.GEAR)
+    elif column in generated.MasterValues.of(channel).led:
+        kinds.add(Kind.LEAD)
     elif clocked is not None:
         kinds |= {Kind.LEAD if isinstance(law, ByCurve) else Kind.TRAIL for law in clocked.led_by(column)}
     return sum(max(kind, 0) for kind in kinds) + coupling_state(channel, column)
@@ -46,14 +52,23 @@ def _acts(channel: SinumerikChannel, indices: Indices) -> int:
 def _master_place(channel: SinumerikChannel, indices: Indices) -> float:
     """`$AA_LEAD_P[leading]`: the place of a leading axis by which others are led."""
     column = arguments.column(channel, indices[0] if indices else None)
+    if generated.is_generated(channel, column):
+        return generated.place(channel, column)
     return shown(channel, column, channel.actual.machine[column], work=False)
 
 
 def _master_speed(channel: SinumerikChannel, indices: Indices) -> float:
     """`$AA_LEAD_V[leading]`: its speed, mm/min or degrees/min; a program that reads it has waited for the axis."""
     column = arguments.column(channel, indices[0] if indices else None)
+    if generated.is_generated(channel, column):
+        return generated.speed(channel, column)
     clocked = channel.actual.clocked
     return 0.0 if clocked is None else clocked.speed(column) * MINUTE
+
+
+def _generated(read: Callable[[SinumerikChannel, int], float]) -> Reader:
+    """What has been written as the master value of an axis."""
+    return lambda channel, indices: read(channel, arguments.column(channel, indices[0] if indices else None))
 
 
 def _offset(channel: SinumerikChannel, indices: Indices) -> float:
@@ -73,7 +88,7 @@ def _master(channel: SinumerikChannel, indices: Indices) -> int:
 
 def _gear(channel: SinumerikChannel, indices: Indices) -> Gear | None:
     """The gear of the following axis that a variable names."""
-    return Gears.of(channel).defined.get(arguments.column(channel, indices[0] if indices else None))
+    return Gears.of(channel).defined.get(key_of(channel, indices[0] if indices else None))
 
 
 def _of_wheel(attribute: str) -> Reader:
@@ -100,7 +115,7 @@ def _with_leading(read: Reader) -> Reader:
 
 def _leading_acts(channel: SinumerikChannel, indices: Indices) -> bool:
     """`$AA_EG_ACTIVE[following, leading]`: the leading axis moves the following one now."""
-    following, leading = arguments.column(channel, indices[0]), key_of(channel, indices[1])
+    following, leading = (key_of(channel, index) for index in indices)
     gear = Gears.of(channel).defined.get(following)
     if gear is not None and gear.beside:
         return leading in gear.wheels
@@ -168,5 +183,7 @@ COUPLING_VARIABLES: dict[str, RowWithStop] = {
     "$VA_COUP_OFFS": (Type.REAL, _offset, None, True),
     "$AA_MASL_STAT": (Type.INT, _master, None, True),
     "$AA_LEAD_P": (Type.REAL, _master_place, None, True),
+    "$AA_LEAD_SP": (Type.REAL, _generated(generated.place), generated.write("places"), True),
+    "$AA_LEAD_SV": (Type.REAL, _generated(generated.speed), generated.write("speeds"), True),
     "$AA_LEAD_V": (Type.REAL, _master_speed, None, True),
 }

@@ -10,6 +10,7 @@ from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.cycles.levels import Levels, levels, sign
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
+from polycnc.control.sinumerik.signals import sections
 from polycnc.cycles.drilling import deep_hole as deep
 from polycnc.cycles.drilling import holes
 from polycnc.cycles.drilling.holes import Action, Stroke
@@ -74,26 +75,35 @@ def levels_of_drill(moves: Moves, a: Arguments) -> Levels | None:
 # ---- performing
 
 
+#: Strokes between taps that end no section of them.
+BESIDE_TAPS = frozenset((Action.DWELL, Action.SPINDLE))
+
+
 class Acts(NamedTuple):
     """What the strokes of one cycle mean on the machine.
 
     Attributes:
         feed: Path feed of FEED strokes; their factor multiplies it.
         tap: TAP strokes: to a level.
+        is_rigid: Stops wait for the end of TAP strokes that follow each other, as in blocks of G331 and G332.
         spindle: SPINDLE strokes.
         shift: Way of SHIFT strokes along u, v and w.
     """
 
     feed: float
     tap: Callable[[float], None] = lambda _level: None
+    is_rigid: bool = False
     spindle: Callable[[float], None] = lambda _value: None
     shift: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
 
 def perform(moves: Moves, strokes: Iterator[Stroke], acts: Acts) -> None:
     """Make the strokes of a hole; every stroke is a block."""
-    center = moves.point
+    center, taps = moves.point, False
     for action, value, factor, _ in strokes:
+        if acts.is_rigid and action not in BESIDE_TAPS and taps is not (action is Action.TAP):
+            taps = not taps
+            moves.act(sections.tap, moves.channel, on=taps)
         match action:
             case Action.RAPID:
                 moves.rapid(w=value)
@@ -114,6 +124,8 @@ def perform(moves: Moves, strokes: Iterator[Stroke], acts: Acts) -> None:
             case Action.HALT:
                 moves.stop()
         moves.end_block()
+    if taps:
+        moves.act(sections.tap, moves.channel, on=False)
 
 
 def _if_moved(moves: Moves, center: tuple[float, float]) -> tuple[float | None, float | None]:
@@ -380,7 +392,12 @@ def rigid_tapping(moves: Moves, a: Arguments) -> None:
         limit=a["_VRT"] if a["_VRT"] > 0.0 else CHIP_BREAKING_MM,
     )
     moves.orient(_start_angle(moves, a["POSS"]))
-    acts = Acts(moves.channel.feed, tap=lambda level: moves.special(Kind.TAP, lead, level), spindle=spindle)
+    acts = Acts(
+        moves.channel.feed,
+        tap=lambda level: moves.special(Kind.TAP, lead, level),
+        is_rigid=True,
+        spindle=spindle,
+    )
     perform(moves, strokes, acts)
 
 

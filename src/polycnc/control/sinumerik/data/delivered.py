@@ -31,6 +31,7 @@ DATA: dict[str, tuple[int, bool | float | str]] = {
     "$MN_DEFAULT_VALUES_MEM_MASK": (11270, 1),
     "$MN_WPD_INI_MODE": (11280, 0),
     "$MN_LEN_PROTOCOL_FILE": (11420, 0),
+    "$MN_STOP_MODE_MASK": (11550, 0),
     "$MN_AXCT_AXCONF_ASSIGN_TAB1": (12701, ""),
     "$MN_AXCT_AXCONF_ASSIGN_TAB2": (12702, ""),
     "$MN_AXCT_AXCONF_ASSIGN_TAB3": (12703, ""),

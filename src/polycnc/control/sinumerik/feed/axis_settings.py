@@ -27,6 +27,8 @@ MOTION_ENDS = {"FINEA": 1, "COARSEA": 2, "IPOENDA": 3, "IPOBRKA": 4}
 #: ADISPOSA: no window, one about the set position, one about the actual position.
 WINDOW_MODES = (0, 1, 2)
 PARAMETER_SETS = range(1, 7)
+#: Axes that learn at the same time at most.
+MOST_LEARNING = 4
 
 
 @dataclass(slots=True)
@@ -38,12 +40,14 @@ class AxisSettings(State, lifetime=Lifetime.POWER):
         window: Mode of ADISPOSA.
         parameter_set: SCPARA.
         acceleration: BRISKA, SOFTA, DRIVEA or JERKA.
+        learns: Columns of axes whose drives learn what friction does to them (QECLRNON).
     """
 
     motion_end: dict[int, int] = field(default_factory=dict)
     window: dict[int, int] = field(default_factory=dict)
     parameter_set: dict[int, int] = field(default_factory=dict)
     acceleration: dict[int, str] = field(default_factory=dict)
+    learns: set[int] = field(default_factory=set)
 
 
 def motion_end(name: str) -> Procedure:
@@ -83,6 +87,24 @@ def end_window(draft: Draft, position: int, shape: WordShape) -> Step:
             channel.memory.data.write("$SA_ADISPOSA_VALUE", (channel.axes[column],), float(listed[1]))
 
     return run
+
+
+def learn_friction(channel: SinumerikChannel, args: Arguments) -> None:
+    """QECLRNON(axis, …): up to four axes learn (job planning 14.6); axes without friction have nothing to learn.
+
+    Raises:
+        AlarmError: 14020 for no axis, or more than four.
+    """
+    if not 1 <= len(args) <= MOST_LEARNING:
+        raise AlarmError("14020", text="QECLRNON")
+    AxisSettings.of(channel).learns.update(arguments.column(channel, axis) for axis in args)
+
+
+def end_learning(channel: SinumerikChannel, args: Arguments) -> None:
+    """QECLRNOF: no axis learns any more."""
+    if args:
+        raise AlarmError("14020", text="QECLRNOF")
+    AxisSettings.of(channel).learns.clear()
 
 
 def _motion_end(channel: SinumerikChannel, indices: Arguments) -> int:

@@ -1,6 +1,6 @@
 """Constant cutting speed: what G96 needs, and the speed that G97 keeps.
 
-Source: Fundamentals (G96, G961, G962, G97, G971, G972, LIMS; FPR, FPRAON, FPRAOF).
+Source: Fundamentals (G96, G961, G962, G97, G971, G972, LIMS, SCC; FPR, FPRAON, FPRAOF).
 """
 
 from __future__ import annotations
@@ -8,12 +8,14 @@ from __future__ import annotations
 from math import pi
 from typing import TYPE_CHECKING, Any
 
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.actions.axes import ActionAxes
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.arguments import Arguments
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.tables import MM_PER_M
+from polycnc.deferred.records import dataclass
 from polycnc.deferred.regexes import regex
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.messages import AlarmError
@@ -33,10 +35,39 @@ _SPINDLE = regex(r"S\d+")
 KEEPS_SPEED = frozenset(("G97", "G971", "G972", "G973"))
 
 
+@dataclass(slots=True)
+class ReferenceAxis(State, lifetime=Lifetime.RESET):
+    """Column of the axis that SCC has made the reference of the cutting speed, -1 for the transverse axis."""
+
+    column: int = -1
+
+
+def reference_axis(channel: SinumerikChannel, args: Arguments) -> None:
+    """SCC[axis]: the geometry axis whose position the cutting speed is worked out from, before or with G96.
+
+    Raises:
+        AlarmError: 10870 for an axis that is none of the geometry, PC0001 for its second and third.
+    """
+    if len(args) != 1:
+        raise AlarmError("14020", text="SCC")
+    column = arguments.column(channel, args[0])
+    geometry = channel.coordinates.geometry
+    if column not in geometry:
+        raise AlarmError("10870")
+    if column != geometry[0]:
+        raise not_supported(f"SCC[{channel.axes[column]}]")
+    ReferenceAxis.of(channel).column = column
+
+
+def _reference(channel: SinumerikChannel) -> int:
+    column = ReferenceAxis.of(channel).column
+    return channel.memory.transverse if column < 0 else column
+
+
 def change_of_feed_type(channel: SinumerikChannel, surface_speed: bool, code: str) -> None:
-    """Enter or leave constant cutting speed; alarm 10870 for a channel without transverse axis."""
+    """Enter or leave constant cutting speed; alarm 10870 without a transverse axis, or another that SCC has named."""
     memory = channel.memory
-    if surface_speed and memory.transverse < 0:
+    if surface_speed and _reference(channel) < 0:
         raise AlarmError("10870")
     spindle = memory.spindles.all.get(memory.spindles.master)
     if spindle is not None and code in KEEPS_SPEED and spindle.cutting_speed:
@@ -72,14 +103,14 @@ def is_in_force(channel: SinumerikChannel, surface_speed: bool, code: str) -> bo
     """
     memory = channel.memory
     if surface_speed:
-        return memory.transverse >= 0
+        return _reference(channel) >= 0
     spindle = memory.spindles.all.get(memory.spindles.master)
     return code not in KEEPS_SPEED or spindle is None or not spindle.cutting_speed
 
 
 def speed_at(channel: SinumerikChannel, cutting_speed: float, limit: float) -> float:
-    """Speed (rpm) for a cutting speed (m/min) where the transverse axis stands, at most the limit."""
-    diameter = 2.0 * abs(channel.coordinates.position[channel.memory.transverse])
+    """Speed (rpm) for a cutting speed (m/min) where the reference axis stands, at most the limit."""
+    diameter = 2.0 * abs(channel.coordinates.position[_reference(channel)])
     return min(limit, MM_PER_M * cutting_speed / (pi * diameter)) if diameter > 0.0 else limit
 
 

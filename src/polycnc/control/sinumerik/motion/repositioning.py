@@ -17,6 +17,7 @@ from polycnc.control.sinumerik.block.positions import number
 from polycnc.control.sinumerik.motion import circles, moves
 from polycnc.control.sinumerik.signals import interrupts
 from polycnc.control.sinumerik.tables import length_factor
+from polycnc.control.sinumerik.tools import stages
 from polycnc.control.sinumerik.variables.row import RowWithStop
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.planes import PLANES
@@ -76,6 +77,7 @@ def reposition(draft: Draft) -> Step:
                 raise AlarmError("16020", text=code)
             end_of_subprogram(channel)
             return
+        stages.begin_anew(channel)
         way = interrupted.way
         part = _part(way, point, interrupted.part, channel.coordinates.position)
         if along is not None and way.length:

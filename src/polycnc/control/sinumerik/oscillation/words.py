@@ -12,7 +12,7 @@ from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.actions import axes as action_axes
 from polycnc.control.sinumerik.actions.axes import ActionAxes
 from polycnc.control.sinumerik.block.draft import axis_column
-from polycnc.control.sinumerik.block.positions import number
+from polycnc.control.sinumerik.block.positions import Dimension, axis_term, is_diameter, number, of_display
 from polycnc.control.sinumerik.oscillation import strokes
 from polycnc.control.sinumerik.oscillation.infeed import Infeed, PartialInfeeds
 from polycnc.control.sinumerik.oscillation.strokes import Oscillations
@@ -47,10 +47,10 @@ def datum(draft: Draft, position: int, shape: WordShape) -> Step:
     """A position or a number of an oscillating axis: its setting datum; OSE asks for the end position too."""
     column = axis_column(draft, position, shape)
     name = POSITIONS.get(shape.address) or NUMBERS[shape.address]
-    is_position = shape.address in POSITIONS
-    rotary = draft.channel.axis_data[column].rotary
-    factor = length_factor(draft.mode) if is_position and not rotary else 1.0
-    adds = shape.modifier == "IC" or (is_position and not shape.modifier and draft.mode["distance"] == "G91")
+    factor, adds = 1.0, shape.modifier == "IC"
+    if shape.address in POSITIONS:
+        term = axis_term(draft.channel, draft.mode, position, column, shape.modifier)
+        factor, adds = term.factor, term.way is Dimension.INCREMENTAL
 
     def run(channel: SinumerikChannel, values: Values) -> None:
         value = number(values, position) * factor
@@ -200,8 +200,10 @@ def _infeeds(
         right = isinstance(listed, tuple) and 2 <= len(listed) <= 3 and listed[1] > 0
         if not right or (len(listed) == 3 and listed[2] not in (0, 1)):
             raise WordAlarm("12560", place, text="POSP")
-        way = float(listed[0]) * factor - work[column]
-        partial, mode = float(listed[1]) * factor, int(listed[2]) if len(listed) == 3 else 0
+        way = of_display(channel, column, float(listed[0]) * factor) - work[column]
+        halves = is_diameter(channel.mode, Dimension.INCREMENTAL, column, channel.memory.transverse)
+        partial = float(listed[1]) * factor * (0.5 if halves else 1.0)
+        mode = int(listed[2]) if len(listed) == 3 else 0
         made.append(
             Infeed(
                 column,

@@ -16,6 +16,7 @@ from polycnc.channel.moves.path import Rank, Stage
 from polycnc.channel.stack import LevelKind
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.block import arguments, single_block
+from polycnc.control.sinumerik.block.positions import of_display
 from polycnc.control.sinumerik.signals import retraction
 from polycnc.deferred.records import dataclass
 from polycnc.language.sinumerik.statements.calls import call_without_arguments, named_program
@@ -132,7 +133,8 @@ class Watch(Stage):
 
     def _wanted(self, interrupt: Interrupt) -> dict[int, float]:
         memory = self._channel.memory
-        return {memory.column(axis.upper()): value for axis, value in interrupt.at.items()}
+        wanted = {memory.column(axis.upper()): value for axis, value in interrupt.at.items()}
+        return {column: of_display(self._channel, column, value) for column, value in wanted.items()}
 
     def _runs(self, interrupt: Interrupt, program: int, line: int) -> bool:
         if line != interrupt.line:

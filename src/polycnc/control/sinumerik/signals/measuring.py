@@ -14,7 +14,7 @@ from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move, Rank, Stage
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.actions import fifo as fifos
-from polycnc.control.sinumerik.block.positions import shown
+from polycnc.control.sinumerik.block.positions import of_display, shown
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.variables.row import Indices, RowWithStop
 from polycnc.deferred.records import dataclass
@@ -167,7 +167,8 @@ def edges_on(
     for probe, own in edges.items():
         before = 0.0
         for edge in own:
-            part = way.part_at({channel.memory.column(edge.axis.upper()): edge.at})
+            column = channel.memory.column(edge.axis.upper())
+            part = way.part_at({column: of_display(channel, column, edge.at)})
             if part is None or part < before:
                 break
             yield part, probe, edge

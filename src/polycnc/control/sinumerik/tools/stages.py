@@ -160,11 +160,16 @@ def policy(channel: SinumerikChannel) -> Policy:
     return replace(rules, outer=outer, read_blocks=idle + 2)
 
 
-def _settle_corner(channel: SinumerikChannel) -> None:
+def _settle_corner(channel: SinumerikChannel, what: str = "G40 G41 G42") -> None:
     """Compensation changes; PC0001 between the two moves of a chamfer or rounding, which belong to one contour."""
     stage = channel.path.find(CornerStage)
     if stage is not None and not stage.settle():
-        raise not_supported("CHF CHR RND: G40 G41 G42")
+        raise not_supported(f"CHF CHR RND: {what}")
+
+
+def turned_frame(channel: SinumerikChannel) -> None:
+    """The work is turned, scaled or mirrored otherwise: the two moves of a corner would lie in two directions."""
+    _settle_corner(channel, "ROT SCALE MIRROR")
 
 
 def select_side(channel: SinumerikChannel) -> None:
@@ -212,6 +217,18 @@ def leave_contour(channel: SinumerikChannel) -> None:
     if stage is not None:
         _settle_corner(channel)
         stage.cancel()
+
+
+def begin_anew(channel: SinumerikChannel) -> None:
+    """The next move leads from where the tool stands beside a contour to another one (REPOS)."""
+    stage = active_cutter(channel)
+    if stage is None or channel.mode["compensation"] == "G40" or not stage.holds_vector:
+        return
+    channel.flush()
+    stands = stage.beside(channel.coordinates.position)
+    stage.discard()
+    channel.coordinates.arrive(stands)
+    select_side(channel)
 
 
 def changed_radius(channel: SinumerikChannel) -> None:

@@ -25,7 +25,12 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.variables.row import Indices, Reader
 
 #: Variables of the main run that tell a state of the program: of the channel, of an axis or spindle, of a spindle.
-OF_CHANNEL = frozenset(("$AC_DELAYFST", "$AC_CTOL", "$AC_OTOL", "$AC_MSNUM", "$AC_SDIR"))
+OF_CHANNEL = frozenset(
+    (
+        *("$AC_DELAYFST", "$AC_CTOL", "$AC_OTOL", "$AC_MSNUM", "$AC_SDIR"),
+        *("$AC_CUTMOD", "$AC_CUTMOD_ANG", "$AC_CUT_INV"),
+    )
+)
 OF_AXES = frozenset(("$AA_MOTEND", "$AA_SCPAR", "$AA_COUP_ACT", "$AA_ATOL", "$AA_FXS", "$AA_FOC"))
 OF_SPINDLES = frozenset(("$AA_S", "$AC_SDIR"))
 NAMES = OF_CHANNEL | OF_AXES | OF_SPINDLES

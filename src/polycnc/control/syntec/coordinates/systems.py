@@ -6,7 +6,12 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.syntec.axis_groups.names import map_virtual_axis
-from polycnc.control.syntec.coordinates.turns import TurnState, renew_preset_frame, renew_work_turn
+from polycnc.control.syntec.coordinates.turns import (
+    TurnState,
+    refuse_in_compensation,
+    renew_preset_frame,
+    renew_work_turn,
+)
 from polycnc.control.syntec.five_axes.spatial import choose_corners
 from polycnc.control.syntec.macros.registers import write_register
 from polycnc.control.syntec.motion import conditions
@@ -101,7 +106,9 @@ def set_position(channel: SyntecChannel, words: Words) -> None:
 
 def preset_system(channel: SyntecChannel, words: Words) -> None:
     """G92.1 X Y Z I J K R: this point becomes the origin, the axes turn by R about (I, J, K) (2.62)."""
-    state = TurnState.of(channel)
+    state, angle = TurnState.of(channel), words.angle("R")
+    if angle or state.angle:
+        refuse_in_compensation(channel, "G92.1")
     c, memory = channel.coordinates, channel.memory
     origin = [0.0] * len(channel.axes)
     for axis, value, _ in words.axes():
@@ -109,7 +116,6 @@ def preset_system(channel: SyntecChannel, words: Words) -> None:
     zero, target = c.to_machine([0.0] * len(channel.axes)), c.to_machine(origin)
     for axis in range(len(channel.axes)):
         ZeroState.of(channel).preset[axis] += target[axis] - zero[axis]
-    angle = words.angle("R")
     vector = [words.typed(letter) or 0.0 for letter in "IJK"]
     state.angle = angle or 0.0
     state.axis = vector if any(vector) else [0.0, 0.0, 1.0]

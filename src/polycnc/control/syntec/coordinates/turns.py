@@ -12,6 +12,7 @@ from polycnc.channel.states.state import Lifetime, State, lasting, retained
 from polycnc.control.syntec.parameters import SyntecParameters
 from polycnc.control.word_address.coordinates.systems import ZeroState
 from polycnc.control.word_address.coordinates.tip import TipState
+from polycnc.control.word_address.tools.radius import active_compensation
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, Frame
 from polycnc.machine.kinematics import turn_about
@@ -101,6 +102,12 @@ def renew_preset_frame(memory: SyntecMemory) -> None:
     zero.frame, zero.table, zero.plane = turn, state.table, state.plane
 
 
+def refuse_in_compensation(channel: SyntecChannel, code: str) -> None:
+    """A work system that turns while the radius is compensated: a corner would lie between two directions."""
+    if active_compensation(channel) is not None:
+        raise channel.control.not_yet(f"{code} {channel.mode['compensation']}", code)
+
+
 def check_posture(channel: SyntecChannel, turn: Frame) -> None:
     """PC0001 where rotary words would tell the tool's direction in a work system that is turned (2.28.3, note 8)."""
     if PostureState.of(channel).in_work and not turn.is_identity:
@@ -111,8 +118,8 @@ def renew_work_turn(channel: SyntecChannel) -> bool:
     """The angles of the chosen work system act from here on, with G54.4 P1; gives whether it turns otherwise now.
 
     Raises:
-        AlarmError: A transformation is active that is no tip control, or directions of the tool would turn along
-            (G43.4 Q1): that is not executed.
+        AlarmError: A transformation is active that is no tip control, directions of the tool would turn along
+            (G43.4 Q1), or the radius is compensated: that is not executed.
     """
     state = TurnState.of(channel)
     turn = turn_of(channel, ZeroState.of(channel).system) if state.by_table else IDENTITY
@@ -121,6 +128,7 @@ def renew_work_turn(channel: SyntecChannel) -> bool:
     leads = TipState.of(channel).is_leading(channel)
     if channel.coordinates.transformation is not None and not leads:
         raise channel.control.not_yet("G54.4")
+    refuse_in_compensation(channel, "G54.4")
     if leads:
         check_posture(channel, turn)
     state.work = turn

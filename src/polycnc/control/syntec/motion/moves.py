@@ -17,6 +17,7 @@ from polycnc.control.syntec.units import least_unit
 from polycnc.control.word_address.auxiliary import functions
 from polycnc.control.word_address.block import repeated_codes
 from polycnc.control.word_address.block.rules import Rule
+from polycnc.control.word_address.coordinates.frames import scale_of
 from polycnc.control.word_address.cycles.drilling import CycleState
 from polycnc.control.word_address.motion import path, skip
 from polycnc.control.word_address.motion.arcs import emit_arc
@@ -402,7 +403,8 @@ def _lengthened_move(factor: float, channel: SyntecChannel, words: Words) -> Non
     for axis, value, incremental in words.axes():
         way = value if incremental else value - c.programmed[axis]
         if way != 0.0 or incremental:
-            way += copysign(growth, growth * copysign(1.0, way))
+            own = growth / scale_of(channel, axis)
+            way += copysign(own, own * copysign(1.0, way))
         end[axis] += way
     rapid = motion == "G0"
     channel.straight(
@@ -427,7 +429,7 @@ def _lengthened_arc(channel: SyntecChannel, words: Words, growth: float, *, ccw:
     quarters = abs(arcs.sweep_angle(begin, end, center, ccw)) / (arcs.TAU / 4.0)
     if min(abs(quarters - 1.0), abs(quarters - 3.0)) > ANGLE_TOLERANCE:
         raise control.fail("offset_arc")
-    ratio = (radius_mm + growth) / radius_mm
+    ratio = (radius_mm + growth / scale_of(channel, first)) / radius_mm
     if ratio <= 0.0:
         raise control.fail("comp_interference")
     programmed[first] = begin[0] + (end[0] - begin[0]) * ratio

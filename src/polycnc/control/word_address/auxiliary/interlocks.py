@@ -6,7 +6,6 @@ What it refuses is asked in `control/machine_words.py`.
 from __future__ import annotations
 
 from dataclasses import replace
-from string import digits
 from typing import TYPE_CHECKING
 
 from polycnc.control.machine_words import (
@@ -68,7 +67,7 @@ def guarded_word(builder: Builder, address: str, step: Step | None) -> Step | No
         return asking(step, ("T_CODE",), plc)
     if step is None:
         return None
-    if address.rstrip(digits) == "S":
+    if address.rstrip("0123456789") == "S":
         return _guarded_speed(step, builder, plc)
     return asking(step, ("B_CODE",), plc) if address == "B" else step
 

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.plan import Plan
     from polycnc.control.word_address.family import WordAddressChannel
     from polycnc.kernels.layout import Floats
+    from polycnc.language.bulk.recipe import Drilled
     from polycnc.language.bulk.routines.running import RoutineDialect
     from polycnc.language.bulk.scanner import LastMoves
 
@@ -93,6 +94,14 @@ class PlainBlocks:
         """Blocks of G43.5 name directions."""
         by_vector = channel.mode.codes.get("length") == "G43.5"
         return tool_center_point.record_of(channel) if by_vector else ()
+
+    def drilled(self, channel: WordAddressChannel) -> Drilled | None:
+        """The strokes of the active cycle."""
+        if not channel.mode.codes.get("cycle"):
+            return None
+        from polycnc.control.word_address.cycles.holes_as_data import next_hole  # for long programs only
+
+        return next_hole(channel)
 
     def turned(self, channel: WordAddressChannel, start: list[float], end: list[float]) -> None:
         """How the tool has turned is not remembered."""

@@ -235,3 +235,12 @@ def start_polar(channel: WordAddressChannel, _words: Words) -> None:
 
 #: What a rotation asks of the blocks that its plane forms.
 ROTATION_RULE = Rule("plane of a rotation", modes={"rotation": ("G68", "G68.1")}, before=_refuse_other_plane)
+
+
+def scale_of(channel: WordAddressChannel, axis: int) -> float:
+    """How many times longer than programmed the moves of an axis are (G51); offsets and pecks are not."""
+    c = channel.coordinates
+    if axis not in c.geometry:
+        return 1.0
+    i = c.geometry.index(axis)
+    return hypot(*(row[i] for row in c.programming.m))

@@ -20,6 +20,8 @@ from polycnc.control.word_address.auxiliary.overrides import OverrideState
 from polycnc.control.word_address.block.numbers import length_converter
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.whole_numbers import DecimalPoint
+from polycnc.control.word_address.block.words_as_data import targets_as_data
+from polycnc.control.word_address.coordinates.frames import scale_of
 from polycnc.control.word_address.cycles.plunge import STROKES_OF_A_BLOCK, plunges
 from polycnc.control.word_address.cycles.shift import shift_by_center_words, shift_off_axis
 from polycnc.control.word_address.motion.path import FEED_MODES, reach
@@ -28,6 +30,7 @@ from polycnc.cycles.drilling import lathe
 from polycnc.cycles.drilling.holes import Action, Cycle, Hole, Stroke, tap
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.planes import PLANES
+from polycnc.language.bulk import Straight, declare
 from polycnc.language.word_address.functions import round_half_away
 from polycnc.toolpath import Kind
 from polycnc.toolpath.context import NO_OVERLAP, Overlap
@@ -334,7 +337,11 @@ def plan_drilling(builder: Builder, plan: Plan) -> Step:
                     channel.halt_inside()
                 _perform(channel, code, data, halts)
 
-    return run
+    brings_more = words.stores or words.polar or builder.mode is not builder.before
+    told = None if brings_more else targets_as_data(words.positions)
+    return (
+        declare(run, Straight(rapid=True, targets=told, absolute=False, drills=words.axis)) if told else run
+    )
 
 
 class _Words:
@@ -378,6 +385,11 @@ class _Words:
             address == "R" and self.rules.r_as_axis and self.control.is_diameter(builder.channel, self.axis)
         )
         return builder.length(address, diameter=diameter) or (lambda value: value)
+
+    @property
+    def stores(self) -> bool:
+        """Whether the block brings more than positions."""
+        return bool(self.bottom is not None or self.stored or self.repeats)
 
     def store(self, data: CycleData, values: list[float]) -> None:
         """Take the words over into the cycle data."""
@@ -424,15 +436,14 @@ def drill_here(channel: WordAddressChannel) -> None:
     _perform(channel, channel.mode["cycle"], CycleState.of(channel).active, Halts.NONE)
 
 
-def _hole(channel: WordAddressChannel, code: str, data: CycleData) -> Hole:
+def hole_of(channel: WordAddressChannel, code: str, data: CycleData) -> Hole:
     """Levels and amounts of the next hole; a scale acts on levels only (macro B 10.5)."""
     rules: Drilling = channel.control.drilling_rules(channel)
     cycle = rules.cycles[code]
     r = data.level("R", data.initial)
     bottom = data.level(BOTTOM, data.initial if cycle.bottom_from_initial and BOTTOM in data else r)
     dwell = data.amount("P") if cycle.dwells else 0.0
-    w = channel.coordinates.geometry.index(data.axis) if data.axis in channel.coordinates.geometry else -1
-    scale = abs(channel.coordinates.programming.m[w][w]) if w >= 0 else 1.0
+    scale = scale_of(channel, data.axis)
     return Hole(
         data.initial,
         r,
@@ -481,7 +492,7 @@ def _with_holds(channel: WordAddressChannel, strokes: Iterator[Stroke]) -> Itera
 def _perform(channel: WordAddressChannel, code: str, data: CycleData, halts: Halts) -> None:
     """Let the tool make the strokes of the next hole."""
     rules: Drilling = channel.control.drilling_rules(channel)
-    cycle, hole = rules.cycles[code].strokes, _hole(channel, code, data)
+    cycle, hole = rules.cycles[code].strokes, hole_of(channel, code, data)
     dressed = rules.dress(channel, code, cycle)
     rests = CycleState.of(channel).overlap == NO_OVERLAP
     if dressed is cycle and rests and plunges(channel, data.axis, cycle, hole):

@@ -54,8 +54,7 @@ def plunges(channel: Channel, axis: int, cycle: Cycle, hole: Hole) -> bool:
         return False
     position = c.position
     level = position[axis]
-    bits = pack("5d", hole.initial, hole.r, hole.bottom, hole.back, level)
-    plunge = plunge_of(cycle, hole, level, channel.feed, bits)
+    plunge = plunge_of(cycle, hole, level, channel.feed)
     chunk = channel.toolpath.chunk
     if plunge is None or len(chunk) + len(plunge.levels) >= CHUNK_ROWS:
         return False
@@ -91,8 +90,7 @@ def _is_free(channel: Channel, axis: int, levels: array[float]) -> bool:
     return True
 
 
-@lru_cache(maxsize=64)
-def plunge_of(cycle: Cycle, hole: Hole, level: float, feed: float, _bits: bytes) -> Plunge | None:
+def plunge_of(cycle: Cycle, hole: Hole, level: float, feed: float) -> Plunge | None:
     """The strokes of a cycle as columns; None where they are more than ways along the axis.
 
     Args:
@@ -100,8 +98,13 @@ def plunge_of(cycle: Cycle, hole: Hole, level: float, feed: float, _bits: bytes)
         hole: Its levels.
         level: Where the tool stands.
         feed: Feed in force.
-        _bits: The levels as they are stored: zero and minus zero are equal, and two rows.
     """
+    # The levels as they are stored, too: zero and minus zero are equal, and two rows.
+    return _plunge(cycle, hole, level, feed, pack("5d", hole.initial, hole.r, hole.bottom, hole.back, level))
+
+
+@lru_cache(maxsize=64)
+def _plunge(cycle: Cycle, hole: Hole, level: float, feed: float, _bits: bytes) -> Plunge | None:
     kinds, feeds, levels = array("B"), array("d"), array("d")
     blocks = 0
     for number, stroke in enumerate(cycle(hole)):

@@ -36,6 +36,11 @@ class MacroRoutines:
 
     def most_frames(self, channel: MacroChannel) -> int:
         """How many programs may be called within each other from here on, of whatever kind."""
+        try:
+            for kind in (LevelKind.SUBPROGRAM, LevelKind.MACRO):
+                channel.control.check_nesting(channel, kind)
+        except AlarmError:
+            return 0  # the interpreter comes to the call and raises it
         macros = sum(level.kind in channel.control.MACRO_KINDS for level in channel.stack)
         others = len(channel.stack) - 1 - macros
         most_macros, most_others, most = channel.control.CALL_LEVELS
@@ -103,7 +108,7 @@ class MacroRoutines:
             if new == NO_LOOP and old != NO_LOOP:
                 del level.data[number]
             elif new != old:
-                opened = level.code.compile(level.code.lines[new - 1], new - 1)
+                opened = level.code.step(new - 1)  # kept: a loop that waits must be the one that it was
                 assert isinstance(opened, LoopBegin)
                 level.data[number] = opened.loop
 

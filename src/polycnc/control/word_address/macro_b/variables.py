@@ -11,8 +11,8 @@ from collections.abc import Callable
 from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
-from polycnc.channel.states.snapshot import unchanging
 from polycnc.channel.states.state import Lifetime, State, retained
+from polycnc.channel.states.unchanging import unchanging
 from polycnc.control.word_address.memory import Memory
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.units import INCH_MM

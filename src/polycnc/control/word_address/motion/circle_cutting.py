@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.control.word_address.coordinates.frames import scale_of
 from polycnc.control.word_address.motion.arcs import emit_arc
 from polycnc.control.word_address.motion.path import CENTER_WORDS, reach
 from polycnc.control.word_address.tools.radius import RadiusState
@@ -33,14 +34,15 @@ def _cut_circle(channel: WordAddressChannel, words: Words, *, ccw: bool) -> None
         raise words.fail("comp_cycle", "G12")
     number = words.integer("D")
     state.number = state.number if number is None else number
-    radius = abs(words.length("I") or 0.0) - control.radius_value(channel, state.number)
+    plane = PLANES[channel.mode["plane"]]
+    u, v = c.geometry[plane[0]], c.geometry[plane[1]]
+    tool = control.radius_value(channel, state.number) / scale_of(channel, u)
+    radius = abs(words.length("I") or 0.0) - tool
     if not radius > 0.0:
         raise words.fail("circle_radius", "I")
     feed = channel.feed
     if not feed > 0.0:
         raise words.fail("no_feed")
-    plane = PLANES[channel.mode["plane"]]
-    u, v = c.geometry[plane[0]], c.geometry[plane[1]]
     middle: Point = (c.programmed[u], c.programmed[v])
     halfway: Point = (middle[0] + radius / 2.0, middle[1])
     inside, outside = c.programmed[:], c.programmed[:]

@@ -100,3 +100,9 @@ def advance_preview(channel: WordAddressChannel, words: Words) -> None:
         raise words.fail("preview_value", "P")
     PathModeState.of(channel).contour_control = words.integer("P") == 1
     channel.context_changed()
+
+
+def select_current_loop(_channel: WordAddressChannel, words: Words) -> None:
+    """G05.4 Q1, Q0 of FANUC: another current loop of the drives (HRV3); the path is unchanged."""
+    if words.integer("Q") not in (0, 1):
+        raise words.fail("preview_value", "Q")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import copysign, nan
 from typing import TYPE_CHECKING
 
+from polycnc.control.word_address.coordinates.frames import scale_of
 from polycnc.control.word_address.motion.arcs import center_by_radius, emit_arc
 from polycnc.control.word_address.motion.path import CENTER_WORDS, reach
 from polycnc.control.word_address.tools.radius import RadiusState
@@ -24,7 +25,10 @@ CENTER_LETTERS = "IJKR"
 
 
 def offset_move(channel: MillingChannel, words: Words) -> None:
-    """G45 to G48: the move of each named axis grows or shrinks along its own direction; only in this block."""
+    """G45 to G48: the move of each named axis grows or shrinks along its own direction; only in this block.
+
+    A scale does not act on the offset (0i-MB manual, scaling).
+    """
     state = RadiusState.of(channel)
     c = channel.coordinates
     code = next(key for key in words.plan.order if key in TIMES)
@@ -38,7 +42,8 @@ def offset_move(channel: MillingChannel, words: Words) -> None:
     amount = TIMES[code] * channel.control.radius_value(channel, state.number)
     end = reach(channel, words.plan.axis_words, words.values)
     for word in words.plan.axis_words:
-        end[word.axis] += amount * _direction(words, word, end[word.axis] - c.programmed[word.axis])
+        way = end[word.axis] - c.programmed[word.axis]
+        end[word.axis] += amount / scale_of(channel, word.axis) * _direction(words, word, way)
     if motion in ARCS:
         _offset_arc(channel, words, end, amount)
         return
@@ -59,6 +64,7 @@ def _offset_arc(channel: MillingChannel, words: Words, end: list[float], amount:
     ccw = channel.mode["motion"] == "G3"
     plane = PLANES[channel.mode["plane"]]
     columns = [c.geometry[axis] for axis in plane[:2]]
+    amount /= scale_of(channel, columns[0])
     begin, goal = ((point[columns[0]], point[columns[1]]) for point in (c.programmed, end))
     radius = words.length("R")
     if radius is not None:
@@ -81,11 +87,17 @@ def _direction(words: Words, word: AxisWord, way: float) -> float:
 
 
 def position_one_way(channel: MillingChannel, words: Words) -> None:
-    """G60: rapid past the target by each axis's overrun, then on to it always from the same side."""
+    """G60: rapid past the target by each axis's overrun, then on to it always from the same side.
+
+    The side is the machine's: no mirror, scale or rotation of the program acts on the overrun (0i-MB manual, G60).
+    """
     c = channel.coordinates
     end = reach(channel, words.plan.axis_words, words.values)
-    via = end[:]
-    for word in words.plan.axis_words:
-        via[word.axis] -= channel.control.overrun(channel, word.axis)
-    channel.straight(Kind.RAPID, c.to_position(via), nan, via)
-    channel.straight(Kind.RAPID, c.to_position(end), nan, end)
+    target, start = c.to_position(end), c.position
+    named = {word.axis for word in words.plan.axis_words}
+    via = list(target)
+    for axis, (before, behind) in enumerate(zip(start, target, strict=True)):
+        if axis in named or before != behind:
+            via[axis] -= channel.control.overrun(channel, axis)
+    channel.straight(Kind.RAPID, via, nan, c.to_programmed(via))
+    channel.straight(Kind.RAPID, target, nan, end)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
-from polycnc.channel.states.snapshot import unchanging
+from polycnc.channel.states.unchanging import unchanging
 from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:

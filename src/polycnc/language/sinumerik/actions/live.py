@@ -50,7 +50,7 @@ PROCEDURES = frozenset(
     }
 )  # fmt: skip
 #: Axes are commanded by these.
-COMMANDING = frozenset({"POS", "MOV", "GET", "RELEASE", "TRAILON", "LEADON"})
+COMMANDING = frozenset({"POS", "MOV", "GET", "RELEASE", "AXTOCHAN", "TRAILON", "LEADON"})
 _MODIFIERS = frozenset({"AC", "IC", "DC", "ACP", "ACN"})
 
 

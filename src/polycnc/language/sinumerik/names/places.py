@@ -338,6 +338,8 @@ class SystemPlace:
                     type_ = Type.REAL
                 else:
                     index = reader.expression()
+                    if index.type is Type.FRAME:
+                        raise NcSyntaxError("12400", token.column, token.text)
                     real = index.type is Type.REAL
                     codes.append(quoted("round_half_up({0})", index.code) if real else index.code)
             reader.expect("]")

@@ -24,7 +24,7 @@ from polycnc.control.fanuc.lathe.tools.offset_memory import OffsetMemory
 from polycnc.control.fanuc.lathe.tools.offsets import nose_radius, nose_tip
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.macro_b import interruption
-from polycnc.control.word_address.tools.radius import RadiusState, violation_codes
+from polycnc.control.word_address.tools.radius import RadiusState, side_on_display, violation_codes
 from polycnc.cycles.turning.contour import Contour, Piece
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.planes import PLANES
@@ -209,7 +209,7 @@ def _compensated(channel: LatheChannel, moves: list[Move], plane: Plane) -> list
     codes = violation_codes(channel.control.alarms)
     stage = CutterCompensation(plane, channel.control.compensation_policy(channel), codes)
     stage.after = recorder
-    stage.engage(RadiusState.of(channel).side, nose_radius(channel), nose_tip(channel))
+    stage.engage(side_on_display(channel), nose_radius(channel), nose_tip(channel))
     for move in moves:
         stage.move(replace(move))
         stage.block()

@@ -16,7 +16,12 @@ from polycnc.control.fanuc.lathe.motion.threads import (
     thread_move,
 )
 from polycnc.control.fanuc.lathe.tools.offsets import nose_radius, nose_tip
-from polycnc.control.word_address.tools.radius import RadiusState, active_compensation, suspended
+from polycnc.control.word_address.tools.radius import (
+    RadiusState,
+    active_compensation,
+    side_on_display,
+    suspended,
+)
 from polycnc.geometry import offset
 from polycnc.geometry.planes import PLANES
 from polycnc.toolpath import Kind
@@ -130,4 +135,4 @@ def enter_compensation(channel: LatheChannel) -> None:
     """The next move starts compensation up again."""
     stage = channel.path.find(CutterCompensation)
     if stage is not None:
-        stage.engage(RadiusState.of(channel).engaged_side, nose_radius(channel), nose_tip(channel))
+        stage.engage(side_on_display(channel), nose_radius(channel), nose_tip(channel))
