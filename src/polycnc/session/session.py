@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 from polycnc.channel.channel import DEFAULT_BLOCK_LIMIT, Channel
 from polycnc.channel.group import ChannelGroup
 from polycnc.channel.states.passes import Passes
-from polycnc.channel.states.snapshot import unchanging
 from polycnc.channel.states.standstill import Standstill
+from polycnc.channel.states.unchanging import unchanging
 from polycnc.channel.waits import Why
 from polycnc.language.bulk.settings import Bulk
 from polycnc.machine.layout import axis_layout
