@@ -35,6 +35,9 @@ MODAL_GROUPS = {
     "fluctuation": "watch of the spindle speed: G25, G26 of FANUC",
     # ---- SYNTEC
     "oscillation": "oscillation of an axis: G81.1",
+    # ---- mills of FANUC's kind
+    "fixture": "offsets of a fixture that turn with its table: G54.2",
+    "workpiece_error": "where a workpiece stands wrong on its table: G54.4",
     # ---- the FANUC lathe
     "atc_offset": "offsets of an automatic tool changer",
     "polygon": "polygon turning",

@@ -92,4 +92,4 @@ def test_a_minus_at_zero_is_kept() -> None:
 
 def test_a_hole_with_very_many_strokes_is_none() -> None:
     hole = holes.Hole(5.0, 2.0, -1000.0, 5.0, peck=0.1)
-    assert plunge.plunge_of(holes.peck_clearing_chips, hole, 5.0, 1.0, b"") is None
+    assert plunge.plunge_of(holes.peck_clearing_chips, hole, 5.0, 1.0) is None
