@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 
     from polycnc.control.sinumerik.cycles.arguments import Arguments
     from polycnc.control.sinumerik.cycles.moves import Moves
+    from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.iso.running import IsoRun
     from polycnc.cycles.drilling.holes import Stroke
     from polycnc.geometry.arcs import Point
@@ -141,6 +142,11 @@ def drill(running: IsoRun) -> None:
     start = list(running.channel.coordinates.position)
     works = bool(count and (axes or "R" in words))
     running.after.append(partial(_go_on, running, words, depth, start, count if works else 0))
+
+
+def drilling_axis(channel: SinumerikChannel) -> int:
+    """Column of the axis that stands on the active plane."""
+    return channel.coordinates.geometry[PLANES[channel.mode["plane"]][2]]
 
 
 def _plane(running: IsoRun) -> str:
