@@ -78,3 +78,11 @@ def test_the_initial_level_is_a_place_in_whatever_frame(first: tuple[str, ...], 
         round(row["machine"]["Z"], 6) for row in result.rows if "to" in row and row["line"] == 3 + len(first)
     ]
     assert heights == [10.0, 1.0, -1.0, 10.0]
+
+
+def test_levels_of_one_axis_are_none_of_another() -> None:
+    lines = ("G0 Y20 Z10", "G291", "G81 X1 R1 Z-1 F100")
+    result = run(*lines, "G18 X5 R2 Y-3")
+    assert codes(result) == []
+    assert [to["Y"] for _, to in moves(result)[-4:]] == [20.0, 2.0, -3.0, 20.0]
+    assert codes(run(*lines, "G18 X5")) == [("61101", 4)]

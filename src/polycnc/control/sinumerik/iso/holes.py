@@ -168,8 +168,10 @@ def _go_on(
     """The tool is over the hole: remember the words, and drill."""
     channel, cycle = running.channel, running.state.cycle
     assert cycle is not None
-    incremental = channel.mode["distance"] == "G91"
-    columns = [channel.coordinates.geometry[axis] for axis in PLANES[channel.mode["plane"]]]
+    incremental, plane = channel.mode["distance"] == "G91", channel.mode["plane"]
+    if cycle.plane != plane:  # levels of one axis are none of another
+        cycle.plane, cycle.initial, cycle.r, cycle.bottom = plane, None, None, None
+    columns = [channel.coordinates.geometry[axis] for axis in PLANES[plane]]
     position = channel.coordinates.position
     if cycle.initial is None:
         cycle.initial = position[columns[2]]
