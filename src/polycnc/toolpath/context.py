@@ -172,6 +172,17 @@ class Context:
             return rapid and before.rapid_overlap > 0.0
         return before.overlap > 0.0
 
+    def spindle_factor(self, override: float) -> float:
+        """What the operator's override makes of the spindle's speed; it does not pass the program's highest speed.
+
+        Under constant surface speed, where the speed is another at every radius, it is the override itself.
+        """
+        if not self.spindle_override:
+            return 1.0
+        if self.surface_speed or self.spindle_limit_rpm <= 0.0 or self.spindle_rpm <= 0.0:
+            return override
+        return min(override, max(self.spindle_limit_rpm / self.spindle_rpm, 1.0))
+
     def rapid_top(self, limit: float) -> float:
         """Highest speed of an axis that runs a rapid alone; `limit` is what the machine allows."""
         limit *= self.pace.rapid if self.pace is not None else 1.0

@@ -436,6 +436,33 @@ def test_the_spindle_turns_as_the_override_says() -> None:
     assert virtual.spindle.direction == 1
 
 
+@pytest.mark.parametrize(
+    ("control", "machine", "limit", "wait"),
+    [
+        ("sinumerik-840d", "mill4", "G26 S1100", "G4 F3"),
+        ("fanuc-0i-tf", "lathe2", "G50 S1100", "G4 X3."),
+        ("fanuc-m", "mill4", "G92 S1100", "G4 X3."),
+        ("syntec-mill", "mill4", "G92 S1100", "G4 X3."),
+    ],
+)
+def test_no_override_passes_the_highest_speed_of_the_program(
+    control: str, machine: str, limit: str, wait: str
+) -> None:
+    virtual = power_on(f"{limit}\nM3 S1000\n{wait}\nM30\n", control, machine=machine)
+    virtual.override(spindle=1.2)
+    virtual.cycle_start()
+    virtual.step(2.0)
+    assert virtual.spindle.rpm == pytest.approx(1100.0)
+
+
+def test_feed_per_revolution_goes_with_a_spindle_at_its_highest_speed() -> None:
+    virtual = power_on("G50 S1100\nM3 S1000\nG99 G1 Z-500. F1.\nM30\n", "fanuc-0i-tf", machine="lathe2")
+    virtual.override(spindle=1.2)
+    virtual.cycle_start()
+    virtual.step(4.0)
+    assert virtual.feed == pytest.approx(1100.0)
+
+
 @pytest.mark.parametrize("machine", ["lathe2", "hartford"])
 def test_under_constant_surface_speed_the_panel_shows_the_speed_at_the_radius(machine: str) -> None:
     lathe = machine == "lathe2"

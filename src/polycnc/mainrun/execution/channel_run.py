@@ -226,12 +226,16 @@ class ChannelRun:
         return SpindleState(context.spindle, context.spindle_rpm, rpm, context.spindle_direction)
 
     def spindle_rpm(self, context: Context) -> float:
-        """What the spindle of a context turns with while it turns: by its override, under G96 where the tool is now."""
+        """What the spindle of a context turns with while it turns: by its override, under G96 where the tool is now.
+
+        An override passes neither the spindle's limit nor the program's.
+        """
         spindle = self.channel.machine.spindle.get(context.spindle)
         facing = self.display.geometry[0]
         radius = abs(self.work_position[facing]) if context.surface_speed and facing >= 0 else 0.0
         override = self.rates.spindle if context.spindle_override else 1.0
-        return min(rpm_at(context, radius, spindle) * override, spindle.max_rpm if spindle else inf)
+        limits = (spindle.max_rpm if spindle else inf, context.spindle_limit_rpm or inf)
+        return min(rpm_at(context, radius, spindle) * override, *limits)
 
     @property
     def tool(self) -> ToolState:

@@ -270,8 +270,8 @@ class Rates:
             return min(cap2, speed * speed)
         feed = (self.feed if context.feed_override else 1.0) * own.factor
         speed = max(asked * feed + own.addend, 0.0) if feed > 0.0 else 0.0
-        if move.per_revolution and context.spindle_override:
-            speed *= self.spindle
+        if move.per_revolution:
+            speed *= context.spindle_factor(self.spindle)
         return min(cap2, speed * speed)
 
 

@@ -46,7 +46,7 @@ class Layout(NamedTuple):
         """On the feed of a row."""
         if self.free > 0.0 or kind in (RAPID, THREAD, TAP):
             return 1.0
-        spindle = self.spindle if per_revolution and context.spindle_override else 1.0
+        spindle = context.spindle_factor(self.spindle) if per_revolution else 1.0
         return spindle * (self.feed if context.feed_override else 1.0)
 
 

@@ -81,6 +81,16 @@ def test_a_spindle_is_held_to_what_the_axis_can_do() -> None:
     assert np.diff(found).max() / CYCLE > 20.0
 
 
+@pytest.mark.parametrize("speed", [110, 155])
+def test_no_override_takes_the_axis_past_its_limits(speed: int) -> None:
+    lines = (DEFINITION, f"M4 S{speed}", "G4 F0.1", 'EGON(A,"NOC",S1,-3,18)', "G4 F2", "M5", "G4 F0.5")
+    found = places(
+        "\n".join((*lines, "EGOFS(A)", "M30\n")),
+        lambda control, cycle: control.override(spindle=1.2) if cycle == 200 else None,
+    )
+    assert np.diff(found).max() > 0.79 * 120.0 * CYCLE
+
+
 @pytest.mark.parametrize(
     "lines",
     [

@@ -59,3 +59,30 @@ def test_every_cycle_drills_and_comes_back(code: str) -> None:
     levels = [to["Z"] for _, to in moves(result)]
     assert min(levels) == -9.0
     assert levels[-1] == 2.0
+
+
+@pytest.mark.parametrize(
+    ("first", "last"),
+    [
+        (("G51 X0 Y0 Z0 P2000", "G81 X1 R1 Z-1 F100", "G50"), "X5"),
+        (("G81 X1 R1 Z-1 F100", "G51.1 Z0"), "X5 R-1 Z1"),
+        (("G51.1 Z0", "G81 X1 R-1 Z1 F100", "G50.1 Z0"), "X5 R1 Z-1"),
+        (("G81 X1 R1 Z-1 F100", "G52 Z3"), "X5 R-2 Z-4"),
+        (("G81 X1 R1 Z-1 F100", "G92 Z0"), "X5 R-9 Z-11"),
+    ],
+)
+def test_the_initial_level_is_a_place_in_whatever_frame(first: tuple[str, ...], last: str) -> None:
+    result = run("G0 Z10", "G291", *first, last)
+    assert result.alarms == []
+    heights = [
+        round(row["machine"]["Z"], 6) for row in result.rows if "to" in row and row["line"] == 3 + len(first)
+    ]
+    assert heights == [10.0, 1.0, -1.0, 10.0]
+
+
+def test_levels_of_one_axis_are_none_of_another() -> None:
+    lines = ("G0 Y20 Z10", "G291", "G81 X1 R1 Z-1 F100")
+    result = run(*lines, "G18 X5 R2 Y-3")
+    assert codes(result) == []
+    assert [to["Y"] for _, to in moves(result)[-4:]] == [20.0, 2.0, -3.0, 20.0]
+    assert codes(run(*lines, "G18 X5")) == [("61101", 4)]

@@ -48,6 +48,13 @@ def test_what_is_refused(block: str, code: str) -> None:
     assert [alarm.code for alarm in run(block).alarms] == [code]
 
 
+@pytest.mark.parametrize("front", ["", "; a comment\n", "%_N_0007_SPF\n;$PATH=/_N_SPF_DIR\n\n"])
+def test_a_macro_of_the_controls_own_language_may_begin_with_comments(front: str) -> None:
+    files = {"0007.SPF": f"{front}PROC P\nR1=$C_A\nM17\n"}
+    result = open_session("G291\nG65 P7 A3\nM30\n", control="sinumerik-840d", files=files).run()
+    assert (result.alarms, result.variables["R1"]) == ([], 3.0)
+
+
 def test_no_drilling_cycle_while_a_program_is_modal() -> None:
     assert [alarm.code for alarm in run("G66 P7", "G81 R1 Z-1").alarms] == ["PC0001"]
     assert [alarm.code for alarm in run("G81 R1 Z-1 K0", "G66 P7").alarms] == ["PC0001"]

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.iso import frames, holes, offsets, reference, subprograms
 from polycnc.control.sinumerik.iso.running import IsoRun
+from polycnc.language.sinumerik.errors import NcSyntaxError
 from polycnc.language.sinumerik.iso_dialect import MOTIONS
 
 if TYPE_CHECKING:
@@ -39,6 +40,41 @@ FUNCTIONS: dict[str, Callable[[IsoRun, IsoWord], None]] = {
     "M99": subprograms.return_,
 }
 
+#: Functions of which a block may hold one; the words told in the control's own language have its groups.
+GROUPS = (
+    frozenset(("G43", "G49")),
+    frozenset(("G50", "G51")),
+    frozenset(("G50.1", "G51.1")),
+    frozenset(("G68", "G69")),
+    frozenset(("G80", *holes.KINDS)),
+    frozenset(("G98", "G99")),
+    frozenset(("G65", "G66", "G67")),
+    # They read the axis words.
+    frozenset(("G28", "G30", "G50.1", "G51", "G51.1", "G52", "G65", "G66", "G68", "G92")),
+)
+#: Letters that a block may hold several times.
+_REPEATED = "GM"
+
+
+def check(block: IsoBlock) -> None:
+    """Each function and each word has one meaning in a block.
+
+    Raises:
+        AlarmError: 12060 for two functions of a group, 12010 for a letter that is there twice. Words that a macro
+            reads are the macro's own affair.
+    """
+    for group in GROUPS:
+        members = [word for word in block.words if word.code in group]
+        if len(members) > 1:
+            raise NcSyntaxError("12060", members[1].column, members[1].code)
+    if not subprograms.MACROS.isdisjoint(block.codes):
+        return
+    seen: set[str] = set()
+    for word in block.words:
+        if word.letter in seen and word.letter not in _REPEATED:
+            raise NcSyntaxError("12010", word.column, word.letter)
+        seen.add(word.letter)
+
 
 def run(channel: SinumerikChannel, block: IsoBlock, perform: Callable[[str], None]) -> None:
     """Run a block.
@@ -49,8 +85,10 @@ def run(channel: SinumerikChannel, block: IsoBlock, perform: Callable[[str], Non
         perform: Runs a block of the control's own language.
 
     Raises:
-        AlarmError: PC0001 for a word of the dialect that is not executed; what the functions and the told words raise.
+        AlarmError: PC0001 for a word of the dialect that is not executed; what `check`, the functions and the told
+            words raise.
     """
+    check(block)
     running = IsoRun(channel, block)
     for word in block.words:
         function = FUNCTIONS.get(word.name)

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.frames import active
 from polycnc.control.sinumerik.frames.memory import ISO_MIRROR, ISO_ROTATION, ISO_SCALE
+from polycnc.control.sinumerik.iso import holes
 from polycnc.control.sinumerik.tools import stages
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.planes import PLANES
@@ -43,9 +44,16 @@ def _put(running: IsoRun, name: str, frame: NcFrame) -> None:
 
 
 def _follow(running: IsoRun) -> None:
-    """The frames act as they are now; incremental words do not travel the change."""
-    channel = running.channel
+    """The frames act as they are now; incremental words do not travel the change, nor does a cycle's initial level."""
+    channel, cycle = running.channel, running.state.cycle
+    coordinates, column = channel.coordinates, holes.drilling_axis(channel)
+    level = list(coordinates.position)
+    if cycle is not None and cycle.initial is not None:
+        level[column] = cycle.initial
+    place = coordinates.to_machine(level)
     active.apply(channel)
+    if cycle is not None and cycle.initial is not None:
+        cycle.initial = coordinates.from_machine(place)[column]
     if channel.path.head is not None:
         stages.changed_frame(channel)
 

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 
     from polycnc.control.sinumerik.cycles.arguments import Arguments
     from polycnc.control.sinumerik.cycles.moves import Moves
+    from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.iso.running import IsoRun
     from polycnc.cycles.drilling.holes import Stroke
     from polycnc.geometry.arcs import Point
@@ -143,6 +144,11 @@ def drill(running: IsoRun) -> None:
     running.after.append(partial(_go_on, running, words, depth, start, count if works else 0))
 
 
+def drilling_axis(channel: SinumerikChannel) -> int:
+    """Column of the axis that stands on the active plane."""
+    return channel.coordinates.geometry[PLANES[channel.mode["plane"]][2]]
+
+
 def _plane(running: IsoRun) -> str:
     return next((code for code in running.block.codes if code in PLANES), running.channel.mode["plane"])
 
@@ -162,8 +168,10 @@ def _go_on(
     """The tool is over the hole: remember the words, and drill."""
     channel, cycle = running.channel, running.state.cycle
     assert cycle is not None
-    incremental = channel.mode["distance"] == "G91"
-    columns = [channel.coordinates.geometry[axis] for axis in PLANES[channel.mode["plane"]]]
+    incremental, plane = channel.mode["distance"] == "G91", channel.mode["plane"]
+    if cycle.plane != plane:  # levels of one axis are none of another
+        cycle.plane, cycle.initial, cycle.r, cycle.bottom = plane, None, None, None
+    columns = [channel.coordinates.geometry[axis] for axis in PLANES[plane]]
     position = channel.coordinates.position
     if cycle.initial is None:
         cycle.initial = position[columns[2]]

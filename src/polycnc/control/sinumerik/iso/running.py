@@ -39,6 +39,7 @@ class HoleCycle:
         bottom: Depth.
         peck: Depth of a peck, mm.
         dwell_s: Time at the bottom.
+        plane: The plane that its levels stand on (G17 to G19).
     """
 
     code: str
@@ -47,6 +48,7 @@ class HoleCycle:
     bottom: Datum | None = None
     peck: float = 0.0
     dwell_s: float = 0.0
+    plane: str = ""
 
 
 @dataclass(slots=True)

@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 #: P of M98: the number of the program in the lower four digits, how often it runs in those in front of them.
 DIGITS = 4
 _NUMBERS = 10**DIGITS
+#: Functions that hand words over.
+MACROS = frozenset(("G65", "G66"))
 
 
 def call(running: IsoRun, word: IsoWord) -> None:
@@ -108,7 +110,7 @@ def _call_macro(
 ) -> None:
     program = named_program(channel, name)
     code = channel.executable(program).whole
-    first = next((line for line in program.lines if line[prefix_of(line).end :].strip()), "")
+    first = code.text(0) if len(code) else ""
     if first[prefix_of(first).end :].strip().upper().startswith("PROC"):
         call_without_arguments(channel, program, kind)
         channel.level.repeats = passes - 1

@@ -36,6 +36,8 @@ if TYPE_CHECKING:
 
 #: The alarm of a code that a control knows and polycnc does not execute yet, on every control.
 NOT_YET = "PC0001"
+#: The group of one-shot codes that use up the axis words (00).
+ONE_SHOT = "one-shot"
 
 
 @dataclass(frozen=True, slots=True)
@@ -193,8 +195,9 @@ class Builder:
                 else:
                     self.order.append(key)
                     row = self._row(key)
-                    by_group.pop(row.group or row.code, None)
-                    by_group[row.group or row.code] = row
+                    group = row.group or (ONE_SHOT if self._moves_once(row) else row.code)
+                    by_group.pop(group, None)
+                    by_group[group] = row
                 continue
             address = key.rstrip(FORMS)
             form = key[len(address) :]
@@ -203,6 +206,14 @@ class Builder:
             self.order.append(address)
             position += 1
         self.codes = list(by_group.values())
+
+    @staticmethod
+    def _moves_once(row: GCode) -> bool:
+        """Whether a one-shot code (group 00) uses up the axis words: of several such codes the last one counts.
+
+        A call of a macro (`*`) hands over what stands behind it; it has words of its own.
+        """
+        return row.axis_words and "*" not in row.addresses
 
     def _drop_idle_codes(self) -> None:
         """Leave out codes that have no effect while a drilling cycle is active; their words are theirs."""

@@ -244,3 +244,18 @@ def scale_of(channel: WordAddressChannel, axis: int) -> float:
         return 1.0
     i = c.geometry.index(axis)
     return hypot(*(row[i] for row in c.programming.m))
+
+
+def level_of(channel: WordAddressChannel, axis: int, level: float, before: Frame) -> float:
+    """What a level of an axis that counted in another frame is in the one that acts now: the place is the same.
+
+    It stays the number it was where the zero alone has moved, and where a frame tilts the axis: no level is a place.
+    """
+    c = channel.coordinates
+    if axis not in c.geometry or before.m == c.programming.m:
+        return level
+    i = c.geometry.index(axis)
+    if any(frame.m[i][j] for frame in (before, c.programming) for j in range(3) if j != i):
+        return level
+    place = before.apply(*(level if j == i else 0.0 for j in range(3)))[i]
+    return c.programming.inverse().apply(*(place if j == i else 0.0 for j in range(3)))[i]

@@ -21,7 +21,7 @@ from polycnc.control.word_address.block.numbers import length_converter
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.whole_numbers import DecimalPoint
 from polycnc.control.word_address.block.words_as_data import targets_as_data
-from polycnc.control.word_address.coordinates.frames import scale_of
+from polycnc.control.word_address.coordinates.frames import level_of, scale_of
 from polycnc.control.word_address.cycles.plunge import STROKES_OF_A_BLOCK, plunges
 from polycnc.control.word_address.cycles.shift import shift_by_center_words, shift_off_axis
 from polycnc.control.word_address.motion.path import FEED_MODES, reach
@@ -29,6 +29,7 @@ from polycnc.control.word_address.tools.radius import suspended
 from polycnc.cycles.drilling import lathe
 from polycnc.cycles.drilling.holes import Action, Cycle, Hole, Stroke, tap
 from polycnc.deferred.records import dataclass
+from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.planes import PLANES
 from polycnc.language.bulk import Straight, declare
 from polycnc.language.word_address.functions import round_half_away
@@ -45,6 +46,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.numbers import NumberRules
     from polycnc.control.word_address.block.plan import AxisWord, Builder, Plan
     from polycnc.control.word_address.family import WordAddressChannel
+    from polycnc.geometry.frames import Frame
 
 #: A value of the cycle data: in internal units (P as typed), and whether it is an increment.
 Datum = tuple[float, bool]
@@ -243,6 +245,7 @@ class CycleData:
     Attributes:
         axis: Drilling axis.
         initial: Level at which the cycle mode was entered, programmed coordinates.
+        frame: The frame in which that level counts.
         rigid: Its taps are cut in step with a servo spindle.
         kept: Words that live on.
         now: Words of the running block.
@@ -250,9 +253,16 @@ class CycleData:
 
     axis: int
     initial: float
+    frame: Frame = IDENTITY
     rigid: bool = False
     kept: dict[str, Datum] = field(default_factory=dict)
     now: dict[str, Datum] = field(default_factory=dict)
+
+    def go_with(self, channel: WordAddressChannel) -> None:
+        """The initial level is a place: it stays where a scale or a mirror has begun or ended since."""
+        frame = channel.coordinates.programming
+        if self.frame is not frame:
+            self.initial, self.frame = level_of(channel, self.axis, self.initial, self.frame), frame
 
     def amount(self, address: str) -> float:
         """Value of a word, of this block or kept; 0 where there is none."""
@@ -313,7 +323,9 @@ def plan_drilling(builder: Builder, plan: Plan) -> Step:
         if before is None or before.axis != words.axis:
             # An offset that waits for the next move is not in the programmed point yet; the level counts with it.
             initial = c.programmed[words.axis] + c.pending[words.axis]
-            before = state.data = CycleData(words.axis, initial, kept=before.amounts() if before else {})
+            kept = before.amounts() if before else {}
+            before = state.data = CycleData(words.axis, initial, c.programming, kept=kept)
+        before.go_with(channel)
         if not words.drills:
             return
         data = before

@@ -81,19 +81,19 @@ def _g_row(code: str, call: CodeCall) -> GCode:
         channel.off_path = True
         refuse(channel, code, calls=True)
         macro_calls.refuse_g_behind(words, code)
-        repeats = words.integer("L") if "L" in words else 1
+        repeats = subprograms.repeats_of(words)
         program = channel.control.find_program(channel, call.program)
         if call.kind == "sub":
-            subprograms.enter_subprogram(channel, program, repeats or 0, None, kind=LevelKind.G_SUBPROGRAM)
+            subprograms.enter_subprogram(channel, program, repeats, None, kind=LevelKind.G_SUBPROGRAM)
         elif call.kind == "macro":
             macro_calls.enter_macro(
-                channel, program, macro_calls.arguments_of(words, "LG"), repeats or 0, kind=LevelKind.G_MACRO
+                channel, program, macro_calls.arguments_of(words, "LG"), repeats, kind=LevelKind.G_MACRO
             )
         else:
             macro_calls.start_modal(
                 channel,
                 program,
-                repeats or 0,
+                repeats,
                 macro_calls.arguments_of(words, "LG"),
                 each=call.kind == "each",
             )
@@ -154,10 +154,10 @@ def plan_m_macro(builder: Builder, plan: Plan) -> Step | None:
         macro_calls.refuse_g_behind(words, first)
         if "T" in words:
             note_tool_number(channel)
-        repeats = words.integer("L") if "L" in words else 1
+        repeats = subprograms.repeats_of(words)
         arguments = macro_calls.arguments_of(words, "LG", without_m=number)
         program = channel.control.find_program(channel, call.program)
-        macro_calls.enter_macro(channel, program, arguments, repeats or 0, kind=LevelKind.M_MACRO)
+        macro_calls.enter_macro(channel, program, arguments, repeats, kind=LevelKind.M_MACRO)
         macro_calls.note_level(channel)
 
     return act

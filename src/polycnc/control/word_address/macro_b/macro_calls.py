@@ -168,8 +168,7 @@ def end_modal_call(channel: MacroChannel, words: Words) -> None:
 
 
 def _macro(channel: MacroChannel, words: Words) -> tuple[Program, int]:
-    repeats = words.integer("L") if "L" in words else None
-    return subprograms.called_program(channel, words), 1 if repeats is None else repeats
+    return subprograms.called_program(channel, words), subprograms.repeats_of(words)
 
 
 def enter_macro(

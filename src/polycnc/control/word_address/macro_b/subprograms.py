@@ -95,12 +95,21 @@ def enter_subprogram(
 
 
 def _program_and_repeats(channel: MacroChannel, words: Words) -> tuple[int | None, int]:
-    number = words.integer("P") if "P" in words else None
-    repeats = words.integer("L") if "L" in words else None
+    number, repeats = words.integer("P") if "P" in words else None, repeats_of(words)
     if number is not None and number >= PROGRAM_NUMBERS and not channel.control.long_program_numbers(channel):
         packed, number = divmod(number, PROGRAM_NUMBERS)
-        return number, packed if channel.control.packs_repeats(channel) else 1 if repeats is None else repeats
-    return number, 1 if repeats is None else repeats
+        return number, packed if channel.control.packs_repeats(channel) else repeats
+    return number, repeats
+
+
+def repeats_of(words: Words) -> int:
+    """L of a block that calls a program: how often it runs, once without; it has no sign."""
+    repeats = words.integer("L")
+    if repeats is None:
+        return 1
+    if repeats < 0:
+        raise words.fail("minus", "L")
+    return repeats
 
 
 def return_from_subprogram(channel: MacroChannel, words: Words) -> None:

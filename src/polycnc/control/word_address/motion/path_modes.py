@@ -95,7 +95,8 @@ def contour_control(channel: WordAddressChannel, words: Words) -> None:
 
 
 def advance_preview(channel: WordAddressChannel, words: Words) -> None:
-    """G08 P1 / P0."""
+    """G08 P1 / P0, alone in its block."""
+    _refuse_company(words, "G8", "P")
     if words.integer("P") not in (0, 1):
         raise words.fail("preview_value", "P")
     PathModeState.of(channel).contour_control = words.integer("P") == 1
@@ -103,6 +104,7 @@ def advance_preview(channel: WordAddressChannel, words: Words) -> None:
 
 
 def select_current_loop(_channel: WordAddressChannel, words: Words) -> None:
-    """G05.4 Q1, Q0 of FANUC: another current loop of the drives (HRV3); the path is unchanged."""
+    """G05.4 Q1, Q0 of FANUC, alone in its block: another current loop of the drives (HRV3); the path is unchanged."""
+    _refuse_company(words, "G5.4", "Q")
     if words.integer("Q") not in (0, 1):
         raise words.fail("preview_value", "Q")
