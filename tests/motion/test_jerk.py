@@ -152,6 +152,24 @@ def test_axes_keep_their_velocity_between_the_points_of_a_coarse_spline(
             assert np.abs(velocity[:, i]).max() <= axis.max_feed * SLACK
 
 
+@pytest.mark.parametrize("tolerance", [0.002, 0.2])
+def test_an_axis_that_stands_costs_no_time(tolerance: float) -> None:
+    """A weak rotary axis beside lines, arcs, facets and a spline."""
+
+    def seconds(pull: float) -> float:
+        rows = Build(
+            axes=("X", "Y", "Z", "A"), context=Context(corner_mode=CornerMode.ROUNDED, tolerance_mm=tolerance)
+        )
+        rows.feed(5.0, 0.0, 0.0, 0.0).arc(6.0, 1.0, 0.0, 0.0, center=(5.0, 1.0)).feed(6.0, 1.03, 0.0, 0.0)
+        rows.arc(5.98, 1.05, 0.0, 0.0, center=(5.98, 1.03)).feed(5.9, 1.05, 0.0, 0.0)
+        for k in range(9):
+            rows.row(Kind.SPLINE, 5.8 - 0.4 * k, 1.06 + 0.02 * k * k, 0.0, 0.0)
+        turning = replace(MILL4.axes[3], acceleration=pull, jerk=20.0 * pull)
+        return rows.plan(replace(MILL4, axes=(*MILL.axes, turning)), settings=SOFT).total_s
+
+    assert seconds(10.0) == pytest.approx(seconds(1e6), rel=1e-9)
+
+
 @pytest.mark.parametrize("growth", [0.0, -4.0, 10.0])
 @pytest.mark.parametrize(("turn", "radius"), [(8.0, 0.3), (90.0, 10.0), (-20.0, 40.0)])
 def test_a_rotary_axis_that_turns_with_an_arc_keeps_its_limits(
