@@ -20,7 +20,7 @@ from polycnc.motion.sampling.run import Run
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.modes import AccelerationMode, CornerMode, FeedMode
 from tests.examples import examples
-from tests.motion.paths import MILL, Build
+from tests.motion.paths import MILL, MILL4, Build
 from tests.motion.test_limits import UNEVEN, arc, build, line, spiral, spline
 
 if TYPE_CHECKING:
@@ -150,6 +150,39 @@ def test_axes_keep_their_velocity_between_the_points_of_a_coarse_spline(
         velocity = run.at(np.arange(0.0, min(run.seconds, 20.0), PERIOD))[1]
         for i, axis in enumerate(swift.axes):
             assert np.abs(velocity[:, i]).max() <= axis.max_feed * SLACK
+
+
+@pytest.mark.parametrize("tolerance", [0.002, 0.2])
+def test_an_axis_that_stands_costs_no_time(tolerance: float) -> None:
+    """A weak rotary axis beside lines, arcs, facets and a spline."""
+
+    def seconds(pull: float) -> float:
+        rows = Build(
+            axes=("X", "Y", "Z", "A"), context=Context(corner_mode=CornerMode.ROUNDED, tolerance_mm=tolerance)
+        )
+        rows.feed(5.0, 0.0, 0.0, 0.0).arc(6.0, 1.0, 0.0, 0.0, center=(5.0, 1.0)).feed(6.0, 1.03, 0.0, 0.0)
+        rows.arc(5.98, 1.05, 0.0, 0.0, center=(5.98, 1.03)).feed(5.9, 1.05, 0.0, 0.0)
+        for k in range(9):
+            rows.row(Kind.SPLINE, 5.8 - 0.4 * k, 1.06 + 0.02 * k * k, 0.0, 0.0)
+        turning = replace(MILL4.axes[3], acceleration=pull, jerk=20.0 * pull)
+        return rows.plan(replace(MILL4, axes=(*MILL.axes, turning)), settings=SOFT).total_s
+
+    assert seconds(10.0) == pytest.approx(seconds(1e6), rel=1e-9)
+
+
+@pytest.mark.parametrize("growth", [0.0, -4.0, 10.0])
+@pytest.mark.parametrize(("turn", "radius"), [(8.0, 0.3), (90.0, 10.0), (-20.0, 40.0)])
+def test_a_rotary_axis_that_turns_with_an_arc_keeps_its_limits(
+    turn: float, radius: float, growth: float
+) -> None:
+    """On arcs and spirals of any size, between two lines along which it stands."""
+    rows = Build(axes=("X", "Y", "Z", "A"), context=Context(corner_mode=CornerMode.ROUNDED, tolerance_mm=0.1))
+    rows.feed(5.0, 0.0, 0.0, 0.0).arc(5.0 + radius, radius, 0.0, turn, center=(5.0, radius), feed=300.0)
+    rows.arc(
+        5.0, 2.0 * radius + max(growth, -0.4 * radius), 0.0, 3.0 * turn, center=(5.0, radius), feed=300.0
+    )
+    rows.feed(0.0, 2.0 * radius + max(growth, -0.4 * radius), 0.0, 3.0 * turn)
+    check(rows, MILL4)
 
 
 @settings(max_examples=300 if settings.get_current_profile_name() == "explore" else 40, deadline=None)

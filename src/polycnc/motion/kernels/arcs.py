@@ -34,7 +34,7 @@ from polycnc.motion.kernels.feeds import (
     open_joint,
     place,
 )
-from polycnc.motion.kernels.jerk import arc_hold
+from polycnc.motion.kernels.jerk import ARC_ACROSS, ARC_JERK, LONE, arc_hold
 
 SAME2 = SAME_POINT_MM * SAME_POINT_MM
 #: A radius that grows by less of itself is one.
@@ -216,6 +216,8 @@ def lay_arc(
             middle_way = arc_point(0.5 * (first + last), n, limits, weight, state)
         next_way = arc_point(last, n, limits, weight, state)
         store_point(pieces, at + PieceRecord.VECTORS + n, n, state, margin)
+        # On a spiral the way grows unevenly (Simpson's rule): a length that is off would bend the cubic along itself.
+        pieces[at + PieceRecord.LENGTH] = (way + 4.0 * middle_way + next_way) / 6.0 * (last - first)
         bound_curve(pieces, at, n, limits, min(speed, own))
         if contexts[record + ContextRecord.DRIVE_SPEED] < 1.0 or state.row.ease < 1.0:
             slow_down(contexts, record, pieces, at, n, limits, state)
@@ -228,10 +230,9 @@ def lay_arc(
                 min(cap2, pieces[at + PieceRecord.CAP2]),
                 pull,
             )
+            pull = hold_others(contexts, record, pieces, at, n, limits, state)
             pieces[at + PieceRecord.HOLD2] = min(entry2, pieces[at + PieceRecord.CAP2])
             pieces[at + PieceRecord.HOLD_PULL] = min(state.joint.pull if is_first else before, pull)
-        # On a spiral the way grows unevenly (Simpson's rule): a length that is off would bend the cubic along itself.
-        pieces[at + PieceRecord.LENGTH] = (way + 4.0 * middle_way + next_way) / 6.0 * (last - first)
         pieces[at + PieceRecord.ENTRY2] = min(entry2, pieces[at + PieceRecord.CAP2])
         entry2 = min(pieces[at + PieceRecord.CAP2], point_cap2(n, limits, state, margin))
         way = next_way
@@ -334,6 +335,35 @@ def place_arc(
                     + s * state.basis[3 + j]
                     + state.arc.rise * angle / sweep * state.basis[6 + j]
                 )
+
+
+def hold_others(
+    contexts: Floats, record: int, pieces: Floats, at: int, n: int, limits: Limits, state: State
+) -> float:
+    """Lower CAP2 and PULL of a piece, with limited jerk, to what the axes allow that only move along with the arc.
+
+    Their q'' is that by which the way per radian of a spiral changes; it hardly changes along a piece. PULL as it is
+    then.
+    """
+    here, ramp = at + PieceRecord.VECTORS, contexts[record + ContextRecord.RAMP_S]
+    for i in range(n):
+        share = max(abs(pieces[here + i]), abs(pieces[here + n + i]))
+        if share == 0.0 or i in (limits.geometry[0], limits.geometry[1], limits.geometry[2]):
+            continue
+        a, j = state.row.ease * limits.acceleration[i], state.row.ease * limits.jerk[i]
+        bend = max(abs(pieces[here + 2 * n + i]), abs(pieces[here + 3 * n + i]))
+        if bend > 0.0:
+            twist = abs(pieces[here + 3 * n + i] - pieces[here + 2 * n + i]) / pieces[at + PieceRecord.LENGTH]
+            cap2 = ARC_ACROSS * a / bend
+            if twist > 0.0:
+                cap2 = min(cap2, (ARC_JERK * j / twist) ** (2.0 / 3.0))
+            pieces[at + PieceRecord.CAP2] = min(pieces[at + PieceRecord.CAP2], cap2)
+        v = sqrt(pieces[at + PieceRecord.CAP2])
+        along = (LONE - ARC_JERK) * j / (2.0 * share / ramp + 3.0 * bend * v)
+        along = min(along, (a - bend * v * v) / share)
+        pieces[at + PieceRecord.PULL] = min(pieces[at + PieceRecord.PULL], along)
+    pull: float = pieces[at + PieceRecord.PULL]
+    return pull
 
 
 def facing_radius(angle: float, limits: Limits, state: State) -> float:

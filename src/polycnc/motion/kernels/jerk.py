@@ -278,6 +278,8 @@ def row_pull(
         step, bow = row_step(state, i, mean), most_bow(state, i, mean)
         way, bowed = max(abs(state.unit[i]), abs(state.tangent[i])), (state.unit[i] - state.tangent[i]) / mean
         turns = turns or bowed * state.bow[i] < 0.0
+        if way == 0.0 and bow == 0.0 and state.bend[i] == 0.0 and state.bent_before[i] == 0.0:
+            continue  # an axis that stands needs nothing
         parts = min(parts, ALONG * state.joint.ease * axis_pull(ramp, limits, i))
         if step > NO_TURN:
             parts = min(parts, JERK_TURN * j * blend / step)
@@ -360,8 +362,10 @@ def arc_hold(
     for k in range(3):
         i = limits.geometry[k]
         if i >= 0:
-            pull = min(pull, state.row.ease * axis_pull(ramp, limits, i))
-            if state.basis[k] != 0.0 or state.basis[3 + k] != 0.0:
+            turns = state.basis[k] != 0.0 or state.basis[3 + k] != 0.0
+            if turns or (state.arc.rise != 0.0 and state.basis[6 + k] != 0.0):
+                pull = min(pull, state.row.ease * axis_pull(ramp, limits, i))
+            if turns:
                 a, j = min(a, limits.acceleration[i]), min(j, limits.jerk[i])
     cap2 = min(
         speed * speed,
