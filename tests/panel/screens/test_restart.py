@@ -111,6 +111,24 @@ def test_after_a_reset_the_search_finds_the_point_of_interruption(control: str, 
     assert panel.control.restart["X"][0] == pytest.approx(10.0)
 
 
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_blocks_of_mdi_leave_the_point_of_interruption(lang: str) -> None:
+    panel = bench_of("sinumerik-840d", lang)
+    panel.press("START")
+    assert panel.control.run_until(lambda control: control.active_block.text[:2] == "N7", limit_s=60.0)
+    panel.control.reset()
+    panel.control.run()
+    panel.turn("mode", "mdi")
+    panel.control.mdi("G0 Z50\nM30")
+    assert panel.control.run() is State.READY
+    panel.turn("mode", "auto")
+    open_search(panel)
+    side(panel, "Interrupt. point", "中斷點")
+    assert panel.message == ""
+    (row,) = (row for row in panel.window("program").rows if row[0].cursor)
+    assert row[0].text.startswith("N7")
+
+
 def test_another_program_is_shown_from_its_top() -> None:
     panel = bench_of("fanuc-0i-tf", "en")
     panel.control.store_program("O0002", "O2\nG0 X5.\nM30\n")
