@@ -266,6 +266,24 @@ def test_a_program_test_that_is_given_up_leaves_the_axes_where_they_stand() -> N
     assert control.positions.real["X"] > 3.0, "the test is over"
 
 
+def test_a_program_test_that_is_given_up_is_no_point_of_interruption() -> None:
+    panel = Bench("sinumerik-840d", "en", program="N10 G1 X10 F600\nN20 X20\nN30 X30\nM30\n")
+    control = panel.control
+    panel.press("START")
+    panel.passes(2.5)
+    control.reset()
+    control.run()
+    assert control.snapshot.interruption == 3
+    control.block_search("N30", how="program-test")
+    panel.passes(0.05)
+    control.reset()
+    control.run()
+    assert control.snapshot.interruption == 3
+    control.block_search("N20", how="program-test")
+    control.run()
+    assert control.snapshot.interruption == 2
+
+
 def test_a_block_that_the_program_does_not_come_to_is_told() -> None:
     program = "GOTOF ENDE\nN5 G0 X1\nENDE: G1 X5 F1000\nM30\n"
     panel = Bench("sinumerik-840d", "en", program=program)
