@@ -64,6 +64,9 @@ class Control(ChannelControl, Protocol):
     def moved_together(self, channel: Channel, axis: int) -> tuple[int, ...]:
         """Columns of the axes that go together when one of them is moved by hand."""
 
+    def hand_range(self, channel: Channel, axis: int) -> tuple[float, float]:
+        """From where to where software limits of the control let an axis go by hand, machine position."""
+
     def handwheel_offset_speed(self, channel: Channel, axis: int) -> float:
         """How fast a handwheel shifts an axis beside its program, mm/s or degrees/s; 0 where the control has none."""
 

@@ -132,3 +132,16 @@ def test_linear_axes_go_on_from_where_they_have_followed() -> None:
     virtual.jog("B", -1)
     virtual.step(0.4)
     assert tip(virtual) == pytest.approx(there, abs=1e-6)
+
+
+def test_the_tool_turns_no_farther_than_software_limits_let_the_linear_axes_follow() -> None:
+    setup = {"tools": {1: {"length": 100.0}}, "parameters": {"36110[X]": 15.0}}
+    control = VirtualControl("sinumerik-840d", machine="mill5-bc-head", setup=setup)
+    control.load("T1 D1\nM6\nTRAORI\nG0 X10 Y0 Z50\nM0\nM30\n")
+    control.cycle_start()
+    control.run()
+    control.select_mode("jog")
+    control.jog("B", 1)
+    control.run(limit_s=20.0)
+    assert 14.0 < control.positions.machine["X"] < 15.0001
+    assert control.positions.machine["B"] > 1.0

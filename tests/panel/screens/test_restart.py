@@ -111,6 +111,24 @@ def test_after_a_reset_the_search_finds_the_point_of_interruption(control: str, 
     assert panel.control.restart["X"][0] == pytest.approx(10.0)
 
 
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_blocks_of_mdi_leave_the_point_of_interruption(lang: str) -> None:
+    panel = bench_of("sinumerik-840d", lang)
+    panel.press("START")
+    assert panel.control.run_until(lambda control: control.active_block.text[:2] == "N7", limit_s=60.0)
+    panel.control.reset()
+    panel.control.run()
+    panel.turn("mode", "mdi")
+    panel.control.mdi("G0 Z50\nM30")
+    assert panel.control.run() is State.READY
+    panel.turn("mode", "auto")
+    open_search(panel)
+    side(panel, "Interrupt. point", "中斷點")
+    assert panel.message == ""
+    (row,) = (row for row in panel.window("program").rows if row[0].cursor)
+    assert row[0].text.startswith("N7")
+
+
 def test_another_program_is_shown_from_its_top() -> None:
     panel = bench_of("fanuc-0i-tf", "en")
     panel.control.store_program("O0002", "O2\nG0 X5.\nM30\n")
@@ -246,6 +264,24 @@ def test_a_program_test_that_is_given_up_leaves_the_axes_where_they_stand() -> N
     panel.press("START")
     panel.passes(0.5)
     assert control.positions.real["X"] > 3.0, "the test is over"
+
+
+def test_a_program_test_that_is_given_up_is_no_point_of_interruption() -> None:
+    panel = Bench("sinumerik-840d", "en", program="N10 G1 X10 F600\nN20 X20\nN30 X30\nM30\n")
+    control = panel.control
+    panel.press("START")
+    panel.passes(2.5)
+    control.reset()
+    control.run()
+    assert control.snapshot.interruption == 3
+    control.block_search("N30", how="program-test")
+    panel.passes(0.05)
+    control.reset()
+    control.run()
+    assert control.snapshot.interruption == 3
+    control.block_search("N20", how="program-test")
+    control.run()
+    assert control.snapshot.interruption == 2
 
 
 def test_a_block_that_the_program_does_not_come_to_is_told() -> None:

@@ -6,6 +6,7 @@ from time import process_time
 
 import pytest
 
+from polycnc.messages.catalogue import LANGUAGES
 from polycnc.panel.screens.words import Edited, Place, moved, spans
 from tests.panel.bench import Bench
 
@@ -82,3 +83,48 @@ def test_a_long_program_is_edited_on_the_screen() -> None:
     panel.typed("M8", "INSERT")
     assert panel.message == ""
     assert "M8" in panel.text
+
+
+def names_of(panel: Bench) -> list[str]:
+    return sorted(each.name for each in panel.control.programs)
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+@pytest.mark.parametrize("control", ["fanuc-m", "fanuc-0i-tf"])
+def test_another_number_is_that_of_the_same_program(control: str, lang: str) -> None:
+    panel = Bench(control, lang, "O1\nG0 X5.\nM30\n")
+    panel.turn("mode", "edit")
+    panel.keys("PROG")
+    panel.typed("O7", "INSERT")
+    panel.typed("O0001", "ALTER")
+    assert panel.message == panel.says("the memory has a program O0001 already", "記憶體中已有程式 O0001")
+    panel.screen.buffer = ""
+    panel.typed("O1", "DOWN")
+    panel.typed("O22", "ALTER")
+    assert panel.message == ""
+    assert (panel.control.program, names_of(panel)) == ("O0022", ["O0007", "O0022"])
+    assert list(panel.control.program_lines("O22")) == ["O22", "G0 X5.", "M30"]
+    for keys in (("DELETE",), ("EOB", "DELETE")):
+        panel.keys(*keys)
+        assert panel.message == panel.says("nothing can be written here", "此處無法寫入")
+        panel.screen.buffer = ""
+    panel.keys("DOWN")
+    for key in ("ALTER", "INSERT"):
+        panel.typed("X1.;O7;M99;", key)  # it would stand in the place of another program
+        assert panel.message == panel.says("nothing can be written here", "此處無法寫入")
+        panel.screen.buffer = ""
+    assert list(panel.control.program_lines("O7")) == ["O7"]
+    assert list(panel.control.program_lines("O22")) == ["O22", "G0 X5.", "M30"]
+
+
+def test_no_program_is_left_that_cannot_be_begun() -> None:
+    panel = Bench("fanuc-m", "en", "O1\nG1 X50. F100.\nM30\n")
+    panel.press("START")
+    panel.passes(1.0)
+    panel.press("HOLD")
+    panel.control.run()
+    panel.turn("mode", "edit")
+    panel.keys("PROG")
+    panel.typed("O5", "INSERT")
+    assert "hold" in panel.message
+    assert names_of(panel) == ["O0001"]

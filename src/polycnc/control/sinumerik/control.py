@@ -198,6 +198,10 @@ class Sinumerik:
         """The axes of a gantry."""
         return gantry.moved_together(channel, axis)
 
+    def hand_range(self, channel: SinumerikChannel, axis: int) -> tuple[float, float]:
+        """MD36100 and MD36110, or the second ones."""
+        return working_area.switches(channel, axis)
+
     def handwheel_offset_speed(self, channel: SinumerikChannel, axis: int) -> float:
         """DRF: MD32020 by MD32090."""
         return overlay.handwheel_speed(channel, axis)

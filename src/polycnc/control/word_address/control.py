@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import cached_property
+from math import inf
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from polycnc.channel.stack import LevelKind
@@ -275,6 +276,10 @@ class WordAddressControl:
     def moved_together(self, _channel: Channel, axis: int) -> tuple[int, ...]:
         """Each axis goes by itself."""
         return (axis,)
+
+    def hand_range(self, _channel: Channel, _axis: int) -> tuple[float, float]:
+        """The limits of the machine alone."""
+        return -inf, inf
 
     def handwheel_offset_speed(self, _channel: Channel, _axis: int) -> float:
         """No handwheel shifts an axis beside its program."""

@@ -107,8 +107,8 @@ class AboutTip:
         return self.reach(column, target, speed())[1]
 
     def _is_within(self, column: int, place: float) -> bool:
-        data, here = self._axes[column].data, self._here[column]
-        return min(data.limit_minus, here) - NO_WAY <= place <= max(data.limit_plus, here) + NO_WAY
+        hand, here = self._axes[column].hand, self._here[column]
+        return hand.end_of_travel(-1, here) - NO_WAY <= place <= hand.end_of_travel(1, here) + NO_WAY
 
     def _fastest(
         self, before: Sequence[float], real: Sequence[float], last: Sequence[float] | None, step: float

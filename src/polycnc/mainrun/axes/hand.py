@@ -30,11 +30,14 @@ class Hand:
         ramp: Seconds over which its motion is averaged.
     """
 
-    __slots__ = ("_base", "_data", "_follows", "_goal", "_law", "_lead", "_place", "_ramp", "_speed")
+    __slots__ = (
+        "_base", "_data", "_follows", "_goal", "_high", "_law", "_lead", "_low", "_place", "_ramp", "_speed",
+    )  # fmt: skip
 
     def __init__(self, data: AxisData, ramp: float) -> None:
         self._data = data
         self._ramp = ramp
+        self._low, self._high = data.limit_minus, data.limit_plus
         self._base = self._place = 0.0
         self._lead: AxisMove | None = None
         self._law = Law(0.0, 0.0)
@@ -85,6 +88,10 @@ class Hand:
             return self._lead.after(time)[1]
         return self._law.mean_speed(time, self._ramp)
 
+    def bound(self, low: float, high: float) -> None:
+        """The axis keeps to this range too, beside the travel of the machine."""
+        self._low, self._high = max(self._data.limit_minus, low), min(self._data.limit_plus, high)
+
     # ---- commands ------------------------------------------------------------------------------------------
 
     def stand(self, place: float, base: float) -> None:
@@ -110,9 +117,9 @@ class Hand:
 
         `speed` is asked again when the operator has turned an override.
         """
-        limits, here = self._data, self._place
+        here = self._place
         # An axis beyond a limit may come back.
-        low, high = min(limits.limit_minus, here), max(limits.limit_plus, here)
+        low, high = min(self._low, here), max(self._high, here)
         self._goal, self._speed = min(max(target, low), high), speed
         self._move(self._goal, speed(), time)
 
@@ -140,7 +147,7 @@ class Hand:
 
     def end_of_travel(self, direction: int, position: float) -> float:
         """How far the axis can go in a direction: its limit, or so far that nobody waits for it."""
-        limit = self._data.limit_plus if direction > 0 else self._data.limit_minus
+        limit = self._high if direction > 0 else self._low
         if abs(limit) == inf:
             return position + direction * ENDLESS
         return max(limit, position) if direction > 0 else min(limit, position)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
+from math import inf
 from typing import TYPE_CHECKING
 
 from polycnc.geometry.tolerances import NO_WAY
@@ -127,6 +128,9 @@ class HandCommands:
         for i in sorted({column for each in named for column in together(run.channel, each)}):
             data = run.channel.axis_data[i]
             run.axes.forget_shift(i)
+            run.axes[i].hand.bound(
+                -inf, inf
+            )  # a reference point beyond the software limits is reached all the same
             speed = partial(self._switches.rapid_speed, data)
             run.axes[i].hand.towards(data.reference_points[0], speed, self._clock.time)
 
@@ -235,6 +239,8 @@ class HandCommands:
         if self._runs.move:
             raise CommandRefused("mainrun.moving")
         run.take_in_hand(run.machine_position)
+        for column, axis in enumerate(run.axes):
+            axis.hand.bound(*run.channel.control.hand_range(run.channel, column))
         if run.axes.led is not None and not run.axes.led.turns:
             run.axes.settle()
         return run.machine_position

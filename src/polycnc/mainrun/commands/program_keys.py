@@ -169,7 +169,10 @@ class ProgramCommands:
             run = operation.runs.named(number)
             operation.prepare(run)
             run.machinery.reset()
-            run.reached.clear()
+            if (
+                mode is not Mode.MDI
+            ):  # a tool is changed by hand, and the search finds the point of interruption
+                run.reached.clear()
             run.preprocessing.start(programs[number], run.execution.position)
         operation.resume()
 

@@ -131,9 +131,10 @@ class Programs:
                 del self.mains[number]
 
     def select(self, program: Program, channel: int) -> None:
-        """A program of the memory becomes the main program of a channel."""
+        """A program of the memory becomes the main program of a channel; those that are loaded stay."""
         if not any(program is each for programs in self._loaded.values() for each in programs):
-            self._loaded[channel] = [program]
+            others = (each for each in self._loaded.get(channel, ()) if not _is_same(each, program))
+            self._loaded[channel] = [*others, program]
             self.store.put(program)
         self.mains[channel] = program
         self._inserted.pop(channel, None)

@@ -282,7 +282,9 @@ class Operation:
         self.signals[AT_END] = 0.0
         here = [(run, run.machine_position) for run in self.runs]
         for run, position in here:
+            reached = dict(run.reached)
             run.give_up()
+            run.reached = reached if test is not None else run.reached
             if self.status.is_locked:
                 self.control.stop_spindles(run.channel)
             if self.starts_up:
@@ -369,7 +371,8 @@ class Operation:
     def enters(self, number: int, block: Block) -> None:
         """A block begins."""
         self.status.report("block", number, program=block.program, line=block.line)
-        self.runs[number].reach(block)
+        if self.test is None:  # what the axes have not done is no point of interruption
+            self.runs[number].reach(block)
         self.runs[number].interpolator.enter(block)
         if self.test is not None and self.test.is_at(number, block):
             self.runs[number].execution.stop(FOUND)
@@ -393,6 +396,7 @@ class Operation:
         run, test = self.runs[number], self.test
         if test is not None and number == test.channel and reason == FOUND:
             self._end_test(test)
+            run.reach(run.execution.block)
             self.collected, self.searched = {number: test.functions}, True
         elif test is not None and number == test.channel and reason == "end":
             self._giving_up = True  # the block did not come

@@ -29,6 +29,8 @@ Action: TypeAlias = Callable[["ScreenState"], None]
 
 #: The number of a program.
 _PROGRAM = regex(r"(?i)O\d{1,8}")
+#: Numbers at which programs of a text begin.
+_NUMBERS = regex(r"(?im)^\s*[O:](\d{1,8})")
 #: An axis with a value behind it, which may be missing; a name with a number wants an equals sign (`Q1=5`).
 _AXIS_VALUE = regex(r"(?P<axis>[A-Z]+\d+(?==)|[A-Z])\s*=?\s*(?P<value>[+-]?\d*\.?\d*)")
 
@@ -264,6 +266,8 @@ def calculate(screen: ScreenState) -> None:
 def edit_words(screen: ScreenState, key: str) -> None:
     """INSERT, ALTER and DELETE of words in mode EDIT; the number of a program and INSERT begin a new one.
 
+    ALTER of its number gives the program another one, which the memory must not have.
+
     Raises:
         CommandRefused: The mode is another one, or nothing is keyed in.
         UserError: The memory has that program.
@@ -274,23 +278,30 @@ def edit_words(screen: ScreenState, key: str) -> None:
     if not screen.edits:
         raise CommandRefused("screen.mode", mode=screen.family.modes[Mode.EDIT])
     if key == "INSERT" and _PROGRAM.fullmatch(typed):
-        _begin_program(screen, typed.upper())
+        _begin_program(screen, typed.upper(), f"{typed.upper()}\n")
     else:
         _change_program(screen, key, typed)
     screen.buffer = ""
 
 
-def _begin_program(screen: ScreenState, name: str) -> None:
+def _begin_program(screen: ScreenState, name: str, text: str) -> None:
+    """A program that the memory has not got yet becomes the main program; nothing is left of one that cannot."""
+    control = screen.control
     with suppress(CommandRefused):
-        screen.control.program_lines(name)
+        control.program_lines(name)
         raise UserError("screen.program-exists", name=name)
-    screen.control.store_program(name, f"{name}\n")
-    screen.control.select_program(name)
+    control.store_program(name, text)
+    try:
+        control.select_program(name)
+    except CommandRefused:
+        control.delete_program(name)
+        raise
     screen.program_row, screen.program_word = 0, 0
 
 
 def _change_program(screen: ScreenState, key: str, typed: str) -> None:
     control, edited = screen.control, screen.edited
+    before = _NUMBERS.findall(edited.text)
     if key == "INSERT":
         edited.insert(typed)
     elif key == "ALTER":
@@ -301,8 +312,16 @@ def _change_program(screen: ScreenState, key: str, typed: str) -> None:
         edited.delete()
     else:
         raise CommandRefused("screen.no-field")
-    control.store_program(control.program or "MAIN", edited.text)
-    screen.program_row, screen.program_word = edited.place.row, edited.place.word
+    after = _NUMBERS.findall(edited.text)
+    if [int(each) for each in after] == [int(each) for each in before]:
+        control.store_program(control.program or "MAIN", edited.text)
+        screen.program_row, screen.program_word = edited.place.row, edited.place.word
+    elif key == "ALTER" and _PROGRAM.fullmatch(typed) and len(before) == len(after) == 1:
+        former = control.program
+        _begin_program(screen, typed.upper(), edited.text)
+        control.delete_program(former)
+    else:  # the number of a program is not lost, and no other program is overwritten
+        raise CommandRefused("screen.no-field")
 
 
 def insert(screen: ScreenState, _key: str = "INSERT") -> None:

@@ -196,6 +196,10 @@ class FanucTurning(CustomMacroControl):
         code = channel.mode[group]
         return written_codes(self.system(channel)).get((group, code), code)
 
+    def hand_range(self, channel: LatheChannel, axis: int) -> tuple[float, float]:
+        """Stored stroke check 1."""
+        return limits.hand_range(channel, axis)
+
     def motion_settings(self, channel: LatheChannel) -> MotionSettings:
         """1401#1 LRP: rapids run on a line, else every axis by itself; what acts on a rigid tap (5203#4, 5200#6).
 

@@ -82,10 +82,7 @@ def refresh(channel: SinumerikChannel) -> None:
     data = channel.memory.data
     limits = []
     for column, name in enumerate(channel.axes):
-        minus, plus = (f"$MA_POS_LIMIT_{side}{_pair(channel, column, side)}" for side in ("MINUS", "PLUS"))
-        low = data.number(minus, name) if data.is_set(minus, name) else -inf
-        high = data.number(plus, name) if data.is_set(plus, name) else inf
-        limits.append(Limit(column, low, high, SWITCH))
+        limits.append(Limit(column, *switches(channel, column), SWITCH))
         if channel.mode["working_area"] == "WALIMON":
             below, above = (
                 bool(data.number(f"$SA_WORKAREA_{side}_ENABLE", name)) for side in ("MINUS", "PLUS")
@@ -97,6 +94,16 @@ def refresh(channel: SinumerikChannel) -> None:
     ranges = Ranges.of(channel)
     ranges.limits = tuple(limit for limit in limits if limit.low > -inf or limit.high < inf)
     channel.boundary = ranges if ranges.limits else None
+
+
+def switches(channel: SinumerikChannel, column: int) -> tuple[float, float]:
+    """The software limit switches of an axis; those alone that setup or program gave a value."""
+    data, name = channel.memory.data, channel.axes[column]
+    minus, plus = (f"$MA_POS_LIMIT_{side}{_pair(channel, column, side)}" for side in ("MINUS", "PLUS"))
+    return (
+        data.number(minus, name) if data.is_set(minus, name) else -inf,
+        data.number(plus, name) if data.is_set(plus, name) else inf,
+    )
 
 
 def _of_work_system(channel: SinumerikChannel) -> list[Limit]:

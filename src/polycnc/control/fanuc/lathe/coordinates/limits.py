@@ -128,6 +128,11 @@ def _zone(channel: LatheChannel, named: list[tuple[int, float, float]]) -> Strok
     return zone_between(named, inside=not channel.memory.parameters.OUT)
 
 
+def hand_range(channel: LatheChannel, axis: int) -> tuple[float, float]:
+    """Where stored stroke check 1 lets an axis go by hand: it stops at the limit (1320, 1321)."""
+    return _travel(channel).get(axis, (-inf, inf))
+
+
 def _travel(channel: LatheChannel) -> dict[int, tuple[float, float]]:
     """Stored stroke check 1: limits by parameter, where the setup gives them."""
     parameters = channel.memory.parameters
