@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from polycnc.cycles.turning import thread_chain
 from polycnc.cycles.turning.contour import Contour, Piece, parallel, turned_round
-from polycnc.cycles.turning.stock_removal import Cut, Removal, remove, sections, way_clear
+from polycnc.cycles.turning.stock_removal import Cut, Removal, blank, is_clear, remove, sections, way_clear
 from polycnc.cycles.turning.thread_chain import Thread
 from polycnc.geometry import arcs, offset
 from polycnc.toolpath import Kind
@@ -182,3 +182,28 @@ def test_the_way_back_from_under_an_overhang_goes_along_first() -> None:
     closed = [*overhang, *lines((22.0, -24.0), (22.0, -10.0))]
     with pytest.raises(ValueError, match="no way out"):
         way_clear(closed, start, home, towards=-1.0, lift=1.0)
+
+
+def test_a_way_from_behind_passes_over_the_blank() -> None:
+    shaft = lines((0.0, 8.0), (-2.0, 5.0), (-7.0, 11.0), (-12.0, 11.0))
+    start, end = (-18.0, 19.0), (1.0, 8.0)
+    assert not way_clear(shaft, start, end, towards=-1.0, lift=1.0)
+    over = way_clear(blank(shaft, -1.0), start, end, towards=-1.0, lift=1.0)
+    assert rounded(stroke.end for stroke in over) == [(1.0, 19.0)]
+
+
+def test_the_lift_off_under_an_overhang_goes_along_the_cut() -> None:
+    overhang = lines((0.0, 20.0), (-10.0, 20.0), (-8.0, 24.0), (-20.0, 26.0))
+    for cut in remove(overhang, Removal(2.0, 1.0, -1.0, follows=False)):
+        assert cut.stroke.center is None
+        a, b = cut.stroke.end
+        # The wall leans to the front: at height b it stands at -10 + (b - 20) / 2.
+        assert not (20.0 < b < 24.0 and a < -10.0 + (b - 20.0) / 2.0 - 1e-3)
+
+
+def test_no_way_leads_out_through_the_front_under_the_begin() -> None:
+    bore = lines((0.0, 13.0), (-4.0, 13.0), (-4.0, 17.0), (-16.0, 17.0), (-27.0, 12.0))
+    start, end = (-4.0 - 1e-7, 14.6), (4.0, 9.5)
+    assert not is_clear(bore, [start, (4.0, 14.6), end], 1.0)
+    way = way_clear(bore, start, end, towards=1.0, lift=1.0)
+    assert rounded(stroke.end for stroke in way) == [(-4.0, 9.5)]

@@ -8,14 +8,14 @@ cut after what lies in front of it, from the level at which the summit closes it
 from __future__ import annotations
 
 from itertools import pairwise
-from math import copysign
+from math import copysign, hypot
 from typing import TYPE_CHECKING
 
 from polycnc.cycles.count import parts
-from polycnc.cycles.turning.contour import climb, gaps, points
+from polycnc.cycles.turning.contour import Piece, climb, gaps, points
 from polycnc.cycles.turning.stroke import PlaneStroke
 from polycnc.deferred.records import dataclass
-from polycnc.geometry import arcs
+from polycnc.geometry import arcs, offset
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
@@ -27,6 +27,10 @@ if TYPE_CHECKING:
 
 _HAIR = 1e-7
 _WHOLE = 1e-6
+#: So far off the contour a way begins that is looked at, for its first point lies on it, mm.
+_ROOM = 1e-3
+#: What is so near to a line lies on it; so deep is the material under the begin of a contour, mm.
+_TOUCH, _DEEP = 1e-4, 1e4
 #: Parts of an arc that a rapid way is compared with.
 _SAMPLES = 32
 
@@ -165,14 +169,22 @@ def way_clear(
         if low < a < high:
             on_way = start[1] + (end[1] - start[1]) * (a - start[0]) / (end[0] - start[0])
             touches = touches or towards * (on_way - b) > -_HAIR
-    if not touches and _is_clear(contour, [start, end]):
+    if not touches and is_clear(contour, [start, end], towards):
         return []
     over = way_over(contour, start, end, towards=towards, lift=lift)
     along = [PlaneStroke(Kind.RAPID, (end[0], start[1]))]
     for way in (over, along):
-        if _is_clear(contour, [start, *(stroke.end for stroke in way), end]):
+        if is_clear(contour, [start, *(stroke.end for stroke in way), end], towards):
             return way
     raise ValueError("no way out")
+
+
+def blank(contour: Contour, towards: float) -> Contour:
+    """The outline of the material before roughing: up to the highest point, from end to end of the contour."""
+    (begin, low), end = contour[0].edge.start, contour[-1].edge.end[0]
+    top = -towards * max(height for _, height in _heights(contour, towards))
+    corners = [(begin, low), (begin, top), (end, top)]
+    return [Piece(offset.line(p, q)) for p, q in pairwise(corners)]
 
 
 def _samples(contour: Contour) -> Iterator[Point]:
@@ -182,21 +194,26 @@ def _samples(contour: Contour) -> Iterator[Point]:
             yield _point_of(piece.edge, k)
 
 
-def _is_clear(contour: Contour, way: list[Point]) -> bool:
-    """Whether a way from corner to corner crosses the contour nowhere."""
+def is_clear(contour: Contour, way: list[Point], towards: float) -> bool:
+    """Whether a way from corner to corner, (a, b) in mm, crosses nowhere the contour or the front under its begin."""
     sides = list(pairwise(_samples(contour)))
+    begin, first = contour[0].edge.start, contour[0].edge.departing[0]
+    if first * (contour[-1].edge.end[0] - begin[0]) >= 0.0:  # else it hangs over
+        sides.append(((begin[0], begin[1] + towards * _DEEP), begin))
     return not any(_cross(p, q, a, b) for p, q in pairwise(way) for a, b in sides)
 
 
 def _cross(p: Point, q: Point, a: Point, b: Point) -> bool:
     """Whether two lines cross between their ends."""
-    return _sides(p, q, a, b) < -_HAIR and _sides(a, b, p, q) < -_HAIR
+    return _are_apart(p, q, a, b) and _are_apart(a, b, p, q)
 
 
-def _sides(p: Point, q: Point, a: Point, b: Point) -> float:
-    """Below 0 where two points lie on both sides of the line from p to q."""
+def _are_apart(p: Point, q: Point, a: Point, b: Point) -> bool:
+    """Whether two points lie on both sides of the line from p to q, and not just on it."""
     u, v = q[0] - p[0], q[1] - p[1]
-    return (u * (a[1] - p[1]) - v * (a[0] - p[0])) * (u * (b[1] - p[1]) - v * (b[0] - p[0]))
+    on = _TOUCH * hypot(u, v)
+    first, second = u * (a[1] - p[1]) - v * (a[0] - p[0]), u * (b[1] - p[1]) - v * (b[0] - p[0])
+    return min(first, second) < -on and max(first, second) > on
 
 
 def _point_of(edge: Edge, k: int) -> Point:
@@ -242,5 +259,7 @@ def _cut(
         last = (last[0], former)
     # A relief has a flank behind the tool: straight up. In front of the open section nothing stands.
     off = (last[0] - onwards * lift if front else last[0], last[1] - towards * lift)
+    if front and not is_clear(contour, [(last[0] - onwards * _ROOM, last[1]), off], towards):
+        off = (off[0], last[1])  # Under an overhang there is no way but along the cut.
     yield Cut(PlaneStroke(Kind.FEED, off))
     yield Cut(PlaneStroke(Kind.RAPID, (entry, off[1])))

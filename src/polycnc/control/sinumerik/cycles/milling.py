@@ -132,13 +132,22 @@ def reference_point(moves: Moves, a: Arguments) -> Point:
 
 
 #: Digits of _GMODE: how the shape is dimensioned (from 2 on from a corner), and whether all of a pocket is milled (1).
-_DIMENSIONING_PLACE, _PREMACHINED_PLACE = 3, 4
+#: In its hundreds 2 asks for the start point alone.
+_START_POINT_PLACE, _DIMENSIONING_PLACE, _PREMACHINED_PLACE = 2, 3, 4
+ONLY_START = 2
 FROM_MIDDLE, WHOLE = (0, 1), 1
 
 
 def check_dimensioning(a: Arguments) -> None:
-    """PC0001 for a pocket or spigot that is dimensioned from a corner."""
+    """PC0001 for a pocket or spigot that is dimensioned from a corner, or whose start point alone is asked for."""
+    check_start_point(a)
     if a.digit("_GMODE", _DIMENSIONING_PLACE) not in FROM_MIDDLE:
+        raise not_supported(f"{a.cycle} _GMODE")
+
+
+def check_start_point(a: Arguments) -> None:
+    """PC0001 where the start point alone is asked for: milling would be more than that."""
+    if a.digit("_GMODE", _START_POINT_PLACE) >= ONLY_START:
         raise not_supported(f"{a.cycle} _GMODE")
 
 
@@ -162,6 +171,7 @@ def pocket3(moves: Moves, a: Arguments) -> None:
 
 def pocket4(moves: Moves, a: Arguments) -> None:
     """POCKET4: circular pocket."""
+    check_start_point(a)
     radius, size = cutter(moves), abs(a["_PRAD"])
     _pocket(moves, a, (2.0 * size, 2.0 * size, size), (abs(a["_AP1"]), abs(a["_AP1"])), radius)
 

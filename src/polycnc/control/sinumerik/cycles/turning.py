@@ -26,7 +26,7 @@ from polycnc.cycles.turning.contour import (
     swapped_stroke,
     turned_round,
 )
-from polycnc.cycles.turning.stock_removal import Removal, remove, way_clear
+from polycnc.cycles.turning.stock_removal import Removal, blank, is_clear, remove, way_clear, way_over
 from polycnc.cycles.turning.stroke import PlaneStroke
 from polycnc.cycles.turning.thread_chain import Thread
 from polycnc.geometry import offset
@@ -206,15 +206,30 @@ class Work:
         above = (begin[0], begin[1] - self.towards * abs(off))
         return [Piece(offset.arc(above, onto, begin, off < 0.0))]
 
-    def clear(self, contour: Contour, end: Point, lift: float) -> None:
-        """Go past the contour before a rapid to a place, where that would touch it; 61606 where no way is clear."""
+    def clear(self, contour: Contour, end: Point, lift: float, *, stock: Contour | None = None) -> None:
+        """Go past the contour before a rapid to a place, where that would touch it; 61606 where no way is clear.
+
+        `stock` is what still lies on the contour: the way passes over it as well, where there is one that does.
+        """
         start = self.pair(*self.moves.point)
         try:
             way = way_clear(contour, start, end, towards=self.towards, lift=lift)
         except ValueError:
             raise AlarmError("61606") from None
+        if stock is not None:
+            try:
+                over = way_clear(stock, start, end, towards=self.towards, lift=lift)
+            except ValueError:
+                over = way_over(stock, start, end, towards=self.towards, lift=lift)
+            if is_clear(contour, [start, *(stroke.end for stroke in over), end], self.towards):
+                way = over
         for stroke in way:
             self.perform(stroke, 0.0)
+
+    def require_clear(self, contour: Contour, end: Point) -> None:
+        """61606 for a straight stroke through the contour: one that runs back on itself has no cuts that are clear."""
+        if not is_clear(contour, [self.pair(*self.moves.point), end], self.towards):
+            raise AlarmError("61606")
 
     def perform(self, stroke: PlaneStroke, feed: float) -> None:
         """Make a stroke, which is a block."""
@@ -252,12 +267,13 @@ def _remove(work: Work, a: Arguments, kind: int, rounding: int, read_: Contour) 
     moves = work.moves
     home = moves.point
     contour = work.contour(read_)
+    stock: Contour | None = None
     if kind != FINISHING:
-        _rough(work, a, contour, follows=rounding != WITHOUT_ROUNDING)
+        stock = _rough(work, a, contour, follows=rounding != WITHOUT_ROUNDING)
     if kind != ROUGHING:
-        _finish(work, a, contour)
-    path = work.tool_path(contour, 0.0)
-    work.clear(path, work.pair(*home), _lift(a))
+        _finish(work, a, contour, stock)
+        stock = None
+    work.clear(work.tool_path(contour, 0.0), work.pair(*home), _lift(a), stock=stock)
     moves.rapid(*home)
     moves.end_block()
 
@@ -266,8 +282,8 @@ def _lift(a: Arguments) -> float:
     return a["_VRT"] if a["_VRT"] > 0.0 else LIFT_MM
 
 
-def _rough(work: Work, a: Arguments, contour: Contour, *, follows: bool) -> None:
-    """Cuts down to the allowances, from the open end of the contour."""
+def _rough(work: Work, a: Arguments, contour: Contour, *, follows: bool) -> Contour:
+    """Cuts down to the allowances, from the open end of the contour; gives what they leave."""
     if not a["MID"] > 0.0:
         raise AlarmError("61610")
     if work.towards * (contour[0].edge.start[1] - contour[-1].edge.end[1]) < 0.0:
@@ -282,11 +298,15 @@ def _rough(work: Work, a: Arguments, contour: Contour, *, follows: bool) -> None
     relief = a["FF2"] or straight
     for number, cut in enumerate(remove(path, Removal(a["MID"], _lift(a), work.towards, follows))):
         if not number:
-            work.clear(path, cut.stroke.end, _lift(a))
+            work.clear(path, cut.stroke.end, _lift(a), stock=blank(path, work.towards))
+        if cut.stroke.center is None:
+            work.require_clear(path, cut.stroke.end)
         if cut.is_straight and a["DAM"] > 0.0:
             _in_steps(work, a, cut.stroke, straight)
         else:
             work.perform(cut.stroke, relief if cut.is_relief else straight)
+    # Cuts that do not follow the contour leave steps on it.
+    return path if follows else blank(path, work.towards)
 
 
 def _in_steps(work: Work, a: Arguments, stroke: PlaneStroke, feed: float) -> None:
@@ -307,14 +327,14 @@ def steps_of(total: float, step: float) -> list[float]:
     return [step * k for k in range(1, count + 1)] + [total]
 
 
-def _finish(work: Work, a: Arguments, contour: Contour) -> None:
-    """The contour once, in its own direction, at the finished size."""
+def _finish(work: Work, a: Arguments, contour: Contour, stock: Contour | None) -> None:
+    """The contour once, in its own direction, at the finished size; `stock` is what roughing has left."""
     path = work.tool_path(contour, 0.0, rounds_begin=True)
     feed, lift = feed_of(a, "FF3"), _lift(a)
     start, end = path[0].edge.start, path[-1].edge.end
     before = _beside(start, path[0].edge.departing, onwards(contour), work.towards, lift)
     after = _beside(end, path[-1].edge.arriving, onwards(contour), work.towards, lift)
-    work.clear(path, before, lift)
+    work.clear(path, before, lift, stock=stock)
     for stroke in (
         PlaneStroke(Kind.RAPID, before),
         PlaneStroke(Kind.FEED, start),

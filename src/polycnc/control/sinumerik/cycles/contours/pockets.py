@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from polycnc.control.sinumerik.cycles.contours.reading import read_chosen
 from polycnc.control.sinumerik.cycles.milling import (
     FINISHING,
+    ONLY_START,
     ROUGHING,
     cutter,
     feed_of,
@@ -42,10 +43,9 @@ REST, BASE, EDGE, CHAMFER = FINISHING, 3, 4, 5
 INSERTIONS = {0: Insertion.FEED, 1: Insertion.FEED, 2: Insertion.HELIX, 3: Insertion.OSCILLATION}
 #: Places of the digits of VARI: insertion, where the tool rises to, who chooses the start point.
 _INSERTION_PLACE, _START_PLACE = 1, 4
-#: Hundreds of _DMODE: pocket (0 in older calls) or spigot; hundreds of _GMODE: only the start point is calculated.
+#: Hundreds of _DMODE: pocket (0 in older calls) or spigot; those of _GMODE may ask for the start point alone.
 _HUNDREDS = 2
 POCKETS, SPIGOT = (0, 1), 2
-ONLY_START = 2
 #: Who chooses the start point: ten-thousands of VARI.
 BY_CYCLE, BY_CALL = 0, 1
 #: What is wrong with contours, and the alarm of it; else preparation failed.
