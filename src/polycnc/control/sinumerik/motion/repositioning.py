@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from polycnc.channel.stack import LevelKind
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.block.positions import number
+from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.motion import circles, moves
 from polycnc.control.sinumerik.signals import interrupts
 from polycnc.control.sinumerik.tables import length_factor
@@ -86,6 +87,8 @@ def reposition(draft: Draft) -> Step:
         radius = number(values, size) * factor if size is not None and code not in LINES else 0.0
         feed = nan if rapid else moves.checked_feed(channel.feed)
         arc = _touching_arc(channel, way, part, plane, radius, half=code in HALVES)
+        if arc is not None and channel.mode["compensation"] != "G40":
+            raise not_supported(f"{code} G41/G42")  # the circle would be compensated too, or dropped
         _approach(channel, way.at(part), named, feed, arc)
         interrupted.resume_at = part
         Repositioning.of(channel).point = POINTS.index(point) + 1
