@@ -129,7 +129,7 @@ CHANGED_BY = {
     "SkipState": "syntec-skip-groups-order",
     "Smoothing": "sin-cycle832",
     "SmoothingState": "syntec-tolerance-in-tip-control",
-    "SpaceState": "syntec-user-memory-of-the-axis-group",
+    "SpaceState": "syntec-lang-spaces",
     "SpatialState": "syntec-spatial-arc",
     "SpindleCommand": "fanuc-m-sign-in-speed",
     "SpindleState": "syntec-move-surface-speed-axis",

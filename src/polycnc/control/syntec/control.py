@@ -17,7 +17,7 @@ from polycnc.control.syntec.codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
 from polycnc.control.syntec.coordinates import systems
 from polycnc.control.syntec.five_axes import mechanism, normal_direction, spatial, tilted, tip_control
 from polycnc.control.syntec.macros import calls, interrupts, single_block
-from polycnc.control.syntec.macros.variables import SpaceState, locals_of
+from polycnc.control.syntec.macros.variables import USER, SpaceState, locals_of
 from polycnc.control.syntec.memory import SyntecMemory
 from polycnc.control.syntec.motion import arcs, conditions, dwell, moves, oscillation, polar, quiet, smoothing
 from polycnc.control.syntec.motion.moves import FeedState
@@ -359,7 +359,7 @@ class SyntecMill(WordAddressControl):
         memory = channel.memory
         names = [f"#{index}" for index in sorted(memory.locals)]
         spaces = SpaceState.of(channel)
-        names += [f"#{401 + offset}" for offset in sorted(spaces.user)]
+        names += [f"#{USER[offset]}" for offset in sorted(spaces.user)]
         names += [f"#{2001 + offset}" for offset in sorted(spaces.modal_doubles)]
         names += [f"@{index}" for index in sorted(memory.globals.values)]
         return names + [f"R{index}" for index in sorted(memory.globals.registers)]

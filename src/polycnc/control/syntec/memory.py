@@ -9,9 +9,11 @@ from polycnc.control.syntec.macros import functions
 from polycnc.control.syntec.macros.registers import check_register
 from polycnc.control.syntec.macros.system_variables import SYSTEM_VARIABLES
 from polycnc.control.syntec.macros.variables import (
+    USER,
     GlobalState,
     Locals,
     LocalState,
+    SpaceState,
     is_local,
     is_retentive_global,
     is_retentive_register,
@@ -49,7 +51,8 @@ class SyntecMemory(Memory):
         self.globals = GlobalState.of(channel)
         if channel.number == 1:  # the first axis group is switched on first; all share them
             self.globals.forget()
-        self._was_kept = bool(self.globals.values or self.globals.registers)
+        user = SpaceState.of(channel).user
+        self._was_kept = bool(self.globals.values or self.globals.registers or user)
         self.functions: dict[str, Callable[..., Value]] = functions.bound(self)
 
     def forget_locals(self) -> None:
@@ -132,10 +135,12 @@ class SyntecMemory(Memory):
         return None if isinstance(value, Vacant) else value
 
     def is_kept(self, name: str) -> bool:
-        """Whether a variable has its value from an earlier power-on: some of `@` and R."""
+        """Whether a variable has its value from an earlier power-on: #401 to #999, some of `@` and R."""
         family, index = name[:1].upper(), name[1:]
-        if not self._was_kept or family not in "@R" or not index.isdigit():
+        if not self._was_kept or family not in "#@R" or not index.isdigit():
             return False
+        if family == "#":
+            return int(index) in USER
         return is_retentive_register(int(index)) if family == "R" else is_retentive_global(int(index))
 
     def write_text(self, name: str, value: object) -> None:

@@ -1,4 +1,4 @@
-"""SYNTEC: data as macro programs: `@` variables, registers by G10 L1000, user parameters by SETPR, offsets by G10.
+"""SYNTEC: data as macro programs: variables, registers by G10 L1000, user parameters by SETPR, offsets by G10.
 
 Source: SYNTEC macro language (variables, SETPR), programming manual 2.14 (G10). Parameters by which the control
 acts no program writes; the setup has them.
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.coordinates.systems import WORK_SYSTEMS
 from polycnc.control.syntec.macros.machine_parameters import WrittenParameters
-from polycnc.control.syntec.macros.variables import GlobalState
+from polycnc.control.syntec.macros.variables import USER, GlobalState, SpaceState
 from polycnc.control.syntec.units import decimals
 from polycnc.control.word_address.memory import EXTERNAL
 from polycnc.geometry.units import INCH_MM
@@ -37,6 +37,10 @@ def _number(value: Value) -> str:
 def _variables(channel: SyntecChannel) -> str:
     state = GlobalState.of(channel)
     lines = [f"@{number} := {_number(value)}" for number, value in sorted(state.values.items())]
+    lines += [
+        f"#{USER[offset]} := {_number(value)}"
+        for offset, value in sorted(SpaceState.of(channel).user.items())
+    ]
     lines += [f"G10 L1000 P{number} R{value}" for number, value in sorted(state.registers.items())]
     return _macro(lines)
 

@@ -9,6 +9,7 @@ from polycnc.control.syntec.coordinates.systems import WORK_SYSTEMS
 from polycnc.control.syntec.coordinates.turns import PostureState, TurnState, renew_preset_frame
 from polycnc.control.syntec.macros.machine_parameters import read_long
 from polycnc.control.syntec.macros.variables import (
+    USER,
     BitState,
     FunctionState,
     Read,
@@ -309,7 +310,7 @@ def system_variable(memory: SyntecMemory, group: Value, index: Value) -> Value:
 _DOUBLES = stored(lambda state: state.modal_doubles)
 SYSTEM_VARIABLES = Registry(
     [
-        Space(401, 999, _read_user, _write_user),
+        Space(USER[0], USER[-1], _read_user, _write_user),
         Space(1000, 1000, _interpolation, _set_interpolation),
         *(Space(index, index, _modal(group)) for index, group in MODAL.items() if index != 1000),
         Space(1040, 1040, _work_system),

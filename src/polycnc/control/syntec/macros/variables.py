@@ -49,7 +49,9 @@ SHOWN_REGISTERS = (range(700, 719), range(761, 777))
 DELIVERED_REGISTERS = {19: 100}
 #: Windows of `@` on R registers: first `@`, last `@`, first R.
 REGISTER_WINDOWS = ((401, 655, 1), (10000, 14095, 0), (100000, 165535, 0))
-#: What outlives the power: R registers (tool guide), `@` variables beside the windows (macro variable specification).
+#: `#` variables of the axis group, numbers that outlive the power.
+USER = range(401, 1000)
+#: What else outlives the power: R registers (tool guide), `@` variables beside the windows (list of variables).
 RETENTIVE_REGISTERS, RETENTIVE_GLOBALS = range(103, 256), (range(656, 2000), range(60000, 80000))
 #: Other `@` variables that exist.
 GLOBAL_RANGES = ((1, 400), (656, 1999), (60000, 79999))
@@ -125,9 +127,12 @@ def locals_of(level: Level) -> dict[int, Value]:
 
 @dataclass(slots=True)
 class SpaceState(State, lifetime=Lifetime.POWER):
-    """`#` variables that are kept as they are written, by their offset in the space; `words` by number (#1502 …)."""
+    """`#` variables that are kept as they are written, by their offset in the space; `words` by number (#1502 …).
 
-    user: dict[int, Value] = field(default_factory=dict)
+    Those of `user` (USER) outlive the power.
+    """
+
+    user: dict[int, Value] = retained(VARIABLES)
     words: dict[int, int] = field(default_factory=dict)
     modal_longs: dict[int, Value] = lasting(Lifetime.RESET, factory=dict)
     modal_doubles: dict[int, Value] = lasting(Lifetime.RESET, factory=dict)
