@@ -20,6 +20,7 @@ from __future__ import annotations
 
 from array import array
 from math import hypot, inf, sqrt
+from operator import sub
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.motion.demand import (
@@ -392,7 +393,8 @@ class RealAxes:
         if curve:
             made, ccw = context.transformation.geometry, chunk.kind[row] in CCW_KINDS
             arc = arc_path(start, end, curve, made, ccw=ccw)
-            return arc.at, arc.length
+            beside = [0.0 if i in made else way for i, way in enumerate(self._counted(context, start, end))]
+            return arc.at, hypot(arc.length, *beside)
         return line_path(start, end), self._length(context, start, end)
 
     def _shares(
@@ -492,11 +494,14 @@ class RealAxes:
 
     def _length(self, context: Context, start: Sequence[float], end: Sequence[float]) -> float:
         """Length of a way, as the feed counts it."""
+        return hypot(*self._counted(context, start, end)) or hypot(*map(sub, end, start))
+
+    def _counted(self, context: Context, start: Sequence[float], end: Sequence[float]) -> list[float]:
+        """How far each column goes, as the feed counts it, mm."""
         assert context.transformation is not None
         made, weight = context.transformation.geometry, rotary_weight(context, self._settings)
-        ways = [b - a for a, b in zip(start, end, strict=True)]
-        turned = [weight if self._rotary(i) and i not in made else 1.0 for i in range(len(ways))]
-        return hypot(*(way * w for way, w in zip(ways, turned, strict=True))) or hypot(*ways)
+        turned = [weight if self._rotary(i) and i not in made else 1.0 for i in range(len(start))]
+        return [w * (b - a) for w, a, b in zip(turned, start, end, strict=True)]
 
     def _demand(
         self,
