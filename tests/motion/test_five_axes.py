@@ -76,6 +76,29 @@ def test_the_feed_of_an_arc_counts_the_degrees_of_rotary_axes_that_turn_along() 
         assert asked <= plan.row_s[1] <= 1.2 * asked, name
 
 
+def test_axes_keep_their_velocity_all_round_a_circle() -> None:
+    """A table turned by 45 degrees: its axes are fastest half-way between the quarters of the circle."""
+    for name, axes in machines().items():
+        context = Context(transformation=axes.tip, corner_mode=CornerMode.EXACT_STOP)
+        build, found = Build(axes.tip.axes, context), list[Any]()
+        start, n = [150.0, 0.0, 5.0, 0.0, 45.0], len(axes.tip.axes)
+        build.row(Kind.FEED, *start, feed=1000.0)
+        build.row(Kind.CCW, *start, feed=1000.0, curve=(0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 2.0))
+        Planner(
+            build.toolpath,
+            axes.machine,
+            settings=BRISK,
+            start=axes.tip.to_machine(start),
+            on_pieces=lambda pieces, count, found=found: found.append(
+                np.array(pieces[: count * piece_width(5)])
+            ),
+        ).finish()
+        run = Run(np.concatenate(found).reshape(-1, piece_width(n))[1:], n)
+        _, velocity, _ = real_motion(run, context, np.linspace(0.0, run.seconds, 2000), axes.machine)
+        for i, axis in enumerate(axes.tip.axes[:3]):
+            assert np.abs(velocity[:, i]).max() <= axes.machine.axis[axis].max_feed * SLACK, (name, axis)
+
+
 def run_of(path: TipPath, context: Context) -> Run:
     """What the axes do along a path."""
     found, n = list[Any](), len(path.axes.tip.axes)
