@@ -66,6 +66,29 @@ def _check_work_zero(channel: WordAddressChannel) -> None:
         )
 
 
+#: What does not go with tool centre point control (macro B reference §12), beside drilling cycles.
+NOT_WITH_TIP = frozenset(("G12.1", "G27", "G28", "G29", "G30", "G41", "G42", "G53"))
+TIP_CODES = ("G43.4", "G43.5")
+
+
+def _check_block(builder: Builder) -> None:
+    """Refuse codes of the machine, cycles and radius compensation of a plane; under G43.5 rotary words too.
+
+    A block that ends the control, or begins it, may hold what its other codes allow.
+    """
+    before, after = builder.before["length"], builder.mode["length"]
+    if before not in TIP_CODES or after not in TIP_CODES:
+        return
+    for row in builder.codes:
+        if row.code in NOT_WITH_TIP or (row.group == "cycle" and row.code != "G80"):
+            raise builder.control.fail("tip_mode", address=row.code)
+    if after == before == "G43.5":
+        for address in builder.slots:
+            target = builder.control.axis_of_address(builder.channel, address, builder)
+            if target is not None and builder.channel.axis_data[target[0]].rotary:
+                raise builder.control.fail("tip_mode", address=address)
+
+
 def plan_with_direction(builder: Builder, plan: Plan) -> Step | None:
     """G43.5: a straight block names the tip, and with I J K the direction of the tool; None without them."""
     if builder.mode["length"] != "G43.5" or builder.mode["motion"] not in ("G0", "G1"):
@@ -152,3 +175,5 @@ def end_following(channel: WordAddressChannel) -> None:
 RULE = Rule(
     "tool direction by a vector", modes={"length": ("G43.5",)}, in_cycles=False, motion=plan_with_direction
 )
+#: What must not come while words name the tip.
+COMPANY_RULE = Rule("company of tool centre point control", modes={"length": TIP_CODES}, check=_check_block)
