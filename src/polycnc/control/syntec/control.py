@@ -202,7 +202,9 @@ class SyntecMill(WordAddressControl):
         for number, code in zip(SyntecParameters.m_macros.numbers, memory.parameters.m_macros, strict=True):
             if code in calls.NEVER_REGISTERED - {0}:
                 raise self.fail("registered_m", number=number)
+        kept = tilted.Kept.over_power_off(channel)
         tilted.rotate_work_system(channel, on=memory.parameters.rotates_at_start == 1)
+        kept.restore(channel)
         self.begin(channel)
         if memory.parameters.travel_2_at_start == 1:
             channel.mode = channel.mode.with_code("stroke", "G22")

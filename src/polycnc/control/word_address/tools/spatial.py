@@ -12,7 +12,6 @@ from polycnc.channel.moves.knots import knot_context
 from polycnc.compensation.spatial import SpatialStage
 from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.tools.radius import RadiusState
-from polycnc.geometry.vectors import cross, dot
 from polycnc.transformation.orientation.solutions import Posture
 
 if TYPE_CHECKING:
@@ -38,7 +37,7 @@ def engage(channel: WordAddressChannel, words: Words, corners: Corners, rules: R
     number = words.integer("D")
     state.number = state.number if number is None else number
     radius: float = channel.control.radius_value(channel, state.number)
-    side = SIDES[channel.mode["compensation"]] * (-1 if _is_mirrored(channel) else 1)
+    side = SIDES[channel.mode["compensation"]] * (-1 if channel.coordinates.programming.mirrors else 1)
     stage = stage_of(channel)
     if stage is not None:
         stage.change(side, radius)
@@ -55,9 +54,3 @@ def end(channel: WordAddressChannel) -> None:
     if stage_of(channel) is not None:
         channel.flush()
         channel.path.take(SpatialStage)
-
-
-def _is_mirrored(channel: WordAddressChannel) -> bool:
-    """Whether the program's shapes are mirrored: left of the path is right of it then."""
-    x, y, z = channel.coordinates.programming.m
-    return dot(cross(x, y), z) < 0.0
