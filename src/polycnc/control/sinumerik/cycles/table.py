@@ -10,16 +10,14 @@ from typing import TYPE_CHECKING, NamedTuple
 from polycnc.control.sinumerik.cycles import (
     drilling,
     engraving,
-    grooves,
     high_speed_settings,
     milling,
     patterns,
     surfaces,
     swivel,
-    turning,
-    undercuts,
 )
 from polycnc.control.sinumerik.cycles.contours import pockets, reading
+from polycnc.control.sinumerik.cycles.turning import corner, grooves, stock_removal, threads, undercuts
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -150,22 +148,22 @@ CYCLES: dict[str, Cycle] = {
     ),
     "CYCLE94": Cycle("SPD SPL FORM _VARI", undercuts.undercut),
     "CYCLE96": Cycle("DIATH SPL FORM _VARI", undercuts.undercut),
-    "CYCLE95": Cycle("NPP MID FALZ FALX FAL FF1 FF2 FF3 VARI DT DAM _VRT", turning.stock_removal),
+    "CYCLE95": Cycle("NPP MID FALZ FALX FAL FF1 FF2 FF3 VARI DT DAM _VRT", stock_removal.stock_removal),
     "CYCLE97": Cycle(
-        "PIT MPIT SPL FPL DM1 DM2 APP ROP TDEP FAL IANG NSP NRC NID VARI NUMT _VRT", turning.thread
+        "PIT MPIT SPL FPL DM1 DM2 APP ROP TDEP FAL IANG NSP NRC NID VARI NUMT _VRT", threads.thread
     ),
     "CYCLE98": Cycle(
         "PO1 DM1 PO2 DM2 PO3 DM3 PO4 DM4 APP ROP TDEP FAL IANG NSP NRC NID PP1 PP2 PP3 VARI NUMT _VRT",
-        turning.thread_chain,
+        threads.thread_chain,
     ),
     "CYCLE99": Cycle(
         "_SPL _DM1 _FPL _DM2 _APP _ROP _TDEP _FAL _IANG _NSP _NRC _NID _PIT _VARI _NUMT _SDIS _MID _GDEP _PIT1 _FDEP"
         " _GST _GUD _IFLANK _PITA _PITM _PTAB _PTABA _DMODE _AMODE",
-        turning.thread_of_plane,
+        threads.thread_of_plane,
     ),
     "CYCLE951": Cycle(
         "_SPD _SPL _EPD _EPL _ZPD _ZPL _LAGE _MID _FALX _FALZ _VARI _RF1 _RF2 _RF3 _SDIS _FF1 _NR _DMODE _AMODE",
-        turning.corner,
+        corner.corner,
     ),
     "CYCLE800": Cycle(
         "_FR _TC _ST _MODE _X0 _Y0 _Z0 _A _B _C _X1 _Y1 _Z1 _DIR _FR_I _DMODE",

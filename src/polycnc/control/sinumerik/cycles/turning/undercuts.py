@@ -6,7 +6,7 @@ from math import dist
 from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.cycles.moves import require_tool
-from polycnc.control.sinumerik.cycles.turning import Work
+from polycnc.control.sinumerik.cycles.turning.work import Work
 from polycnc.control.sinumerik.tools import stages
 from polycnc.cycles.turning import undercut as shapes
 from polycnc.cycles.turning.contour import Contour, Piece

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.control.sinumerik.cycles.moves import require_tool
-from polycnc.control.sinumerik.cycles.turning import LIFT_MM
+from polycnc.control.sinumerik.cycles.turning.work import LIFT_MM
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tools import stages
 from polycnc.cycles.turning import groove as turning

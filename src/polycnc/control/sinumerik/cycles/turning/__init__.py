@@ -1,0 +1,9 @@
+"""The turning cycles of SINUMERIK.
+
+work           the cuts in their own coordinates, the path of the nose
+stock_removal  CYCLE95
+corner         CYCLE951
+threads        CYCLE97 to CYCLE99
+grooves        CYCLE93
+undercuts      CYCLE94, CYCLE96
+"""
