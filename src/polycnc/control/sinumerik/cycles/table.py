@@ -17,7 +17,14 @@ from polycnc.control.sinumerik.cycles import (
     swivel,
 )
 from polycnc.control.sinumerik.cycles.contours import pockets, reading
-from polycnc.control.sinumerik.cycles.turning import corner, grooves, stock_removal, threads, undercuts
+from polycnc.control.sinumerik.cycles.turning import (
+    contours,
+    corner,
+    grooves,
+    stock_removal,
+    threads,
+    undercuts,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -30,7 +37,7 @@ class Cycle(NamedTuple):
     """A row of the table.
 
     Attributes:
-        signature: Names of the parameters in their order.
+        signature: The parameters in their order (`arguments`).
         plan: Notes what the cycle does, block by block.
         saves: G functions and programmable frame of the caller are in force again afterwards.
     """
@@ -164,6 +171,11 @@ CYCLES: dict[str, Cycle] = {
     "CYCLE951": Cycle(
         "_SPD _SPL _EPD _EPL _ZPD _ZPL _LAGE _MID _FALX _FALZ _VARI _RF1 _RF2 _RF3 _SDIS _FF1 _NR _DMODE _AMODE",
         corner.corner,
+    ),
+    "CYCLE952": Cycle(
+        "_PRG _CON _CONR _VARI _F _FR:feed _RP:diameter _D _DX _DZ _UX _UZ _U _U1 _BL _XD _ZD _XA:diameter _ZA"
+        " _XB:diameter _ZB _XDA:diameter _XDB:diameter _N _DP _DI _SC _DN _GMODE _DMODE _AMODE _PK _DCH _FS:feed",
+        contours.turn,
     ),
     "CYCLE800": Cycle(
         "_FR _TC _ST _MODE _X0 _Y0 _Z0 _A _B _C _X1 _Y1 _Z1 _DIR _FR_I _DMODE",

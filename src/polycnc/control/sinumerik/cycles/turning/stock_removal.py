@@ -10,22 +10,19 @@ from typing import TYPE_CHECKING
 from polycnc.control.sinumerik.cycles.contours.reading import read
 from polycnc.control.sinumerik.cycles.milling import feed_of
 from polycnc.control.sinumerik.cycles.moves import require_tool
-from polycnc.control.sinumerik.cycles.turning.work import LIFT_MM, Work, onwards
+from polycnc.control.sinumerik.cycles.turning.work import LIFT_MM, Work, finish, onwards
 from polycnc.cycles.count import parts
 from polycnc.cycles.turning.allowance import with_stock
 from polycnc.cycles.turning.contour import Contour, turned_round
+from polycnc.cycles.turning.outline import farthest
 from polycnc.cycles.turning.stock_removal import Removal, blank, remove
 from polycnc.cycles.turning.stroke import PlaneStroke
 from polycnc.messages import AlarmError
-from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.cycles.arguments import Arguments
     from polycnc.control.sinumerik.cycles.moves import Moves
-    from polycnc.geometry.arcs import Point
 
-#: By so much a direction of 45 degrees may miss it and still not be steep.
-_ROUNDING = 1e-9
 #: Kinds of CYCLE95 by (VARI - 1) // 4.
 ROUGHING, FINISHING, COMPLETE = 0, 1, 2
 #: For each of the four sides of a kind: whether the cuts run across, and the direction of infeed.
@@ -80,9 +77,13 @@ def _rough(work: Work, a: Arguments, contour: Contour, *, follows: bool) -> Cont
         raise AlarmError("61606") from None
     straight = feed_of(a, "FF1")
     relief = a["FF2"] or straight
-    for number, cut in enumerate(remove(path, Removal(a["MID"], _lift(a), work.towards, follows))):
+    top = work.touching(farthest(contour, 1, -work.towards))
+    front = work.front(contour[0].edge.start[0], onwards(contour))
+    before = blank(path, work.towards, top)
+    removal = Removal(a["MID"], _lift(a), work.towards, follows, front=front, top=top)
+    for number, cut in enumerate(remove(path, removal)):
         if not number:
-            work.clear(path, cut.stroke.end, _lift(a), stock=blank(path, work.towards))
+            work.clear(path, cut.stroke.end, _lift(a), stock=before)
         if cut.stroke.center is None:
             work.require_clear(path, cut.stroke.end)
         if cut.is_straight and a["DAM"] > 0.0:
@@ -90,7 +91,7 @@ def _rough(work: Work, a: Arguments, contour: Contour, *, follows: bool) -> Cont
         else:
             work.perform(cut.stroke, relief if cut.is_relief else straight)
     # Cuts that do not follow the contour leave steps on it.
-    return path if follows else blank(path, work.towards)
+    return path if follows else before
 
 
 def _in_steps(work: Work, a: Arguments, stroke: PlaneStroke, feed: float) -> None:
@@ -114,26 +115,4 @@ def steps_of(total: float, step: float) -> list[float]:
 def _finish(work: Work, a: Arguments, contour: Contour, stock: Contour | None) -> None:
     """The contour once, in its own direction, at the finished size; `stock` is what roughing has left."""
     path = work.tool_path(contour, 0.0, rounds_begin=True)
-    feed, lift = feed_of(a, "FF3"), _lift(a)
-    start, end = path[0].edge.start, path[-1].edge.end
-    before = _beside(start, path[0].edge.departing, onwards(contour), work.towards, lift)
-    after = _beside(end, path[-1].edge.arriving, onwards(contour), work.towards, lift)
-    work.clear(path, before, lift, stock=stock)
-    for stroke in (
-        PlaneStroke(Kind.RAPID, before),
-        PlaneStroke(Kind.FEED, start),
-        *(piece.stroke() for piece in path),
-        PlaneStroke(Kind.FEED, after),
-    ):
-        # A rapid in the contour cuts as well: the cycle has feeds of its own.
-        work.perform(stroke if stroke.end == before else _at_feed(stroke), feed)
-
-
-def _beside(point: Point, direction: Point, onwards_: float, towards: float, lift: float) -> Point:
-    """A place off an end of the contour: square to the cuts where it is steep there, for the nose is beside a wall."""
-    steep = direction[1] * towards > direction[0] * onwards_ + _ROUNDING
-    return (point[0] - (0.0 if steep else onwards_ * lift), point[1] - towards * lift)
-
-
-def _at_feed(stroke: PlaneStroke) -> PlaneStroke:
-    return replace(stroke, kind=Kind.FEED) if stroke.kind is Kind.RAPID else stroke
+    finish(work, path, onwards(contour), feed_of(a, "FF3"), _lift(a), stock)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import copysign
 from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.tools import stages
 from polycnc.cycles.turning.contour import Contour, Piece, parallel, shifted, swapped, swapped_stroke
 from polycnc.cycles.turning.stock_removal import is_clear, way_clear, way_over
+from polycnc.cycles.turning.stroke import PlaneStroke
 from polycnc.geometry import offset
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError
@@ -15,12 +17,13 @@ from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.cycles.moves import Moves
-    from polycnc.cycles.turning.stroke import PlaneStroke
     from polycnc.geometry.arcs import Point
     from polycnc.geometry.offset import Edge
 
 #: Ways off the work where the call gives none.
 LIFT_MM = 1.0
+#: By so much a direction of 45 degrees may miss it and still not be steep.
+_ROUNDING = 1e-9
 
 
 class Work:
@@ -38,6 +41,18 @@ class Work:
     def pair(self, along: float, radial: float) -> Point:
         """An amount along Z and one along X in the coordinates of the cuts."""
         return (radial, along) if self.across else (along, radial)
+
+    def touching(self, level: float) -> float:
+        """`b` of the tool's point where the nose touches a level from above."""
+        radius = stages.radius(self.moves.channel)
+        tip = self.pair(*stages.tip(self.moves.channel))
+        return level - self.towards * radius + radius * tip[1]
+
+    def front(self, edge: float, direction: float) -> float:
+        """`a` of the tool's point where the nose touches a front, when it comes in a direction, 1 or -1."""
+        radius = stages.radius(self.moves.channel)
+        tip = self.pair(*stages.tip(self.moves.channel))
+        return edge - direction * radius + radius * tip[0]
 
     def tool_path(
         self, contour: Contour, allowance: float, *, roughs: bool = False, rounds_begin: bool = False
@@ -113,3 +128,31 @@ def onwards(contour: Contour) -> float:
     if abs(contour[-1].edge.end[0] - contour[0].edge.start[0]) <= NO_WAY:
         raise AlarmError("61605")
     return copysign(1.0, contour[-1].edge.end[0] - contour[0].edge.start[0])
+
+
+def finish(
+    work: Work, path: Contour, onwards_: float, feed: float, lift: float, stock: Contour | None
+) -> None:
+    """Along a path of the tool once, from beside its begin to beside its end; `stock` is what roughing has left."""
+    start, end = path[0].edge.start, path[-1].edge.end
+    before = _beside(start, path[0].edge.departing, onwards_, work.towards, lift)
+    after = _beside(end, path[-1].edge.arriving, onwards_, work.towards, lift)
+    work.clear(path, before, lift, stock=stock)
+    for stroke in (
+        PlaneStroke(Kind.RAPID, before),
+        PlaneStroke(Kind.FEED, start),
+        *(piece.stroke() for piece in path),
+        PlaneStroke(Kind.FEED, after),
+    ):
+        # A rapid in the contour cuts as well: the cycle has feeds of its own.
+        work.perform(stroke if stroke.end == before else _at_feed(stroke), feed)
+
+
+def _beside(point: Point, direction: Point, onwards_: float, towards: float, lift: float) -> Point:
+    """A place off an end of the contour: square to the cuts where it is steep there, for the nose is beside a wall."""
+    steep = direction[1] * towards > direction[0] * onwards_ + _ROUNDING
+    return (point[0] - (0.0 if steep else onwards_ * lift), point[1] - towards * lift)
+
+
+def _at_feed(stroke: PlaneStroke) -> PlaneStroke:
+    return replace(stroke, kind=Kind.FEED) if stroke.kind is Kind.RAPID else stroke
