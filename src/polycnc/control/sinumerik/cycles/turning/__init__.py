@@ -3,6 +3,7 @@
 work           the cuts in their own coordinates, the path of the nose
 stock_removal  CYCLE95
 corner         CYCLE951
+contours       CYCLE952
 threads        CYCLE97 to CYCLE99
 grooves        CYCLE93
 undercuts      CYCLE94, CYCLE96
