@@ -153,6 +153,11 @@ CYCLES: dict[str, Cycle] = {
         "SPD SPL WIDG DIAG STA1 ANG1 ANG2 RCO1 RCO2 RCI1 RCI2 FAL1 FAL2 IDEP DTB VARI _VRT _DN",
         grooves.groove,
     ),
+    "CYCLE930": Cycle(
+        "_SPD _SPL _WIDG _WIDG2 _DIAG _DIAG2 _STA _ANG1 _ANG2 _RCO1 _RCI1 _RCI2 _RCO2 _FAL _IDEP1 _SDIS _VARI _DN"
+        " _NUM _DBH _FF1 _NR _FALX _FALZ _DMODE _AMODE",
+        grooves.grooves,
+    ),
     "CYCLE94": Cycle("SPD SPL FORM _VARI", undercuts.undercut),
     "CYCLE96": Cycle("DIATH SPL FORM _VARI", undercuts.undercut),
     "CYCLE95": Cycle("NPP MID FALZ FALX FAL FF1 FF2 FF3 VARI DT DAM _VRT", stock_removal.stock_removal),
