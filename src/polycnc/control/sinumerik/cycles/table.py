@@ -160,6 +160,11 @@ CYCLES: dict[str, Cycle] = {
     ),
     "CYCLE94": Cycle("SPD SPL FORM _VARI", undercuts.undercut),
     "CYCLE96": Cycle("DIATH SPL FORM _VARI", undercuts.undercut),
+    "CYCLE940": Cycle(
+        "_SPD _SPL _FORM _LAGE _SDIS _FFP:feed _VARI _EPD:length _EPL _R1 _R2 _STA _VRT _MID _FAL _FALX _FALZ"
+        " _PITI:number _PTAB _PTABA _DMODE _AMODE",
+        undercuts.undercut_of_mask,
+    ),
     "CYCLE95": Cycle("NPP MID FALZ FALX FAL FF1 FF2 FF3 VARI DT DAM _VRT", stock_removal.stock_removal),
     "CYCLE97": Cycle(
         "PIT MPIT SPL FPL DM1 DM2 APP ROP TDEP FAL IANG NSP NRC NID VARI NUMT _VRT", threads.thread

@@ -6,5 +6,5 @@ corner         CYCLE951
 contours       CYCLE952
 threads        CYCLE97 to CYCLE99
 grooves        CYCLE93, CYCLE930
-undercuts      CYCLE94, CYCLE96
+undercuts      CYCLE94, CYCLE96, CYCLE940
 """
