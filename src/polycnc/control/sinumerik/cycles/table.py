@@ -21,6 +21,7 @@ from polycnc.control.sinumerik.cycles.turning import (
     contours,
     corner,
     grooves,
+    parting,
     stock_removal,
     threads,
     undercuts,
@@ -148,6 +149,11 @@ CYCLES: dict[str, Cycle] = {
     "CYCLE899": Cycle(
         f"{_MILL} _LENG _WID _PA _PO _STA _MID _MIDA _FAL _FALD _FFP1 _CDIR _VARI {_SL} _UMODE _FS _ZFS",
         milling.open_slot,
+    ),
+    "CYCLE92": Cycle(
+        "_SPD _SPL _DIAG1:diameter _DIAG2:diameter _RC _SDIS _SV1:number _SV2:number _SDAC:number _FF1 _FF2 _SS2:number"
+        " _DIAGM:diameter _VARI _DN _DMODE _AMODE",
+        parting.part_off,
     ),
     "CYCLE93": Cycle(
         "SPD SPL WIDG DIAG STA1 ANG1 ANG2 RCO1 RCO2 RCI1 RCI2 FAL1 FAL2 IDEP DTB VARI _VRT _DN",

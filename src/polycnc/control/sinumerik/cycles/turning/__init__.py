@@ -6,5 +6,6 @@ corner         CYCLE951
 contours       CYCLE952
 threads        CYCLE97 to CYCLE99
 grooves        CYCLE93, CYCLE930
+parting        CYCLE92
 undercuts      CYCLE94, CYCLE96, CYCLE940
 """
