@@ -91,6 +91,7 @@ def reposition(draft: Draft) -> Step:
             raise not_supported(f"{code} G41/G42")  # the circle would be compensated too, or dropped
         _approach(channel, way.at(part), named, feed, arc)
         interrupted.resume_at = part
+        interrupted.left = frozenset(range(len(way.move.end))) - _moved(channel, named)
         Repositioning.of(channel).point = POINTS.index(point) + 1
         end_of_subprogram(channel)
 
@@ -134,12 +135,16 @@ def _touching_arc(
     return Arc((u, v, columns[2]), plane, begin, center, ccw=is_left)
 
 
+def _moved(channel: SinumerikChannel, named: set[int]) -> set[int]:
+    """Columns of the axes that REPOS leads back: geometry axes and named ones."""
+    return named.union(column for column in channel.coordinates.geometry if column >= 0)
+
+
 def _approach(
     channel: SinumerikChannel, target: list[float], named: set[int], feed: float, arc: Arc | None
 ) -> None:
     """Go to a point of the contour: geometry axes and named ones; the others stay."""
-    position = channel.coordinates.position
-    moved = named.union(column for column in channel.coordinates.geometry if column >= 0)
+    position, moved = channel.coordinates.position, _moved(channel, named)
     end = [target[i] if i in moved else value for i, value in enumerate(position)]
     kind = Kind.RAPID if isnan(feed) else Kind.FEED
     if arc is None:
