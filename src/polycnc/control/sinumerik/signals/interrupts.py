@@ -66,6 +66,7 @@ class Interrupted:
         end: Where the block ends.
         resume_at: Part of the way at which REPOS has come back; None before.
         left: Columns of axes that REPOS has not led back: neither geometry axes nor named.
+        waited: The routine has waited for the end of the block (BLSYNC).
     """
 
     way: MovePath | None
@@ -76,6 +77,7 @@ class Interrupted:
     end: list[float]
     resume_at: float | None = None
     left: frozenset[int] = frozenset()
+    waited: bool = False
 
 
 class Watch(Stage):
@@ -221,7 +223,10 @@ class Watch(Stage):
             raise AlarmError("PC0004")
         call_without_arguments(channel, assignment.program, LevelKind.INTERRUPT)
         single_block.begin_routine(channel, channel.level)
-        self.running.append(Interrupted(way, part, assignment.priority, channel.level, rest, end))
+        waited = assignment.waits_for_block
+        self.running.append(
+            Interrupted(way, part, assignment.priority, channel.level, rest, end, waited=waited)
+        )
 
     def _ended(self, interrupted: Interrupted) -> None:
         """A routine has ended: another one that waits for it, or what is left of the block."""
