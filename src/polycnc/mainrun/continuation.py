@@ -83,6 +83,7 @@ class Continuation:
             for level in channel.stack:
                 level.scanner = None
             operation.switches.apply_to(channel, typed=False)
+            channel.optional_stop = channel.setup.switches.optional_stop  # nobody turns the switch meanwhile
         runs.go_on()
         operation.set_rates()
         operation.resume()
