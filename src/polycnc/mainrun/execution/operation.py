@@ -291,7 +291,7 @@ class Operation:
                 self.runs.switch_on_again(run)
             run.stand_at(position)
             self.prepare(run)
-        if test is not None and missed:
+        if test is not None and missed and not self.status.is_locked:
             refusal = CommandRefused("mainrun.search", target=test.target)
             self.runs[test.channel].machinery.messages.append(str(refusal))
         self.starts_up = False
