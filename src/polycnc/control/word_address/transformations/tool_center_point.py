@@ -75,7 +75,9 @@ def _check_block(builder: Builder) -> None:
 
     A block that ends the control, or begins it, may hold what its other codes allow.
     """
-    before, after = builder.before["length"], builder.mode["length"]
+    before, after, cycle = builder.before["length"], builder.mode["length"], builder.mode["cycle"]
+    if after in TIP_CODES and cycle != "G80" and not any(row.group == "cycle" for row in builder.codes):
+        raise builder.control.fail("tip_mode", address=cycle)
     if before not in TIP_CODES or after not in TIP_CODES:
         return
     for row in builder.codes:
