@@ -41,12 +41,14 @@ def test_pr3014_keeps_the_tilted_plane_over_power_off(kept: int, machine: tuple[
     # X' = X, Y' = Z, Z' = -Y: (5,6,7) of the plane is (5,-7,6) of the work from the origin (0,1,0).
     memory, setup = InMemoryStore(), {"parameters": {"3014": kept}}
     tilt, move = "G68.2 X0 Y1. Z0 I0 J90. K0\nM30\n", "G90 G00 X5. Y6. Z7.\nM30\n"
-    for program in (tilt, move):
-        result = open_session(
+    results = [
+        open_session(
             program, control="syntec-mill", machine="mill5-ac-table", setup=setup, memory=memory
         ).run()
-        assert result.ok
-    assert [result.rows[0]["machine"][axis] for axis in "XYZ"] == pytest.approx(machine)
+        for program in (tilt, move)
+    ]
+    assert all(result.ok for result in results)
+    assert [results[-1].rows[0]["machine"][axis] for axis in "XYZ"] == pytest.approx(machine)
 
 
 @pytest.mark.parametrize(("code", "alarms"), [("G43.4 H1", ["PC0001"]), ("G43.5 H1", [])])

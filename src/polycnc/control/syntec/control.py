@@ -210,6 +210,11 @@ class SyntecMill(WordAddressControl):
         if memory.parameters.travel_2_at_start == 1:
             channel.mode = channel.mode.with_code("stroke", "G22")
 
+    def travel_by_parameters(self, channel: SyntecChannel) -> Mapping[int, tuple[float, float]]:
+        """First travel limits, Pr2401 on."""
+        travel = channel.memory.parameters.first_travel
+        return systems.limits_in(channel, travel)
+
     def begin(self, channel: SyntecChannel) -> None:
         """A main program begins: it has the local variables; a channel of a file with `$n` runs its section."""
         local = channel.memory.locals

@@ -59,6 +59,8 @@ OVERLAPS = {"G81": ("D", "Q"), "G74": ("I", "J"), "G84": ("I", "J")}
 #: Pr4020: direction off the wall after the oriented stop, as geometry axis and sense.
 SHIFT_DIRECTIONS = {0: (0, 1.0), 1: (0, -1.0), 2: (1, 1.0), 3: (1, -1.0), 4: (2, 1.0), 5: (2, -1.0)}
 MAX_HOLES = 9999
+#: K of a drilling cycle (2.72.3; the table of 2.72.1 ends at 999).
+MOST_REPEATS = 9999
 
 
 @dataclass(slots=True)
@@ -143,6 +145,7 @@ DRILLING = Drilling(
     CYCLES,
     kept="RQPIJD",
     repeats="K",
+    most_repeats=MOST_REPEATS,
     dwells_at_r=True,
     seconds=dwell_seconds,
     relief=relief,

@@ -50,6 +50,9 @@ class SyntecParameters(ControlParameters["SyntecAxisParameters"]):
     cnc_groups = Whole(731, delivered=0)
     #: 742: What an axis of several groups does: 1 for a roaming axis.
     shared_axes = Whole(742, delivered=0)
+    #: 2401: First travel limits, plus and minus for each axis in turn, least units; none where plus is not
+    #: above minus.
+    first_travel = WholeRun(2401, 40, delivered=0)
     #: 2501: Second travel limits, plus and minus for each axis in turn, least units.
     second_travel = WholeRun(2501, 40, delivered=0)
     #: 2542: Second travel limits forbid the outside (0) or the inside (1).

@@ -426,7 +426,7 @@ class Execution:
         piece, record = preprocessing.queue.pop_piece()
         self._cap2, self.context, self.place = cap2, piece.context, piece.context
         if self.block is not None and (self.block.program, self.block.line) != (piece.program, piece.line):
-            self._enter(Block(piece.program, piece.line, self.modal))
+            self._enter(self.block.followed_by(piece.program, piece.line, self.modal))
         if piece.kind == Kind.SKIP and piece.first == 0.0 and self._skip_after_s is not None:
             self._skips_at = self.clock.time + self._skip_after_s
         if self._x2 == 0.0 and self.clock.time < self._rest_time:

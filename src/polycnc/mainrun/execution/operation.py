@@ -291,7 +291,7 @@ class Operation:
                 self.runs.switch_on_again(run)
             run.stand_at(position)
             self.prepare(run)
-        if test is not None and missed:
+        if test is not None and missed and not self.status.is_locked:
             refusal = CommandRefused("mainrun.search", target=test.target)
             self.runs[test.channel].machinery.messages.append(str(refusal))
         self.starts_up = False
@@ -385,10 +385,14 @@ class Operation:
         """A text for the operator."""
         self.status.keep_message(message)
 
+    def shows_alarms(self, number: int) -> None:
+        """The alarms of a channel are shown."""
+        self.status.show_alarms(tuple(self.runs[number].channel.alarms))
+
     def stops(self, number: int, code: str) -> None:
         """A programmed stop, or `alarm`."""
         if code == "alarm":
-            self.status.show_alarms(tuple(self.runs[number].channel.alarms))
+            self.shows_alarms(number)
         self.runs[number].execution.stop(code)
 
     def halted(self, number: int, reason: str) -> None:

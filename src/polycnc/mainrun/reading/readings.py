@@ -121,6 +121,7 @@ class Readings:
         operation, status, run = self._operation, self._operation.status, self._runs.first
         dials, channels = operation.switches.dials, self.channels
         first = channels[run.number]
+        interrupted = run.reached.get(first.program, ())
         return Snapshot(
             time=operation.clock.time,
             mode=status.mode,
@@ -141,5 +142,6 @@ class Readings:
             parts=first.parts,
             channels=channels,
             notices=operation.interlocks.messages,
-            interruption=run.reached.get(first.program, 0),
+            interruption=interrupted[0][1] if interrupted else 0,
+            interrupted=interrupted,
         )

@@ -22,6 +22,7 @@ from polycnc.panel.screens.words import END
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
+    from polycnc.mainrun.preparation.items import Places
     from polycnc.panel.screens.pages import Column
     from polycnc.panel.screens.state import ScreenState
 
@@ -210,8 +211,10 @@ def delete_program(screen: ScreenState) -> None:
 def search_block(screen: ScreenState) -> None:
     """Block search: cycle start goes on at the block number or line that has been keyed in, or at the cursor."""
     typed = screen.buffer.strip()
-    if not typed and screen.program_row is not None:
-        target: int | str = screen.control.first_line(screen.control.program) + screen.program_row
+    if not typed and screen.at_interruption:
+        target: int | str | Places = screen.control.snapshot.interrupted
+    elif not typed and screen.program_row is not None:
+        target = screen.control.first_line(screen.control.program) + screen.program_row
     else:
         target = int(typed) if typed.isdigit() else typed
     screen.control.block_search(target, how=screen.search_mode)
@@ -219,12 +222,29 @@ def search_block(screen: ScreenState) -> None:
 
 
 def search_interruption(screen: ScreenState) -> None:
-    """The cursor goes to the block at which the main program was given up."""
+    """The cursor goes to the block at which the program was given up; in a subprogram, to the block that called it.
+
+    A search from there goes on in the subprogram.
+    """
     control = screen.control
     line = control.snapshot.interruption
     if not line:
         raise CommandRefused("screen.no-interruption")
     screen.look_at(line - control.first_line(control.program))
+    screen.at_interruption = True
+
+
+def preset(screen: ScreenState) -> None:
+    """PRESET: the axis that is keyed in shows the value behind it where it stands, in mode JOG."""
+    match = _AXIS_VALUE.fullmatch(screen.buffer.strip().upper())
+    if match is None or not match["value"]:
+        raise CommandRefused("screen.no-axis", typed=screen.buffer)
+    try:
+        value = float(match["value"])
+    except ValueError:
+        raise CommandRefused("screen.no-number", typed=match["value"]) from None
+    screen.control.preset(match["axis"], value)
+    screen.buffer = ""
 
 
 def search_text(screen: ScreenState) -> None:
@@ -444,6 +464,7 @@ ACTIONS: dict[str, Action] = {
     "search-block": search_block,
     "search-interruption": search_interruption,
     "search-text": search_text,
+    "preset": preset,
     "to-top": to_top,
     "insert": insert,
     "erase-mdi": erase_mdi,

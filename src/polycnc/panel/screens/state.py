@@ -88,6 +88,7 @@ class ScreenState:
         dialog: The dialog of the program that is shown, since `dialog_since` (simulated time, s); the page that it lies
             upon is `behind_dialog`.
         program_row: Row of the cursor in the program; None where the window follows the block in execution.
+        at_interruption: The cursor stands where the program was given up, which may be in a subprogram of that block.
         program_word: The word of that row on which the cursor stands, where the page edits words.
         search_mode: The kind of block search that is chosen.
 
@@ -127,6 +128,7 @@ class ScreenState:
         self._cursors: dict[str, tuple[int, int]] = {}
         self.program_row: int | None = None
         self.program_word = 0
+        self.at_interruption = False
         self.search_mode = "contour"
 
     @property
@@ -295,6 +297,7 @@ class ScreenState:
 
     def look_at(self, row: int) -> None:
         """Put the cursor into the program; while it runs, the window follows the block in execution."""
+        self.at_interruption = False
         if self.control.state is State.RUNNING or not self.control.program:
             self.program_row = None
             return

@@ -59,6 +59,7 @@ class Build:
         walls: Where a linear axis keeps the tool square to groove walls (TRACYL, types 513 and 514), the column
             that says how far it goes; else -1.
         bound: Columns of axes that move with the path alone: neither positioned nor oscillating beside it.
+        order: Number of its machine data, among those of its kind.
     """
 
     inner: Transformation
@@ -66,6 +67,7 @@ class Build:
     lengths: str = "behind"
     walls: int = -1
     bound: frozenset[int] = frozenset()
+    order: int = 1
 
 
 def find(channel: SinumerikChannel, kind: str, number: int) -> DataSet:
@@ -143,9 +145,8 @@ def orientation(
     for i, axis in enumerate(in_order(kinematics)):
         offset = number_of(channel, f"$MC_TRAFO5_ROT_AX_OFFSET_{n}", i, 0.0)
         zero[axes.index(axis)] = -(offset + (added[i] if i < len(added) else 0.0))
-    return Build(
-        ToolCentrePoint(kinematics, axes, geometry, tuple(zero), (0.0, 0.0, 0.0)), frozenset(), "tip"
-    )
+    inner = ToolCentrePoint(kinematics, axes, geometry, tuple(zero), (0.0, 0.0, 0.0))
+    return Build(inner, lengths="tip", order=n)
 
 
 def in_order(kinematics: Kinematics) -> tuple[str, ...]:

@@ -118,7 +118,7 @@ def _linked(channel: SinumerikChannel, found: data_sets.DataSet, rest: list[floa
     first = _first_link(channel, links[0], parameters[0])
     second = _leaning(channel, links[1], parameters[own])
     inner = Chain((first.inner, second.inner))
-    return Build(inner, first.used | second.used, first.lengths, bound=first.bound)
+    return Build(inner, first.used | second.used, first.lengths, bound=first.bound, order=first.order)
 
 
 def _first_link(channel: SinumerikChannel, found: data_sets.DataSet, parameter: float | None) -> Build:

@@ -36,6 +36,8 @@ from polycnc.geometry.planes import PLANES
 from polycnc.language.syntec.values import to_long
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.syntec.memory import SyntecMemory
     from polycnc.geometry.frames import Vector
@@ -168,16 +170,18 @@ def return_to_further_reference(channel: SyntecChannel, words: Words) -> None:
         go_to_reference(channel, own, int(number))
 
 
+def limits_in(channel: SyntecChannel, travel: Sequence[int]) -> dict[int, tuple[float, float]]:
+    """Minus and plus limit of axes by column, from pairs of a plus and a minus limit; none where plus is not above."""
+    unit = least_unit(channel.memory.parameters)
+    pairs = ((travel[2 * i + 1] * unit, travel[2 * i] * unit) for i in range(len(channel.axes)))
+    return {i: (low, high) for i, (low, high) in enumerate(pairs) if high > low}
+
+
 def stroke_limit_on(channel: SyntecChannel, words: Words) -> None:
     """G22 X Y Z I J K: second travel limits, X Y Z with I J K in pairs, the others from Pr2501 on (2.18)."""
     memory = channel.memory
     given = {axis: value for axis, value, _ in words.axes()}
-    zones: dict[int, tuple[float, float]] = {}
-    unit, travel = least_unit(memory.parameters), memory.parameters.second_travel
-    for axis in range(len(channel.axes)):
-        plus, minus = travel[2 * axis] * unit, travel[2 * axis + 1] * unit
-        if plus > minus:
-            zones[axis] = (minus, plus)
+    zones = limits_in(channel, memory.parameters.second_travel)
     for letter, axis in zip("IJK", channel.coordinates.geometry, strict=True):
         other = words.length(letter)
         if (other is None) != (axis not in given):
