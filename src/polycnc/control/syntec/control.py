@@ -123,6 +123,7 @@ class SyntecMill(WordAddressControl):
         whole_numbers.RULE,
         corners.RULE,
         line_by_angle.RULE,
+        tip_control.COMPANY_RULE,
         tip_control.RULE,
         drilling_cycles.RULE,
         cycles.OVERLAP_RULE,

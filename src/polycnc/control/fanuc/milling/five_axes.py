@@ -80,6 +80,20 @@ def _check_block(builder: Builder) -> None:
     for address in ("D", "H"):
         if builder.has(address):
             raise _not_yet(f"{address}: {before}")
+    _check_turn(builder, before)
+
+
+def _check_turn(builder: Builder, code: str) -> None:
+    """Refuse a block that only turns the tool: on which side of it the work lies meanwhile is not known here."""
+    channel, moves, turns = builder.channel, False, ""
+    for address in builder.slots:
+        target = builder.control.axis_of_address(channel, address, builder)
+        if target is not None and target[0] in channel.coordinates.geometry:
+            moves = True
+        elif target is not None or address in "IJK":
+            turns = address
+    if turns and not moves and not any(row.code == "G40" for row in builder.codes):
+        raise _not_yet(f"{turns}: {code}")
 
 
 def _parameters(channel: Channel) -> FanucMillingParameters:

@@ -58,12 +58,11 @@ def start_following(channel: WordAddressChannel, words: Words) -> None:
 
 
 def _check_work_zero(channel: WordAddressChannel) -> None:
-    """PC0001 for a fixture offset, and for a workpiece error unless directions are vectors of the work (G43.5)."""
-    state, code = OnTable.of(channel), channel.mode["length"]
-    if state.fixture or (state.error and code != "G43.5"):
-        raise AlarmError(
-            "PC0001", hint="hint.not-supported", code=f"{code}: G54.{'2' if state.fixture else '4'}"
-        )
+    """PC0001 for a fixture offset; with a workpiece error the tool's direction is to be told anew."""
+    state = OnTable.of(channel)
+    state.posture.clear()
+    if state.fixture:
+        raise AlarmError("PC0001", hint="hint.not-supported", code=f"{channel.mode['length']}: G54.2")
 
 
 #: What does not go with tool centre point control (macro B reference §12), beside drilling cycles.
@@ -76,7 +75,9 @@ def _check_block(builder: Builder) -> None:
 
     A block that ends the control, or begins it, may hold what its other codes allow.
     """
-    before, after = builder.before["length"], builder.mode["length"]
+    before, after, cycle = builder.before["length"], builder.mode["length"], builder.mode["cycle"]
+    if after in TIP_CODES and cycle != "G80" and not any(row.group == "cycle" for row in builder.codes):
+        raise builder.control.fail("tip_mode", address=cycle)
     if before not in TIP_CODES or after not in TIP_CODES:
         return
     for row in builder.codes:
