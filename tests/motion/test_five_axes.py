@@ -86,14 +86,16 @@ def test_axes_keep_their_velocity_all_round_a_circle() -> None:
         start, n = [150.0, 0.0, 5.0, 0.0, 45.0], len(axes.tip.axes)
         build.row(Kind.FEED, *start, feed=1000.0)
         build.row(Kind.CCW, *start, feed=1000.0, curve=(0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 2.0))
+
+        def keep(pieces: Any, count: int, found: list[Any] = found) -> None:
+            found.append(np.array(pieces[: count * piece_width(5)]))
+
         Planner(
             build.toolpath,
             axes.machine,
             settings=BRISK,
             start=axes.tip.to_machine(start),
-            on_pieces=lambda pieces, count, found=found: found.append(
-                np.array(pieces[: count * piece_width(5)])
-            ),
+            on_pieces=keep,
         ).finish()
         run = Run(np.concatenate(found).reshape(-1, piece_width(n))[1:], n)
         _, velocity, _ = real_motion(run, context, np.linspace(0.0, run.seconds, 2000), axes.machine)
