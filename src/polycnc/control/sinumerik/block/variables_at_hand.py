@@ -225,9 +225,12 @@ def _take(
     count: int,
     value: Callable[[float], Any],
 ) -> None:
-    old, new = _bits(before, first, count), _bits(after, first, count)
-    if old == new:
+    if (
+        array("d", before[first : first + count]).tobytes()
+        == array("d", after[first : first + count]).tobytes()
+    ):
         return
+    old, new = _bits(before, first, count), _bits(after, first, count)
     for i in range(count):
         if old[i] != new[i]:
             target[i] = value(after[first + i])
