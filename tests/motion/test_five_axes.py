@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from polycnc.motion import Settings
-from polycnc.motion.kernels.columns import piece_width
+from polycnc.motion.kernels.columns import PieceRecord, piece_width
 from polycnc.motion.planner import Planner
 from polycnc.motion.sampling.run import Run
 from polycnc.toolpath import Context, Kind
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from tests.motion.five_axes import Numbers
 
 BRISK = Settings(acceleration=AccelerationMode.CONSTANT)
+SOFT = Settings(acceleration=AccelerationMode.JERK_LIMITED, rotary_in_feed=False)
 #: Planned time over the least one, of the slowest path; the bound is found at so many places that it is this exact.
 WORST, COARSE = 1.05, 0.995
 
@@ -101,8 +102,20 @@ def test_axes_keep_their_velocity_all_round_a_circle() -> None:
             assert np.abs(velocity[:, i]).max() <= axes.machine.axis[axis].max_feed * SLACK, (name, axis)
 
 
-def run_of(path: TipPath, context: Context) -> Run:
-    """What the axes do along a path."""
+@pytest.mark.parametrize("turn", [90.0, 360.0, 720.0])
+def test_with_limited_jerk_axes_keep_their_velocity_while_the_work_turns_round(turn: float) -> None:
+    for name, axes in machines().items():
+        points = [[150.0, 0.0, 0.0, 0.0, 45.0], [690.0, 841.0, 0.0, 20.0, 45.0 + turn]]
+        context = Context(transformation=axes.tip, corner_mode=CornerMode.EXACT_STOP)
+        run = run_of(TipPath(name, axes, points, 1000.0), context, SOFT)
+        times = np.linspace(0.0, run.seconds, 2000)
+        _, velocity, _ = real_motion(run, context, times, axes.machine)
+        for i, axis in enumerate(axes.tip.axes):
+            assert np.abs(velocity[:, i]).max() <= axes.machine.axis[axis].max_feed * SLACK, (name, axis)
+
+
+def run_of(path: TipPath, context: Context, settings: Settings = BRISK) -> Run:
+    """What the axes do along a path, behind the standing piece at its start."""
     found, n = list[Any](), len(path.axes.tip.axes)
     build, width = Build(path.axes.tip.axes, context), piece_width(n)
     for point in path.points:
@@ -110,11 +123,12 @@ def run_of(path: TipPath, context: Context) -> Run:
     Planner(
         build.toolpath,
         path.axes.machine,
-        settings=BRISK,
+        settings=settings,
         start=path.axes.tip.to_machine(path.points[0]),
         on_pieces=lambda pieces, count: found.append(np.array(pieces[: count * width]).reshape(count, width)),
     ).finish()
-    return Run(np.concatenate(found), n)
+    pieces = np.concatenate(found)
+    return Run(pieces[pieces[:, PieceRecord.LENGTH] > 0.0], n)
 
 
 def off_lines(tips: Numbers, points: Numbers) -> Numbers:

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from array import array
 from itertools import groupby
-from math import ceil, cos, inf, pi
+from math import ceil, cos, inf, pi, radians
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.motion.compiled import share_rows
 from polycnc.motion.kernels.columns import AT_END, AT_START
-from polycnc.motion.kernels.demands import BEND, LOOKS, NOTHING, TURN, TWIST, UNEVEN
+from polycnc.motion.kernels.demands import BEND, LOOK_DEG, LOOKS, NOTHING, TURN, TWIST, UNEVEN
 from polycnc.transformation.orientation.linkage import room_for
 
 if TYPE_CHECKING:
@@ -29,8 +29,8 @@ __all__ = [
 
 #: Derivatives along the path are differences over so many mm or degrees at most.
 PATH_STEP = 5e-3
-#: The turn of a full circle; arcs are looked at after so much of it at most, radians.
-FULL, LOOK = 2.0 * pi, pi / 12.0
+#: The turn of a full circle; rows are looked at after so much of it at most, radians.
+FULL, LOOK = 2.0 * pi, radians(LOOK_DEG)
 #: Shares become shorter by this factor towards the worst place, or by a smaller one.
 SHORTER = 0.5
 

@@ -19,7 +19,7 @@ point next to the centre of polar interpolation.
 from __future__ import annotations
 
 from array import array
-from math import hypot, inf, sqrt
+from math import hypot, inf, radians, sqrt
 from operator import sub
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -377,15 +377,16 @@ class RealAxes:
     def _path(
         self, chunk: Chunk, row: int, start: list[float], end: list[float], context: Context
     ) -> tuple[Path, float, float]:
-        """The points of a row, its length, and by how much it turns: the angle of an arc, radians."""
+        """The points of a row, its length, and by how much it turns: angle of an arc and rotary axes, radians."""
         assert context.transformation is not None
-        curve = self._curve(chunk, row)
+        curve, made = self._curve(chunk, row), context.transformation.geometry
+        ways = enumerate(map(sub, end, start))
+        turned = radians(sum(abs(way) for i, way in ways if self._rotary(i) and i not in made))
         if curve:
-            made, ccw = context.transformation.geometry, chunk.kind[row] in CCW_KINDS
-            arc = arc_path(start, end, curve, made, ccw=ccw)
+            arc = arc_path(start, end, curve, made, ccw=chunk.kind[row] in CCW_KINDS)
             beside = [0.0 if i in made else way for i, way in enumerate(self._counted(context, start, end))]
-            return arc.at, hypot(arc.length, *beside), arc.angle
-        return line_path(start, end), self._length(context, start, end), 0.0
+            return arc.at, hypot(arc.length, *beside), arc.angle + turned
+        return line_path(start, end), self._length(context, start, end), turned
 
     def _shares(
         self,
@@ -400,12 +401,16 @@ class RealAxes:
         if length == 0.0:
             return RowShares([], 1.0, 1.0)
         count = looks_along(angle)
-        looks = [
-            between(self._demand(context, path, length, k / count, kind), angle / count)
-            for k in range(count + 1)
-        ]
+
+        def look(place: float, *, lateral: bool) -> Demand:
+            return between(self._demand(context, path, length, place, kind, lateral=lateral), angle / count)
+
+        looks = [look(k / count, lateral=True) for k in range(count + 1)]
         sizes = [max(look.pull, 1.0 / look.top) for look in looks]
         uneven = max(sizes) >= UNEVEN * min(sizes) or any(rests)
+        if kind in ARC_KINDS and not uneven:
+            inside = [look(k / count, lateral=False) for k in range(count + 1)]
+            return self._corners(context, length, look, [(1.0, *self._within(inside, length))], rests)
         if kind in (Kind.SPLINE, Kind.THREAD, Kind.TAP) or not uneven:
             top, ease = self._within(looks, length)
             return RowShares([(1.0, top, ease)], ease, ease)

@@ -13,7 +13,7 @@ from math import copysign, hypot
 from typing import TYPE_CHECKING
 
 from polycnc.cycles.count import parts
-from polycnc.cycles.turning.contour import Piece, climb, gaps, points
+from polycnc.cycles.turning.contour import Gap, Piece, climb, gaps, points
 from polycnc.cycles.turning.stroke import PlaneStroke
 from polycnc.deferred.records import dataclass
 from polycnc.geometry import arcs, offset
@@ -22,7 +22,7 @@ from polycnc.toolpath import Kind
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from polycnc.cycles.turning.contour import Contour, Gap
+    from polycnc.cycles.turning.contour import Contour
     from polycnc.geometry.arcs import Point
     from polycnc.geometry.offset import Edge
 
@@ -158,11 +158,13 @@ def remove(contour: Contour, removal: Removal, outline: Contour | None = None) -
             # On the flat of a base the contour is not deeper than the cut: look a hair above it.
             is_flat = height == section.bottom or height in edges
             gap = _gap_at(contour, level - towards * _HAIR if is_flat else level, towards, section.place)
+            if gap is None and height == section.bottom:
+                gap = _point_at(contour, section.place, level)
             if gap is None:
                 continue
             front = abs(gap.start - begin[0]) <= 2.0 * _HAIR
             met = foremost if outline is None else _met(outline, level, towards, foremost)
-            if met is None or onwards * (gap.end - met) <= _HAIR:
+            if met is None or onwards * (gap.end - met) <= (_HAIR if gap.end != gap.start else -_HAIR):
                 continue
             entry = met - onwards * removal.lift if front else gap.start
             place = (entry, level, -towards * above, -towards * stock)
@@ -283,6 +285,15 @@ def _gap_at(contour: Contour, level: float, towards: float, place: float) -> Gap
         low, high = sorted((gap.start, gap.end))
         if low - 2.0 * _HAIR <= place <= high + 2.0 * _HAIR and high - low > 10.0 * _HAIR:
             return gap
+    return None
+
+
+def _point_at(contour: Contour, place: float, level: float) -> Gap | None:
+    """A section that ends in a point, as one that begins with a chamfer does: the tool goes there and follows it up."""
+    for number, piece in enumerate(contour):
+        a, b = piece.edge.start
+        if abs(a - place) <= _HAIR and abs(b - level) <= _HAIR:
+            return Gap(place, place, number)
     return None
 
 

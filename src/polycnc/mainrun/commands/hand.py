@@ -142,6 +142,8 @@ class HandCommands:
         run, i = self._axis(axis, channel)
         if not run.channel.control.presets_by_hand:
             raise CommandRefused("mainrun.no-preset")
+        if not abs(shown) <= ENDLESS:
+            raise CommandRefused("mainrun.value", name="value", allowed=f"±{ENDLESS:g}", value=shown)
         if self._runs.move or self._runs.move_by_hand:
             raise CommandRefused("mainrun.moving")
         context, place = run.execution.context, run.machine_position
