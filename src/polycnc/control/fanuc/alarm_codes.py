@@ -10,6 +10,7 @@ ALARMS: dict[str, str] = {
     "minus": "PS0006",
     "point": "PS0007",
     "address": "PS0009",
+    "high_speed_company": "PS0009",
     "improper_g": "PS0010",
     "end_of_record": "PS5010",
     # motion
