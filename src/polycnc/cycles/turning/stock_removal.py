@@ -32,8 +32,8 @@ _WHOLE = 1e-6
 _ROOM = 1e-3
 #: What is so near to a line lies on it; so deep is the material under the begin of a contour, mm.
 _TOUCH, _DEEP = 1e-4, 1e4
-#: Parts of an arc that a rapid way is compared with.
-_SAMPLES = 32
+#: Chords that a way is compared with miss their arc by no more than this, mm, or than this share of a large radius.
+_CHORD_MM, _CHORD_SHARE = 1e-3, 2e-5
 
 
 @dataclass(frozen=True, slots=True)
@@ -164,7 +164,8 @@ def remove(contour: Contour, removal: Removal, outline: Contour | None = None) -
                 continue
             front = abs(gap.start - begin[0]) <= 2.0 * _HAIR
             met = foremost if outline is None else _met(outline, level, towards, foremost)
-            if met is None or onwards * (gap.end - met) <= (_HAIR if gap.end != gap.start else -_HAIR):
+            is_point = gap.end == gap.start
+            if met is None or (outline is not None and not is_point and onwards * (gap.end - met) <= _HAIR):
                 continue
             entry = met - onwards * removal.lift if front else gap.start
             place = (entry, level, -towards * above, -towards * stock)
@@ -246,37 +247,48 @@ def blank(contour: Contour, towards: float, above: float | None = None) -> Conto
 def _samples(contour: Contour) -> Iterator[Point]:
     """Corners of the contour, and points of its arcs."""
     for piece in contour:
-        for k in range(1 + (_SAMPLES if piece.edge.center is not None else 1)):
-            yield _point_of(piece.edge, k)
+        yield from _chords(piece.edge)
+
+
+def _chords(edge: Edge) -> list[Point]:
+    """The ends of a line, or points of an arc whose chords are near to it."""
+    if edge.center is None:
+        return [edge.start, edge.end]
+    radius = arcs.radius_of(edge.center, edge.end)
+    count = arcs.parts_for_chord_error(radius, edge.sweep, max(_CHORD_MM, _CHORD_SHARE * radius))
+    return [edge.start, *arcs.split(edge.start, edge.end, edge.center, edge.ccw, count)]
+
+
+def _sides(contour: Contour) -> Iterator[tuple[Point, Point, float]]:
+    """Lines and chords of the contour, and how near to them a way touches and does not cross them."""
+    for piece in contour:
+        edge, touch = piece.edge, _TOUCH
+        if edge.center is not None:
+            touch += max(_CHORD_MM, _CHORD_SHARE * arcs.radius_of(edge.center, edge.end))
+        for a, b in pairwise(_chords(edge)):
+            yield a, b, touch
 
 
 def is_clear(contour: Contour, way: list[Point], towards: float) -> bool:
     """Whether a way from corner to corner, (a, b) in mm, crosses nowhere the contour or the front under its begin."""
-    sides = list(pairwise(_samples(contour)))
+    sides = list(_sides(contour))
     begin, first = contour[0].edge.start, contour[0].edge.departing[0]
     if first * (contour[-1].edge.end[0] - begin[0]) >= 0.0:  # else it hangs over
-        sides.append(((begin[0], begin[1] + towards * _DEEP), begin))
-    return not any(_cross(p, q, a, b) for p, q in pairwise(way) for a, b in sides)
+        sides.append(((begin[0], begin[1] + towards * _DEEP), begin, _TOUCH))
+    return not any(_cross(p, q, a, b, touch) for p, q in pairwise(way) for a, b, touch in sides)
 
 
-def _cross(p: Point, q: Point, a: Point, b: Point) -> bool:
-    """Whether two lines cross between their ends."""
-    return _are_apart(p, q, a, b) and _are_apart(a, b, p, q)
+def _cross(p: Point, q: Point, a: Point, b: Point, touch: float) -> bool:
+    """Whether two lines cross between their ends; the first one may end by `touch` behind the second one."""
+    return _are_apart(p, q, a, b, _TOUCH) and _are_apart(a, b, p, q, touch)
 
 
-def _are_apart(p: Point, q: Point, a: Point, b: Point) -> bool:
-    """Whether two points lie on both sides of the line from p to q, and not just on it."""
+def _are_apart(p: Point, q: Point, a: Point, b: Point, touch: float) -> bool:
+    """Whether two points lie on both sides of the line from p to q, by more than a distance."""
     u, v = q[0] - p[0], q[1] - p[1]
-    on = _TOUCH * hypot(u, v)
+    on = touch * hypot(u, v)
     first, second = u * (a[1] - p[1]) - v * (a[0] - p[0]), u * (b[1] - p[1]) - v * (b[0] - p[0])
     return min(first, second) < -on and max(first, second) > on
-
-
-def _point_of(edge: Edge, k: int) -> Point:
-    """An end of a line, or a point of an arc by its number."""
-    if edge.center is None:
-        return edge.end if k else edge.start
-    return arcs.point_on_arc(edge.start, edge.end, edge.center, edge.ccw, k / _SAMPLES)
 
 
 def _gap_at(contour: Contour, level: float, towards: float, place: float) -> Gap | None:
