@@ -102,6 +102,7 @@ class Sinumerik:
     tools_have_names: ClassVar[bool] = True
     last_bit: ClassVar[int] = 31
     mdi_intervenes: ClassVar[bool] = False
+    presets_by_hand: ClassVar[bool] = True
     form: ClassVar[Form] = Form.SINUMERIK
 
     def __init__(self) -> None:
@@ -202,9 +203,13 @@ class Sinumerik:
         """MD36100 and MD36110, or the second ones."""
         return working_area.switches(channel, axis)
 
-    def handwheel_offset_speed(self, channel: SinumerikChannel, axis: int) -> float:
+    def handwheel_offset(self, channel: SinumerikChannel, axis: int) -> tuple[float, float]:
         """DRF: MD32020 by MD32090."""
-        return overlay.handwheel_speed(channel, axis)
+        return overlay.handwheel_share(channel, axis)
+
+    def expect_handwheel(self, channel: SinumerikChannel, *, is_on: bool) -> None:
+        """The switch DRF is on: the path leaves axes their share for the handwheel (MD20610)."""
+        overlay.expect_handwheel(channel, is_on=is_on)
 
     def hand_speed(
         self, channel: SinumerikChannel, axis: int, what: HandMotion, place: int, *, rapid: bool

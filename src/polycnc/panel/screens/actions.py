@@ -15,13 +15,14 @@ from polycnc.mainrun import CommandRefused, Mode
 from polycnc.messages import UserError
 from polycnc.panel.screens import forms
 from polycnc.panel.screens.sources import SOURCES
-from polycnc.panel.screens.state import Operation
+from polycnc.panel.screens.state import PANEL_SWITCHES, Operation
 from polycnc.panel.screens.tables import Table
 from polycnc.panel.screens.transfer import Transfer, begin_transfer
 from polycnc.panel.screens.words import END
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
+    from polycnc.mainrun.preparation.items import Places
     from polycnc.panel.screens.pages import Column
     from polycnc.panel.screens.state import ScreenState
 
@@ -71,7 +72,9 @@ def set_value(screen: ScreenState) -> None:
     Several values with `;` between them go into consecutive rows; those in front of one that is refused are set
     (0i-TF Plus III.2.1.1).
     """
-    if screen.shows("parameters"):
+    if screen.shows("switches"):
+        set_switch(screen)
+    elif screen.shows("parameters"):
         if not screen.writes_parameters:
             raise CommandRefused("screen.write-protected")
         number, _ = screen.parameters[screen.cursor[0]]
@@ -85,6 +88,26 @@ def set_value(screen: ScreenState) -> None:
             for place, value in enumerate(_numbers(screen)):
                 table.write(column, row + place, value)
     screen.buffer = ""
+
+
+def set_switch(screen: ScreenState) -> None:
+    """INPUT on the setting page: PARAMETER WRITE by 1 or 0; the other rows are switches of the machine panel."""
+    name = list(PANEL_SWITCHES.values())[min(screen.cursor[0], len(PANEL_SWITCHES) - 1)]
+    value = _number(screen)
+    if name:
+        raise CommandRefused("screen.no-field")
+    if value not in (0.0, 1.0):
+        raise CommandRefused("screen.value", value=f"{value:g}")
+    screen.writes_parameters = bool(value)
+
+
+def turn_switch(screen: ScreenState) -> None:
+    """SELECT on the page of program control: the switch at the cursor turns over (SINUMERIK)."""
+    name = list(PANEL_SWITCHES.values())[min(screen.cursor[0], len(PANEL_SWITCHES) - 1)]
+    if name:
+        screen.control.set_switches(**{name: not screen.switch(name)})
+    else:
+        write_enable(screen)
 
 
 def add_value(screen: ScreenState) -> None:
@@ -194,8 +217,38 @@ def search_program(screen: ScreenState) -> None:
     name = screen.buffer.strip()
     if not name and screen.shows("listing") and screen.control.programs:
         name = screen.control.programs[screen.cursor[0]].name
-    screen.control.select_program(name)
-    screen.program_row, screen.buffer = None, ""
+    if screen.in_background:
+        screen.control.program_lines(name)
+        screen.background, screen.program_word = name, 0
+        screen.look_at(0)
+    else:
+        screen.control.select_program(name)
+        screen.program_row = None
+    screen.buffer = ""
+
+
+def edit_in_background(screen: ScreenState) -> None:
+    """BG-EDT: the program that is keyed in is edited while another one may run; a new one where the memory has none.
+
+    Raises:
+        CommandRefused: No number is keyed in, edit protection is on, or the program is under way.
+    """
+    name = screen.buffer.strip().upper()
+    if not _PROGRAM.fullmatch(name):
+        raise CommandRefused("screen.no-field")
+    try:
+        text = "\n".join(screen.control.program_lines(name)) + "\n"
+    except CommandRefused:
+        text = f"{name}\n"
+    screen.control.store_program(name, text)  # refused where it may not be changed
+    screen.show("program")
+    screen.background, screen.program_word, screen.buffer = name, 0, ""
+    screen.look_at(0)
+
+
+def end_background(screen: ScreenState) -> None:
+    """BG-END: the program in the background is in the memory; the page shows the main program again."""
+    screen.background, screen.program_row, screen.buffer = "", None, ""
 
 
 def delete_program(screen: ScreenState) -> None:
@@ -210,8 +263,10 @@ def delete_program(screen: ScreenState) -> None:
 def search_block(screen: ScreenState) -> None:
     """Block search: cycle start goes on at the block number or line that has been keyed in, or at the cursor."""
     typed = screen.buffer.strip()
-    if not typed and screen.program_row is not None:
-        target: int | str = screen.control.first_line(screen.control.program) + screen.program_row
+    if not typed and screen.at_interruption:
+        target: int | str | Places = screen.control.snapshot.interrupted
+    elif not typed and screen.program_row is not None:
+        target = screen.control.first_line(screen.control.program) + screen.program_row
     else:
         target = int(typed) if typed.isdigit() else typed
     screen.control.block_search(target, how=screen.search_mode)
@@ -219,12 +274,29 @@ def search_block(screen: ScreenState) -> None:
 
 
 def search_interruption(screen: ScreenState) -> None:
-    """The cursor goes to the block at which the main program was given up."""
+    """The cursor goes to the block at which the program was given up; in a subprogram, to the block that called it.
+
+    A search from there goes on in the subprogram.
+    """
     control = screen.control
     line = control.snapshot.interruption
     if not line:
         raise CommandRefused("screen.no-interruption")
     screen.look_at(line - control.first_line(control.program))
+    screen.at_interruption = True
+
+
+def preset(screen: ScreenState) -> None:
+    """PRESET: the axis that is keyed in shows the value behind it where it stands, in mode JOG."""
+    match = _AXIS_VALUE.fullmatch(screen.buffer.strip().upper())
+    if match is None or not match["value"]:
+        raise CommandRefused("screen.no-axis", typed=screen.buffer)
+    try:
+        value = float(match["value"])
+    except ValueError:
+        raise CommandRefused("screen.no-number", typed=match["value"]) from None
+    screen.control.preset(match["axis"], value)
+    screen.buffer = ""
 
 
 def search_text(screen: ScreenState) -> None:
@@ -277,7 +349,9 @@ def edit_words(screen: ScreenState, key: str) -> None:
         raise CommandRefused("screen.no-field")
     if not screen.edits:
         raise CommandRefused("screen.mode", mode=screen.family.modes[Mode.EDIT])
-    if key == "INSERT" and _PROGRAM.fullmatch(typed):
+    if key == "INSERT" and _PROGRAM.fullmatch(typed) and screen.in_background:
+        edit_in_background(screen)
+    elif key == "INSERT" and _PROGRAM.fullmatch(typed):
         _begin_program(screen, typed.upper(), f"{typed.upper()}\n")
     else:
         _change_program(screen, key, typed)
@@ -314,9 +388,14 @@ def _change_program(screen: ScreenState, key: str, typed: str) -> None:
         raise CommandRefused("screen.no-field")
     after = _NUMBERS.findall(edited.text)
     if [int(each) for each in after] == [int(each) for each in before]:
-        control.store_program(control.program or "MAIN", edited.text)
+        control.store_program(screen.edited_program or "MAIN", edited.text)
         screen.program_row, screen.program_word = edited.place.row, edited.place.word
-    elif key == "ALTER" and _PROGRAM.fullmatch(typed) and len(before) == len(after) == 1:
+    elif (
+        key == "ALTER"
+        and _PROGRAM.fullmatch(typed)
+        and len(before) == len(after) == 1
+        and not screen.background
+    ):
         former = control.program
         _begin_program(screen, typed.upper(), edited.text)
         control.delete_program(former)
@@ -444,7 +523,10 @@ ACTIONS: dict[str, Action] = {
     "search-block": search_block,
     "search-interruption": search_interruption,
     "search-text": search_text,
+    "preset": preset,
     "to-top": to_top,
+    "background-edit": edit_in_background,
+    "background-end": end_background,
     "insert": insert,
     "erase-mdi": erase_mdi,
     "write-enable": write_enable,
@@ -464,6 +546,7 @@ ACTIONS: dict[str, Action] = {
     "insert-call": forms.insert_call,
     "enter": forms.enter,
     "toggle": forms.toggle,
+    "turn-switch": turn_switch,
     "acknowledge": forms.acknowledge,
     "go-to-step": forms.go_to_step,
 }

@@ -37,6 +37,17 @@ def in_language(text: Text, lang: str) -> str:
     return text if isinstance(text, str) else text.get(lang, text["en"])
 
 
+@cache
+def _units() -> Mapping[str, Text]:
+    file = resources.files("polycnc.panel.screens").joinpath("units.toml")
+    return tomllib.loads(file.read_text(encoding="utf-8"))
+
+
+def unit_in_language(unit: str, lang: str) -> str:
+    """A unit of a parameter in a language."""
+    return in_language(_units().get(unit, unit), lang)
+
+
 @dataclass(frozen=True)
 class SoftKey:
     """A soft key: its text, and what it does. Without any of them it is dark.

@@ -33,6 +33,13 @@ _MAINTAINED = "maintained"
 RELATIVE = {"X": "U", "Y": "V", "Z": "W", "A": "A", "B": "B", "C": "H"}
 
 
+#: What the setting page has: names and panel switches, the last one whether parameters may be written.
+PANEL_SWITCHES = {
+    "SINGLE BLOCK": "single_block", "OPTIONAL STOP": "optional_stop", "BLOCK SKIP": "block_skip", "DRY RUN": "dry_run",
+    "MACHINE LOCK": "machine_lock", "PARAMETER WRITE": "",
+}  # fmt: skip
+
+
 class Operation(ABC):
     """What has been chosen and waits for [EXEC]. `back` is the row of soft keys that is shown behind it."""
 
@@ -88,6 +95,8 @@ class ScreenState:
         dialog: The dialog of the program that is shown, since `dialog_since` (simulated time, s); the page that it lies
             upon is `behind_dialog`.
         program_row: Row of the cursor in the program; None where the window follows the block in execution.
+        background: The program that is edited while another one may run; empty for none.
+        at_interruption: The cursor stands where the program was given up, which may be in a subprogram of that block.
         program_word: The word of that row on which the cursor stands, where the page edits words.
         search_mode: The kind of block search that is chosen.
 
@@ -127,6 +136,8 @@ class ScreenState:
         self._cursors: dict[str, tuple[int, int]] = {}
         self.program_row: int | None = None
         self.program_word = 0
+        self.background = ""
+        self.at_interruption = False
         self.search_mode = "contour"
 
     @property
@@ -209,6 +220,10 @@ class ScreenState:
         else:
             self.control.signals[key.signal] = float(wanted)
 
+    def switch(self, name: str) -> bool:
+        """A panel switch by its name; without one, whether parameters may be written."""
+        return bool(getattr(self.control.switches, name)) if name else self.writes_parameters
+
     @property
     def maintained(self) -> dict[str, float]:
         """Running time at which each task of the maintenance schedule was done last, s, by its number; it lasts."""
@@ -262,7 +277,7 @@ class ScreenState:
             place = moved(self._lines, self.edit_place, columns)
             self.program_row, self.program_word = place.row, place.word
             return
-        if self.shows("program") and table is None and not self.shows("mask"):
+        if self.shows("program") and table is None and not (self.shows("mask") or self.shows("switches")):
             self.look_at((self.program_row if self.program_row is not None else self.running_row) + rows)
             return
         row, column = row + rows, column + columns
@@ -280,6 +295,7 @@ class ScreenState:
         name = (
             snapshot.program if self.program_row is not None else snapshot.block.program or snapshot.program
         )
+        name = self.background if self.background and self.page.edits else name
         try:
             return name, self.control.program_lines(name) if name else (), self.control.first_line(name)
         except CommandRefused:
@@ -295,10 +311,11 @@ class ScreenState:
 
     def look_at(self, row: int) -> None:
         """Put the cursor into the program; while it runs, the window follows the block in execution."""
-        if self.control.state is State.RUNNING or not self.control.program:
+        self.at_interruption = False
+        if not self.in_background and (self.control.state is State.RUNNING or not self.control.program):
             self.program_row = None
             return
-        lines = self.control.program_lines(self.control.program)
+        lines = self._lines
         self.program_row, self.program_word = max(0, min(row, len(lines) - 1)), 0
 
     def find(self, text: str, step: int) -> None:
@@ -308,8 +325,7 @@ class ScreenState:
             CommandRefused: There is none.
         """
         here = self.program_row if self.program_row is not None else self.running_row
-        name = self.control.program
-        lines, wanted = self.control.program_lines(name) if name else (), text.strip().upper()
+        lines, wanted = self._lines, text.strip().upper()
         rows = range(here + 1, len(lines)) if step > 0 else range(here - 1, -1, -1)
         found = next((row for row in rows if wanted in lines[row].upper()), None)
         if found is None:
@@ -321,8 +337,18 @@ class ScreenState:
 
     @property
     def edits(self) -> bool:
-        """Whether keys change words of the program: on the page for it, in the mode for it."""
-        return self.page.edits and self.control.mode is Mode.EDIT
+        """Whether keys change words of the program: on the page for it, in the mode for it or in the background."""
+        return self.page.edits and (self.control.mode is Mode.EDIT or bool(self.background))
+
+    @property
+    def in_background(self) -> bool:
+        """Whether the page shows a program that is edited in the background."""
+        return self.page.edits and bool(self.background)
+
+    @property
+    def edited_program(self) -> str:
+        """Name of the program that keys change: that in the background, or the main program."""
+        return self.background if self.in_background else self.control.program
 
     @property
     def edited(self) -> Edited:
@@ -337,7 +363,7 @@ class ScreenState:
 
     @property
     def _lines(self) -> Sequence[str]:
-        name = self.control.program
+        name = self.edited_program
         return self.control.program_lines(name) if name else ()
 
     def _hear(self, record: Record) -> None:
@@ -358,10 +384,13 @@ class ScreenState:
         return 4 if {"G20", "G70", "G700"} & set(self.control.modal.values()) else 3
 
     def positions(self, snapshot: Snapshot, kind: str) -> Mapping[str, float]:
-        """Positions of a kind by axis: `work`, `machine`, `to_go` or `relative`."""
+        """Positions of a kind by axis: `work`, `machine`, `to_go`, `relative`, or `by_hand` while a program waits."""
         shown = snapshot.positions
         if kind == "relative":
             return {axis: at - self.origins.get(axis, 0.0) for axis, at in shown.machine.items()}
+        if kind == "by_hand":
+            left = self.control.restart
+            return {axis: 0.0 - left[axis][1] if axis in left else 0.0 for axis in shown.machine}
         by_kind = {"work": shown.work, "machine": shown.machine, "to_go": shown.to_go}
         return by_kind[kind]
 
@@ -395,5 +424,5 @@ class ScreenState:
                 self.refusal = refusal
                 self.finish()
         self._note_alarms()
-        if self.control.state is State.RUNNING:
+        if self.control.state is State.RUNNING and not self.in_background:
             self.program_row = None
