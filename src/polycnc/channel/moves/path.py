@@ -254,6 +254,10 @@ class Stage:
         """Pass on everything that is held back: no more moves will come that could change it."""
         self.after.flush()
 
+    def programmed(self, position: list[float]) -> list[float]:
+        """Where the program stands when the axes stand at a position behind all that has been passed on."""
+        return position
+
     def pass_on(self, item: Item) -> None:
         """Pass on something that was held back, as it is."""
         if isinstance(item, Move):
@@ -442,6 +446,12 @@ class Path:
             yield
         finally:
             self.resume(recorder)
+
+    def programmed(self, position: list[float]) -> list[float]:
+        """Where the program stands when the axes stand at a position, as far as stages have led them beside it."""
+        for stage in reversed(self._stages):
+            position = stage.programmed(position)
+        return position
 
     def flush(self) -> None:
         """Pass on everything that stages hold back."""
