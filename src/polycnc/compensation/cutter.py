@@ -163,7 +163,7 @@ class CutterCompensation(Stage):
         self._release_all()
 
     def beside(self, position: list[float]) -> list[float]:
-        """Where the tool stands when the program stands at a position behind all that has been passed on."""
+        """Where the tool stands when the program stands at a position; see `Stage`."""
         plane = self.plane
         return plane.at(position, arcs.plus(plane.point(position), self._rows.displacement))
 

@@ -254,8 +254,12 @@ class Stage:
         """Pass on everything that is held back: no more moves will come that could change it."""
         self.after.flush()
 
+    def beside(self, position: list[float]) -> list[float]:
+        """Where the axes stand when the program stands at a position behind all that has been passed on."""
+        return position
+
     def programmed(self, position: list[float]) -> list[float]:
-        """Where the program stands when the axes stand at a position behind all that has been passed on."""
+        """The other way round: where the program stands when the axes stand at a position."""
         return position
 
     def pass_on(self, item: Item) -> None:
@@ -447,8 +451,14 @@ class Path:
         finally:
             self.resume(recorder)
 
+    def beside(self, position: list[float]) -> list[float]:
+        """Where the axes stand when the program stands at a position: stages may have led them beside it."""
+        for stage in self._stages:
+            position = stage.beside(position)
+        return position
+
     def programmed(self, position: list[float]) -> list[float]:
-        """Where the program stands when the axes stand at a position, as far as stages have led them beside it."""
+        """The other way round: where the program stands when the axes stand at a position."""
         for stage in reversed(self._stages):
             position = stage.programmed(position)
         return position
