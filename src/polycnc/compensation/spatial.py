@@ -144,6 +144,15 @@ class SpatialStage(Stage):
         self._idle = 0
         self._queue: list[Move | PlacedEvent] = []
 
+    def beside(self, position: list[float]) -> list[float]:
+        """Where the tip stands when the program stands at a position; see `Stage`."""
+        return self._shifted(position, self._shift)
+
+    def programmed(self, position: list[float]) -> list[float]:
+        """Where the program stands when the tip stands at a position; see `Stage`."""
+        x, y, z = self._shift
+        return self._shifted(position, (-x, -y, -z))
+
     def move(self, move: Move) -> None:
         """Take the next move."""
         tool = self._posture.tool_at(move.end)

@@ -119,7 +119,7 @@ def give_back(channel: SinumerikChannel, columns: Iterable[int]) -> None:
     for column in taken:
         axes.states.pop(column, None)
         machine[column] = clocked.take_back(column)
-    if machine != before:
+    if any(abs(a - b) > NO_WAY for a, b in zip(machine, before, strict=True)):
         coordinates.arrive(path.programmed(coordinates.from_machine(machine)))
 
 
