@@ -164,6 +164,15 @@ class SpatialStage(Stage):
         """Whether the move that leads back to the programmed path is still to come."""
         return not self._left
 
+    def beside(self, position: list[float]) -> list[float]:
+        """Where the tip stands when the program stands at a position; see `Stage`."""
+        return self._shifted(position, self._shift)
+
+    def programmed(self, position: list[float]) -> list[float]:
+        """Where the program stands when the tip stands at a position; see `Stage`."""
+        x, y, z = self._shift
+        return self._shifted(position, (-x, -y, -z))
+
     def move(self, move: Move) -> None:
         """Take the next move."""
         if self.leaves:
