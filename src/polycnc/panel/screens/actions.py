@@ -75,7 +75,7 @@ def set_value(screen: ScreenState) -> None:
     if screen.shows("switches"):
         set_switch(screen)
     elif screen.shows("parameters"):
-        if not screen.writes_parameters:
+        if screen.needs_parameter_write and not screen.writes_parameters:
             raise CommandRefused("screen.write-protected")
         number, _ = screen.parameters[screen.cursor[0]]
         screen.control.write_parameter(number, _number(screen))

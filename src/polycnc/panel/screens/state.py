@@ -33,6 +33,8 @@ _MAINTAINED = "maintained"
 RELATIVE = {"X": "U", "Y": "V", "Z": "W", "A": "A", "B": "B", "C": "H"}
 
 
+#: Parameters that anybody may write (SINUMERIK's setting data).
+SETTING = "setting-data"
 #: What the setting page has: names and panel switches, the last one whether parameters may be written.
 PANEL_SWITCHES = {
     "SINGLE BLOCK": "single_block", "OPTIONAL STOP": "optional_stop", "BLOCK SKIP": "block_skip", "DRY RUN": "dry_run",
@@ -235,16 +237,35 @@ class ScreenState:
         now = self.control.counters.running_s
         self.control.panel_settings[_MAINTAINED] = {**self.maintained, str(number): now}
 
-    @cached_property
+    @property
     def parameters(self) -> tuple[tuple[str, KnownParameter], ...]:
         """The rows of the parameter page: the number, with an axis where each has its own (`1240 X`); what it is."""
+        return self._parameters.get(self._parameters_of, self._parameters[""])
+
+    @property
+    def needs_parameter_write(self) -> bool:
+        """Whether parameters of the page want to be enabled before they are written: setting data do not."""
+        return self._parameters_of != SETTING
+
+    @property
+    def _parameters_of(self) -> str:
+        return next((each.of for each in self.page.windows if each.kind == "parameters"), "")
+
+    @cached_property
+    def _parameters(self) -> Mapping[str, tuple[tuple[str, KnownParameter], ...]]:
+        """The rows by what a page wants: all; SINUMERIK's setting data and its machine data apart."""
         rows: list[tuple[str, KnownParameter]] = []
         for each in self.control.parameters:
             if each.by_axis and self.family.axis_parameters:
                 rows += [(f"{each.number} {axis}", each) for axis in self.control.channel.axes]
             else:
                 rows.append((each.number, each))
-        return tuple(rows)
+        is_setting = [each.name.startswith("$S") for _, each in rows]
+        return {
+            "": tuple(rows),
+            SETTING: tuple(row for row, yes in zip(rows, is_setting, strict=True) if yes),
+            "machine-data": tuple(row for row, yes in zip(rows, is_setting, strict=True) if not yes),
+        }
 
     # ---- the cursor ----------------------------------------------------------------------------------------
 
@@ -363,8 +384,10 @@ class ScreenState:
 
     @property
     def _lines(self) -> Sequence[str]:
-        name = self.edited_program
-        return self.control.program_lines(name) if name else ()
+        try:
+            return self.control.program_lines(self.edited_program) if self.edited_program else ()
+        except CommandRefused:  # it has been deleted meanwhile
+            return ()
 
     def _hear(self, record: Record) -> None:
         """The record button of the machine keeps where the axes are (III.2.1.2, PRC); a sensor measures (III.2.1.3)."""
