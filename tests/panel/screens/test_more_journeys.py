@@ -193,3 +193,58 @@ def test_the_version_page_names_control_and_machine(lang: str) -> None:
     soft(bench, "Version")
     assert "sinumerik-840d" in bench.text
     assert bench.control.machine.id in bench.text
+
+
+# ---- programs block by block -----------------------------------------------------------------------------------------
+
+BLOCKS = {
+    "sinumerik-840d": ("N10 G0 X5\nN20 G0 X9\nM30\n", ("PROGRAM",), "G0 X7"),
+    "syntec-mill": ("O1\nN10 G0 X5.\nN20 G0 X9.\nM30\n", ("PROG",), "G0 X7."),
+    "meldas-m": ("O1\nN10 G0 X5.\nN20 G0 X9.\nM30\n", ("EDIT/MDI",), "G0 X7."),
+}
+
+
+@pytest.mark.parametrize(("control", "lang"), list(product(BLOCKS, LANGUAGES)))
+def test_a_program_is_changed_block_by_block(control: str, lang: str) -> None:
+    program, page, block = BLOCKS[control]
+    bench = Bench(control, lang, program)
+    bench.keys(*page)
+    name = bench.control.program
+    before = list(bench.control.program_lines(name))
+    bench.typed("N20", "DOWN")
+    bench.screen.buffer = ""
+    bench.typed(block, "INPUT")
+    assert bench.message == ""
+    lines = list(bench.control.program_lines(name))
+    at = before.index(next(each for each in before if each.startswith("N20")))
+    assert lines[at + 1].startswith(block)
+    assert len(lines) == len(before) + 1
+    assert bench.start() is State.READY
+    assert bench.control.positions.work["X"] == 7.0
+    bench.typed(block, "DOWN")
+    bench.screen.buffer = ""
+    bench.keys("RUBOUT" if control == "meldas-m" else "DELETE")
+    assert bench.message == ""
+    assert list(bench.control.program_lines(name)) == before
+    assert bench.start() is State.READY
+    assert bench.control.positions.work["X"] == 9.0
+    if control != "sinumerik-840d":
+        bench.typed("O7", "INPUT")
+        assert bench.message, "no further program"
+    bench.screen.buffer = ""
+    bench.press("START")
+    bench.passes(0.05)
+    bench.typed(block, "INPUT")
+    assert bench.message, "a program that runs is not changed"
+    assert list(bench.control.program_lines(name)) == before
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_the_magazine_page_tells_the_tools(lang: str) -> None:
+    bench = Bench("sinumerik-840d", lang, "T3\nM30\n", setup={"tools": {3: {"length": 1.0}}})
+    bench.start()
+    bench.keys("OFFSET")
+    soft(bench, "Magazine")
+    rows = {row[0].text: row[1].text for row in bench.window("magazine").rows}
+    assert rows[bench.says("Spindle", "主軸")] == "3"
+    assert int(rows[bench.says("Places", "刀套數")]) > 0

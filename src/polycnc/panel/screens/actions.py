@@ -403,6 +403,40 @@ def _change_program(screen: ScreenState, key: str, typed: str) -> None:
         raise CommandRefused("screen.no-field")
 
 
+def insert_block(screen: ScreenState) -> None:
+    """INPUT on a page that edits blocks: what has been keyed in is a new block behind the one at the cursor.
+
+    Raises:
+        CommandRefused: Nothing is keyed in, the program is under way, or edit protection is on.
+    """
+    typed = screen.buffer.replace(";", "").strip() if screen.family.layout == "crt" else screen.buffer.strip()
+    if not typed:
+        raise CommandRefused("screen.no-field")
+    lines, row = list(screen.lines), screen.row
+    lines.insert(row + 1, typed)
+    _store_blocks(screen, lines, row + 1)
+
+
+def delete_block(screen: ScreenState) -> None:
+    """DELETE there, with nothing keyed in: the block at the cursor goes."""
+    lines, row = list(screen.lines), screen.row
+    if not lines:
+        raise CommandRefused("screen.no-field")
+    del lines[row]
+    _store_blocks(screen, lines, row)
+
+
+def _store_blocks(screen: ScreenState, lines: Sequence[str], row: int) -> None:
+    """The main program has other blocks; its number stays, and no further one comes."""
+    name, text = screen.control.program, "".join(f"{line}\n" for line in lines)
+    numbers = (list(map(int, _NUMBERS.findall("\n".join(each)))) for each in (screen.lines, lines))
+    if _PROGRAM.fullmatch(name) and next(numbers) != next(numbers):
+        raise CommandRefused("screen.no-field")
+    screen.control.store_program(name, text)
+    screen.look_at(row)
+    screen.buffer = ""
+
+
 def insert(screen: ScreenState, _key: str = "INSERT") -> None:
     """INSERT on the MDI page: what has been keyed in is the next block."""
     if not screen.shows("mdi"):
@@ -525,6 +559,8 @@ ACTIONS: dict[str, Action] = {
     "search-text": search_text,
     "preset": preset,
     "to-top": to_top,
+    "insert-block": insert_block,
+    "delete-block": delete_block,
     "background-edit": edit_in_background,
     "background-end": end_background,
     "insert": insert,

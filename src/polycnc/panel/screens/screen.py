@@ -127,6 +127,8 @@ class Screen(ScreenState):
             self.buffer = ""
         elif key == "CALC":
             calculate(self)
+        elif key in ("INPUT", "INSERT") and self.page.edits_blocks:
+            ACTIONS["insert-block"](self)
         elif key == "INPUT":
             ACTIONS["insert" if self.shows("mdi") else "enter" if self.shows("mask") else "set"](self)
         elif key == "SELECT":
@@ -137,6 +139,8 @@ class Screen(ScreenState):
             ACTIONS["erase-mdi"](self)
         elif self.edits and not _NUMBER.fullmatch(self.buffer):
             edit_words(self, key)
+        elif key in ("DELETE", "RUBOUT") and self.page.edits_blocks and not self.buffer:
+            ACTIONS["delete-block"](self)
         elif key == "DELETE":
             ACTIONS["delete-program"](self)
 

@@ -295,11 +295,11 @@ class ScreenState:
         if self.measuring is not None and self.measuring.leads_cursor:
             return
         if self.edits and columns and not rows:
-            place = moved(self._lines, self.edit_place, columns)
+            place = moved(self.lines, self.edit_place, columns)
             self.program_row, self.program_word = place.row, place.word
             return
         if self.shows("program") and table is None and not (self.shows("mask") or self.shows("switches")):
-            self.look_at((self.program_row if self.program_row is not None else self.running_row) + rows)
+            self.look_at(self.row + rows)
             return
         row, column = row + rows, column + columns
         if table is not None:
@@ -336,7 +336,7 @@ class ScreenState:
         if not self.in_background and (self.control.state is State.RUNNING or not self.control.program):
             self.program_row = None
             return
-        lines = self._lines
+        lines = self.lines
         self.program_row, self.program_word = max(0, min(row, len(lines) - 1)), 0
 
     def find(self, text: str, step: int) -> None:
@@ -345,8 +345,8 @@ class ScreenState:
         Raises:
             CommandRefused: There is none.
         """
-        here = self.program_row if self.program_row is not None else self.running_row
-        lines, wanted = self._lines, text.strip().upper()
+        here = self.row
+        lines, wanted = self.lines, text.strip().upper()
         rows = range(here + 1, len(lines)) if step > 0 else range(here - 1, -1, -1)
         found = next((row for row in rows if wanted in lines[row].upper()), None)
         if found is None:
@@ -374,16 +374,22 @@ class ScreenState:
     @property
     def edited(self) -> Edited:
         """The main program with the cursor in it; an empty one where none is loaded."""
-        return Edited(self._lines, self.edit_place)
+        return Edited(self.lines, self.edit_place)
 
     @property
     def edit_place(self) -> Place:
         """The word on which the cursor stands."""
         place = Place(self.program_row if self.program_row is not None else 0, self.program_word)
-        return on_words(self._lines, place)
+        return on_words(self.lines, place)
 
     @property
-    def _lines(self) -> Sequence[str]:
+    def row(self) -> int:
+        """The row of the cursor in the program, or of the block in execution."""
+        return self.program_row if self.program_row is not None else self.running_row
+
+    @property
+    def lines(self) -> Sequence[str]:
+        """The lines of the program that keys change."""
         try:
             return self.control.program_lines(self.edited_program) if self.edited_program else ()
         except CommandRefused:  # it has been deleted meanwhile

@@ -368,6 +368,22 @@ def _restart(at: Asked) -> Rows:
     )
 
 
+def _magazine(at: Asked) -> Rows:
+    """The tool in the spindle and the one that stands by, and where the magazine is."""
+    tool, magazine = at.snapshot.tool, at.screen.control.machine.magazine
+    pocket = at.snapshot.signals.get("MAGAZINE_POCKET", 0.0)
+    told = {
+        "spindle": tool.name or str(tool.tool),
+        "next": str(tool.next_tool or ""),
+        "places": str(magazine.places),
+        "pocket": str(int(pocket) or ""),
+    }
+    return tuple(
+        (Cell(in_language(at.spec.words[name], at.lang), "label"), Cell(said, "value"))
+        for name, said in told.items()
+    )
+
+
 def _version(at: Asked) -> Rows:
     """What runs here: polycnc and its version, the control, the machine."""
     from polycnc import __version__
@@ -438,6 +454,7 @@ KINDS: dict[str, Reader] = {
     "mask": lambda at: forms.mask(at.screen, at.spec.shown),
     "dialog": lambda at: forms.dialog(at.screen, at.lang),
     "steps": lambda at: forms.steps(at.screen, at.spec.shown),
+    "magazine": _magazine,
     "version": _version,
     "graph": _graph,
     "maintenance": _maintenance,
