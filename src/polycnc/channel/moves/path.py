@@ -424,6 +424,11 @@ class Path:
         self._aside.append(self._stages)
         self._lead([recorder])
 
+    @property
+    def is_diverted(self) -> bool:
+        """Whether moves end in a recorder: no axis goes anywhere."""
+        return bool(self._aside)
+
     def resume(self, recorder: Recorder) -> None:
         """The path is as it was before `divert`; where the recorder has gone already, nothing happens."""
         if recorder in self._stages:

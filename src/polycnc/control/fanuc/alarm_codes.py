@@ -134,6 +134,7 @@ ALARMS: dict[str, str] = {
     "tilt_unreachable": "PS5459",
     "tip_machine": "PS5420",
     "tip_mode": "PS5421",
+    "spatial_motion": "PS5460",
     "tip_direction": "PS5459",
     "cycle_word": "PS0045",
     "cycle_reference": "PS0044",

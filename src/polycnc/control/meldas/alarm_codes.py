@@ -14,6 +14,7 @@ ALARMS: dict[str, str] = {
     # text of a block
     "block_too_long": "P35",
     "too_many_digits": "P35",
+    "high_speed_company": "P33",
     "no_data": "P33",
     "minus": "P33",
     "point": "P33",

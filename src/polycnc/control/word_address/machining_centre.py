@@ -77,6 +77,7 @@ class MillingControl(CustomMacroControl):
         path.INVERSE_TIME_RULE,
         line_by_angle.RULE,
         workpiece.RULE,
+        tool_center_point.COMPANY_RULE,
         tool_center_point.RULE,
         look_ahead.STOP_RULE,
         drilling.RULE,

@@ -1,8 +1,9 @@
-"""Stock removal along a turned contour: equal cuts, section by section (SINUMERIK CYCLE95).
+"""Stock removal along a turned contour: equal cuts, section by section (SINUMERIK CYCLE95, CYCLE952).
 
-Coordinates are those of `contour`: `a` along the cuts, `b` in the direction of infeed. There is no blank: the highest
-point of the contour is where the material begins. A contour that goes down again behind a summit has a relief; it is
-cut after what lies in front of it, from the level at which the summit closes it off.
+Coordinates are those of `contour`: `a` along the cuts, `b` in the direction of infeed. The highest point of the contour
+is where the material begins, all in front of it is stock but where an outline of the blank says less. A contour that
+goes down again behind a summit has a relief; it is cut after what lies in front of it, from the level at which the
+summit closes it off.
 """
 
 from __future__ import annotations
@@ -12,16 +13,16 @@ from math import copysign, hypot
 from typing import TYPE_CHECKING
 
 from polycnc.cycles.count import parts
-from polycnc.cycles.turning.contour import Piece, climb, gaps, points
+from polycnc.cycles.turning.contour import Gap, Piece, climb, gaps, points
 from polycnc.cycles.turning.stroke import PlaneStroke
 from polycnc.deferred.records import dataclass
 from polycnc.geometry import arcs, offset
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
-    from polycnc.cycles.turning.contour import Contour, Gap
+    from polycnc.cycles.turning.contour import Contour
     from polycnc.geometry.arcs import Point
     from polycnc.geometry.offset import Edge
 
@@ -44,12 +45,18 @@ class Removal:
         lift: Way off the work along both axes after a cut, and distance in front of it.
         towards: Direction of infeed, 1 or -1.
         follows: After a cut the tool follows the contour up to the cut before.
+        at_edges: There is a cut at the level of every flat part of the contour, and equal ones between them.
+        front: `a` at which the tool first meets the stock; None for the contour's begin.
+        top: `b` at which it does; None for the contour's highest point.
     """
 
     depth: float
     lift: float
     towards: float
     follows: bool = True
+    at_edges: bool = False
+    front: float | None = None
+    top: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,14 +77,15 @@ class Section:
     top: float
 
 
-def sections(contour: Contour, towards: float) -> list[Section]:
+def sections(contour: Contour, towards: float, above: float | None = None) -> list[Section]:
     """The parts of the contour between its summits, in its direction; the first one is open to the front.
 
-    A contour that goes down from where it begins has its first summit there.
+    A contour that goes down from where it begins has its first summit there. `above` is the `b` at which the first one
+    is closed off, where that is not the contour's highest point.
     """
     heights = _heights(contour, towards)
     result: list[Section] = []
-    top = max(height for _, height in heights)
+    top = _top(contour, towards, above)
     lowest, summit, rising = heights[0], heights[0][1], True
     for a, height in heights[1:]:
         if rising and height < summit - _HAIR:
@@ -92,49 +100,94 @@ def sections(contour: Contour, towards: float) -> list[Section]:
     return [*result, Section(*lowest, top)]
 
 
+def _top(contour: Contour, towards: float, above: float | None) -> float:
+    """The height at which the stock begins."""
+    return max(height for _, height in _heights(contour, towards)) if above is None else -towards * above
+
+
 def _heights(contour: Contour, towards: float) -> list[Point]:
     """(a, height) along the contour; heights count against the direction of infeed."""
     return [(a, -towards * b) for piece in contour for a, b in points(piece.edge)]
 
 
-def _levels(section: Section, depth: float) -> list[float]:
-    """Heights of the cuts of a section: as few as the depth allows, all equally deep."""
-    total = section.top - section.bottom
-    if total <= _HAIR:
-        return []
-    count = max(1, parts(total, depth, _WHOLE))
-    return [section.top - total * k / count for k in range(1, count)] + [section.bottom]
+def _levels(section: Section, depth: float, edges: Iterable[float]) -> list[float]:
+    """Heights of the cuts of a section: as few as the depth allows, all equally deep from one edge to the next."""
+    within = sorted(
+        {edge for edge in edges if section.bottom + _HAIR < edge < section.top - _HAIR}, reverse=True
+    )
+    result: list[float] = []
+    for top, bottom in pairwise([section.top, *within, section.bottom]):
+        total = top - bottom
+        if total <= _HAIR:
+            continue
+        count = max(1, parts(total, depth, _WHOLE))
+        result += [top - total * k / count for k in range(1, count)] + [bottom]
+    return result
 
 
-def remove(contour: Contour, removal: Removal) -> Iterator[Cut]:
-    """All cuts of the contour, each from its infeed to the way back."""
+def _flats(contour: Contour, towards: float) -> Iterator[float]:
+    """Heights of the parts of a contour that run along the cuts."""
+    for piece in contour:
+        edge = piece.edge
+        if edge.center is None and abs(edge.end[1] - edge.start[1]) <= _HAIR < edge.length:
+            yield -towards * edge.end[1]
+
+
+def remove(contour: Contour, removal: Removal, outline: Contour | None = None) -> Iterator[Cut]:
+    """All cuts of the contour, each from its infeed to the way back.
+
+    Args:
+        contour: What is left.
+        removal: How it is cut.
+        outline: Of the stock, in the direction of the contour: in front of it the tool goes at rapid, and cuts that
+            would meet nothing are left out. Without one all up to the contour's highest point is stock.
+    """
     towards = removal.towards
     begin, end = contour[0].edge.start, contour[-1].edge.end
     onwards = copysign(1.0, end[0] - begin[0])
     at: Point | None = None
-    cut_at = [max(height for _, height in _heights(contour, towards))]
-    for section in sections(contour, towards):
+    foremost = begin[0] if removal.front is None else removal.front
+    cut_at = [_top(contour, towards, removal.top)]
+    edges = list(_flats(contour, towards)) if removal.at_edges else []
+    for section in sections(contour, towards, removal.top):
         above = section.top
         # Over a relief the stock stands up to the last cut that passed over the summit in front of it.
-        stock = min(height for height in cut_at if height >= above - _HAIR)
-        for height in _levels(section, removal.depth):
+        stock = min((height for height in cut_at if height >= above - _HAIR), default=above)
+        for height in _levels(section, removal.depth, edges):
             level = -towards * height
             # On the flat of a base the contour is not deeper than the cut: look a hair above it.
-            seen = level - towards * _HAIR if height == section.bottom else level
-            gap = _gap_at(contour, seen, towards, section.place)
+            is_flat = height == section.bottom or height in edges
+            gap = _gap_at(contour, level - towards * _HAIR if is_flat else level, towards, section.place)
+            if gap is None and height == section.bottom:
+                gap = _point_at(contour, section.place, level)
             if gap is None:
                 continue
             front = abs(gap.start - begin[0]) <= 2.0 * _HAIR
-            entry = begin[0] - onwards * removal.lift if front else gap.start
+            met = foremost if outline is None else _met(outline, level, towards, foremost)
+            if met is None or onwards * (gap.end - met) <= (_HAIR if gap.end != gap.start else -_HAIR):
+                continue
+            entry = met - onwards * removal.lift if front else gap.start
             place = (entry, level, -towards * above, -towards * stock)
             cuts = list(_cut(contour, removal, gap, place, onwards, front=front))
             if at is not None and above == section.top:
                 yield from map(
                     Cut, way_over(contour, at, cuts[0].stroke.end, towards=towards, lift=removal.lift)
                 )
+            elif at is not None and front and at[0] != entry:
+                yield Cut(PlaneStroke(Kind.RAPID, (entry, at[1])))
             yield from cuts
             at, above, stock = cuts[-1].stroke.end, height, height
             cut_at.append(height)
+
+
+def _met(outline: Contour, level: float, towards: float, foremost: float) -> float | None:
+    """Where a cut at a level first meets the stock below an outline; None where all of it lies deeper."""
+    begin = outline[0].edge.start[0]
+    for gap in gaps(outline, level - towards * _HAIR, towards):
+        if abs(gap.start - begin) > 2.0 * _HAIR:
+            break
+        return None if gap.piece >= len(outline) else gap.end
+    return foremost
 
 
 def way_over(contour: Contour, start: Point, end: Point, *, towards: float, lift: float) -> list[PlaneStroke]:
@@ -179,10 +232,13 @@ def way_clear(
     raise ValueError("no way out")
 
 
-def blank(contour: Contour, towards: float) -> Contour:
-    """The outline of the material before roughing: up to the highest point, from end to end of the contour."""
+def blank(contour: Contour, towards: float, above: float | None = None) -> Contour:
+    """The outline of the material before roughing, from end to end of the contour.
+
+    It reaches up to the contour's highest point, or where the tool meets it at a `b` above.
+    """
     (begin, low), end = contour[0].edge.start, contour[-1].edge.end[0]
-    top = -towards * max(height for _, height in _heights(contour, towards))
+    top = -towards * _top(contour, towards, above)
     corners = [(begin, low), (begin, top), (end, top)]
     return [Piece(offset.line(p, q)) for p, q in pairwise(corners)]
 
@@ -229,6 +285,15 @@ def _gap_at(contour: Contour, level: float, towards: float, place: float) -> Gap
         low, high = sorted((gap.start, gap.end))
         if low - 2.0 * _HAIR <= place <= high + 2.0 * _HAIR and high - low > 10.0 * _HAIR:
             return gap
+    return None
+
+
+def _point_at(contour: Contour, place: float, level: float) -> Gap | None:
+    """A section that ends in a point, as one that begins with a chamfer does: the tool goes there and follows it up."""
+    for number, piece in enumerate(contour):
+        a, b = piece.edge.start
+        if abs(a - place) <= _HAIR and abs(b - level) <= _HAIR:
+            return Gap(place, place, number)
     return None
 
 

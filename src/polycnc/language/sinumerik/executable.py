@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from polycnc.channel.states.unchanging import unchanging
 from polycnc.channel.steps import forget_steps, kept_steps
 from polycnc.deferred.regexes import regex
+from polycnc.language.expressions.hot_loop import HotLoop
 from polycnc.language.expressions.joined import led_by
 from polycnc.language.sinumerik import iso_dialect
 from polycnc.language.sinumerik.blocks import CompiledBlock, compile_block, compile_text, expanded
@@ -155,6 +156,14 @@ class SinumerikProgram:
         columns = compile_block(self, index, channel, text).columns
         return columns[position] if position < len(columns) else 0
 
+    def is_reached(self, index: int) -> bool:
+        """Whether a block has been run."""
+        return bool(self._reached[index])
+
+    def is_repeatable(self, index: int) -> bool:
+        """Whether a block can be compiled again by itself: it defines nothing, and is of the language."""
+        return not (self._iso or self._defines(self.text(index)) or "291" in self.text(index))
+
     def forget_steps(self) -> None:
         """Compile every block anew: names may mean other programs now."""
         forget_steps(self.steps)
@@ -166,6 +175,8 @@ class SinumerikProgram:
     def forget_shapes(self) -> None:
         """A macro has been defined: equal texts may mean other blocks now."""
         self._shapes = Shapes()
+        if self._scope is not None:
+            self._scope.memory.programs.generation += 1
 
     def _first_reach(self, channel: Channel) -> None:
         index = channel.level.current
@@ -175,7 +186,8 @@ class SinumerikProgram:
             fail(error, channel)
         if self._reached[index] and step is not _skipped:
             self._singles[index] = step
-            self.steps[index] = self._joined(index, channel) or step
+            joined = self._joined(index, channel) or step
+            self.steps[index] = joined if channel.bulk is None else HotLoop(joined, step)
         self._reached[index] = 1
         step(channel)
 

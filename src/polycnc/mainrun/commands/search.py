@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from polycnc.deferred.records import dataclass
 from polycnc.mainrun.preparation.items import Block, Happening, Move
 from polycnc.toolpath import Context
-from polycnc.toolpath.events import Auxiliary, Raised, SignalWrite, SpindleSpeed, ToolSelection
+from polycnc.toolpath.events import Auxiliary, Raised, Shown, SignalWrite, SpindleSpeed, ToolSelection
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -149,7 +149,7 @@ def search(preprocessing: Preprocessing, wanted: Wanted, *, behind: bool = False
         preprocessing.items.popleft()
         if isinstance(item, Happening):
             found.context = item.context
-            if isinstance(item.event, Raised):
+            if isinstance(item.event, Raised) and not isinstance(item.event, Shown):
                 return None
             _keep(functions, item)
     return None

@@ -385,10 +385,14 @@ class Operation:
         """A text for the operator."""
         self.status.keep_message(message)
 
+    def shows_alarms(self, number: int) -> None:
+        """The alarms of a channel are shown."""
+        self.status.show_alarms(tuple(self.runs[number].channel.alarms))
+
     def stops(self, number: int, code: str) -> None:
         """A programmed stop, or `alarm`."""
         if code == "alarm":
-            self.status.show_alarms(tuple(self.runs[number].channel.alarms))
+            self.shows_alarms(number)
         self.runs[number].execution.stop(code)
 
     def halted(self, number: int, reason: str) -> None:

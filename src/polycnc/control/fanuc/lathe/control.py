@@ -141,6 +141,7 @@ class FanucTurning(CustomMacroControl):
         whole_numbers.RULE,
         nose_radius.CORNER_RULE,
         tapping.WAITING_RULE,
+        offsets.WAITING_RULE,
         speed_arrival.RULE,
         drilling.RULE,
         single.ROTATION_RULE,

@@ -32,7 +32,7 @@ from polycnc.control.sinumerik.variables import dialogs, lengths
 from polycnc.control.sinumerik.variables.stored import Stored
 from polycnc.language.sinumerik.names.initialisation import NEW_CONFIGURATION, initialise
 from polycnc.messages import Alarm, AlarmError
-from polycnc.toolpath.events import Message, Print, Raised
+from polycnc.toolpath.events import Message, Print, Shown
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -128,7 +128,7 @@ def set_alarm(channel: SinumerikChannel, args: Arguments) -> None:
             channel=channel.number,
         )
     )
-    channel.event(Raised(code=str(number), line=channel.line, column=0, program=program.name))
+    channel.event(Shown(code=str(number), line=channel.line, column=0, program=program.name))
 
 
 def set_master_spindle(channel: SinumerikChannel, args: Arguments) -> None:

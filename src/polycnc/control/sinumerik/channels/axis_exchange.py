@@ -59,7 +59,12 @@ def _named(channel: SinumerikChannel, args: Iterable[Any]) -> list[str]:
 
 
 def ready(channel: SinumerikChannel, columns: Iterable[int]) -> bool:
-    """Whether a block may move these axes now; else the channel waits and runs the block again."""
+    """Whether a block may move these axes now; else the channel waits and runs the block again.
+
+    A block that only describes a contour moves none.
+    """
+    if channel.path.is_diverted:
+        return True
     columns = tuple(columns)
     action_axes.give_back(channel, columns)
     axes = [_name(channel, column) for column in columns]

@@ -63,14 +63,18 @@ def surface(channel: SinumerikChannel, args: Arguments) -> None:
 
 
 def _unrolled(
-    channel: SinumerikChannel, found: data_sets.DataSet, diameter: float | None, walls: float | None
+    channel: SinumerikChannel,
+    found: data_sets.DataSet,
+    diameter: float | None,
+    walls: float | None,
+    infeed: int = -1,
 ) -> Build:
     if diameter is None or diameter <= LEAST_DIAMETER:
         raise AlarmError("14404", text="TRACYL")
     if walls not in (None, 0, 1) or (walls and found.type != data_sets.WALLS_BY_ARGUMENT):
         raise AlarmError("14404", text="TRACYL")
     by_type = found.type == data_sets.WITH_WALLS
-    return data_sets.cylinder(channel, found, diameter, walls=by_type or bool(walls))
+    return data_sets.cylinder(channel, found, diameter, walls=by_type or bool(walls), infeed=infeed)
 
 
 def oblique(channel: SinumerikChannel, args: Arguments) -> None:
@@ -118,16 +122,17 @@ def _linked(channel: SinumerikChannel, found: data_sets.DataSet, rest: list[floa
     first = _first_link(channel, links[0], parameters[0])
     second = _leaning(channel, links[1], parameters[own])
     inner = Chain((first.inner, second.inner))
-    return Build(inner, first.used | second.used, first.lengths, bound=first.bound)
+    return Build(inner, first.used | second.used, first.lengths, bound=first.bound, order=first.order)
 
 
 def _first_link(channel: SinumerikChannel, found: data_sets.DataSet, parameter: float | None) -> Build:
     if found.kind == "TRAORI":
         return _oriented(channel, found, [])
+    infeed = data_sets.oblique_column(channel)
     if found.kind == "TRANSMIT":
-        return data_sets.polar(channel, found)
+        return data_sets.polar(channel, found, infeed)
     if found.kind == "TRACYL":
-        return _unrolled(channel, found, parameter, None)
+        return _unrolled(channel, found, parameter, None, infeed)
     return _leaning(channel, found, parameter)
 
 

@@ -21,12 +21,17 @@ from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.coordinates import frames as base_frames
 from polycnc.control.word_address.coordinates import systems as base_systems
 from polycnc.control.word_address.coordinates.stroke_check import StrokeZone
-from polycnc.control.word_address.coordinates.systems import ZeroState, go_to_reference, refresh_zero
+from polycnc.control.word_address.coordinates.systems import (
+    ZeroState,
+    go_to_reference,
+    refresh_zero,
+    shift_of_zero,
+)
 from polycnc.control.word_address.memory import EXTERNAL
 from polycnc.control.word_address.tools.data_input import TOOL_FIELDS
 from polycnc.control.word_address.tools.length import renew_length
 from polycnc.deferred.records import dataclass
-from polycnc.geometry.frames import IDENTITY, about, scaling
+from polycnc.geometry.frames import about, scaling
 from polycnc.geometry.planes import PLANES
 from polycnc.language.syntec.values import to_long
 
@@ -84,21 +89,13 @@ NO_WORK_SYSTEM = "G53"
 
 def set_position(channel: SyntecChannel, words: Words) -> None:
     """G92 X Y Z: the present position gets these coordinates; G92 S: highest speed under G96 (2.63, 2.66)."""
-    state = ZeroState.of(channel)
     axes = words.axes()
     memory = channel.memory
     if axes:
-        c = channel.coordinates
-        wanted = c.position[:]
+        way, position = [0.0] * len(channel.axes), channel.coordinates.position
         for axis, value, _ in axes:
-            wanted[axis] = value
-        inside, outside = c.to_machine(wanted), c.machine
-        for axis, _, _ in axes:
-            state.preset[axis] += outside[axis] - inside[axis]
-        if state.frame is not IDENTITY:
-            for axis in c.geometry:
-                if axis >= 0 and axis not in {a for a, _, _ in axes}:
-                    state.preset[axis] += outside[axis] - inside[axis]
+            way[axis] = position[axis] - value
+        _shift_preset(channel, way, "G92")
         refresh_zero(channel)
     limit = words.typed("S")
     if limit is not None:
@@ -111,13 +108,11 @@ def preset_system(channel: SyntecChannel, words: Words) -> None:
     state, angle = TurnState.of(channel), words.angle("R")
     if angle or state.angle:
         refuse_in_compensation(channel, "G92.1")
-    c, memory = channel.coordinates, channel.memory
+    memory = channel.memory
     origin = [0.0] * len(channel.axes)
     for axis, value, _ in words.axes():
         origin[axis] = value
-    zero, target = c.to_machine([0.0] * len(channel.axes)), c.to_machine(origin)
-    for axis in range(len(channel.axes)):
-        ZeroState.of(channel).preset[axis] += target[axis] - zero[axis]
+    _shift_preset(channel, origin, "G92.1")
     vector = [words.typed(letter) or 0.0 for letter in "IJK"]
     state.angle = angle or 0.0
     state.axis = vector if any(vector) else [0.0, 0.0, 1.0]
@@ -125,6 +120,13 @@ def preset_system(channel: SyntecChannel, words: Words) -> None:
         raise words.fail("preset_rotary", "R")
     renew_preset_frame(memory)
     refresh_zero(channel)
+
+
+def _shift_preset(channel: SyntecChannel, way: list[float], code: str) -> None:
+    """All coordinates become smaller by a way."""
+    state = ZeroState.of(channel)
+    shift = shift_of_zero(channel, way, code)
+    state.preset[:] = [before + further for before, further in zip(state.preset, shift, strict=True)]
 
 
 def forget_preset_turn(memory: SyntecMemory) -> None:

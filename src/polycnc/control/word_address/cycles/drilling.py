@@ -424,10 +424,12 @@ class _Words:
             return max(int(value), 0)
         if self.repeat_form == "#":
             value = round_half_away(value)
-        elif self.repeat_form and self.control.POINT_IN_WHOLE_NUMBERS is DecimalPoint.CUT:
-            value = float(int(value))
         elif self.repeat_form:
-            raise self.control.fail("point", address=self.repeats)
+            point = self.control.POINT_IN_WHOLE_NUMBERS
+            is_read_over = point is DecimalPoint.READ_OVER and value.is_integer()
+            if point is not DecimalPoint.CUT and not is_read_over:
+                raise self.control.fail("point", address=self.repeats)
+            value = float(int(value))
         if not 0 <= value <= most:
             raise self.control.fail("minus" if value < 0 else "too_many_digits", address=self.repeats)
         return int(value)

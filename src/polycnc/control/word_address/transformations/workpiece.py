@@ -10,12 +10,16 @@ from math import nan
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.block.rules import Rule
-from polycnc.control.word_address.coordinates import on_table
+from polycnc.control.word_address.coordinates import on_table, tip
 from polycnc.control.word_address.coordinates.on_table import OnTable
 from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.motion.path import reach
 from polycnc.control.word_address.tools import data_input
-from polycnc.control.word_address.transformations.tilted_plane import TiltState, check_compensation
+from polycnc.control.word_address.transformations.tilted_plane import (
+    TiltState,
+    check_compensation,
+    nearest_angles,
+)
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
@@ -107,9 +111,7 @@ def _plan(builder: Builder, plan: Plan) -> Step | None:
     """The work zero is that of the block's end; the axes go straight to where its words are then."""
     turning = _turning(builder, plan)
     if TipState.of(builder.channel).active is not None:
-        if any(builder.channel.axis_data[word.axis].rotary for word in plan.axis_words):
-            raise _not_yet(f"{builder.mode['length']}: {builder.mode[ERROR]}")
-        return None
+        return _plan_posture(builder, plan)
     if not turning:
         return None
     motion, words = builder.mode["motion"], plan.axis_words
@@ -145,10 +147,78 @@ def _behind(builder: Builder, plan: Plan) -> Step | None:
     return lambda channel, _values: on_table.follow(channel)
 
 
+# ---- the tool's direction under tip control ----------------------------------------------------------------
+
+
+def _plan_posture(builder: Builder, plan: Plan) -> Step | None:
+    """G43.4: rotary words tell how the tool stands on the work as it should lie; it stands so on the work as it lies.
+
+    The positions of the rotary axes nearest to those words are gone to. Vectors of G43.5 are the work's by themselves.
+    """
+    words, motion = plan.axis_words, builder.mode["motion"]
+    rotary = [word for word in words if builder.channel.axis_data[word.axis].rotary]
+    if not rotary:
+        return None
+    if (
+        builder.mode["length"] != "G43.4"
+        or motion not in STRAIGHT
+        or builder.mode.codes.get("polar") == "G16"
+    ):
+        raise _not_yet(f"{builder.mode['length']}: {builder.mode[ERROR]}")
+    kind, names_feed = STRAIGHT[motion], builder.has("F")
+
+    def move(channel: MillingChannel, values: list[float]) -> None:
+        c, posture = channel.coordinates, OnTable.of(channel).posture
+        feed = channel.feed if names_feed and kind == Kind.RAPID else _feed(channel, kind)
+        before = c.programmed
+        goal = reach(channel, words, values)
+        for word in rotary:
+            name = channel.axes[word.axis]
+            if word.incremental:
+                _check_posture(channel)
+                posture[name] += goal[word.axis] - before[word.axis]
+            else:
+                posture[name] = goal[word.axis] + c.offsets[word.axis]
+        _check_posture(channel)
+        wanted = tip.direction(channel, channel.control.kinematics(channel).tool_on_work(posture))
+        angles = nearest_angles(channel, wanted, posture)
+        if angles is None:
+            raise channel.control.fail("tip_direction", address=rotary[0].address)
+        for name, angle in angles.items():
+            axis = channel.axis_index[name]
+            goal[axis] = angle - c.offsets[axis]
+            c.pending[axis] = 0.0
+        channel.straight(kind, c.to_position(goal), feed, goal)
+
+    return move
+
+
+def _check_posture(channel: WordAddressChannel) -> None:
+    """PC0001 before words have told of all rotary axes: what the control takes for the others is not known here."""
+    told = OnTable.of(channel).posture
+    if any(axis not in told for axis in channel.control.kinematics(channel).axes):
+        raise _not_yet("G54.4: G43.4")
+
+
+def _wrap(builder: Builder, _plan: Plan, step: Step | None) -> Step | None:
+    """Under G43.4 nothing moves before rotary words have told how the tool stands."""
+    if step is None or builder.mode["length"] != "G43.4" or not builder.mode[ERROR]:
+        return step
+
+    def move(channel: MillingChannel, values: list[float]) -> None:
+        before = channel.coordinates.position
+        step(channel, values)
+        if channel.coordinates.position != before:
+            _check_posture(channel)
+
+    return move
+
+
 #: What turns of the table do to the work zero.
 RULE = Rule(
     "work zero on a rotary table",
     modes={FIXTURE: ("G54.2",), ERROR: ("G54.4",)},
     motion=_plan,
+    wrap=_wrap,
     after=_behind,
 )

@@ -9,7 +9,7 @@ from __future__ import annotations
 from math import nan
 
 from polycnc.kernels.layout import Floats, Ints32
-from polycnc.language.bulk.formulas import calculate
+from polycnc.language.bulk.formulas.calculating import calculate
 from polycnc.language.bulk.layout import (
     KEY_COUNT,
     LOCALS,
@@ -25,8 +25,8 @@ from polycnc.language.bulk.layout import (
 from polycnc.language.bulk.moves import word
 from polycnc.language.bulk.routines.layout import NO_LOOP, NO_ROUTINE, Frame, Line, LineKind, Routine
 
-#: What `take_line` gives instead of the node of a block: the line is done, or the interpreter's.
-DONE, REFUSED = -1, -2
+#: What `take_line` gives instead of the node of a block: the line is done, is the interpreter's, or has not been read.
+DONE, REFUSED, UNREAD = -1, -2, -3
 #: What `program_called` gives beside the number of a routine.
 NOT_KNOWN, NOT_SCANNED = -1, -2
 
@@ -40,8 +40,8 @@ def take_line(tables: Tables, state: State) -> int:
         return REFUSED
     line = (tables.routines[routine + Routine.FIRST_LINE] + place) * Line.SIZE
     kind = lines[line + Line.KIND]
-    if kind == LineKind.REFUSED:
-        return REFUSED
+    if kind <= LineKind.REFUSED:
+        return REFUSED if kind == LineKind.REFUSED else UNREAD
     state.scan.block_line = lines[line + Line.NUMBER]
     if kind == LineKind.NOTHING:
         return DONE

@@ -32,10 +32,12 @@ class Line(Places):
 class LineKind(Places):
     """What a line of a routine does.
 
-    It is the interpreter's; nothing; a block; it calculates; it jumps (where its condition holds); it opens a loop
-    (where its condition holds, else it jumps); it ends one, and jumps where the condition of the loop holds.
+    It has not been read; it is the interpreter's; nothing; a block; it calculates; it jumps (where its condition
+    holds); it opens a loop (where its condition holds, else it jumps); it ends one, and jumps where the condition of
+    the loop holds.
     """
 
+    UNREAD = place()
     REFUSED = place()
     NOTHING = place()
     BLOCK = place()

@@ -16,6 +16,7 @@ class Statement(NamedTuple):
         numbers: The numbers in them.
         target: The step to which it jumps.
         loop: The number of the loop that it begins or ends.
+        is_known: A block that the scanner does not read: the control knows it by its place in the program.
     """
 
     kind: int
@@ -23,7 +24,10 @@ class Statement(NamedTuple):
     numbers: tuple[float, ...] = ()
     target: int = 0
     loop: int = 0
+    is_known: bool = False
 
 
-#: A line that is the interpreter's, one without a block, one whose block the scanner reads.
-REFUSED, NOTHING, BLOCK = (Statement(kind) for kind in (LineKind.REFUSED, LineKind.NOTHING, LineKind.BLOCK))
+#: A line that cannot be told yet, one that is the interpreter's, one without a block, one whose block is read.
+UNREAD, REFUSED, NOTHING, BLOCK = (
+    Statement(kind) for kind in (LineKind.UNREAD, LineKind.REFUSED, LineKind.NOTHING, LineKind.BLOCK)
+)
