@@ -222,6 +222,11 @@ class ScreenState:
         else:
             self.control.signals[key.signal] = float(wanted)
 
+    @property
+    def panel_switches(self) -> Mapping[str, str]:
+        """The rows of the setting page: names and panel switches; SINUMERIK has DRF."""
+        return {**PANEL_SWITCHES, "DRF": "drf"} if self.family.layout == "operate" else PANEL_SWITCHES
+
     def switch(self, name: str) -> bool:
         """A panel switch by its name; without one, whether parameters may be written."""
         return bool(getattr(self.control.switches, name)) if name else self.writes_parameters
