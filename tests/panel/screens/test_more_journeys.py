@@ -193,3 +193,117 @@ def test_the_version_page_names_control_and_machine(lang: str) -> None:
     soft(bench, "Version")
     assert "sinumerik-840d" in bench.text
     assert bench.control.machine.id in bench.text
+
+
+# ---- programs block by block -----------------------------------------------------------------------------------------
+
+BLOCKS = {
+    "sinumerik-840d": ("N10 G0 X5\nN20 G0 X9\nM30\n", ("PROGRAM",), "G0 X7"),
+    "syntec-mill": ("O1\nN10 G0 X5.\nN20 G0 X9.\nM30\n", ("PROG",), "G0 X7."),
+    "meldas-m": ("O1\nN10 G0 X5.\nN20 G0 X9.\nM30\n", ("EDIT/MDI",), "G0 X7."),
+}
+
+
+@pytest.mark.parametrize(("control", "lang"), list(product(BLOCKS, LANGUAGES)))
+def test_a_program_is_changed_block_by_block(control: str, lang: str) -> None:
+    program, page, block = BLOCKS[control]
+    bench = Bench(control, lang, program)
+    bench.keys(*page)
+    name = bench.control.program
+    before = list(bench.control.program_lines(name))
+    bench.typed("N20", "DOWN")
+    bench.screen.buffer = ""
+    bench.typed(block, "INPUT")
+    assert bench.message == ""
+    lines = list(bench.control.program_lines(name))
+    at = before.index(next(each for each in before if each.startswith("N20")))
+    assert lines[at + 1].startswith(block)
+    assert len(lines) == len(before) + 1
+    assert bench.start() is State.READY
+    assert bench.control.positions.work["X"] == 7.0
+    bench.typed(block, "DOWN")
+    bench.screen.buffer = ""
+    bench.keys("RUBOUT" if control == "meldas-m" else "DELETE")
+    assert bench.message == ""
+    assert list(bench.control.program_lines(name)) == before
+    assert bench.start() is State.READY
+    assert bench.control.positions.work["X"] == 9.0
+    if control != "sinumerik-840d":
+        bench.typed("O7", "INPUT")
+        assert bench.message, "no further program"
+    bench.screen.buffer = ""
+    bench.press("START")
+    bench.passes(0.05)
+    bench.typed(block, "INPUT")
+    assert bench.message, "a program that runs is not changed"
+    assert list(bench.control.program_lines(name)) == before
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_the_magazine_page_tells_the_tools(lang: str) -> None:
+    bench = Bench("sinumerik-840d", lang, "T3\nM30\n", setup={"tools": {3: {"length": 1.0}}})
+    bench.start()
+    bench.keys("OFFSET")
+    soft(bench, "Magazine")
+    rows = {row[0].text: row[1].text for row in bench.window("magazine").rows}
+    assert rows[bench.says("Spindle", "主軸")] == "3"
+    assert int(rows[bench.says("Places", "刀套數")]) > 0
+
+
+# ---- increments, teach-in, DRF ---------------------------------------------------------------------------------------
+
+PLAIN = {"fanuc-0i-tf": "PROG", "sinumerik-840d": "PROGRAM", "syntec-mill": "PROG"}
+
+
+@pytest.mark.parametrize(("control", "lang"), list(product(PLAIN, LANGUAGES)))
+def test_axis_keys_go_by_steps_in_increment_mode(control: str, lang: str) -> None:
+    bench = Bench(control, lang)
+    bench.turn("mode", "increment")
+    bench.turn("handle_step", "x100")
+    for _ in range(3):
+        bench.press("Z-")
+        bench.control.run()
+    assert bench.control.positions.machine["Z"] == pytest.approx(-0.3)
+    assert bench.message == ""
+    bench.turn("mode", "auto")
+    bench.press("Z-")
+    assert bench.message
+
+
+@pytest.mark.parametrize(("control", "lang"), list(product(PLAIN, LANGUAGES)))
+def test_positions_are_taught_into_the_program(control: str, lang: str) -> None:
+    bench = Bench(control, lang, "G0 X1\nM30\n" if control == "sinumerik-840d" else "O1\nG0 X1.\n")
+    bench.turn("mode", "teach")
+    bench.keys(PLAIN[control])
+    bench.press("X+")
+    bench.passes(0.5)
+    bench.release("X+")
+    bench.control.run()
+    at = bench.control.positions.work["X"]
+    bench.typed("G1", "INSERT")
+    assert bench.message == ""
+    taught = [each for each in bench.control.program_lines(bench.control.program) if each.startswith("G1")]
+    assert len(taught) == 1
+    assert f"X{at:.4f}".rstrip("0") in taught[0]
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_the_handwheel_shifts_an_axis_beside_the_program(lang: str) -> None:
+    bench = Bench("sinumerik-840d", lang, "G1 X40 F600\nM30\n")
+    bench.keys("MACHINE")
+    soft(bench, "Prog. ctrl")
+    bench.wheel(1)
+    assert bench.message, "neither DRF nor the mode of the handwheel"
+    bench.keys(*["DOWN"] * 9, "SELECT")
+    assert bench.control.switches.drf
+    (row,) = (row for row in bench.window("switches").rows if row[0].text == "DRF")
+    assert row[1].text == "1"
+    bench.press("START")
+    bench.passes(0.5)
+    bench.turn("handle_axis", "Z")
+    bench.turn("handle_step", "x100")
+    bench.wheel(10)
+    assert bench.message == ""
+    assert bench.control.run() is State.READY
+    assert bench.control.positions.work["Z"] == 0.0
+    assert bench.control.positions.machine["Z"] == pytest.approx(1.0)

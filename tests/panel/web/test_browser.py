@@ -44,6 +44,9 @@ _COARSE = """(() => { const found = document.querySelector('.picture').id.slice(
   const ends = [99, 4999, 5099, 19999].every(i => kept.has(i)), rough = line.rough.visible && !line.mesh.visible;
   return {shown, worst, ends, rough, rest: line.show(0), exact: line.mesh.visible && !line.rough.visible};
 })()"""
+#: Three quick clicks on the keys of the languages.
+_THREE_CLICKS = """for (const said of ['EN', '中', 'EN'])
+  [...document.querySelectorAll('button.k')].find(key => key.innerText.trim() === said).click()"""
 _SCREEN = "document.querySelector('.crt-body').innerText"
 
 
@@ -64,6 +67,8 @@ def test_a_program_is_run_edited_and_shown_in_both_languages(address: str, tmp_p
             await page.press("中")
             await page.until(f"{_SCREEN}.includes('程式')")
             assert await page.evaluate(_FITS)
+            await page.evaluate(_THREE_CLICKS)
+            await page.until(f"{_SCREEN}.includes('PROGRAM') && document.documentElement.lang === 'en'")
 
     asyncio.run(journey())
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -11,14 +10,13 @@ from polycnc.control.fanuc.lathe.tools import screens as lathe
 from polycnc.control.fanuc.lathe.tools.screens import Page
 from polycnc.deferred.records import dataclass
 from polycnc.deferred.regexes import regex
-from polycnc.mainrun import CommandRefused, Mode
-from polycnc.messages import UserError
+from polycnc.mainrun import CommandRefused
 from polycnc.panel.screens import forms
+from polycnc.panel.screens.programs import EDITING
 from polycnc.panel.screens.sources import SOURCES
-from polycnc.panel.screens.state import PANEL_SWITCHES, Operation
+from polycnc.panel.screens.state import Operation
 from polycnc.panel.screens.tables import Table
 from polycnc.panel.screens.transfer import Transfer, begin_transfer
-from polycnc.panel.screens.words import END
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -28,10 +26,6 @@ if TYPE_CHECKING:
 
 Action: TypeAlias = Callable[["ScreenState"], None]
 
-#: The number of a program.
-_PROGRAM = regex(r"(?i)O\d{1,8}")
-#: Numbers at which programs of a text begin.
-_NUMBERS = regex(r"(?im)^\s*[O:](\d{1,8})")
 #: An axis with a value behind it, which may be missing; a name with a number wants an equals sign (`Q1=5`).
 _AXIS_VALUE = regex(r"(?P<axis>[A-Z]+\d+(?==)|[A-Z])\s*=?\s*(?P<value>[+-]?\d*\.?\d*)")
 
@@ -75,7 +69,7 @@ def set_value(screen: ScreenState) -> None:
     if screen.shows("switches"):
         set_switch(screen)
     elif screen.shows("parameters"):
-        if not screen.writes_parameters:
+        if screen.needs_parameter_write and not screen.writes_parameters:
             raise CommandRefused("screen.write-protected")
         number, _ = screen.parameters[screen.cursor[0]]
         screen.control.write_parameter(number, _number(screen))
@@ -90,9 +84,14 @@ def set_value(screen: ScreenState) -> None:
     screen.buffer = ""
 
 
+def _switch_at(screen: ScreenState) -> str:
+    switches = list(screen.panel_switches.values())
+    return switches[min(screen.cursor[0], len(switches) - 1)]
+
+
 def set_switch(screen: ScreenState) -> None:
     """INPUT on the setting page: PARAMETER WRITE by 1 or 0; the other rows are switches of the machine panel."""
-    name = list(PANEL_SWITCHES.values())[min(screen.cursor[0], len(PANEL_SWITCHES) - 1)]
+    name = _switch_at(screen)
     value = _number(screen)
     if name:
         raise CommandRefused("screen.no-field")
@@ -103,7 +102,7 @@ def set_switch(screen: ScreenState) -> None:
 
 def turn_switch(screen: ScreenState) -> None:
     """SELECT on the page of program control: the switch at the cursor turns over (SINUMERIK)."""
-    name = list(PANEL_SWITCHES.values())[min(screen.cursor[0], len(PANEL_SWITCHES) - 1)]
+    name = _switch_at(screen)
     if name:
         screen.control.set_switches(**{name: not screen.switch(name)})
     else:
@@ -227,30 +226,6 @@ def search_program(screen: ScreenState) -> None:
     screen.buffer = ""
 
 
-def edit_in_background(screen: ScreenState) -> None:
-    """BG-EDT: the program that is keyed in is edited while another one may run; a new one where the memory has none.
-
-    Raises:
-        CommandRefused: No number is keyed in, edit protection is on, or the program is under way.
-    """
-    name = screen.buffer.strip().upper()
-    if not _PROGRAM.fullmatch(name):
-        raise CommandRefused("screen.no-field")
-    try:
-        text = "\n".join(screen.control.program_lines(name)) + "\n"
-    except CommandRefused:
-        text = f"{name}\n"
-    screen.control.store_program(name, text)  # refused where it may not be changed
-    screen.show("program")
-    screen.background, screen.program_word, screen.buffer = name, 0, ""
-    screen.look_at(0)
-
-
-def end_background(screen: ScreenState) -> None:
-    """BG-END: the program in the background is in the memory; the page shows the main program again."""
-    screen.background, screen.program_row, screen.buffer = "", None, ""
-
-
 def delete_program(screen: ScreenState) -> None:
     """DELETE: the program that has been keyed in, or the one at the cursor, leaves the memory."""
     name = screen.buffer.strip()
@@ -333,87 +308,6 @@ def calculate(screen: ScreenState) -> None:
         if operator not in "+-*/":
             raise CommandRefused("screen.no-number", typed=screen.buffer)
     screen.buffer = f"{sum(sums):.6f}".rstrip("0")
-
-
-def edit_words(screen: ScreenState, key: str) -> None:
-    """INSERT, ALTER and DELETE of words in mode EDIT; the number of a program and INSERT begin a new one.
-
-    ALTER of its number gives the program another one, which the memory must not have.
-
-    Raises:
-        CommandRefused: The mode is another one, or nothing is keyed in.
-        UserError: The memory has that program.
-    """
-    typed = screen.buffer.strip()
-    if not screen.page.edits or not (typed or key == "DELETE"):
-        raise CommandRefused("screen.no-field")
-    if not screen.edits:
-        raise CommandRefused("screen.mode", mode=screen.family.modes[Mode.EDIT])
-    if key == "INSERT" and _PROGRAM.fullmatch(typed) and screen.in_background:
-        edit_in_background(screen)
-    elif key == "INSERT" and _PROGRAM.fullmatch(typed):
-        _begin_program(screen, typed.upper(), f"{typed.upper()}\n")
-    else:
-        _change_program(screen, key, typed)
-    screen.buffer = ""
-
-
-def _begin_program(screen: ScreenState, name: str, text: str) -> None:
-    """A program that the memory has not got yet becomes the main program; nothing is left of one that cannot."""
-    control = screen.control
-    with suppress(CommandRefused):
-        control.program_lines(name)
-        raise UserError("screen.program-exists", name=name)
-    control.store_program(name, text)
-    try:
-        control.select_program(name)
-    except CommandRefused:
-        control.delete_program(name)
-        raise
-    screen.program_row, screen.program_word = 0, 0
-
-
-def _change_program(screen: ScreenState, key: str, typed: str) -> None:
-    control, edited = screen.control, screen.edited
-    before = _NUMBERS.findall(edited.text)
-    if key == "INSERT":
-        edited.insert(typed)
-    elif key == "ALTER":
-        edited.alter(typed)
-    elif typed == END:
-        edited.delete_block()
-    elif not typed:
-        edited.delete()
-    else:
-        raise CommandRefused("screen.no-field")
-    after = _NUMBERS.findall(edited.text)
-    if [int(each) for each in after] == [int(each) for each in before]:
-        control.store_program(screen.edited_program or "MAIN", edited.text)
-        screen.program_row, screen.program_word = edited.place.row, edited.place.word
-    elif (
-        key == "ALTER"
-        and _PROGRAM.fullmatch(typed)
-        and len(before) == len(after) == 1
-        and not screen.background
-    ):
-        former = control.program
-        _begin_program(screen, typed.upper(), edited.text)
-        control.delete_program(former)
-    else:  # the number of a program is not lost, and no other program is overwritten
-        raise CommandRefused("screen.no-field")
-
-
-def insert(screen: ScreenState, _key: str = "INSERT") -> None:
-    """INSERT on the MDI page: what has been keyed in is the next block."""
-    if not screen.shows("mdi"):
-        raise CommandRefused("screen.no-field")
-    screen.mdi_text += screen.buffer.replace(";", "").strip() + "\n"
-    screen.buffer = ""
-
-
-def erase_mdi(screen: ScreenState) -> None:
-    """What has been typed in at MDI is erased."""
-    screen.mdi_text = ""
 
 
 def write_enable(screen: ScreenState) -> None:
@@ -508,6 +402,7 @@ def clear_history(screen: ScreenState) -> None:
 
 
 ACTIONS: dict[str, Action] = {
+    **EDITING,
     "set": set_value,
     "add": add_value,
     "search-number": search_number,
@@ -525,10 +420,6 @@ ACTIONS: dict[str, Action] = {
     "search-text": search_text,
     "preset": preset,
     "to-top": to_top,
-    "background-edit": edit_in_background,
-    "background-end": end_background,
-    "insert": insert,
-    "erase-mdi": erase_mdi,
     "write-enable": write_enable,
     "clear-history": clear_history,
     "clear-all": partial(clear_axes, chosen=(Page.WEAR, Page.GEOMETRY)),

@@ -159,6 +159,7 @@ class Page:
         turns: The page that the page keys lead to; empty where they move the cursor.
         other: The page that the soft key SWITCH leads to.
         edits: Keys change words of the program, in mode EDIT.
+        edits_blocks: Keys change the program block by block.
         when: Parameters under which it is there, as for soft keys; else `instead` is the page that is shown.
         instead: See `when`.
     """
@@ -172,6 +173,7 @@ class Page:
     turns: str = ""
     other: str = ""
     edits: bool = False
+    edits_blocks: bool = False
     when: str = ""
     instead: str = ""
 
@@ -290,7 +292,7 @@ def family_of(control: str) -> Family:
 
 
 #: What a page may say beside its name, title and windows.
-_PAGE = ("menu", "operations", "data", "turns", "other", "edits", "when", "instead")
+_PAGE = ("menu", "operations", "data", "turns", "other", "edits", "edits_blocks", "when", "instead")
 
 
 def _page(row: Mapping[str, Any]) -> Page:

@@ -17,10 +17,11 @@ from polycnc.deferred.regexes import regex
 from polycnc.mainrun import CommandRefused, Mode
 from polycnc.messages import UserError
 from polycnc.messages.catalogue import language
-from polycnc.panel.screens.actions import ACTIONS, calculate, edit_words, insert
+from polycnc.panel.screens.actions import ACTIONS, calculate
 from polycnc.panel.screens.forms import follow_dialog
 from polycnc.panel.screens.operate import state_of
 from polycnc.panel.screens.pages import SoftKey, in_language
+from polycnc.panel.screens.programs import edit_words, insert
 from polycnc.panel.screens.state import ScreenState
 from polycnc.panel.screens.view import Cell, SoftKeyView, View
 from polycnc.panel.screens.windows import window
@@ -127,6 +128,10 @@ class Screen(ScreenState):
             self.buffer = ""
         elif key == "CALC":
             calculate(self)
+        elif key == "INSERT" and self.control.mode is Mode.TEACH and self._reads_program:
+            ACTIONS["teach"](self)
+        elif key in ("INPUT", "INSERT") and self.page.edits_blocks:
+            ACTIONS["insert-block"](self)
         elif key == "INPUT":
             ACTIONS["insert" if self.shows("mdi") else "enter" if self.shows("mask") else "set"](self)
         elif key == "SELECT":
@@ -137,6 +142,8 @@ class Screen(ScreenState):
             ACTIONS["erase-mdi"](self)
         elif self.edits and not _NUMBER.fullmatch(self.buffer):
             edit_words(self, key)
+        elif key in ("DELETE", "RUBOUT") and self.page.edits_blocks and not self.buffer:
+            ACTIONS["delete-block"](self)
         elif key == "DELETE":
             ACTIONS["delete-program"](self)
 

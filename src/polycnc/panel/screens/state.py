@@ -33,6 +33,8 @@ _MAINTAINED = "maintained"
 RELATIVE = {"X": "U", "Y": "V", "Z": "W", "A": "A", "B": "B", "C": "H"}
 
 
+#: Parameters that anybody may write (SINUMERIK's setting data).
+SETTING = "setting-data"
 #: What the setting page has: names and panel switches, the last one whether parameters may be written.
 PANEL_SWITCHES = {
     "SINGLE BLOCK": "single_block", "OPTIONAL STOP": "optional_stop", "BLOCK SKIP": "block_skip", "DRY RUN": "dry_run",
@@ -220,6 +222,11 @@ class ScreenState:
         else:
             self.control.signals[key.signal] = float(wanted)
 
+    @property
+    def panel_switches(self) -> Mapping[str, str]:
+        """The rows of the setting page: names and panel switches; SINUMERIK has DRF."""
+        return {**PANEL_SWITCHES, "DRF": "drf"} if self.family.layout == "operate" else PANEL_SWITCHES
+
     def switch(self, name: str) -> bool:
         """A panel switch by its name; without one, whether parameters may be written."""
         return bool(getattr(self.control.switches, name)) if name else self.writes_parameters
@@ -235,16 +242,35 @@ class ScreenState:
         now = self.control.counters.running_s
         self.control.panel_settings[_MAINTAINED] = {**self.maintained, str(number): now}
 
-    @cached_property
+    @property
     def parameters(self) -> tuple[tuple[str, KnownParameter], ...]:
         """The rows of the parameter page: the number, with an axis where each has its own (`1240 X`); what it is."""
+        return self._parameters.get(self._parameters_of, self._parameters[""])
+
+    @property
+    def needs_parameter_write(self) -> bool:
+        """Whether parameters of the page want to be enabled before they are written: setting data do not."""
+        return self._parameters_of != SETTING
+
+    @property
+    def _parameters_of(self) -> str:
+        return next((each.of for each in self.page.windows if each.kind == "parameters"), "")
+
+    @cached_property
+    def _parameters(self) -> Mapping[str, tuple[tuple[str, KnownParameter], ...]]:
+        """The rows by what a page wants: all; SINUMERIK's setting data and its machine data apart."""
         rows: list[tuple[str, KnownParameter]] = []
         for each in self.control.parameters:
             if each.by_axis and self.family.axis_parameters:
                 rows += [(f"{each.number} {axis}", each) for axis in self.control.channel.axes]
             else:
                 rows.append((each.number, each))
-        return tuple(rows)
+        is_setting = [each.name.startswith("$S") for _, each in rows]
+        return {
+            "": tuple(rows),
+            SETTING: tuple(row for row, yes in zip(rows, is_setting, strict=True) if yes),
+            "machine-data": tuple(row for row, yes in zip(rows, is_setting, strict=True) if not yes),
+        }
 
     # ---- the cursor ----------------------------------------------------------------------------------------
 
@@ -274,11 +300,11 @@ class ScreenState:
         if self.measuring is not None and self.measuring.leads_cursor:
             return
         if self.edits and columns and not rows:
-            place = moved(self._lines, self.edit_place, columns)
+            place = moved(self.lines, self.edit_place, columns)
             self.program_row, self.program_word = place.row, place.word
             return
         if self.shows("program") and table is None and not (self.shows("mask") or self.shows("switches")):
-            self.look_at((self.program_row if self.program_row is not None else self.running_row) + rows)
+            self.look_at(self.row + rows)
             return
         row, column = row + rows, column + columns
         if table is not None:
@@ -315,7 +341,7 @@ class ScreenState:
         if not self.in_background and (self.control.state is State.RUNNING or not self.control.program):
             self.program_row = None
             return
-        lines = self._lines
+        lines = self.lines
         self.program_row, self.program_word = max(0, min(row, len(lines) - 1)), 0
 
     def find(self, text: str, step: int) -> None:
@@ -324,8 +350,8 @@ class ScreenState:
         Raises:
             CommandRefused: There is none.
         """
-        here = self.program_row if self.program_row is not None else self.running_row
-        lines, wanted = self._lines, text.strip().upper()
+        here = self.row
+        lines, wanted = self.lines, text.strip().upper()
         rows = range(here + 1, len(lines)) if step > 0 else range(here - 1, -1, -1)
         found = next((row for row in rows if wanted in lines[row].upper()), None)
         if found is None:
@@ -353,18 +379,26 @@ class ScreenState:
     @property
     def edited(self) -> Edited:
         """The main program with the cursor in it; an empty one where none is loaded."""
-        return Edited(self._lines, self.edit_place)
+        return Edited(self.lines, self.edit_place)
 
     @property
     def edit_place(self) -> Place:
         """The word on which the cursor stands."""
         place = Place(self.program_row if self.program_row is not None else 0, self.program_word)
-        return on_words(self._lines, place)
+        return on_words(self.lines, place)
 
     @property
-    def _lines(self) -> Sequence[str]:
-        name = self.edited_program
-        return self.control.program_lines(name) if name else ()
+    def row(self) -> int:
+        """The row of the cursor in the program, or of the block in execution."""
+        return self.program_row if self.program_row is not None else self.running_row
+
+    @property
+    def lines(self) -> Sequence[str]:
+        """The lines of the program that keys change."""
+        try:
+            return self.control.program_lines(self.edited_program) if self.edited_program else ()
+        except CommandRefused:  # it has been deleted meanwhile
+            return ()
 
     def _hear(self, record: Record) -> None:
         """The record button of the machine keeps where the axes are (III.2.1.2, PRC); a sensor measures (III.2.1.3)."""

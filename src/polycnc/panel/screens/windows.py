@@ -13,7 +13,6 @@ from polycnc.messages import text
 from polycnc.panel.description import RETURNED, is_returned
 from polycnc.panel.screens import forms, operate, tables
 from polycnc.panel.screens.pages import in_language, unit_in_language
-from polycnc.panel.screens.state import PANEL_SWITCHES
 from polycnc.panel.screens.view import Cell, Window
 from polycnc.panel.screens.words import END, spans
 
@@ -292,10 +291,11 @@ def _signals(at: Asked) -> Rows:
 
 def _switches(at: Asked) -> Rows:
     """What the panel's switches say, and whether parameters may be written; the cursor chooses one."""
-    row = at.screen.place(max(0, min(at.screen.cursor[0], len(PANEL_SWITCHES) - 1)), 0)
+    switches = at.screen.panel_switches
+    row = at.screen.place(max(0, min(at.screen.cursor[0], len(switches) - 1)), 0)
     return tuple(
         (Cell(name, "label"), Cell(str(int(at.screen.switch(switch))), "value", cursor=i == row))
-        for i, (name, switch) in enumerate(PANEL_SWITCHES.items())
+        for i, (name, switch) in enumerate(switches.items())
     )
 
 
@@ -365,6 +365,22 @@ def _restart(at: Asked) -> Rows:
             for axis, (goes_on, left) in rows.items()
         ),
         *((functions,) if collected else ()),
+    )
+
+
+def _magazine(at: Asked) -> Rows:
+    """The tool in the spindle and the one that stands by, and where the magazine is."""
+    tool, magazine = at.snapshot.tool, at.screen.control.machine.magazine
+    pocket = at.snapshot.signals.get("MAGAZINE_POCKET", 0.0)
+    told = {
+        "spindle": tool.name or str(tool.tool),
+        "next": str(tool.next_tool or ""),
+        "places": str(magazine.places),
+        "pocket": str(int(pocket) or ""),
+    }
+    return tuple(
+        (Cell(in_language(at.spec.words[name], at.lang), "label"), Cell(said, "value"))
+        for name, said in told.items()
     )
 
 
@@ -438,6 +454,7 @@ KINDS: dict[str, Reader] = {
     "mask": lambda at: forms.mask(at.screen, at.spec.shown),
     "dialog": lambda at: forms.dialog(at.screen, at.lang),
     "steps": lambda at: forms.steps(at.screen, at.spec.shown),
+    "magazine": _magazine,
     "version": _version,
     "graph": _graph,
     "maintenance": _maintenance,
