@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.syntec import tapping
-from polycnc.control.syntec.five_axes import spatial
 from polycnc.control.syntec.units import least_unit
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.cycles.drilling import (
@@ -19,7 +18,7 @@ from polycnc.control.word_address.cycles.drilling import (
     lead_from_feed,
 )
 from polycnc.control.word_address.cycles.hole_patterns import drill_points, plane_point
-from polycnc.control.word_address.tools import radius
+from polycnc.control.word_address.tools import radius, spatial
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.cycles.drilling import holes, patterns
 from polycnc.cycles.drilling.holes import Action, Stroke

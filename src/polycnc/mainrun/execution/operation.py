@@ -291,15 +291,15 @@ class Operation:
                 self.runs.switch_on_again(run)
             run.stand_at(position)
             self.prepare(run)
-        if test is not None and missed:
+        if test is not None and missed and not self.status.is_locked:
             refusal = CommandRefused("mainrun.search", target=test.target)
             self.runs[test.channel].machinery.messages.append(str(refusal))
         self.starts_up = False
-        self._retained.commit()
         if not self.status.is_locked:
             self.status.show_alarms(())
             self.status.become(State.READY)
             self.interlocks.look()
+        self._retained.commit()  # which may fail: the state is right all the same
 
     def _stand(self) -> None:
         """No program runs: axes that were moved by hand are where one would begin."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 from array import array
 from collections import deque
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.intervention import NOTHING_BACK, MovedByHand
 from polycnc.channel.stack import LevelKind
@@ -56,6 +56,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
     from polycnc.channel.channel import Channel
+    from polycnc.channel.stack import Level
     from polycnc.machine.model import Machine
     from polycnc.mainrun.axes.machine_axes import MachineAxes
     from polycnc.messages import AlarmError
@@ -315,8 +316,9 @@ class Preprocessing:
             line, code = level.line_of(level.current), wait.code if halts and wait is not None else ""
             key = level.program_number, line
             self._blocks.note(
-                key, code or (str(line) if halts else ""), channel.mode.codes, channel.takes_back
-            )
+                key, code or (str(line) if halts else ""), channel.mode.codes, channel.takes_back,
+                _callers(channel.stack),
+            )  # fmt: skip
             channel.takes_back = NOTHING_BACK
         self._stopped = self._rows.skips = self.has_caught_up = False
         if (
@@ -518,3 +520,10 @@ class Preprocessing:
     def axes(self) -> int:
         """Number of axes."""
         return self._axes
+
+
+def _callers(stack: Sequence[Level[Any]]) -> tuple[tuple[int, int], ...]:
+    """Number and line of the blocks that have called the program on top, from the main program on."""
+    if len(stack) == 1:
+        return ()
+    return tuple((level.program_number, level.line_of(level.current)) for level in stack[:-1])

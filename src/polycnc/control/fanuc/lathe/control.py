@@ -197,6 +197,10 @@ class FanucTurning(CustomMacroControl):
         code = channel.mode[group]
         return written_codes(self.system(channel)).get((group, code), code)
 
+    def parameters_changed(self, channel: LatheChannel) -> None:
+        """Stroke limits and zone 3 are those of the parameters."""
+        limits.renew_zones(channel)
+
     def hand_range(self, channel: LatheChannel, axis: int) -> tuple[float, float]:
         """Stored stroke check 1."""
         return limits.hand_range(channel, axis)
