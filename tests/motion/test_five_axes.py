@@ -14,6 +14,7 @@ from polycnc.motion.planner import Planner
 from polycnc.motion.sampling.run import Run
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.modes import AccelerationMode, CornerMode
+from tests.examples import examples
 from tests.motion.five_axes import TipPath, least_time, machines, random_paths
 from tests.motion.paths import Build
 from tests.motion.test_transformed import SLACK, real_motion
@@ -41,8 +42,8 @@ def planned(path: TipPath, **options: Any) -> float:
 
 def test_rows_of_a_tip_take_little_longer_than_their_axes_need() -> None:
     pytest.importorskip("scipy", reason="scipy, which solves the linear programmes, is not installed")
-    ratios = {path.name: planned(path) / least_time(path) for path in random_paths(200, seed=5)}
-    assert len(ratios) == 200
+    ratios = {path.name: planned(path) / least_time(path) for path in random_paths(examples(200), seed=5)}
+    assert len(ratios) == examples(200)
     assert max(ratios.values()) <= WORST, ratios
     assert min(ratios.values()) >= COARSE, ratios
 

@@ -76,6 +76,7 @@ class Rules:
         idle: Alarm for too many blocks that cannot be computed, and how many may be; empty for no limit.
         most_idle: That number.
         square_start: The first block leads square onto the second one.
+        corner_ends: At outer corners the first and the last block count as compensated ones instead (FANUC type B).
         turns: When the tool turns at an outer corner.
         no_room: Alarm for an inner arc that is smaller than the tool; empty where none may come.
         reverses: Alarm for a straight block that the tool would go backwards; empty where nobody checks that.
@@ -86,6 +87,7 @@ class Rules:
     idle: str = ""
     most_idle: int = 0
     square_start: bool = False
+    corner_ends: bool = False
     turns: int = TURNS_NOT
     no_room: str = ""
     reverses: str = ""
@@ -124,6 +126,7 @@ class SpatialStage(Stage):
 
     Attributes:
         depth: How far down the tool its tip lies from the programmed point, from the next block on, mm.
+        leaves: The next move leads back to the programmed path.
     """
 
     rank = Rank.SPATIAL_COMPENSATION
@@ -153,9 +156,31 @@ class SpatialStage(Stage):
         self._at: list[float] | None = None
         self._idle = 0
         self._queue: list[Move | PlacedEvent] = []
+        self.leaves = False
+        self._left = False
+
+    @property
+    def active(self) -> bool:
+        """Whether the move that leads back to the programmed path is still to come."""
+        return not self._left
+
+    def beside(self, position: list[float]) -> list[float]:
+        """Where the tip stands when the program stands at a position; see `Stage`."""
+        return self._shifted(position, self._shift)
+
+    def programmed(self, position: list[float]) -> list[float]:
+        """Where the program stands when the tip stands at a position; see `Stage`."""
+        x, y, z = self._shift
+        return self._shifted(position, (-x, -y, -z))
 
     def move(self, move: Move) -> None:
         """Take the next move."""
+        if self.leaves:
+            self._lead_back(move)
+            return
+        if self._left:
+            self.after.move(move)
+            return
         tool = self._posture.tool_at(move.end)
         if not move.is_arc:
             start, end = self._point(move.start), self._point(move.end)
@@ -226,11 +251,11 @@ class SpatialStage(Stage):
         first, second = held.normal, self._normal(turned, tangent)
         if second is None:
             raise AlarmError(held.rules.no_corner, line=held.move.line)
-        if held.starts:
+        outer = self._is_outer(held, second, turned, tangent)
+        if held.starts and not (held.rules.corner_ends and outer):
             self._emit(held.move, self._beside(second, turned))
             self._run_queue()
             return
-        outer = self._is_outer(held, second, turned, tangent)
         cosine = min(1.0, dot(first, second))
         if outer and held.corners.is_round(180.0 - degrees(acos(max(-1.0, cosine)))):
             if held.corners.cut_off:
@@ -445,6 +470,24 @@ class SpatialStage(Stage):
             emit = self._emit if held.starts else partial(self._emit_turning, tangent=held.tangent)
             emit(held.move, shift=self._beside(held.normal, held.tool))
         self._run_queue()
+
+    def lead_back(self) -> None:
+        """The next move ends on the programmed path."""
+        self.leaves = True
+
+    def _lead_back(self, move: Move) -> None:
+        """End the block that waits, at an outer corner with this move as if it were compensated; it leads back."""
+        held, start, end = self._held, self._point(move.start), self._point(move.end)
+        way = _unit(minus(end, start))
+        second = None if held is None or way is None else self._normal(held.tool, way)
+        if held is None or way is None or second is None:
+            self._release()
+        elif self._is_outer(held, second, held.tool, way):
+            self._join(way, move, 0.0)
+        else:
+            self._release()
+        self._emit(move, (0.0, 0.0, 0.0))
+        self.leaves, self._left = False, True
 
     def change(self, side: int, radius: float) -> None:
         """The other side, or another radius, from the next block on; between the two is no corner."""

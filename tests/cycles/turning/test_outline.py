@@ -15,18 +15,23 @@ def corners(contour: list) -> list:  # type: ignore[type-arg]
 
 
 def test_a_contour_is_led_on_to_front_and_top_of_its_blank() -> None:
-    led = outline.led_on(STEPS, 2.0, 30.0, 0.0)
+    led = outline.walled(outline.from_front(STEPS, 2.0), -40.0, 30.0, -1.0)
     assert corners(led) == [(2.0, 20.0), *corners(STEPS), (-40.0, 30.0)]
 
 
-def test_the_wall_behind_a_contour_stands_off_by_the_allowance_unless_it_ends_with_one() -> None:
-    assert corners(outline.led_on(STEPS, 0.0, 30.0, -0.5))[-2:] == [(-40.5, 25.0), (-40.5, 30.0)]
-    walled = lines((0.0, 20.0), (-20.0, 20.0), (-20.0, 25.0))
-    assert corners(outline.led_on(walled, 0.0, 30.0, -0.5))[-2:] == [(-20.0, 25.0), (-20.0, 30.0)]
+def test_a_contour_goes_on_to_the_wall_unless_it_ends_with_one() -> None:
+    assert corners(outline.walled(STEPS, -40.5, 30.0, -1.0))[-2:] == [(-40.5, 25.0), (-40.5, 30.0)]
+    ends_with_wall = lines((0.0, 20.0), (-20.0, 20.0), (-20.0, 25.0))
+    assert corners(outline.walled(ends_with_wall, -20.5, 30.0, -1.0))[-2:] == [(-20.0, 25.0), (-20.0, 30.0)]
+
+
+def test_a_contour_ends_at_the_wall_and_does_not_come_down_to_the_top() -> None:
+    assert corners(outline.walled(STEPS, -30.0, 30.0, -1.0))[-2:] == [(-30.0, 25.0), (-30.0, 30.0)]
+    assert corners(outline.walled(STEPS, -40.0, 24.0, -1.0)) == corners(STEPS)
 
 
 def test_a_contour_that_begins_in_front_of_its_blank_is_not_led_on() -> None:
-    assert corners(outline.led_on(STEPS, -1.0, 25.0, 0.0)) == corners(STEPS)
+    assert corners(outline.from_front(STEPS, -1.0)) == corners(STEPS)
 
 
 def test_limits_cut_a_contour() -> None:
@@ -47,7 +52,7 @@ def test_the_farthest_point(axis: int, direction: float, far: float) -> None:
 
 def test_cuts_begin_in_front_of_the_stock_and_leave_out_air() -> None:
     """The stock steps up from 22 to 28 at -10: the cut at 26 begins there, none lies above 28."""
-    part = outline.led_on(STEPS, 2.0, 30.0, 0.0)
+    part = outline.walled(outline.from_front(STEPS, 2.0), -40.0, 30.0, -1.0)
     stock = lines((2.0, 20.0), (2.0, 22.0), (-10.0, 22.0), (-10.0, 28.0), (-45.0, 28.0))
     cuts = [cut.stroke for cut in remove(part, Removal(2.0, 1.0, -1.0), stock)]
     levels = {
@@ -59,7 +64,7 @@ def test_cuts_begin_in_front_of_the_stock_and_leave_out_air() -> None:
 
 
 def test_there_is_a_cut_at_every_edge() -> None:
-    part = outline.led_on(STEPS, 2.0, 31.0, 0.0)
+    part = outline.walled(outline.from_front(STEPS, 2.0), -40.0, 31.0, -1.0)
     straight = {
         cut.stroke.end[1] for cut in remove(part, Removal(4.0, 1.0, -1.0, at_edges=True)) if cut.is_straight
     }

@@ -14,7 +14,6 @@ from polycnc.control.sinumerik.actions import actions, overlay
 from polycnc.control.sinumerik.actions.user_data import user_data
 from polycnc.control.sinumerik.axes import jogging
 from polycnc.control.sinumerik.block import positions, procedures, single_block
-from polycnc.control.sinumerik.block.plain import SinumerikPlainBlocks
 from polycnc.control.sinumerik.block.plan import ExactStop, make_plan
 from polycnc.control.sinumerik.channels import axis_containers, axis_exchange, coordination
 from polycnc.control.sinumerik.contours import preparation
@@ -70,6 +69,7 @@ if TYPE_CHECKING:
     from polycnc.channel.steps import Step as ProgramStep
     from polycnc.control.interface import HandMotion
     from polycnc.control.sinumerik.block.draft import Plan, Values
+    from polycnc.control.sinumerik.block.scanned import SinumerikPlainBlocks
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.variables.registry import SystemVariable
     from polycnc.language.expressions.shapes import Shapes
@@ -258,6 +258,9 @@ class Sinumerik:
 
     def plain_blocks(self, _channel: SinumerikChannel) -> SinumerikPlainBlocks:
         """What a scanner must know of plain blocks."""
+        # For long programs only.
+        from polycnc.control.sinumerik.block.scanned import SinumerikPlainBlocks
+
         return SinumerikPlainBlocks(self.plan, orientation.tool_record, orientation.note_turn)
 
     # ---- blocks

@@ -26,27 +26,29 @@ def farthest(contour: Sequence[Piece], axis: int, direction: float) -> float:
     return direction * max(direction * point[axis] for piece in contour for point in points(piece.edge))
 
 
-def led_on(contour: Contour, front: float, top: float, beyond: float) -> Contour:
-    """A contour from the front of its blank on, and at its end up to the top of the blank.
+def from_front(contour: Contour, front: float) -> Contour:
+    """A contour from the front of its blank on, along the cuts, to where it begins."""
+    begin, end = contour[0].edge.start, contour[-1].edge.end
+    onwards = 1.0 if end[0] >= begin[0] else -1.0
+    if onwards * (begin[0] - front) <= NO_WAY:
+        return list(contour)
+    return [Piece(offset.line((front, begin[1]), begin)), *contour]
 
-    Args:
-        contour: In the direction of the cuts.
-        front: `a` of the blank's front.
-        top: `b` of the blank's top.
-        beyond: Signed way along `a` to the wall behind its end, which the allowance takes back; a contour that ends
-            with a wall has it already.
+
+def walled(contour: Contour, wall: float, top: float, towards: float) -> Contour:
+    """A contour up to a wall along the cuts, and straight up from there to the top of its blank.
+
+    One that ends in front of the wall goes on to it, unless it ends with a wall of its own.
     """
-    result = list(contour)
-    begin, end = contour[0].edge.start, contour[-1].edge
-    onwards = 1.0 if end.end[0] >= begin[0] else -1.0
-    if onwards * (begin[0] - front) > NO_WAY:
-        result.insert(0, Piece(offset.line((front, begin[1]), begin)))
+    onwards = 1.0 if contour[-1].edge.end[0] >= contour[0].edge.start[0] else -1.0
+    result = not_beyond(contour, wall, onwards) or list(contour[:1])
+    end = result[-1].edge
     corners = [end.end]
-    if beyond and abs(end.arriving[0]) > _HAIR:
-        corners.append((end.end[0] + beyond, end.end[1]))
-    corners.append((corners[-1][0], top))
-    result += [Piece(offset.line(p, q)) for p, q in pairwise(corners) if offset.line(p, q).length > NO_WAY]
-    return result
+    if onwards * (wall - end.end[0]) > NO_WAY and abs(end.arriving[0]) > _HAIR:
+        corners.append((wall, end.end[1]))
+    if towards * (end.end[1] - top) > NO_WAY:
+        corners.append((corners[-1][0], top))
+    return result + [Piece(offset.line(p, q)) for p, q in pairwise(corners)]
 
 
 def not_deeper(contour: Contour, level: float, towards: float) -> Contour:

@@ -32,8 +32,8 @@ _WHOLE = 1e-6
 _ROOM = 1e-3
 #: What is so near to a line lies on it; so deep is the material under the begin of a contour, mm.
 _TOUCH, _DEEP = 1e-4, 1e4
-#: Parts of an arc that a rapid way is compared with.
-_SAMPLES = 32
+#: Chords that a way is compared with miss their arc by no more than this, mm, or than this share of a large radius.
+_CHORD_MM, _CHORD_SHARE = 1e-3, 2e-5
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,42 +142,88 @@ def remove(contour: Contour, removal: Removal, outline: Contour | None = None) -
         outline: Of the stock, in the direction of the contour: in front of it the tool goes at rapid, and cuts that
             would meet nothing are left out. Without one all up to the contour's highest point is stock.
     """
-    towards = removal.towards
-    begin, end = contour[0].edge.start, contour[-1].edge.end
-    onwards = copysign(1.0, end[0] - begin[0])
-    at: Point | None = None
-    foremost = begin[0] if removal.front is None else removal.front
-    cut_at = [_top(contour, towards, removal.top)]
-    edges = list(_flats(contour, towards)) if removal.at_edges else []
-    for section in sections(contour, towards, removal.top):
+    work = _Work(contour, removal, outline)
+    found = sections(contour, removal.towards, removal.top)
+    for number, section in enumerate(found):
+        summits = {
+            later.top for later in found[number + 1 :] if _opens(contour, section, later, removal.towards)
+        }
+        yield from work.section(section, work.edges | summits, is_relief=number > 0)
+
+
+class _Work:
+    """The cuts of one call: where the tool stands, and how high the stock is.
+
+    Attributes:
+        at: Where the last cut ended, None before the first one.
+        cut_at: Heights that cuts have been made at, and that of the stock before them.
+        edges: Heights at which there is a cut in any case.
+    """
+
+    def __init__(self, contour: Contour, removal: Removal, outline: Contour | None) -> None:
+        self.contour, self.removal, self.outline = contour, removal, outline
+        self.begin = contour[0].edge.start[0]
+        self.onwards = copysign(1.0, contour[-1].edge.end[0] - self.begin)
+        self.foremost = self.begin if removal.front is None else removal.front
+        self.at: Point | None = None
+        self.cut_at = [_top(contour, removal.towards, removal.top)]
+        self.edges = set(_flats(contour, removal.towards)) if removal.at_edges else set()
+
+    def section(self, section: Section, edges: set[float], *, is_relief: bool) -> Iterator[Cut]:
+        """The cuts of a section; behind a relief the tool rises past the steps on the flank in front of it."""
+        towards, lift = self.removal.towards, self.removal.lift
         above = section.top
         # Over a relief the stock stands up to the last cut that passed over the summit in front of it.
-        stock = min((height for height in cut_at if height >= above - _HAIR), default=above)
-        for height in _levels(section, removal.depth, edges):
+        stock = min((height for height in self.cut_at if height >= above - _HAIR), default=above)
+        for height in _levels(section, self.removal.depth, edges):
+            place = self._place(section, height, is_flat=height == section.bottom or height in edges)
+            if place is None:
+                continue
+            gap, entry, front = place
             level = -towards * height
-            # On the flat of a base the contour is not deeper than the cut: look a hair above it.
-            is_flat = height == section.bottom or height in edges
-            gap = _gap_at(contour, level - towards * _HAIR if is_flat else level, towards, section.place)
-            if gap is None and height == section.bottom:
-                gap = _point_at(contour, section.place, level)
-            if gap is None:
-                continue
-            front = abs(gap.start - begin[0]) <= 2.0 * _HAIR
-            met = foremost if outline is None else _met(outline, level, towards, foremost)
-            if met is None or onwards * (gap.end - met) <= (_HAIR if gap.end != gap.start else -_HAIR):
-                continue
-            entry = met - onwards * removal.lift if front else gap.start
-            place = (entry, level, -towards * above, -towards * stock)
-            cuts = list(_cut(contour, removal, gap, place, onwards, front=front))
-            if at is not None and above == section.top:
-                yield from map(
-                    Cut, way_over(contour, at, cuts[0].stroke.end, towards=towards, lift=removal.lift)
-                )
-            elif at is not None and front and at[0] != entry:
-                yield Cut(PlaneStroke(Kind.RAPID, (entry, at[1])))
+            at = (entry, level, -towards * above, -towards * stock)
+            cuts = list(_cut(self.contour, self.removal, gap, at, self.onwards, front=front))
+            if self.at is not None and above == section.top:
+                way = way_over(self.contour, self.at, cuts[0].stroke.end, towards=towards, lift=lift)
+                yield from map(Cut, way)
+            elif self.at is not None and front and self.at[0] != entry:
+                yield Cut(PlaneStroke(Kind.RAPID, (entry, self.at[1])))
             yield from cuts
-            at, above, stock = cuts[-1].stroke.end, height, height
-            cut_at.append(height)
+            self.at, above, stock = cuts[-1].stroke.end, height, height
+            self.cut_at.append(height)
+        if is_relief and self.at is not None and above < section.top:
+            over = -towards * (section.top + lift)
+            if towards * (self.at[1] - over) > _HAIR:
+                self.at = (self.at[0], over)
+                yield Cut(PlaneStroke(Kind.RAPID, self.at))
+
+    def _place(self, section: Section, height: float, *, is_flat: bool) -> tuple[Gap, float, bool] | None:
+        """The gap of a cut, where the tool goes down to it, and whether that is in front; None for no cut."""
+        towards = self.removal.towards
+        level = -towards * height
+        # On the flat of a base the contour is not deeper than the cut: look a hair above it.
+        gap = _gap_at(self.contour, level - towards * _HAIR if is_flat else level, towards, section.place)
+        if gap is None and height == section.bottom:
+            gap = _point_at(self.contour, section.place, level)
+        if gap is None:
+            return None
+        front = abs(gap.start - self.begin) <= 2.0 * _HAIR
+        met = self.foremost if self.outline is None else _met(self.outline, level, towards, self.foremost)
+        is_point = gap.end == gap.start
+        if met is None or (self.outline and not is_point and self.onwards * (gap.end - met) <= _HAIR):
+            return None
+        return gap, met - self.onwards * self.removal.lift if front else gap.start, front
+
+
+def _opens(contour: Contour, section: Section, later: Section, towards: float) -> bool:
+    """Whether a cut of a section at the height of a later one's summit passes over that one.
+
+    Without such a cut the stock over a relief would stand higher than its summit.
+    """
+    if not section.bottom + _HAIR < later.top < section.top - _HAIR:
+        return False
+    gap = _gap_at(contour, -towards * (later.top + _HAIR), towards, section.place)
+    return gap is not None and min(gap.start, gap.end) <= later.place <= max(gap.start, gap.end)
 
 
 def _met(outline: Contour, level: float, towards: float, foremost: float) -> float | None:
@@ -246,37 +292,48 @@ def blank(contour: Contour, towards: float, above: float | None = None) -> Conto
 def _samples(contour: Contour) -> Iterator[Point]:
     """Corners of the contour, and points of its arcs."""
     for piece in contour:
-        for k in range(1 + (_SAMPLES if piece.edge.center is not None else 1)):
-            yield _point_of(piece.edge, k)
+        yield from _chords(piece.edge)
+
+
+def _chords(edge: Edge) -> list[Point]:
+    """The ends of a line, or points of an arc whose chords are near to it."""
+    if edge.center is None:
+        return [edge.start, edge.end]
+    radius = arcs.radius_of(edge.center, edge.end)
+    count = arcs.parts_for_chord_error(radius, edge.sweep, max(_CHORD_MM, _CHORD_SHARE * radius))
+    return [edge.start, *arcs.split(edge.start, edge.end, edge.center, edge.ccw, count)]
+
+
+def _sides(contour: Contour) -> Iterator[tuple[Point, Point, float]]:
+    """Lines and chords of the contour, and how near to them a way touches and does not cross them."""
+    for piece in contour:
+        edge, touch = piece.edge, _TOUCH
+        if edge.center is not None:
+            touch += max(_CHORD_MM, _CHORD_SHARE * arcs.radius_of(edge.center, edge.end))
+        for a, b in pairwise(_chords(edge)):
+            yield a, b, touch
 
 
 def is_clear(contour: Contour, way: list[Point], towards: float) -> bool:
     """Whether a way from corner to corner, (a, b) in mm, crosses nowhere the contour or the front under its begin."""
-    sides = list(pairwise(_samples(contour)))
+    sides = list(_sides(contour))
     begin, first = contour[0].edge.start, contour[0].edge.departing[0]
     if first * (contour[-1].edge.end[0] - begin[0]) >= 0.0:  # else it hangs over
-        sides.append(((begin[0], begin[1] + towards * _DEEP), begin))
-    return not any(_cross(p, q, a, b) for p, q in pairwise(way) for a, b in sides)
+        sides.append(((begin[0], begin[1] + towards * _DEEP), begin, _TOUCH))
+    return not any(_cross(p, q, a, b, touch) for p, q in pairwise(way) for a, b, touch in sides)
 
 
-def _cross(p: Point, q: Point, a: Point, b: Point) -> bool:
-    """Whether two lines cross between their ends."""
-    return _are_apart(p, q, a, b) and _are_apart(a, b, p, q)
+def _cross(p: Point, q: Point, a: Point, b: Point, touch: float) -> bool:
+    """Whether two lines cross between their ends; the first one may end by `touch` behind the second one."""
+    return _are_apart(p, q, a, b, _TOUCH) and _are_apart(a, b, p, q, touch)
 
 
-def _are_apart(p: Point, q: Point, a: Point, b: Point) -> bool:
-    """Whether two points lie on both sides of the line from p to q, and not just on it."""
+def _are_apart(p: Point, q: Point, a: Point, b: Point, touch: float) -> bool:
+    """Whether two points lie on both sides of the line from p to q, by more than a distance."""
     u, v = q[0] - p[0], q[1] - p[1]
-    on = _TOUCH * hypot(u, v)
+    on = touch * hypot(u, v)
     first, second = u * (a[1] - p[1]) - v * (a[0] - p[0]), u * (b[1] - p[1]) - v * (b[0] - p[0])
     return min(first, second) < -on and max(first, second) > on
-
-
-def _point_of(edge: Edge, k: int) -> Point:
-    """An end of a line, or a point of an arc by its number."""
-    if edge.center is None:
-        return edge.end if k else edge.start
-    return arcs.point_on_arc(edge.start, edge.end, edge.center, edge.ccw, k / _SAMPLES)
 
 
 def _gap_at(contour: Contour, level: float, towards: float, place: float) -> Gap | None:

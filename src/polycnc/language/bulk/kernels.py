@@ -43,7 +43,17 @@ from polycnc.language.bulk.layout import (
 )
 from polycnc.language.bulk.moves import Columns, act, note
 from polycnc.language.bulk.numerals import BLANK, EXACT_DIGITS, NINE, POINT, TAB, ZERO, read_number
-from polycnc.language.bulk.routines.flow import REFUSED, flow, may_flow, take_line
+from polycnc.language.bulk.routines.flow import (
+    CALLS,
+    ENDS,
+    REFUSED,
+    RETURNS,
+    call,
+    flow,
+    leave,
+    may_flow,
+    take_line,
+)
 from polycnc.language.bulk.routines.layout import NO_ROUTINE
 
 NEWLINE, THREE = 10, 51
@@ -90,9 +100,13 @@ def scan(tables: Tables, state: State, columns: Columns) -> int:
         else:
             state.scan.current = step
             state.scan.index += 1
-        if node >= 0 or not in_text or not state.scan.grammar & Grammar.BLANK_LINES_ARE_NONE:
-            state.scan.blocks += 1
-        if node >= 0:
+        is_counted = node >= 0 or not in_text or not state.scan.grammar & Grammar.BLANK_LINES_ARE_NONE
+        state.scan.blocks += is_counted and node != ENDS
+        if node == CALLS:
+            call(tables, state)
+        elif node <= RETURNS:
+            leave(tables, state)
+        elif node >= 0:
             leaf = tables.leaves[node]
             if tables.rules[leaf * Rule.SIZE + Rule.FLOW]:
                 flow(tables, state, leaf * Rule.SIZE, leaf * Factor.SIZE)

@@ -359,13 +359,14 @@ class Scanner:
         if outcome == layout.Outcome.UNKNOWN:
             learnt = self._learn(channel, "")
         elif outcome == layout.Outcome.UNREAD:
-            learnt = channel.level is level and routines.read_lines(channel)
+            learnt = routines.read_lines(channel)
         elif outcome == layout.Outcome.UNKNOWN_PROGRAM:
             learnt = channel.level is level and routines.learn_callee(channel)
         else:
             learnt = outcome == layout.Outcome.FULL and at.blocks > 0
+        # Where the scan has ended within a program that it has called, it goes on there.
         room = len(channel.toolpath.chunk) < CHUNK_ROWS and channel.blocks < channel.block_limit
-        return learnt and room and channel.level is level
+        return learnt and room
 
     @staticmethod
     def _blocks_at_once(channel: ScannedChannel) -> int:

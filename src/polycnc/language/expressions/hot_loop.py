@@ -8,8 +8,10 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.channel.steps import Step
 
-#: Blocks that make a try of the scanner worth its while.
-WORTHWHILE = 16
+#: Blocks that make a try of the scanner worth its while: joined steps are fast, and the scanner needs all variables.
+WORTHWHILE = 256
+#: Blocks that are run here at the most between two tries.
+MOST_PATIENCE = 8_192
 
 
 class HotLoop:
@@ -34,7 +36,7 @@ class HotLoop:
         if channel.bulk is not None and self._done >= self._next_try and channel.bulk.pays(self._done):
             scanner = channel.scanner()
             taken = 0 if scanner is None else scanner.turn(channel)
-            self._patience = 1 if taken >= WORTHWHILE else 2 * self._patience
+            self._patience = 1 if taken >= WORTHWHILE else min(2 * self._patience, MOST_PATIENCE)
             self._next_try = self._done + self._patience
             if taken:
                 channel.blocks -= 1  # whoever runs a step counts it

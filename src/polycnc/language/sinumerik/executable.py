@@ -160,6 +160,12 @@ class SinumerikProgram:
         """Whether a block has been run."""
         return bool(self._reached[index])
 
+    def is_definition(self, index: int) -> bool:
+        """Whether a block defines variables (DEF)."""
+        line = self.text(index)
+        end = prefix_of(line).end
+        return line[end:].lstrip().upper().startswith("DEF ") and not self._iso
+
     def is_repeatable(self, index: int) -> bool:
         """Whether a block can be compiled again by itself: it defines nothing, and is of the language."""
         return not (self._iso or self._defines(self.text(index)) or "291" in self.text(index))
@@ -345,20 +351,24 @@ class SinumerikProgram:
         return self._header
 
     def _read_header(self, scope: Scope, channel: Channel) -> Header:
-        for index in range(min(len(self), 1)):
-            line = self.text(index)
-            end = prefix_of(line).end
-            if line[end : end + 5].strip().upper().startswith("PROC"):
-                try:
-                    return read_header(
-                        ExpressionReader(tokenize(line, end), scope, Emitter(scope.control.shapes)), channel
-                    )
-                except AlarmError as error:
-                    # It is read where the program is called: the mistake is not in the block that calls.
-                    error.line = error.line or self.line(index)
-                    error.program = channel.toolpath.program_number(self.program.name)
-                    raise
-        return NO_HEADER
+        if not self.begins_with_header:
+            return NO_HEADER
+        line = self.text(0)
+        tokens = tokenize(line, prefix_of(line).end)
+        try:
+            return read_header(ExpressionReader(tokens, scope, Emitter(scope.control.shapes)), channel)
+        except AlarmError as error:
+            # It is read where the program is called: the mistake is not in the block that calls.
+            error.line = error.line or self.line(0)
+            error.program = channel.toolpath.program_number(self.program.name)
+            raise
+
+    @property
+    def begins_with_header(self) -> bool:
+        """Whether the first block is a PROC line."""
+        line = self.text(0) if len(self) else ""
+        end = prefix_of(line).end
+        return line[end : end + 5].strip().upper().startswith("PROC")
 
     def is_first_statement(self, index: int) -> bool:
         """Whether a step is the first block of the program."""

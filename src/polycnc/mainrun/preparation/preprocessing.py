@@ -296,6 +296,10 @@ class Preprocessing:
         if self._cut >= 0:
             self.toolpath.set_end(self._cut, self.channel.coordinates.position)
             self._cut = -1
+        coordinates = self.channel.coordinates
+        programmed = self.channel.path.programmed(coordinates.position)
+        if programmed != coordinates.position:
+            coordinates.arrive(programmed)
         self.channel.moved_by_hand = MovedByHand(tuple(real), tuple(by_hand)) if by_hand else None
 
     def stand_at(self, position: Sequence[float]) -> None:
@@ -304,7 +308,7 @@ class Preprocessing:
 
     def _step(self) -> None:
         """Run the channel to its next wait."""
-        channel = self.channel
+        channel, is_next = self.channel, self.stop_behind_next
         wait = next(self._run, None) if self._run is not None else None
         level = channel.stack[-1] if channel.stack else None
         if level is not None and (len(channel.toolpath.chunk) or (wait and wait.reason in BEHIND_A_BLOCK)):
@@ -317,9 +321,13 @@ class Preprocessing:
             )  # fmt: skip
             channel.takes_back = NOTHING_BACK
         self._stopped = self._rows.skips = self.has_caught_up = False
-        if self.stop_behind_next:
+        if (
+            is_next
+        ):  # not behind the block that asks for it: what stages hold there belongs to blocks in front
             channel.flush()
-        acts = acts_on_machine(self.toolpath.chunk, waits=wait is not None and wait.reason in BEHIND_A_BLOCK)
+        acts = is_next and acts_on_machine(
+            self.toolpath.chunk, waits=wait is not None and wait.reason in BEHIND_A_BLOCK
+        )
         self.toolpath.block_boundary()
         if self.on_step is not None:
             self.on_step()
@@ -333,7 +341,7 @@ class Preprocessing:
             self.waiting = wait
         elif self._rows.skips:
             self.waiting = PREPROCESSING
-        if self.stop_behind_next and acts:
+        if acts:
             self.waiting = self.waiting or PREPROCESSING
             self.stop_behind_next = False
         if self._rests():

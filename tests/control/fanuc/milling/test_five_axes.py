@@ -23,11 +23,17 @@ def program(length: str, compensation: str, steps: list[tuple[float, float]]) ->
 
 
 @settings(max_examples=10, deadline=None)
-@given(steps=STEPS, radius=st.sampled_from((3.0, -3.0)), code=st.sampled_from(("G41", "G42")))
+@given(
+    steps=STEPS,
+    radius=st.sampled_from((3.0, -3.0)),
+    code=st.sampled_from(("G41", "G42")),
+    type_b=st.integers(0, 1),
+)
 def test_an_upright_tool_goes_as_in_the_plane(
-    steps: list[tuple[float, float]], radius: float, code: str
+    steps: list[tuple[float, float]], radius: float, code: str, type_b: int
 ) -> None:
-    setup, machine = {"tools": {1: {"length": 50, "radius": radius}}}, "mill5-bc-head"
+    tools, machine = {1: {"length": 50, "radius": radius}}, "mill5-bc-head"
+    setup = {"tools": tools, "parameters": {"5003#0": type_b}}
     plane = run(program("G43", code, steps), setup=setup, machine=machine)
     space = run(program("G43.4", f"{code}.2", steps), setup=setup, machine=machine)
     assert codes(space) == codes(plane)
@@ -42,7 +48,12 @@ def test_forms_that_are_not_known_for_sure_are_refused(code: str) -> None:
     assert codes(run(f"G43.4 H1\n{code} D1\nM30\n", machine="mill5-ac-table")) == ["PC0001"]
 
 
-@pytest.mark.parametrize("bit", [0, 1])
-def test_other_start_up_types_are_refused(bit: int) -> None:
-    setup = {"parameters": {f"5003#{bit}": 1}}
+def test_start_up_type_c_is_refused() -> None:
+    setup = {"parameters": {"5003#1": 1}}
     assert codes(run("G43.4 H1\nG41.2 D1\nM30\n", setup=setup, machine="mill5-ac-table")) == ["PC0001"]
+
+
+def test_type_b_ends_in_a_block_with_motion() -> None:
+    setup = {"parameters": {"5003#0": 1}, "tools": {1: {"length": 50, "radius": 5}}}
+    text = "G90 G43.4 H1\nG41.2 D1 G01 X10. F500\nX20.\nG40\nM30\n"
+    assert codes(run(text, setup=setup, machine="mill5-ac-table")) == ["PC0001"]

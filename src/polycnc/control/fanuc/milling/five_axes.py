@@ -2,12 +2,13 @@
 
 Three-dimensional cutter compensation G41.2, G42.2 (the tool as the rotary axes stand it) and G41.6, G42.6 (by I J K) is
 general knowledge of FANUC 30i; the manuals at hand have none of it. What nobody here knows for sure is PC0001: without
-tip control, start-up types B and C, arcs on machines with a swivel head alone, a second code or D in between, and codes
-that change coordinates.
+tip control, start-up type C, a G40 alone with type B, arcs on machines with a swivel head alone, a second code or D in
+between, blocks that turn the tool alone, and codes that change coordinates.
 """
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from polycnc.compensation.spatial import INTERSECTION_FIRST, Corners, Rules
@@ -21,7 +22,8 @@ from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
-    from polycnc.control.word_address.block.plan import Builder
+    from polycnc.control.word_address.block.codes import Step
+    from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import WordAddressChannel
 
@@ -47,16 +49,21 @@ def compensate(channel: WordAddressChannel, words: Words) -> None:
     by_vector = code in spatial.BY_VECTOR
     if length not in TIP_CODES or (by_vector and length != "G43.5"):
         raise _not_yet(f"{code}: {length}")
-    if parameters.SUP or parameters.SUV:
-        raise _not_yet(f"{code}: 5003#{0 if parameters.SUP else 1}")
+    if parameters.SUV:
+        raise _not_yet(f"{code}: 5003#1")
     if RadiusState.of(channel).side:
         raise words.fail("tip_mode", code)
     corners = Corners(INTERSECTION_FIRST, SHARP_DEG, cut_off=not parameters.CCC)
-    spatial.engage(channel, words, corners, RULES)
+    spatial.engage(channel, words, corners, replace(RULES, corner_ends=parameters.SUP))
 
 
 def cancel(channel: WordAddressChannel, words: Words) -> None:
-    """G40: ends radius compensation of the plane and in space."""
+    """G40: ends radius compensation of the plane and in space; its own motion leads back by start-up type B."""
+    stage = spatial.stage_of(channel)
+    if stage is not None and stage.rules.corner_ends:
+        if not words.axes():
+            raise _not_yet("5003#0: G40")
+        stage.lead_back()
     spatial.end(channel)
     radius.cancel_compensation(channel, words)
 
@@ -96,6 +103,13 @@ def _check_turn(builder: Builder, code: str) -> None:
         raise _not_yet(f"{turns}: {code}")
 
 
+def _behind(builder: Builder, _plan: Plan) -> Step | None:
+    """Behind G40 the stage that has led back has nothing to do."""
+    if builder.mode["compensation"] in spatial.SIDES:
+        return None
+    return lambda channel, _values: channel.path.relax()
+
+
 def _parameters(channel: Channel) -> FanucMillingParameters:
     return FanucMillingParameters.naming(channel.setup.parameters)
 
@@ -105,4 +119,6 @@ def _not_yet(code: str) -> AlarmError:
 
 
 #: What must not come during radius compensation in space.
-RULE = Rule("radius compensation in space", modes={"compensation": spatial.SIDES}, check=_check_block)
+RULE = Rule(
+    "radius compensation in space", modes={"compensation": spatial.SIDES}, check=_check_block, after=_behind
+)

@@ -113,13 +113,14 @@ def give_back(channel: SinumerikChannel, columns: Iterable[int]) -> None:
     channel.synchronise()
     if any(column in axes.held or clocked.commanded(column).moves for column in taken):
         raise PreprocessingStop
-    machine = channel.coordinates.machine
+    coordinates, path = channel.coordinates, channel.path
+    machine = coordinates.to_machine(path.beside(coordinates.position))
     before = machine.copy()
     for column in taken:
         axes.states.pop(column, None)
         machine[column] = clocked.take_back(column)
-    if machine != before:
-        channel.coordinates.arrive_machine(machine)
+    if any(abs(a - b) > NO_WAY for a, b in zip(machine, before, strict=True)):
+        coordinates.arrive(path.programmed(coordinates.from_machine(machine)))
 
 
 def position_beside(channel: SinumerikChannel, column: int, end: list[float]) -> None:

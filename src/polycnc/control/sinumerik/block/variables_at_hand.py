@@ -11,6 +11,7 @@ from polycnc.language.bulk.formulas.postfix import OtherError
 from polycnc.language.bulk.formulas.typed_postfix import Located, Sort
 from polycnc.language.bulk.layout import NUMBERED, VARIABLES
 from polycnc.language.expressions.code import Code, Lifted
+from polycnc.language.sinumerik.executable import SinumerikProgram
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.language.sinumerik.names.variables import Array, element_count
 
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.kernels.layout import Floats
     from polycnc.language.sinumerik.emitter import Emitter
-    from polycnc.language.sinumerik.executable import SinumerikProgram
     from polycnc.language.sinumerik.names.variables import Variable
 
 #: Types that the scanner calculates with, and how a number becomes a value of theirs.
@@ -113,6 +113,17 @@ class VariablesAtHand:
 
         return located
 
+    def place_of(self, channel: SinumerikChannel, program: SinumerikProgram, slot: object) -> Located:
+        """Where a single variable of a program lies.
+
+        Raises:
+            OtherError: The scanner does not have it.
+        """
+        kept = self._keep(channel, program, slot)
+        if kept.length:
+            raise OtherError
+        return Located(kept.sort, kept.place)
+
     def _keep(self, channel: SinumerikChannel, owner: Any, slot: Any) -> _Kept:
         key = id(owner), slot
         kept = self._kept.get(key)
@@ -139,7 +150,17 @@ class VariablesAtHand:
         variables[:count] = array("d", channel.memory.language.r[:count])
         for kept in self._kept.values():
             values, count = kept.values(channel), kept.length or 1
-            variables[kept.place : kept.place + count] = array("d", values or [nan] * count)
+            # A program that is called gives its variables values before it reads them.
+            first = nan if kept.owner is channel.level.code else 0.0
+            variables[kept.place : kept.place + count] = array("d", values or [first] * count)
+
+    def of_level(self, program: SinumerikProgram, variables: Sequence[float]) -> list[Any]:
+        """The variables of a program that a scan has called, as its level has them."""
+        own = {kept.slot: kept for kept in self._kept.values() if kept.owner is program}
+        return [
+            _VALUES[own[slot].sort](variables[own[slot].place]) if slot in own else None
+            for slot in range(max(own, default=-1) + 1)
+        ]
 
     def take(self, channel: SinumerikChannel, before: Sequence[float], after: Sequence[float]) -> None:
         """Values that have changed, if only from 0 to -0."""
@@ -161,7 +182,8 @@ def _declared(channel: SinumerikChannel, owner: object, slot: object) -> Variabl
     if isinstance(owner, list):
         found = channel.memory.language.global_variables.values()
         return next((each for each in found if each.store is owner and each.slot == slot), None) or _other()
-    own = channel.level.code.whole.scope_of(channel).variables.values()
+    assert isinstance(owner, SinumerikProgram)
+    own = owner.scope_of(channel).variables.values()
     return next((each for each in own if each.slot == slot), None) or _other()
 
 
@@ -203,9 +225,12 @@ def _take(
     count: int,
     value: Callable[[float], Any],
 ) -> None:
-    old, new = _bits(before, first, count), _bits(after, first, count)
-    if old == new:
+    if (
+        array("d", before[first : first + count]).tobytes()
+        == array("d", after[first : first + count]).tobytes()
+    ):
         return
+    old, new = _bits(before, first, count), _bits(after, first, count)
     for i in range(count):
         if old[i] != new[i]:
             target[i] = value(after[first + i])

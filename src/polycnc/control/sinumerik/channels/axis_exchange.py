@@ -88,17 +88,16 @@ def take(channel: SinumerikChannel, axes: Iterable[str]) -> None:
     """Own axes from now on, where they stand now."""
     owners, moved_by = _owners(channel), group_of(channel).moved_by
     names = channel.machine.channel(channel.number).axes
-    machine = None
+    places: dict[int, float] = {}
     for axis in axes:
         owners[axis] = channel.number
         if moved_by.get(axis, channel.number) != channel.number:
-            if machine is None:
+            if not places:
                 channel.flush()
-                machine = channel.coordinates.machine
-            machine[names.index(axis)] = position(channel, axis)
+            places[names.index(axis)] = position(channel, axis)
             moved_by[axis] = channel.number
-    if machine is not None:
-        channel.coordinates.arrive_machine(machine)
+    if places:
+        action_axes.call(channel, "GET", places)
 
 
 def position(channel: SinumerikChannel, axis: str) -> float:

@@ -36,7 +36,10 @@ if TYPE_CHECKING:
 
 #: MD20250 = 5 blocks without motion are bridged by compensation.
 BRIDGED_BLOCKS = 5
-_G450 = Policy(outer=Outer(0.0, Joint.ARC), read_blocks=BRIDGED_BLOCKS + 2, avoids=True, leaves_out_arcs=True)
+_G450 = Policy(
+    outer=Outer(0.0, Joint.ARC), read_blocks=BRIDGED_BLOCKS + 2, avoids=True, leaves_out_arcs=True,
+    approaches_behind_stops=True,
+)  # fmt: skip
 #: MD20210 = 100 degrees.
 _G451 = replace(_G450, outer=Outer(100.0, Joint.ARC, extend_as_circles=True))
 POLICIES = {

@@ -35,6 +35,8 @@ TYPES: dict[str, range] = {
 }
 #: Types of TRACYL: groove walls by a linear axis, always or by the third argument.
 WITH_WALLS, WALLS_BY_ARGUMENT = 513, 514
+#: Sides of the pole of TRANSMIT by MD24911 and MD24951.
+SIDES = {1: 1.0, 2: -1.0}
 #: As many transformations as machine data can name.
 COUNT = 10
 _TURNS = 1e-9
@@ -174,11 +176,15 @@ def polar(channel: SinumerikChannel, found: DataSet, infeed: int = -1) -> Build:
         raise AlarmError("14401", text="TRANSMIT")
     virtual = second if second != rotary else -1
     inner = PolarPlane(geometry[0], rotary, (geometry[0], second, geometry[2]), virtual=virtual)
-    return Build(_turned(channel, inner), frozenset((rotary,)))
+    return Build(_turned(channel, found, inner), frozenset((rotary,)))
 
 
-def _turned(channel: SinumerikChannel, inner: PolarPlane) -> PolarPlane:
-    """On the side of the centre where the infeed axis stands."""
+def _turned(channel: SinumerikChannel, found: DataSet, inner: PolarPlane) -> PolarPlane:
+    """On the side of the centre that MD24911 and MD24951 name (1 plus, 2 minus), else where the infeed axis stands."""
+    name = f"$MC_TRANSMIT_POLE_SIDE_FIX_{order(channel, found)}"
+    fixed = SIDES.get(int(number_of(channel, name, 0, 0.0)))
+    if fixed is not None:
+        return replace(inner, side=fixed)
     here = channel.coordinates.machine[inner.linear]
     return replace(inner, side=-1.0 if here < -_TURNS else 1.0)
 

@@ -16,6 +16,7 @@ from polycnc.channel.moves.path import Move
 from polycnc.channel.moves.turning import TurningStage
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.motion.polynomial_groups import DIRECTION, PolynomialGroups
+from polycnc.control.sinumerik.tables import length_factor
 from polycnc.control.sinumerik.transformations import directions, seat, spin, standing
 from polycnc.control.sinumerik.transformations.posture import Orienting, Posture
 from polycnc.control.sinumerik.transformations.words import (
@@ -302,7 +303,7 @@ def _along_path(
     if retraction is not None and any(retraction):
         away = [(a + b) / 2.0 for a, b in zip(start, turned, strict=True)]
         for column, part in zip(posture.seated.geometry, retraction, strict=True):
-            away[column] += part
+            away[column] += part * length_factor(mode)
         points = [away, turned]
     for point in points:
         channel.straight(Kind.RAPID if rapid else Kind.FEED, point, nan if rapid else channel.feed)

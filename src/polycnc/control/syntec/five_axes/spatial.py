@@ -13,6 +13,7 @@ from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.normal_stage import NormalStage
 from polycnc.control.word_address.transformations.polar_interpolation import PolarState
+from polycnc.control.word_address.transformations.tool_center_point import TIP_CODES
 from polycnc.deferred.records import dataclass
 from polycnc.messages import AlarmError
 
@@ -21,7 +22,6 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.block.words import Words
 
-TIP_CODES = ("G43.4", "G43.5")
 WORK_SYSTEMS = (*(f"G{i}" for i in range(54, 60)), *(f"G59.{i}" for i in range(1, 10)))
 #: What each code is called in the table of mistakes while the compensation is on.
 FORBIDDEN = {

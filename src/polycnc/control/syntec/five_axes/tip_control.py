@@ -17,6 +17,7 @@ from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.transformations import normal_line, tool_center_point
 from polycnc.control.word_address.transformations.polar_interpolation import PolarState
+from polycnc.control.word_address.transformations.tool_center_point import TIP_CODES
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY
 from polycnc.language.bulk import declare, declared
@@ -28,7 +29,6 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.toolpath import Context
 
-TIP_CODES = ("G43.4", "G43.5")
 #: What does not go with tip control (2.28.3, 2.29.3); G05 P10000 has an alarm of its own.
 NOT_WITH_TIP = frozenset(("G12.1", "G31.10", "G31.11", "G41", "G42"))
 MINUTE = 60.0

@@ -28,7 +28,8 @@ SHAPES = ("G50", "G50.1", "G51", "G51.1")
 
 def stage_of(channel: WordAddressChannel) -> SpatialStage | None:
     """The stage of the path while the compensation is active."""
-    return channel.path.find(SpatialStage)
+    stage = channel.path.find(SpatialStage)
+    return stage if stage is not None and stage.active else None
 
 
 def engage(channel: WordAddressChannel, words: Words, corners: Corners, rules: Rules) -> None:
@@ -45,12 +46,14 @@ def engage(channel: WordAddressChannel, words: Words, corners: Corners, rules: R
     c, frame = channel.coordinates, TipState.of(channel).frame
     posture = Posture(channel.control.kinematics(channel), channel.axes, tuple(c.offsets), frame)
     channel.flush()
+    channel.path.take(SpatialStage)
     within = partial(knot_context, channel)
     channel.path.put(SpatialStage(c.geometry, posture, radius, side, corners, rules, within))
 
 
 def end(channel: WordAddressChannel) -> None:
-    """G40: the last block ends square on itself, the next one leads back."""
-    if stage_of(channel) is not None:
+    """G40: the last block ends square on itself, and the next one leads back; unless one is awaited that does so."""
+    stage = stage_of(channel)
+    if stage is not None and not stage.leaves:
         channel.flush()
         channel.path.take(SpatialStage)

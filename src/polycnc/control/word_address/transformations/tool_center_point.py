@@ -77,17 +77,17 @@ def _check_block(builder: Builder) -> None:
     """
     before, after, cycle = builder.before["length"], builder.mode["length"], builder.mode["cycle"]
     if after in TIP_CODES and cycle != "G80" and not any(row.group == "cycle" for row in builder.codes):
-        raise builder.control.fail("tip_mode", address=cycle)
+        raise builder.control.fail("tip_company", address=cycle)
     if before not in TIP_CODES or after not in TIP_CODES:
         return
     for row in builder.codes:
         if row.code in NOT_WITH_TIP or (row.group == "cycle" and row.code != "G80"):
-            raise builder.control.fail("tip_mode", address=row.code)
+            raise builder.control.fail("tip_company", address=row.code)
     if after == before == "G43.5":
         for address in builder.slots:
             target = builder.control.axis_of_address(builder.channel, address, builder)
             if target is not None and builder.channel.axis_data[target[0]].rotary:
-                raise builder.control.fail("tip_mode", address=address)
+                raise builder.control.fail("tip_company", address=address)
 
 
 def plan_with_direction(builder: Builder, plan: Plan) -> Step | None:

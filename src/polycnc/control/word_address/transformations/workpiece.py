@@ -13,6 +13,7 @@ from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.coordinates import on_table, tip
 from polycnc.control.word_address.coordinates.on_table import OnTable
 from polycnc.control.word_address.coordinates.tip import TipState
+from polycnc.control.word_address.cycles import drilling
 from polycnc.control.word_address.motion.path import reach
 from polycnc.control.word_address.tools import data_input
 from polycnc.control.word_address.transformations.tilted_plane import (
@@ -24,8 +25,10 @@ from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from polycnc.control.word_address.block.codes import Step
-    from polycnc.control.word_address.block.plan import Builder, Plan
+    from polycnc.control.word_address.block.plan import AxisWord, Builder, Plan
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import MillingChannel, WordAddressChannel
 
@@ -115,29 +118,59 @@ def _plan(builder: Builder, plan: Plan) -> Step | None:
     if not turning:
         return None
     motion, words = builder.mode["motion"], plan.axis_words
-    if motion not in STRAIGHT or builder.mode["cycle"] != "G80":
+    if builder.mode["cycle"] != "G80":
+        return None
+    if motion not in STRAIGHT:
         raise _not_yet(f"{builder.mode[FIXTURE] or builder.mode[ERROR]}: {motion}")
     kind, names_feed = STRAIGHT[motion], builder.has("F")
     polar = builder.mode.codes.get("polar") == "G16"
 
     def move(channel: MillingChannel, values: list[float]) -> None:
-        c = channel.coordinates
         feed = channel.feed if names_feed and kind == Kind.RAPID else _feed(channel, kind)
-        before = c.programmed
+        before = channel.coordinates.programmed
         goal = channel.control.polar_target(channel, plan, values) if polar else reach(channel, words, values)
-        angles = dict(zip(channel.axes, c.machine, strict=True))
-        for axis in turning:
-            angles[channel.axes[axis]] = goal[axis] + c.offsets[axis]
-        on_table.follow(channel, angles)
-        if not OnTable.of(channel).fixture or not channel.control.goes_with_fixture(channel):
-            end = c.programmed[:]
-            for word in words:
-                way = goal[word.axis] - before[word.axis]
-                end[word.axis] = end[word.axis] + way if word.incremental else goal[word.axis]
-            goal = end
-        channel.straight(kind, c.to_position(goal), feed, goal)
+        _go(channel, (kind, feed), words, before, goal)
 
     return move
+
+
+def _go(
+    channel: MillingChannel,
+    how: tuple[Kind, float],
+    words: Sequence[AxisWord],
+    before: list[float],
+    goal: list[float],
+) -> None:
+    """Straight to a programmed point, as the work zero lies when the table has turned there; `how` is kind and feed."""
+    c, named = channel.coordinates, on_table.table_axes(channel)
+    angles = dict(zip(channel.axes, c.machine, strict=True))
+    for word in words:
+        if channel.axes[word.axis] in named:
+            angles[channel.axes[word.axis]] = goal[word.axis] + c.offsets[word.axis]
+    on_table.follow(channel, angles)
+    if not OnTable.of(channel).fixture or not channel.control.goes_with_fixture(channel):
+        end = c.programmed[:]
+        for word in words:
+            way = goal[word.axis] - before[word.axis]
+            end[word.axis] = end[word.axis] + way if word.incremental else goal[word.axis]
+        goal = end
+    kind, feed = how
+    channel.straight(kind, c.to_position(goal), feed, goal)
+
+
+def _over_hole(builder: Builder, plan: Plan, step: Step) -> Step:
+    """A block of a drilling cycle with an axis of the table: over the hole it has turned, then the cycle drills."""
+    over = tuple(word for word in plan.axis_words if word.axis != drilling.drilling_axis(builder))
+    counted = any(word.incremental for word in over) or builder.has("K") or builder.has("L")
+    if counted or builder.mode.codes.get("polar") == "G16" or builder.mode["compensation"] != "G40":
+        raise _not_yet(f"{builder.mode[FIXTURE] or builder.mode[ERROR]}: {builder.mode['cycle']}")
+
+    def drill(channel: MillingChannel, values: list[float]) -> None:
+        before = channel.coordinates.programmed
+        _go(channel, (Kind.RAPID, nan), over, before, reach(channel, over, values))
+        step(channel, values)
+
+    return drill
 
 
 def _behind(builder: Builder, plan: Plan) -> Step | None:
@@ -200,8 +233,10 @@ def _check_posture(channel: WordAddressChannel) -> None:
         raise _not_yet("G54.4: G43.4")
 
 
-def _wrap(builder: Builder, _plan: Plan, step: Step | None) -> Step | None:
-    """Under G43.4 nothing moves before rotary words have told how the tool stands."""
+def _wrap(builder: Builder, plan: Plan, step: Step | None) -> Step | None:
+    """Under G43.4 nothing moves before rotary words have told how the tool stands; cycles with an axis of the table."""
+    if step is not None and builder.mode["cycle"] != "G80" and _turning(builder, plan):
+        return _over_hole(builder, plan, step)
     if step is None or builder.mode["length"] != "G43.4" or not builder.mode[ERROR]:
         return step
 

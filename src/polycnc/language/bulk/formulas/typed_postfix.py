@@ -17,7 +17,7 @@ from polycnc.language.expressions.code import Code, Lifted, constant
 from polycnc.language.expressions.operators import checked_value
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
 
 class Sort(Enum):
@@ -52,6 +52,8 @@ class Function(NamedTuple):
     gives: Sort | None
 
 
+#: By the types of Python's values.
+_SORTS: dict[type, Sort] = {int: Sort.WHOLE, float: Sort.REAL, bool: Sort.TRUTH}
 _NUMBER, _WHOLE = frozenset((Sort.WHOLE, Sort.REAL)), frozenset((Sort.WHOLE,))
 _ONE, _TWO = (_NUMBER,), (_NUMBER, _NUMBER)
 _FUNCTIONS = {
@@ -99,6 +101,7 @@ class TypedPostfix:
         sort_of_number: What a number of the code is, by its place.
         literal: Where a number of the code stands among those of the line.
         locate: Where a variable lies; raises `OtherError` for one that the scanner does not have.
+        objects: Objects of the code, among which values may be that are not written in the block.
 
     Attributes:
         done: Pairs of operation and argument so far.
@@ -109,8 +112,10 @@ class TypedPostfix:
         sort_of_number: Callable[[int], Sort],
         literal: Callable[[int], int],
         locate: Callable[[Code], Located],
+        objects: Sequence[object] = (),
     ) -> None:
         self._sort_of_number, self._literal, self._locate = sort_of_number, literal, locate
+        self._objects = objects
         self._ways: dict[object, Callable[[Code], Sort]] = {
             ast.Constant: self._put_constant,
             ast.Subscript: self._put_variable,
@@ -154,6 +159,11 @@ class TypedPostfix:
         else:
             self._add(Operation.ASSIGN if located.numbered else Operation.PUT, located.place, -1)
 
+    def handed(self, code: Code, located: Located) -> None:
+        """Add what gives a variable at a place a value; as `stored`."""
+        self._need(self._put(code), located.sort)
+        self._add(Operation.PUT, located.place, -1)
+
     def _add(self, operation: int, argument: int = 0, more: int = 0) -> None:
         """Add an operation; so many more values are on the stack then."""
         self._depth += more
@@ -175,7 +185,7 @@ class TypedPostfix:
             return self._put(checked)
         if isinstance(code, Lifted):
             if code.letter != "n":
-                raise OtherError
+                return self._put_object(code.place)
             self._add(Operation.NUMBER, self._literal(code.place), 1)
             return self._sort_of_number(code.place)
         put = self._ways.get(code.kind)
@@ -184,14 +194,22 @@ class TypedPostfix:
         return put(code)
 
     def _put_constant(self, code: Code) -> Sort:
-        value = code[1]
-        if isinstance(value, bool):
-            self._add(Operation.ARGUMENT, int(value), 1)
-            return Sort.TRUTH
-        if not isinstance(value, int) or abs(value) > _LARGEST_ARGUMENT:
+        return self._put_value(code[1])
+
+    def _put_object(self, place: int) -> Sort:
+        if place >= len(self._objects):
             raise OtherError
-        self._add(Operation.ARGUMENT, value, 1)
-        return Sort.WHOLE
+        return self._put_value(self._objects[place])
+
+    def _put_value(self, value: object) -> Sort:
+        """A value that is known, and small and whole."""
+        sort = _SORTS.get(type(value))
+        if sort is None or not isinstance(value, (int, float)) or abs(value) > _LARGEST_ARGUMENT:
+            raise OtherError
+        if value != int(value) or str(value) == "-0.0":
+            raise OtherError
+        self._add(Operation.ARGUMENT, int(value), 1)
+        return sort
 
     def _put_variable(self, code: Code) -> Sort:
         located = self._locate(code)

@@ -121,6 +121,9 @@ class Routines:
         line[Line.FIRST_KEY], line[Line.FIRST_VALUE] = len(self.line_keys), len(self.line_values)
         line[Line.LITERALS], line[Line.TARGET], line[Line.LOOP] = len(told.numbers), told.target, told.loop
         self.line_values.extend(told.numbers)
+        if told.callee is not None:
+            callee, program, steps = told.callee
+            line[Line.TARGET] = self.number(channel, callee, 0, steps, program)
         if told.formulas:
             line[Line.FORMULAS] = self._shapes.add_formulas(told.formulas)
         if told.is_known:

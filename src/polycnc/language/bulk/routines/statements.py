@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.language.bulk.routines.layout import LineKind
+
+if TYPE_CHECKING:
+    from polycnc.language.bulk.scannable import Scannable
 
 
 class Statement(NamedTuple):
@@ -16,6 +19,7 @@ class Statement(NamedTuple):
         numbers: The numbers in them.
         target: The step to which it jumps.
         loop: The number of the loop that it begins or ends.
+        callee: The program that it calls, its number in the toolpath, and how many steps it has.
         is_known: A block that the scanner does not read: the control knows it by its place in the program.
     """
 
@@ -24,6 +28,7 @@ class Statement(NamedTuple):
     numbers: tuple[float, ...] = ()
     target: int = 0
     loop: int = 0
+    callee: tuple[Scannable, int, int] | None = None
     is_known: bool = False
 
 

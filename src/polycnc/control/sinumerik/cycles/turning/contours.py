@@ -15,7 +15,6 @@ from polycnc.control.sinumerik.cycles.milling import feed_of
 from polycnc.control.sinumerik.cycles.moves import require_tool
 from polycnc.control.sinumerik.cycles.turning.work import LIFT_MM, Work, finish, onwards
 from polycnc.control.sinumerik.errors import not_supported
-from polycnc.control.sinumerik.tools import stages
 from polycnc.cycles.turning import outline
 from polycnc.cycles.turning.allowance import with_stock
 from polycnc.cycles.turning.contour import Contour, Piece, turned_round
@@ -120,9 +119,10 @@ def _turn(work: Work, a: Arguments, direction: float, found: list[Contour]) -> N
     """Turn what the contours say, from the free corner of the blank and back to it."""
     turning = _of_call(work, a, direction, found)
     part, lift, stage = turning.part, turning.lift, a.digit("_VARI", STAGE)
-    if len(sections(outline.led_on(part, turning.front, turning.top, 0.0), work.towards)) > 1 and a.digit(
-        "_VARI", RELIEFS
-    ):
+    whole = outline.walled(
+        outline.from_front(part, turning.front), part[-1].edge.end[0], turning.top, work.towards
+    )
+    if len(sections(whole, work.towards)) > 1 and a.digit("_VARI", RELIEFS):
         raise not_supported("CYCLE952 _VARI")
     front, top = work.front(turning.front, direction), work.touching(turning.top)
     home = _over_plane(work, a, (front - direction * lift, top - work.towards * lift), turning.top)
@@ -133,20 +133,12 @@ def _turn(work: Work, a: Arguments, direction: float, found: list[Contour]) -> N
     path = work.tool_path(part, 0.0)
     if stage != ROUGHING:
         feed = feed_of(a, "_FS" if stage == COMPLETE else "_F")
-        path = work.tool_path(_from_front(work, turning), 0.0, rounds_begin=True)
+        # In front of the contour some of the allowance still stands: the tool comes along the cuts.
+        path = outline.from_front(work.tool_path(part, 0.0, rounds_begin=True), front)
         finish(work, path, direction, feed, lift, left)
         left = None
     work.clear(path, home, lift, stock=left)
     work.perform(PlaneStroke(Kind.RAPID, home), 0.0)
-
-
-def _from_front(work: Work, turning: Turning) -> Contour:
-    """The part as it is finished: one that begins along the cuts does so in front of the blank."""
-    part = turning.part
-    if abs(part[0].edge.departing[1]) > _HAIR:
-        return part
-    before = turning.front - onwards(part) * stages.radius(work.moves.channel)
-    return outline.led_on(part, before, part[-1].edge.end[1], 0.0)
 
 
 def _over_plane(work: Work, a: Arguments, home: Point, top: float) -> Point:
@@ -254,15 +246,16 @@ def _rough(work: Work, a: Arguments, turning: Turning) -> Contour:
     is_even = a.digit("_VARI", ALLOWANCE) == ALONG_CONTOUR
     off_a, off_b = (0.0, 0.0) if is_even else work.pair(abs(a["_UZ"]), abs(a["_UX"]))
     even = abs(a["_U"]) if is_even else 0.0
-    whole = outline.led_on(turning.part, turning.front, turning.top, direction * max(off_a, even))
-    path = work.tool_path(whole, even, roughs=True, rounds_begin=True)
+    front, top = work.front(turning.front, direction), work.touching(turning.top)
+    path = work.tool_path(turning.part, even, roughs=True, rounds_begin=True)
     try:
         path = with_stock(path, (-direction * off_a, -work.towards * off_b), work.towards)
     except ValueError:
         raise AlarmError("61606") from None
+    wall = work.front(turning.part[-1].edge.end[0], direction)
+    path = outline.walled(outline.from_front(path, front), wall, top, work.towards)
     follows = a.digit("_VARI", ROUNDING) != WITHOUT_ROUNDING
     at_edges = a.digit("_AMODE", AT_EDGES) == 1
-    front, top = work.front(turning.front, direction), work.touching(turning.top)
     removal = Removal(a["_D"], turning.lift, work.towards, follows, at_edges, front, top)
     straight = feed_of(a, "_F")
     relief = a["_FR"] or straight
