@@ -189,6 +189,7 @@ def test_units_of_parameters_are_told_in_the_language(control: str) -> None:
     assert shown == {"en": "degrees/min", "zh-TW": "度/min"}
 
 
+@pytest.mark.feature("sie.b.modes", control="sinumerik-840d")
 @pytest.mark.parametrize("lang", LANGUAGES)
 def test_preset_on_the_machine_page(lang: str) -> None:
     bench = Bench("sinumerik-840d", lang)
