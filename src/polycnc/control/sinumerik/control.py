@@ -335,7 +335,7 @@ class Sinumerik:
     def preprocessing_stop(self, channel: SinumerikChannel) -> bool:
         """Wait for the main run: everything held back is written; the block need not come again."""
         curve_definition.refuse(channel, "$A")
-        channel.flush()
+        stages.end_blocks(channel)
         channel.synchronise()
         return False
 

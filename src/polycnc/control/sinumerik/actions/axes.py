@@ -95,6 +95,12 @@ def speed_of(channel: SinumerikChannel, column: int) -> float:
     return own or channel.memory.data.number("$MA_POS_AX_VELO", channel.axes[column]) / tables.MINUTE
 
 
+def may_be_away(channel: SinumerikChannel, columns: Iterable[int]) -> bool:
+    """Whether actions, spindles or generated values may have moved any of these axes."""
+    axes = ActionAxes.of(channel)
+    return bool((axes.may_move | axes.geared).intersection(columns)) and channel.actual.clocked is not None
+
+
 def give_back(channel: SinumerikChannel, columns: Iterable[int]) -> None:
     """The program is about to move axes: those that actions may have moved come back to it, when they stand.
 

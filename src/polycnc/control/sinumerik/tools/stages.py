@@ -170,6 +170,12 @@ def _settle_corner(channel: SinumerikChannel, what: str = "G40 G41 G42") -> None
         raise not_supported(f"CHF CHR RND: {what}")
 
 
+def end_blocks(channel: SinumerikChannel) -> None:
+    """Preprocessing stops: the blocks in front end. PC0001 between the two moves of a chamfer or rounding."""
+    _settle_corner(channel, "STOPRE $A POS")
+    channel.flush()
+
+
 def turned_frame(channel: SinumerikChannel) -> None:
     """The work is turned, scaled or mirrored otherwise: the two moves of a corner would lie in two directions."""
     _settle_corner(channel, "ROT SCALE MIRROR")
