@@ -12,6 +12,7 @@ import os
 import subprocess
 import sys
 from collections.abc import Iterator
+from math import sin
 from pathlib import Path
 from statistics import median
 from tempfile import TemporaryDirectory
@@ -41,9 +42,9 @@ _PICTURE = "getElement(Number(document.querySelector('.picture').id.slice(1)))"
 
 
 def lines_of(count: int) -> str:
-    """A program of short lines, there and back."""
+    """A program of short lines, there and back over waves."""
     rows = (
-        f"X{0.2 * (i % 400 if i // 400 % 2 == 0 else 400 - i % 400):.3f} Y{i * 1e-4:.4f}\n"
+        f"X{0.2 * (i % 400 if i // 400 % 2 == 0 else 400 - i % 400):.3f} Y{i * 1e-4:.4f} Z{2 * sin(0.05 * i):.3f}\n"
         for i in range(count)
     )
     return "O1\nG90 G0 X0 Y0\nG1 F6000\n" + "".join(rows) + "M30\n"
@@ -125,9 +126,11 @@ def page() -> Iterator[Figure]:
         "simulated seconds in a second, three looking", f"{measured['pace']:.3f}", measured["pace"] / 0.98
     )
     yield Figure("three looking see the same", f"{measured['same']:.0%} of looks", measured["same"])
-    yield Figure(
-        f"a picture of {measured['points']:,.0f} points turned", f"{measured['pictures']:.1f} Hz", None
-    )
+    points, turned = f"{measured['points']:,.0f} points", measured["pictures"]
+    yield rate(f"a picture of {points} while it turns", turned, PICTURES_HZ, "Hz")
+    yield Figure("of them drawn while it turns", f"{measured['segments']:,.0f}", None)
+    yield Figure(f"all {points} drawn, as when it rests", f"{1.0 / measured['exact']:.2f} s", None)
+    yield Figure("the page's own thread for a picture of all", f"{measured['script']:.2f} ms", None)
 
 
 async def _measure(folder: Path) -> dict[str, float]:
@@ -152,7 +155,10 @@ async def _measure(folder: Path) -> dict[str, float]:
         await seen.press("CSTM/GR")
         await seen.until(f"{_PICTURE}.points >= {LONG}")
         found["points"] = await seen.evaluate(f"{_PICTURE}.points")
-        found["pictures"] = await seen.evaluate(f"{_PICTURE}.pace(3)")
+        turned = await seen.evaluate(f"{_PICTURE}.pace(3)")
+        still = await seen.evaluate(f"{_PICTURE}.pace(3, false)")
+        found |= {"pictures": turned["pictures"], "segments": turned["segments"]}
+        found |= {"exact": still["pictures"], "script": still["script"]}
     return found
 
 

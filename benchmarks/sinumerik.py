@@ -1,4 +1,4 @@
-"""The interpreter on SINUMERIK programs against nc-gcode-interpreter 0.2.8, which is compiled and needs Python 3.12.
+"""SINUMERIK programs as whole processes against nc-gcode-interpreter 0.2.8, which is compiled and needs Python 3.12.
 
 The peer runs in an environment of its own, made where a Python 3.12 is found, in the folder of `POLYCNC_BENCH_ENV` or
 the user's cache. Where there is none, the figures that it reached on a machine of 2024 stand in for it.
@@ -9,16 +9,16 @@ from __future__ import annotations
 import os
 import shutil
 import subprocess
+import sys
 import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from benchmarks.measure import Figure, against, best_of, interpret, rate, skipped
+from benchmarks.measure import Figure, against, process_time, rate, skipped
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-MAIN = "/_N_WKS_DIR/_N_BENCH_WPD/_N_MAIN_MPF"
 PEER = "nc-gcode-interpreter 0.2.8"
 PASSES = 200_000
 BLOCKS = 200_000
@@ -44,13 +44,11 @@ ENDFOR
 M30
 """
 _PEER_CODE = """
-import sys, time
+import sys
 from pathlib import Path
 from nc_gcode_interpreter import nc_to_dataframe
 text = Path(sys.argv[1]).read_text(encoding="ascii")
-begin = time.process_time()
-frame, _ = nc_to_dataframe(text, iteration_limit=10**9)
-print(time.process_time() - begin, len(frame))
+nc_to_dataframe(text, iteration_limit=10**9)
 """
 
 
@@ -74,9 +72,27 @@ def blocks() -> Iterator[Figure]:
 
 
 def _compared(name: str, text: str, count: int, unit: str, stated: float, goal: float) -> Iterator[Figure]:
-    ours = count / best_of(lambda: interpret(text, "sinumerik-840d", "mill3", MAIN))
     python = _peer_python()
-    theirs = _peer_rate(python, text, count) if isinstance(python, Path) else python
+    with tempfile.TemporaryDirectory() as folder:
+        program, script = Path(folder, "bench.mpf"), Path(folder, "peer.py")
+        program.write_text(text, encoding="ascii")
+        script.write_text(_PEER_CODE, encoding="ascii")
+        run = [
+            sys.executable,
+            "-m",
+            "polycnc",
+            "run",
+            str(program),
+            "--control",
+            "sinumerik-840d",
+            "--no-time",
+        ]
+        ours = count / process_time(run)
+        theirs = (
+            _peer_rate([str(python), str(script), str(program)], count)
+            if isinstance(python, Path)
+            else python
+        )
     if isinstance(theirs, float):
         yield against(name, ours, PEER, theirs, goal, unit)
     else:
@@ -110,15 +126,10 @@ def _python_3_12() -> str | None:
     return None
 
 
-def _peer_rate(python: Path, text: str, count: int) -> float | str:
+def _peer_rate(command: list[str], count: int) -> float | str:
     """What the peer does in a second of processor time; or what it says where it cannot run the program."""
-    with tempfile.TemporaryDirectory() as folder:
-        program, script = Path(folder, "bench.mpf"), Path(folder, "peer.py")
-        program.write_text(text, encoding="ascii")
-        script.write_text(_PEER_CODE, encoding="ascii")
-        result = subprocess.run(
-            [str(python), str(script), str(program)], check=False, capture_output=True, text=True
-        )
-    if result.returncode:
-        return f"{PEER}: {result.stderr.strip().splitlines()[-1]}"
-    return count / float(result.stdout.split()[0])
+    try:
+        return count / process_time(command)
+    except subprocess.CalledProcessError:
+        told = subprocess.run(command, check=False, capture_output=True, text=True).stderr
+        return f"{PEER}: {(told.strip().splitlines() or [''])[-1]}"

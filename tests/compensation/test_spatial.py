@@ -75,6 +75,36 @@ def test_an_intersection_takes_the_place_of_the_arc_where_the_corner_is_wide() -
     assert last.end == pytest.approx([40, 50, 0, 0])
 
 
+def test_a_sharp_corner_is_cut_off_by_a_line() -> None:
+    corners = Corners(INTERSECTION_FIRST, 90.0, cut_off=True)
+    stage, recorder = SpatialStage((0, 1, 2), AboutX(), 10.0, 1, corners, RULES), Recorder()
+    stage.after = recorder
+    for start, end in pairwise([*UP, [20.0, 20.0, 0.0, 0.0]]):
+        stage.move(Move(Kind.FEED, start, end))
+    stage.flush()
+    _, first, line, last = recorder.moves
+    assert first.end == pytest.approx([-10, 50, 0, 0])
+    assert line.end == pytest.approx([0, 40 + 14.142136, 0, 0])
+    assert last.end == pytest.approx([27.071068, 27.071068, 0, 0])
+
+
+def through_a_slot(reverses: str) -> None:
+    """15 mm wide, for a radius of 10 mm."""
+    rules = Rules("1", square_start=True, reverses=reverses)
+    stage = SpatialStage((0, 1, 2), AboutX(), 10.0, 1, Corners(), rules)
+    stage.after = Recorder()
+    for start, end in pairwise([*UP, [-15.0, 40.0, 0.0, 0.0], [-15.0, 0.0, 0.0, 0.0]]):
+        stage.move(Move(Kind.FEED, start, end))
+    stage.flush()
+
+
+def test_a_block_that_leads_backwards_is_an_alarm_where_the_control_looks_for_it() -> None:
+    through_a_slot("")
+    with pytest.raises(AlarmError) as alarm:
+        through_a_slot("3")
+    assert alarm.value.code == "3"
+
+
 def test_an_inner_corner_is_the_intersection() -> None:
     _, first, _ = led([*UP, [-40.0, 40.0, 0.0, 0.0]])
     assert first.end == pytest.approx([-10, 30, 0, 0])

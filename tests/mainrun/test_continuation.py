@@ -2,9 +2,20 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any
+
 import pytest
 
 import polycnc
+from polycnc.channel.channel import Channel
+from polycnc.channel.waits import CLOCK
+from polycnc.session import open_session
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from polycnc.channel.waits import Wait
+    from polycnc.session import Result
 
 CONTROL = "sinumerik-840d"
 
@@ -28,3 +39,53 @@ def test_cycles_in_which_actions_look_count_as_blocks() -> None:
     assert 80.0 <= limited.main_run_s <= 111.0  # cycles of 4 ms, looked at each 30 s
     whole = polycnc.run(text.replace("F10", "F1000"), control=CONTROL, block_limit=20_000)
     assert not whole.alarms
+
+
+# ---- in time from the first block on a program does what it does without a clock
+
+
+@pytest.fixture
+def in_time(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Result]:
+    """Run a program in time from its first block on."""
+    advance = Channel.advance
+    handed_over: list[Channel] = []
+
+    def hand_over(channel: Channel) -> Wait | None:
+        if not handed_over:
+            handed_over.append(channel)
+            return CLOCK
+        return advance(channel)
+
+    def run(text: str, **more: Any) -> Result:
+        with monkeypatch.context() as patched:
+            patched.setattr(Channel, "advance", hand_over)
+            return open_session(text, **more).run()
+
+    return run
+
+
+@pytest.mark.parametrize(
+    ("control", "text", "setup"),
+    [
+        ("fanuc-0i-tf", "G0 X40. Z5.\nS100 M3\nG32 Z-10. F2. Q90000\nZ-20. Q45000\nX44. Z-22.\nM30\n", {}),
+        (
+            "fanuc-0i-tf",
+            "G42 G0 X50. Z10.\nG1 Z0 F0.2\nZ-10. M8 T0101\nZ-20.\nG40 G0 X70.\nM30\n",
+            {"tools": {1: {"radius": 2, "geom2": {"x": 4}}}},
+        ),
+        ("fanuc-m", "G90 G1 X20. ,R30. F100\nY5.\nM30\n", {}),
+        ("fanuc-m", "G1 X20. F100\nX30. ,R3.\nG4 X1.\nG4 X1.\nY5.\nM30\n", {}),
+        (CONTROL, "G1 Z1 F100\nM1\nSETAL(67001)\nX2\nM30\n", {}),
+    ],
+    ids=["threads", "tool-in-compensation", "corner-in-the-first-block", "corner", "stops-and-alarms"],
+)
+def test_a_program_in_time_has_the_rows_that_it_has_without_a_clock(
+    in_time: Callable[..., Result], control: str, text: str, setup: dict[str, Any]
+) -> None:
+    timed = in_time(text, control=control, setup=setup)
+    plain = open_session(text, control=control, setup=setup).run()
+    assert timed.main_run_s is not None
+    assert plain.main_run_s is None
+    assert list(timed.rows) == list(plain.rows)
+    assert timed.final == plain.final
+    assert [alarm.code for alarm in timed.alarms] == [alarm.code for alarm in plain.alarms]

@@ -389,7 +389,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
             level.current = index
             level.index = index + 1
             self.mark = len(kinds)
-            if is_executed:
+            if is_executed and self.path.head is None:  # what a stage holds back is not there yet
                 self.stands_at = self.coordinates.machine
             step(self)
             self.blocks += 1

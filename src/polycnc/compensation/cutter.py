@@ -163,9 +163,14 @@ class CutterCompensation(Stage):
         self._release_all()
 
     def beside(self, position: list[float]) -> list[float]:
-        """Where the tool stands when the program stands at a position behind all that has been passed on."""
+        """Where the tool stands when the program stands at a position; see `Stage`."""
         plane = self.plane
         return plane.at(position, arcs.plus(plane.point(position), self._rows.displacement))
+
+    def programmed(self, position: list[float]) -> list[float]:
+        """Where the program stands when the tool stands at a position beside it; see `Stage`."""
+        plane = self.plane
+        return plane.at(position, arcs.minus(plane.point(position), self._rows.displacement))
 
     def drop_vector(self) -> None:
         """The block in front ends on the programmed point; compensation goes on from there (G50, G52)."""
@@ -269,6 +274,8 @@ class CutterCompensation(Stage):
         step.starts_square = self._starts_square
         self._forced, self._holds, self._starts_square = None, False, False
         step.edge = self._checked(step)
+        if step.role is Role.CONTOUR and not self._window and step.policy.approaches_behind_stops:
+            self._rows.approach(step)
         if self._window:
             self._follow(self._window[-1], step)
         self._window.append(step)

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import hypot, inf
+from math import copysign, hypot, inf
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves import origins
 from polycnc.compensation.step import NO_VECTOR
-from polycnc.geometry import arcs
+from polycnc.geometry import arcs, offset
 from polycnc.geometry.offset import Joint
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.toolpath.kinds import Kind
@@ -63,6 +63,27 @@ class RowWriter:
         self._stage.after.move(
             replace(move, start=start, end=end, center=plane.moved_center(move, self.displacement))
         )
+
+    def approach(self, step: Step) -> None:
+        """A straight block from where the tool stands to square on the start of a step, as far off as it stands now.
+
+        At outer corners alone: at inner ones it would lead into the contour. Nothing for a step that keeps its vector,
+        or leads nowhere.
+        """
+        distance = copysign(hypot(*self.vector), step.distance)
+        if not distance or step.holds or step.edge.length <= NO_WAY:
+            return
+        vector, plane, move = offset.square(step.edge.departing, distance), self.plane, step.move
+        if distance * (self.vector[0] * vector[1] - self.vector[1] * vector[0]) > NO_WAY:
+            return
+        way = arcs.minus(vector, self.vector)
+        if hypot(*way) > NO_WAY:
+            here = arcs.plus(plane.point(move.start), self.displacement)
+            ends = plane.at(move.start, here), plane.at(move.start, arcs.plus(here, way))
+            row = _straight(move, *ends)
+            self._stage.after.move(replace(row, origin=origins.APPROACH_BEHIND_STOP))
+        self.vector, self.displacement = vector, arcs.plus(self.displacement, way)
+        step.first = vector
 
     def emit(self, step: Step, corner: Corner) -> None:
         """Pass on a compensated move and the rows that lead round the corner at its end."""

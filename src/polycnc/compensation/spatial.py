@@ -45,14 +45,22 @@ class Directions(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Corners:
-    """How outer corners are passed, and the corner angles of the work at which the way changes (degrees)."""
+    """How outer corners are passed, and the corner angles of the work at which the way changes (degrees).
+
+    Attributes:
+        way: What is done first.
+        least_intersection_deg: Sharper corners get an arc where intersections come first.
+        most_arc_deg: Wider corners get an intersection where arcs come first.
+        cut_off: In place of an arc both parallels go on by the radius, and a line joins them (FANUC).
+    """
 
     way: int = INTERSECTION
     least_intersection_deg: float = 0.0
     most_arc_deg: float = 180.0
+    cut_off: bool = False
 
-    def is_arc(self, angle_deg: float) -> bool:
-        """Whether a corner of the work with this angle gets an arc."""
+    def is_round(self, angle_deg: float) -> bool:
+        """Whether a corner of the work with this angle gets an arc, or the line that stands for it."""
         if self.way == INTERSECTION_FIRST:
             return angle_deg < self.least_intersection_deg
         return self.way == ARC_FIRST and angle_deg <= self.most_arc_deg
@@ -68,8 +76,10 @@ class Rules:
         idle: Alarm for too many blocks that cannot be computed, and how many may be; empty for no limit.
         most_idle: That number.
         square_start: The first block leads square onto the second one.
+        corner_ends: At outer corners the first and the last block count as compensated ones instead (FANUC type B).
         turns: When the tool turns at an outer corner.
         no_room: Alarm for an inner arc that is smaller than the tool; empty where none may come.
+        reverses: Alarm for a straight block that the tool would go backwards; empty where nobody checks that.
     """
 
     no_corner: str
@@ -77,8 +87,10 @@ class Rules:
     idle: str = ""
     most_idle: int = 0
     square_start: bool = False
+    corner_ends: bool = False
     turns: int = TURNS_NOT
     no_room: str = ""
+    reverses: str = ""
 
 
 @dataclass(slots=True)
@@ -114,6 +126,7 @@ class SpatialStage(Stage):
 
     Attributes:
         depth: How far down the tool its tip lies from the programmed point, from the next block on, mm.
+        leaves: The next move leads back to the programmed path.
     """
 
     rank = Rank.SPATIAL_COMPENSATION
@@ -143,9 +156,31 @@ class SpatialStage(Stage):
         self._at: list[float] | None = None
         self._idle = 0
         self._queue: list[Move | PlacedEvent] = []
+        self.leaves = False
+        self._left = False
+
+    @property
+    def active(self) -> bool:
+        """Whether the move that leads back to the programmed path is still to come."""
+        return not self._left
+
+    def beside(self, position: list[float]) -> list[float]:
+        """Where the tip stands when the program stands at a position; see `Stage`."""
+        return self._shifted(position, self._shift)
+
+    def programmed(self, position: list[float]) -> list[float]:
+        """Where the program stands when the tip stands at a position; see `Stage`."""
+        x, y, z = self._shift
+        return self._shifted(position, (-x, -y, -z))
 
     def move(self, move: Move) -> None:
         """Take the next move."""
+        if self.leaves:
+            self._lead_back(move)
+            return
+        if self._left:
+            self.after.move(move)
+            return
         tool = self._posture.tool_at(move.end)
         if not move.is_arc:
             start, end = self._point(move.start), self._point(move.end)
@@ -214,18 +249,23 @@ class SpatialStage(Stage):
         self._depth = held.depth + (deeper if held.starts else held.deeper)
         turned = self._tool_behind(held)
         first, second = held.normal, self._normal(turned, tangent)
-        if second is None or (dot(first, second) < -1.0 + PARALLEL and not held.starts):
+        if second is None:
             raise AlarmError(held.rules.no_corner, line=held.move.line)
-        if held.starts:
+        outer = self._is_outer(held, second, turned, tangent)
+        if held.starts and not (held.rules.corner_ends and outer):
             self._emit(held.move, self._beside(second, turned))
             self._run_queue()
             return
-        outer = self._is_outer(held, second, turned, tangent)
         cosine = min(1.0, dot(first, second))
-        if outer and held.corners.is_arc(180.0 - degrees(acos(max(-1.0, cosine)))):
+        if outer and held.corners.is_round(180.0 - degrees(acos(max(-1.0, cosine)))):
+            if held.corners.cut_off:
+                self._cut_off(held, second, tangent)
+                return
             self._emit_turning(held.move, held.tangent, self._beside(first, held.tool))
             self._round(held, second, turned)
             return
+        if cosine < -1.0 + PARALLEL:
+            raise AlarmError(held.rules.no_corner, line=held.move.line)
         factor = 1.0 / (1.0 + cosine)
         x, y, z = (factor * (a + b) for a, b in zip(first, second, strict=True))
         shift = self._beside((x, y, z), held.tool)
@@ -278,6 +318,21 @@ class SpatialStage(Stage):
             self._emit_turning(item, held.tangent, shift)
             held.move = item
         self._around(held.move, second, turned)
+
+    def _cut_off(self, held: _Held, second: Vector, tangent: Vector) -> None:
+        """Past a sharp outer corner by the radius, and back to the other parallel in a line."""
+        sign = 1.0 if self.radius > 0.0 else -1.0
+        ways = ((held.normal, held.tangent, sign), (second, tangent, -sign))
+        beyond, before = (self._on_parallel(normal, way, held.tool, part) for normal, way, part in ways)
+        self._emit_turning(held.move, held.tangent, beyond)
+        self._emit(replace(held.move, turning=None), before)
+        self._run_queue()
+
+    def _on_parallel(self, normal: Vector, tangent: Vector, tool: Vector, part: float) -> Vector:
+        """From a corner to a place beside it, by a part of the radius farther along the path, seen along the tool."""
+        way = _unit(minus(tangent, times(tool, dot(tangent, tool)))) or tangent
+        x, y, z = (a + part * b for a, b in zip(normal, way, strict=True))
+        return self._beside((x, y, z), tool)
 
     def _around(self, move: Move, normal: Vector, tool: Vector) -> None:
         """An arc about the corner where a move ends, across the tool."""
@@ -339,6 +394,8 @@ class SpatialStage(Stage):
 
         `tangent` is the direction of the path, of a block that only turns the tool that of the one before.
         """
+        if self.rules.reverses and self._at is not None and not move.is_arc:
+            self._check_sense(move, shift)
         before, path = self._shift, MovePath(move, self._geometry)
         tools = self._posture.tool_at(move.start), self._posture.tool_at(move.end)
         first, last = (self._normal(tool, tangent) for tool in tools)
@@ -361,6 +418,13 @@ class SpatialStage(Stage):
             if k < count:
                 piece.kind, piece.context = Kind.SPLINE, self._within(move.context)
             self._emit(piece, (x, y, z))
+
+    def _check_sense(self, move: Move, shift: Vector) -> None:
+        """Refuse a block that leads against its programmed direction."""
+        start, end = self._at or move.start, self._shifted(move.end, shift)
+        led = minus(self._point(end), self._point(start))
+        if dot(led, minus(self._point(move.end), self._point(move.start))) < 0.0:
+            raise AlarmError(self.rules.reverses, line=move.line)
 
     def _chords(self, path: MovePath, tangent: Vector) -> int:
         """In how many chords the tip goes round where the tool, and what is square on it, turn along a move."""
@@ -406,6 +470,24 @@ class SpatialStage(Stage):
             emit = self._emit if held.starts else partial(self._emit_turning, tangent=held.tangent)
             emit(held.move, shift=self._beside(held.normal, held.tool))
         self._run_queue()
+
+    def lead_back(self) -> None:
+        """The next move ends on the programmed path."""
+        self.leaves = True
+
+    def _lead_back(self, move: Move) -> None:
+        """End the block that waits, at an outer corner with this move as if it were compensated; it leads back."""
+        held, start, end = self._held, self._point(move.start), self._point(move.end)
+        way = _unit(minus(end, start))
+        second = None if held is None or way is None else self._normal(held.tool, way)
+        if held is None or way is None or second is None:
+            self._release()
+        elif self._is_outer(held, second, held.tool, way):
+            self._join(way, move, 0.0)
+        else:
+            self._release()
+        self._emit(move, (0.0, 0.0, 0.0))
+        self.leaves, self._left = False, True
 
     def change(self, side: int, radius: float) -> None:
         """The other side, or another radius, from the next block on; between the two is no corner."""

@@ -32,6 +32,7 @@ class Control(ChannelControl, Protocol):
         tools_have_names: Programs may call a tool by its name; else by number alone.
         last_bit: The last bit of a parameter.
         mdi_intervenes: Blocks can be typed in and run while a program waits, which then goes on behind them.
+        presets_by_hand: An operator can call the place of an axis another one.
     """
 
     alarm_series: Mapping[str, str] | None
@@ -41,6 +42,7 @@ class Control(ChannelControl, Protocol):
     tools_have_names: bool
     last_bit: int
     mdi_intervenes: bool
+    presets_by_hand: bool
 
     @property
     def catalogue(self) -> Catalogue:
@@ -67,8 +69,14 @@ class Control(ChannelControl, Protocol):
     def hand_range(self, channel: Channel, axis: int) -> tuple[float, float]:
         """From where to where software limits of the control let an axis go by hand, machine position."""
 
-    def handwheel_offset_speed(self, channel: Channel, axis: int) -> float:
-        """How fast a handwheel shifts an axis beside its program, mm/s or degrees/s; 0 where the control has none."""
+    def handwheel_offset(self, channel: Channel, axis: int) -> tuple[float, float]:
+        """How fast a handwheel shifts an axis beside its program, mm/s or degrees/s; with what part of its pull.
+
+        The speed is 0 where the control has no such shift.
+        """
+
+    def expect_handwheel(self, channel: Channel, *, is_on: bool) -> None:
+        """Whether a handwheel may shift axes beside what is prepared from now on."""
 
     def hand_speed(
         self, channel: Channel, axis: int, what: HandMotion, place: int, *, rapid: bool

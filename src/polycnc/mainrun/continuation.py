@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 #: A program that has written or executed no row for so long, nor got any further on its path, waits for something that
 #: never comes: where other axes move, and where none does. It is looked at as often.
 LONGEST_WAIT_S, LONGEST_REST_S, LOOK_S = 300.0, 60.0, 30.0
+#: What the setup calls the mode in which programs are typed in.
+MDI = "mdi"
 #: No row written, nothing prepared, and nowhere.
 _NOTHING_DONE: tuple[int, int, list[float]] = -1, -1, []
 #: Halts behind which the program does not go on.
@@ -82,7 +84,8 @@ class Continuation:
             channel.move_times, channel.standstill, channel.bulk = None, None, None
             for level in channel.stack:
                 level.scanner = None
-            operation.switches.apply_to(channel, typed=False)
+            operation.switches.apply_to(channel, typed=channel.setup.switches.mode == MDI)
+            channel.optional_stop = channel.setup.switches.optional_stop  # nobody turns the switch meanwhile
         runs.go_on()
         operation.set_rates()
         operation.resume()

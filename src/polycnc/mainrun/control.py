@@ -15,8 +15,7 @@ state, `ProgramCommands`, `HandCommands` and `SwitchCommands` are the operator's
 
 from __future__ import annotations
 
-from enum import StrEnum
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.channel import DEFAULT_BLOCK_LIMIT
 from polycnc.channel.states.snapshot import Snapshot as Checkpoint
@@ -31,7 +30,7 @@ from polycnc.mainrun.commands.settings import Switches
 from polycnc.mainrun.commands.states import Command, Mode, State, is_allowed
 from polycnc.mainrun.commands.switches import SwitchCommands
 from polycnc.mainrun.equipment import equipment
-from polycnc.mainrun.errors import CommandRefused
+from polycnc.mainrun.errors import one_of
 from polycnc.mainrun.execution.clock import Clock
 from polycnc.mainrun.execution.main_loop import LONGEST_RUN_S, MainLoop
 from polycnc.mainrun.execution.operation import MANUAL_ABSOLUTE, Operation
@@ -41,7 +40,7 @@ from polycnc.mainrun.signals.image import SignalImage
 from polycnc.mainrun.signals.interlocks import Interlocks
 from polycnc.mainrun.status import Counters, Status
 from polycnc.memory.retained import PANEL, PROGRAMS, opened
-from polycnc.messages.catalogue import language, listed
+from polycnc.messages.catalogue import language
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -53,6 +52,7 @@ if TYPE_CHECKING:
     from polycnc.machine.model import Machine
     from polycnc.machine.setup.values import Setup
     from polycnc.mainrun.commands.data import ProgramEntry
+    from polycnc.mainrun.preparation.items import Places
     from polycnc.mainrun.reading.forecast import Forecast
     from polycnc.mainrun.reading.snapshot import (
         ActiveBlock,
@@ -66,8 +66,6 @@ if TYPE_CHECKING:
     )
     from polycnc.memory.retained import RetainedStore
     from polycnc.messages import Alarm
-
-_Name = TypeVar("_Name", bound=StrEnum)
 
 
 class VirtualControl:
@@ -183,8 +181,12 @@ class VirtualControl:
         """
         return self._commands.teach(words, line, channel)
 
-    def block_search(self, target: int | str, *, channel: int = 1, how: SearchMode | str = "contour") -> None:
+    def block_search(
+        self, target: int | str | Places, *, channel: int = 1, how: SearchMode | str = "contour"
+    ) -> None:
         """Search a block: a line of a channel's main program, or a block number such as `N50`.
+
+        One of a subprogram is named by program and line of each level, as `snapshot.interrupted` has them.
 
         Everything before it is calculated without motion. Cycle start puts out the auxiliary functions that hold there,
         leads the axes to where the block begins (`contour`) or ends (`end-point`), and goes on. `without-calculation`
@@ -193,7 +195,7 @@ class VirtualControl:
         Raises:
             CommandRefused: The program ends before it.
         """
-        self._commands.block_search(target, channel, _one_of(SearchMode, "how", how))
+        self._commands.block_search(target, channel, one_of(SearchMode, "how", how))
 
     # ---- data ----------------------------------------------------------------------------------------------
 
@@ -347,11 +349,11 @@ class VirtualControl:
 
     def select_mode(self, mode: Mode | str) -> None:
         """Turn the mode switch. A running program is held; it goes on in the same mode after cycle start."""
-        self._commands.select_mode(_one_of(Mode, "mode", mode))
+        self._commands.select_mode(one_of(Mode, "mode", mode))
 
     def allows(self, command: Command | str) -> bool:
         """Whether a command may be given in this mode and state."""
-        return is_allowed(_one_of(Command, "command", command), self.mode, self.state)
+        return is_allowed(one_of(Command, "command", command), self.mode, self.state)
 
     # ---- by hand -------------------------------------------------------------------------------------------
 
@@ -374,6 +376,14 @@ class VirtualControl:
     def home(self, axis: str | None = None, *, channel: int = 1) -> None:
         """Approach the first reference point; with all axes of the channel where none is named."""
         self._hand.home(axis, channel=channel)
+
+    def preset(self, axis: str, value: float, *, channel: int = 1) -> None:
+        """Call the place where an axis stands another one, as the machine display counts; nothing moves.
+
+        Raises:
+            CommandRefused: The control has no such function, a program is under way, or a transformation is active.
+        """
+        self._hand.preset(axis, value, channel=channel)
 
     # ---- switches ------------------------------------------------------------------------------------------
 
@@ -587,11 +597,3 @@ class VirtualControl:
             SnapshotError: Something is running that cannot be noted.
         """
         return Checkpoint(self)
-
-
-def _one_of(kind: type[_Name], name: str, value: object) -> _Name:
-    try:
-        return kind(str(value).lower())
-    except ValueError:
-        allowed = listed(kind)
-        raise CommandRefused("mainrun.value", name=name, allowed=allowed, value=value) from None

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from enum import StrEnum
+from typing import TYPE_CHECKING, TypeVar
 
 from polycnc.messages import UserError, text
+from polycnc.messages.catalogue import listed
 
 if TYPE_CHECKING:
     from polycnc.messages import Catalogue
+
+_Name = TypeVar("_Name", bound=StrEnum)
 
 
 class CommandRefused(UserError):  # noqa: N818 - a refusal is an answer, not an error of the control
@@ -29,3 +33,15 @@ class MachineRefused(CommandRefused):
     def text(self, lang: str | None = None) -> str:
         """The refusal with the machine's own text."""
         return text(self.message, lang, code=self._code, text=self._alarms.text(self._code, lang))
+
+
+def one_of(kind: type[_Name], name: str, value: object) -> _Name:
+    """The member of an enumeration that a value means; `name` is what the value is for.
+
+    Raises:
+        CommandRefused: It means none.
+    """
+    try:
+        return kind(str(value).lower())
+    except ValueError:
+        raise CommandRefused("mainrun.value", name=name, allowed=listed(kind), value=value) from None

@@ -8,11 +8,12 @@ from __future__ import annotations
 
 from array import array
 from itertools import groupby
+from math import ceil, cos, inf, pi, radians
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.motion.compiled import share_rows
-from polycnc.motion.kernels.columns import AT_START
-from polycnc.motion.kernels.demands import BEND, LOOKS, NOTHING, TURN, TWIST, UNEVEN
+from polycnc.motion.kernels.columns import AT_END, AT_START
+from polycnc.motion.kernels.demands import BEND, LOOK_DEG, LOOKS, NOTHING, TURN, TWIST, UNEVEN
 from polycnc.transformation.orientation.linkage import room_for
 
 if TYPE_CHECKING:
@@ -22,14 +23,38 @@ if TYPE_CHECKING:
     from polycnc.toolpath.table import Chunk
 
 __all__ = [
-    "BEND", "LOOKS", "NOTHING", "PATH_STEP", "TURN", "TWIST", "UNEVEN", "Demand", "asked_of", "bound_tip", "runs_of",
-    "share_ends",
+    "BEND", "FULL", "LOOKS", "NOTHING", "PATH_STEP", "TURN", "TWIST", "UNEVEN", "Demand", "RowShares", "Shares",
+    "asked_of", "between", "bound_tip", "looks_along", "runs_of", "share_ends",
 ]  # fmt: skip
 
 #: Derivatives along the path are differences over so many mm or degrees at most.
 PATH_STEP = 5e-3
+#: The turn of a full circle; rows are looked at after so much of it at most, radians.
+FULL, LOOK = 2.0 * pi, radians(LOOK_DEG)
 #: Shares become shorter by this factor towards the worst place, or by a smaller one.
 SHORTER = 0.5
+
+
+class Shares(NamedTuple):
+    """SHARES numbers of each row, as `Rows` of the kernels has them; empty where no transformation acts."""
+
+    end: array[float]
+    top: array[float]
+    ease: array[float]
+
+
+class RowShares(NamedTuple):
+    """The shares of one row: end, speed and `ease` of each, and the `ease` of corners at its start and its end."""
+
+    shares: list[tuple[float, float, float]]
+    at_start: float
+    at_end: float
+
+    def write(self, columns: Shares, first: int, top: float = inf) -> None:
+        """Write them behind number `first` of the columns, with no speed above `top`."""
+        for at, (end, most, ease) in enumerate(self.shares, first):
+            columns.end[at], columns.top[at], columns.ease[at] = end, min(most, top), ease
+        columns.ease[first + AT_START], columns.ease[first + AT_END] = self.at_start, self.at_end
 
 
 class Demand(NamedTuple):
@@ -49,6 +74,18 @@ class Demand(NamedTuple):
     jerk: float
     turn: float
     along: float
+
+
+def looks_along(angle: float, least: int = LOOKS) -> int:
+    """In how many parts a row is looked at that turns by an angle, radians."""
+    return max(least, ceil(angle / LOOK))
+
+
+def between(demand: Demand, angle: float) -> Demand:
+    """The most that is asked on both sides of a place, half an angle far: as the path turns, so does what is asked."""
+    nearer = cos(0.5 * angle)
+    bend, pull, jerk, turn = (value / nearer for value in demand[1:5])
+    return Demand(demand.top * nearer, bend, pull, jerk, turn, demand.along)
 
 
 def runs_of(chunk: Chunk) -> Iterator[tuple[int, int, int]]:

@@ -19,11 +19,13 @@ point next to the centre of polar interpolation.
 from __future__ import annotations
 
 from array import array
-from math import hypot, inf, sqrt
+from math import hypot, inf, radians, sqrt
+from operator import sub
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.motion.demand import (
     BEND,
+    FULL,
     LOOKS,
     NOTHING,
     PATH_STEP,
@@ -31,13 +33,17 @@ from polycnc.motion.demand import (
     TWIST,
     UNEVEN,
     Demand,
+    RowShares,
+    Shares,
     asked_of,
+    between,
     bound_tip,
+    looks_along,
     runs_of,
     share_ends,
 )  # fmt: skip
 from polycnc.motion.frames import carried, machine_of, path_of, real_of, real_rows, work_of
-from polycnc.motion.kernels.columns import AT_END, AT_START, SHARES, Limits, Rows
+from polycnc.motion.kernels.columns import SHARES, Limits, Rows
 from polycnc.motion.limits import NO_LINKAGE, averages, axis_limits, channel_axes, is_led, rotary_weight
 from polycnc.motion.pace import Travel, following_top, left_of, pace_of
 from polycnc.motion.pole import (
@@ -91,22 +97,6 @@ LED_ALONE = frozenset((Kind.RAPID, Kind.FEED, Kind.REF, Kind.DWELL, Kind.EVENT))
 LED_KINDS = bytes(kind in LED_ALONE for kind in range(256))
 #: An axis along which an arc's unit normal has more than this does not take part in the arc.
 ACROSS = 0.999
-
-
-class Shares(NamedTuple):
-    """SHARES numbers of each row, as `Rows` of the kernels has them; empty where no transformation acts."""
-
-    end: array[float]
-    top: array[float]
-    ease: array[float]
-
-
-class RowShares(NamedTuple):
-    """The shares of one row: end, speed and `ease` of each, and the `ease` of corners at its start and its end."""
-
-    shares: list[tuple[float, float, float]]
-    at_start: float
-    at_end: float
 
 
 class Bounds(NamedTuple):
@@ -265,10 +255,10 @@ class RealAxes:
                 bounds.legs[row] = legs
                 self._on_path = legs[-1].end
                 return
-            path, length = self._path(chunk, row, start, end, context)
-            shares = self._shares(context, path, length, chunk.kind[row])
+            path, length, angle = self._path(chunk, row, start, end, context)
+            shares = self._shares(context, path, length, chunk.kind[row], angle)
             top = following_top(context, path, length, rapid=chunk.kind[row] in RAPID_KINDS)
-            _set_shares(bounds.shares, row * SHARES, shares, top)
+            shares.write(bounds.shares, row * SHARES, top)
         goal = machine_of(end, context, self._geometry)
         if context.pace is not None:
             self._pace(chunk, row, goal, context, bounds)
@@ -335,7 +325,8 @@ class RealAxes:
         total = sum(leg.length for leg in legs)
         for leg in legs:
             shares = Shares(*(array("d", [free] * SHARES) for free in FREE_SHARE))
-            _set_shares(shares, 0, self._shares(context, leg.path, leg.length, kind, leg.rests))
+            angle = FULL if curve else 0.0
+            self._shares(context, leg.path, leg.length, kind, angle, leg.rests).write(shares, 0)
             timed = context.feed_mode is FeedMode.INVERSE_TIME and leg.length > 0.0
             feed = array("d", [total / leg.length if timed else 1.0])
             rows = Rows(
@@ -385,15 +376,17 @@ class RealAxes:
 
     def _path(
         self, chunk: Chunk, row: int, start: list[float], end: list[float], context: Context
-    ) -> tuple[Path, float]:
-        """The points of a row, and its length."""
+    ) -> tuple[Path, float, float]:
+        """The points of a row, its length, and by how much it turns: angle of an arc and rotary axes, radians."""
         assert context.transformation is not None
-        curve = self._curve(chunk, row)
+        curve, made = self._curve(chunk, row), context.transformation.geometry
+        ways = enumerate(map(sub, end, start))
+        turned = radians(sum(abs(way) for i, way in ways if self._rotary(i) and i not in made))
         if curve:
-            made, ccw = context.transformation.geometry, chunk.kind[row] in CCW_KINDS
-            arc = arc_path(start, end, curve, made, ccw=ccw)
-            return arc.at, arc.length
-        return line_path(start, end), self._length(context, start, end)
+            arc = arc_path(start, end, curve, made, ccw=chunk.kind[row] in CCW_KINDS)
+            beside = [0.0 if i in made else way for i, way in enumerate(self._counted(context, start, end))]
+            return arc.at, hypot(arc.length, *beside), arc.angle + turned
+        return line_path(start, end), self._length(context, start, end), turned
 
     def _shares(
         self,
@@ -401,18 +394,27 @@ class RealAxes:
         path: Path,
         length: float,
         kind: int,
+        angle: float,
         rests: tuple[bool, bool] = (False, False),
     ) -> RowShares:
-        """The shares of a row; `rests`: the path begins or ends at the pole."""
+        """The shares of a row; `angle`: by how much it turns, `rests`: the path begins or ends at the pole."""
         if length == 0.0:
             return RowShares([], 1.0, 1.0)
-        looks = [self._demand(context, path, length, k / LOOKS, kind) for k in range(LOOKS + 1)]
+        count = looks_along(angle)
+
+        def look(place: float, *, lateral: bool) -> Demand:
+            return between(self._demand(context, path, length, place, kind, lateral=lateral), angle / count)
+
+        looks = [look(k / count, lateral=True) for k in range(count + 1)]
         sizes = [max(look.pull, 1.0 / look.top) for look in looks]
         uneven = max(sizes) >= UNEVEN * min(sizes) or any(rests)
+        if kind in ARC_KINDS and not uneven:
+            inside = [look(k / count, lateral=False) for k in range(count + 1)]
+            return self._corners(context, length, look, [(1.0, *self._within(inside, length))], rests)
         if kind in (Kind.SPLINE, Kind.THREAD, Kind.TAP) or not uneven:
             top, ease = self._within(looks, length)
             return RowShares([(1.0, top, ease)], ease, ease)
-        worst = self._worst(context, path, sizes.index(max(sizes)) / LOOKS)
+        worst = self._worst(context, path, sizes.index(max(sizes)) / count)
         extent = self._extent(context, path, worst)
         if any(rests):
             worst, extent = (0.0 if rests[0] else 1.0), max(extent, NEAR_POLE / length)
@@ -429,7 +431,10 @@ class RealAxes:
                 # Beside it a rotary axis changes its speed most. With limited jerk the bounds of the jerk are lower.
                 steps = 1 if self._is_soft(context) else WITHIN
                 places += [begin + (f - begin) * k / steps for k in range(1, steps)]
-            inside = [demand(place, lateral=False) for place in places]
+            parts = looks_along(angle * (f - begin), 1)
+            places += [begin + (f - begin) * k / parts for k in range(1, parts)]
+            part = angle * (f - begin) / parts
+            inside = [between(demand(place, lateral=False), part) for place in places]
             shares.append((f, *self._within(inside, (f - begin) * length)))
             begin = f
         return self._corners(context, length, demand, shares, rests)
@@ -492,11 +497,14 @@ class RealAxes:
 
     def _length(self, context: Context, start: Sequence[float], end: Sequence[float]) -> float:
         """Length of a way, as the feed counts it."""
+        return hypot(*self._counted(context, start, end)) or hypot(*map(sub, end, start))
+
+    def _counted(self, context: Context, start: Sequence[float], end: Sequence[float]) -> list[float]:
+        """How far each column goes, as the feed counts it, mm."""
         assert context.transformation is not None
         made, weight = context.transformation.geometry, rotary_weight(context, self._settings)
-        ways = [b - a for a, b in zip(start, end, strict=True)]
-        turned = [weight if self._rotary(i) and i not in made else 1.0 for i in range(len(ways))]
-        return hypot(*(way * w for way, w in zip(ways, turned, strict=True))) or hypot(*ways)
+        turned = [weight if self._rotary(i) and i not in made else 1.0 for i in range(len(start))]
+        return [w * (b - a) for w, a, b in zip(turned, start, end, strict=True)]
 
     def _demand(
         self,
@@ -587,9 +595,3 @@ class RealAxes:
     def _way(self, column: int, way: float) -> float:
         """The shorter way round of a rotary axis."""
         return (way + 180.0) % 360.0 - 180.0 if self._rotary(column) else way
-
-
-def _set_shares(columns: Shares, first: int, found: RowShares, top: float = inf) -> None:
-    for at, (end, most, ease) in enumerate(found.shares, first):
-        columns.end[at], columns.top[at], columns.ease[at] = end, min(most, top), ease
-    columns.ease[first + AT_START], columns.ease[first + AT_END] = found.at_start, found.at_end

@@ -39,6 +39,8 @@ RESTART = "PROGRAM_RESTART"
 AUTOMATIC_RESTART = "RESTART_AUTOMATIC"
 
 
+#: Positions of the mode switch in which axis keys move axes, beside the reference approach.
+_BY_KEY = ("rapid", "jog", "increment", "teach", "repos")
 #: Commands of keys that the control allows in some modes and states only.
 _ASKED = {"cycle_start": Command.CYCLE_START, "feed_hold": Command.FEED_HOLD}
 
@@ -91,7 +93,7 @@ class Panel:
         """Press keys together. A key that acts as long as it is held stays pressed until `release`.
 
         Axis keys are `X+`, `X-` and so on: in zero return mode they start the return, in rapid and jog mode the axis
-        moves until `release`.
+        moves until `release`; in increment mode it goes the step of the handwheel's switch.
 
         Raises:
             CommandRefused: A key does nothing now: in this mode, without the safety key, while the power is off, or
@@ -217,15 +219,22 @@ class Panel:
         self._check_locked(axis, direction)
         if mode == "zero" and direction > 0:
             self.control.home(axis)  # once started, the return goes on by itself
-        elif mode in ("jog", "rapid", "repos"):
+        elif mode == "increment":
+            step = self.description.switches["handle_step"]
+            self.control.increment(axis, direction, step.value(self.positions["handle_step"]))
+        elif mode in ("jog", "rapid", "repos", "teach"):
             self.control.jog(axis, direction, rapid=mode == "rapid")
             self._pressed.add(name)
         else:
-            raise CommandRefused("panel.mode", part=name, modes="zero (+), rapid, jog")
+            moves = ("zero (+)", *(each for each in self.description.modes if each in _BY_KEY))
+            raise CommandRefused("panel.mode", part=name, modes=listed(moves))
 
     def wheel(self, notches: int) -> None:
-        """Turn the handwheel, clockwise for plus, with the axis and the step of its switches."""
-        if self.positions["mode"] != "handle":
+        """Turn the handwheel, clockwise for plus, with the axis and the step of its switches.
+
+        Where the control lets it shift axes beside a program (DRF), it does so in the modes that run programs.
+        """
+        if self.positions["mode"] != "handle" and not self.control.switches.drf:
             raise CommandRefused("panel.mode", part="MPG", modes="handle")
         self._check_locked(self.positions["handle_axis"], 1 if notches > 0 else -1)
         step = self.description.switches["handle_step"]

@@ -158,6 +158,11 @@ class Raised(Event):
 
 
 @dataclass(frozen=True, slots=True)
+class Shown(Raised):
+    """An alarm that is only shown: the program goes on."""
+
+
+@dataclass(frozen=True, slots=True)
 class SignalWrite(Event):
     """The program writes a signal of the machine's own controller."""
 

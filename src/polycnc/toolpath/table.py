@@ -215,6 +215,9 @@ class Toolpath:
     Args:
         axes: Names of the channel's axes, in column order.
         on_full: Called with each full chunk; a consumer that returns true has taken it, and it is dropped.
+
+    Attributes:
+        kind_before_chunk: Kind of the last row in front of the chunk that is written.
     """
 
     def __init__(
@@ -235,6 +238,7 @@ class Toolpath:
         self._rows_before = self._ways_before = 0
         self._last_end: list[float] = []
         self._last_context = 0
+        self.kind_before_chunk = int(Kind.EVENT)
         self.chunk = Chunk(len(axes), 0)
         self.chunks.append(self.chunk)
 
@@ -310,7 +314,7 @@ class Toolpath:
         self._rows_before += len(full.kind)
         self._ways_before += _ways(full)
         self._last_end = list(full.end[-len(self.axes) :])
-        self._last_context = full.context[-1]
+        self._last_context, self.kind_before_chunk = full.context[-1], full.kind[-1]
         if self._on_full is not None and self._on_full(full):
             self.chunks.remove(full)
         self.chunk = Chunk(len(self.axes), self._rows_before)
@@ -347,7 +351,9 @@ class Toolpath:
         """What forgets all that comes from here on (for a snapshot). Chunks that were dropped meanwhile are back."""
         chunk, chunks, cut = self.chunk, self.chunks.copy(), self.chunk.memento()
         contexts, programs = len(self.contexts), len(self.programs)
-        before = self._rows_before, self._ways_before, self._last_end, self._last_context
+        before = (
+            self._rows_before, self._ways_before, self._last_end, self._last_context, self.kind_before_chunk
+        )  # fmt: skip
 
         def put_back() -> None:
             cut()
@@ -358,7 +364,8 @@ class Toolpath:
                 self._context_numbers.popitem()
             while len(self._program_numbers) > programs:
                 self._program_numbers.popitem()
-            self._rows_before, self._ways_before, self._last_end, self._last_context = before
+            self._rows_before, self._ways_before, self._last_end, self._last_context = before[:-1]
+            self.kind_before_chunk = before[-1]
 
         return put_back
 

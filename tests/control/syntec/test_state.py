@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 
+from polycnc.memory.retained import WORK_TURNS, InMemoryStore
 from polycnc.session import Result, open_session
 
 
@@ -33,6 +34,39 @@ def test_nothing_of_one_run_reaches_the_next() -> None:
     for name in ("@5", "#401", "#1"):
         assert first.variables[name] == second.variables[name]
     assert first.variables["@5"] == 1
+
+
+@pytest.mark.parametrize(("kept", "machine"), [(1, (5.0, 6.0, 7.0)), (2, (5.0, -6.0, 6.0))])
+def test_pr3014_keeps_the_tilted_plane_over_power_off(kept: int, machine: tuple[float, ...]) -> None:
+    # X' = X, Y' = Z, Z' = -Y: (5,6,7) of the plane is (5,-7,6) of the work from the origin (0,1,0).
+    memory, setup = InMemoryStore(), {"parameters": {"3014": kept}}
+    tilt, move = "G68.2 X0 Y1. Z0 I0 J90. K0\nM30\n", "G90 G00 X5. Y6. Z7.\nM30\n"
+    results = [
+        open_session(
+            program, control="syntec-mill", machine="mill5-ac-table", setup=setup, memory=memory
+        ).run()
+        for program in (tilt, move)
+    ]
+    assert all(result.ok for result in results)
+    assert [results[-1].rows[0]["machine"][axis] for axis in "XYZ"] == pytest.approx(machine)
+
+
+@pytest.mark.parametrize(("code", "alarms"), [("G43.4 H1", ["PC0001"]), ("G43.5 H1", [])])
+def test_vectors_count_in_a_turned_work_system_whatever_pr3057_says(code: str, alarms: list[str]) -> None:
+    memory = InMemoryStore()
+    memory.table(WORK_TURNS, 1)["G54"] = [90.0, 0.0, 0.0]
+    setup = {"parameters": {"3057": 1}, "tools": {1: {"length": 50}}}
+    result = open_session(
+        f"G54.4 P1\n{code}\nG00 X5. Y6. Z7. I0 J1. K0\nM30\n",
+        control="syntec-mill",
+        machine="mill5-bc-head",
+        setup=setup,
+        memory=memory,
+    ).run()
+    assert [alarm.code for alarm in result.alarms] == alarms
+    if not alarms:
+        # X' = X, Y' = Z, Z' = -Y: the tool along Y' stands upright.
+        assert result.rows[0]["machine"] == pytest.approx({"X": 5, "Y": -7, "Z": 6 + 50, "B": 0, "C": 0})
 
 
 def test_a_channel_runs_its_own_section_of_a_file() -> None:

@@ -57,10 +57,19 @@ def test_climbing_leads_up_to_the_level_above() -> None:
     assert [piece.edge.end for piece in path] == [pytest.approx((-24.0, 14.0))]
 
 
-def test_climbing_stops_where_the_contour_turns_level() -> None:
-    contour = lines((2.0, 25.0), (2.0, 10.0), (-5.0, 10.0), (-8.0, 13.0), (-20.0, 13.0))
+def test_climbing_goes_on_where_the_contour_runs_level() -> None:
+    """Up to the level above there is stock on it."""
+    contour = lines((2.0, 25.0), (2.0, 10.0), (-5.0, 10.0), (-8.0, 13.0), (-20.0, 13.0), (-20.0, 30.0))
     (gap,) = gaps(contour, 11.0, -1.0)
-    assert climb(contour, gap, 11.0, 20.0, -1.0)[-1].edge.end == (-8.0, 13.0)
+    ends = [piece.edge.end for piece in climb(contour, gap, 11.0, 20.0, -1.0)]
+    assert ends == [(-8.0, 13.0), (-20.0, 13.0), (-20.0, 20.0)]
+    assert climb(contour, gap, 11.0, 13.0, -1.0)[-1].edge.end == (-8.0, 13.0)
+
+
+def test_climbing_stops_where_the_contour_turns_down() -> None:
+    contour = lines((2.0, 25.0), (2.0, 10.0), (-5.0, 10.0), (-8.0, 13.0), (-20.0, 13.0), (-22.0, 11.0))
+    (gap,) = gaps(contour, 11.0, -1.0)
+    assert climb(contour, gap, 11.0, 20.0, -1.0)[-1].edge.end == (-20.0, 13.0)
 
 
 @given(st.floats(10.5, 14.5))

@@ -67,3 +67,31 @@ def test_the_tool_stays_within_a_groove_of_any_shape(
             assert t <= groove.room(0, w) + 1e-6 or t <= 0.0
             assert t <= groove.room(1, groove.top - w - tool) + 1e-6 or t <= 0.0
         at = stroke.end
+
+
+@given(st.floats(1.0, 3.0), st.floats(0.0, 12.0), st.floats(1.0, 8.0), st.floats(0.2, 5.0), ANGLES)
+def test_plunges_from_the_middle_outwards_never_cut_at_rapid(
+    tool: float, more: float, depth: float, infeed: float, angle: float
+) -> None:
+    """What a rapid sweeps sideways has been cut down to there before."""
+    side = Side(angle)
+    groove = Groove(
+        tool + more, depth, tool, infeed=infeed, sides=(side, side), step=0.8, alternates=True, finishes=False
+    )
+    cut: list[tuple[float, float]] = []
+    at = (0.0, -1.0)
+    for stroke in strokes(groove):
+        if stroke.end is None:
+            continue
+        (w0, t0), (w1, t1) = at, stroke.end
+        if w0 != w1:
+            low, high = sorted((w0, w1))
+            assert stroke.is_rapid
+            assert t0 == t1
+            reached = [w for w, t in cut if t >= t1 - 1e-9 and low - 1e-9 <= w <= high + 1e-9]
+            assert t1 <= 0.0 or (min(reached) <= low + 1e-9 and max(reached) >= high - 1e-9)
+        elif t1 > t0:
+            assert not stroke.is_rapid or t1 <= 0.0 or any(w == w1 and t >= t1 - 1e-9 for w, t in cut)
+            cut.append((w1, t1))
+        at = stroke.end
+    assert max(t for _, t in cut) >= depth - 1e-9

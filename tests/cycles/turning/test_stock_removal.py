@@ -207,3 +207,10 @@ def test_no_way_leads_out_through_the_front_under_the_begin() -> None:
     assert not is_clear(bore, [start, (4.0, 14.6), end], 1.0)
     way = way_clear(bore, start, end, towards=1.0, lift=1.0)
     assert rounded(stroke.end for stroke in way) == [(-4.0, 9.5)]
+
+
+def test_a_contour_that_begins_with_a_chamfer_is_cut_down_to_its_cylinder() -> None:
+    """The deepest point is the begin of the chamfer: no cut fits there, but the way up does."""
+    part = lines((0.0, 18.0), (-2.0, 20.0), (-30.0, 20.0), (-30.0, 30.0))
+    ends = [cut.stroke.end for cut in remove(part, Removal(3.0, 1.0, -1.0))]
+    assert ends[-7:-2] == [(1.0, 18.0), (0.0, 18.0), (-2.0, 20.0), (-30.0, 20.0), (-30.0, 21.0)]

@@ -219,3 +219,13 @@ def test_programs_and_other_offsets_go_through_all_io_too(bench: Make, tmp_path:
         panel.soft(*EXEC)
         panel.passes(20.0)
         assert (tmp_path / file).read_text().startswith("%\n"), panel.message
+
+
+def test_a_machine_without_a_y_axis_punches_no_offsets_of_it(bench: Make, tmp_path: Path) -> None:
+    panel = opened(bench(card=tmp_path, machine="lathe-c"), Y_PAGE)
+    panel.turn("mode", "edit")
+    panel.soft(*PUNCH)
+    panel.soft(*EXEC)
+    panel.passes(5.0)
+    assert panel.message
+    assert not list(tmp_path.iterdir())

@@ -215,10 +215,17 @@ def test_sinumerik_parameter_area(lang: str) -> None:
     soft(bench, "Input")
     assert bench.control.read_variable("R7") == 1.5
     soft(bench, "Setting data")
+    bench.typed("42100")
+    soft(bench, "Search")
     bench.typed("2500")
     soft(bench, "Input")
     assert bench.message == ""
     assert "2500" in bench.text
+    assert bench.control.read_variable("$SC_DRY_RUN_FEED") == 2500.0
+    bench.typed("20110")
+    soft(bench, "Search")
+    assert bench.message, "machine data stand elsewhere"
+    bench.screen.buffer = ""
     soft(bench, "Work offset")
     bench.typed("X=-12")
     soft(bench, "Measure")

@@ -331,3 +331,91 @@ def test_a_program_that_is_loaded_anew_has_no_point_of_interruption() -> None:
     panel.soft("Block search", "單節搜尋")
     side(panel, "Interrupt. point", "中斷點")
     assert panel.message
+
+
+# ---- interrupted in a subprogram -------------------------------------------------------------------------------------
+
+SUB = "N1 G1 X10. F600\nN2 X20.\nN3 X30.\n"
+#: The program of each control that calls it twice, and where its subprogram stands.
+NESTED = {
+    "sinumerik-840d": (
+        "N10 G0 X0\nN15 SUB\nN20 SUB\nN30 G1 X60 F600\nM30\n",
+        {"SUB.SPF": SUB.replace(".", "") + "RET\n"},
+    ),
+}
+NESTED |= {
+    control: (f"O1\nN10 G0 X0.\nN15 M98 P2\nN20 M98 P2\nN30 G1 X60. F600\nM30\nO2\n{SUB}M99\n", {})
+    for control in ("fanuc-m", "syntec-mill", "meldas-m", "fanuc-0i-tf")
+}  # fmt: skip
+
+
+def interrupted(control: str, lang: str = "en") -> Bench:
+    """A control that was reset in the second call of the subprogram, in its block N2."""
+    program, files = NESTED[control]
+    if control == "fanuc-0i-tf":
+        program = program.replace("N10", "N10 G98")
+    panel = Bench(control, lang, program, files=files)
+    control_ = panel.control
+    panel.press("START")
+    first = control_.run_until(lambda each: each.active_block.text.startswith("N3"), limit_s=20.0)
+    second = control_.run_until(lambda each: each.active_block.text.startswith("N2"), limit_s=20.0)
+    assert first
+    assert second
+    panel.passes(0.3)
+    control_.reset()
+    control_.run()
+    return panel
+
+
+@pytest.mark.parametrize("control", NESTED)
+def test_a_program_given_up_in_a_subprogram_goes_on_there(control: str) -> None:
+    panel = interrupted(control)
+    control_ = panel.control
+    (main, line), (sub, _) = control_.snapshot.interrupted
+    assert control_.program_lines(main)[line - control_.first_line(main)].startswith("N20")
+    assert control_.snapshot.interruption == line
+    control_.block_search(control_.snapshot.interrupted)
+    assert control_.restart["X"][0] == pytest.approx(10.0)
+    panel.control.cycle_start()
+    assert control_.run_until(lambda each: each.active_block.text.startswith("N2"), limit_s=20.0)
+    assert control_.active_block.program == sub
+    control_.run()
+    assert control_.positions.work["X"] == 60.0
+    with pytest.raises(CommandRefused):
+        control_.block_search(((main, line), (sub, 9999)))
+
+
+@pytest.mark.parametrize(("control", "lang"), list(product(("sinumerik-840d", "syntec-mill"), LANGUAGES)))
+def test_the_key_of_the_interruption_shows_the_call_and_searches_in_the_subprogram(
+    control: str, lang: str
+) -> None:
+    panel = interrupted(control, lang)
+    open_search(panel)
+    if control == "sinumerik-840d":
+        side(panel, "Interrupt. point", "中斷點")
+    else:
+        panel.soft("Break point", "中斷點")
+    (row,) = (row for row in panel.window("program").rows if row[0].cursor)
+    assert row[0].text.startswith("N20")
+    search(panel)
+    assert panel.message == ""
+    assert panel.control.restart["X"][0] == pytest.approx(10.0)
+
+
+def test_a_cursor_that_has_moved_is_the_block_that_is_searched() -> None:
+    panel = interrupted("sinumerik-840d")
+    open_search(panel)
+    side(panel, "Interrupt. point", "中斷點")
+    panel.keys("DOWN", "UP")
+    search(panel)
+    assert panel.control.restart["X"][0] == pytest.approx(30.0), (
+        "the call begins where the first one has ended"
+    )
+
+
+def test_a_program_test_goes_to_a_block_of_a_subprogram() -> None:
+    control = interrupted("sinumerik-840d").control
+    control.block_search(control.snapshot.interrupted, how="program-test")
+    control.run()
+    assert control.active_block.text == "N2 X20"
+    assert control.restart["X"][0] == pytest.approx(10.0)

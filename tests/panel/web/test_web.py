@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 
 from polycnc.mainrun import State, VirtualControl
+from polycnc.messages import UserError
 from polycnc.panel.screens.view import Cell, View, Window
 from polycnc.panel.web.desk import Desk
 from polycnc.panel.web.guard import COOKIE, Guard, is_own_origin
@@ -187,6 +188,28 @@ def test_a_fault_and_a_signal_come_over_the_wire(desk: Desk) -> None:
     assert [act["do"] for act in done] == ["fault", "fault", "signal", "fault", "signal"]
 
 
+def test_a_memory_that_cannot_be_written_is_told_and_the_other_things_go_on(desk: Desk) -> None:
+    def commit() -> None:
+        raise UserError("memory.full", file="m.db")
+
+    asked(desk, "load", source="O1\nG0 X5.\nM30\n")
+    desk.control._retained.commit = commit  # type: ignore[method-assign]
+    asked(desk, "cycle_start")
+    for _ in range(200):
+        desk._then -= 0.05
+        desk.tick()
+    assert desk.control.positions.work["X"] == 5.0
+    assert desk.control.state is State.READY
+    assert "m.db" in desk.screen.message
+    asked(desk, "cycle_start")
+    asked(desk, "reset")
+    desk._then -= 0.2
+    desk.tick()
+    assert desk.control.state is State.READY
+    asked(desk, "turn", switch="mode", position="mdi")
+    assert desk.control.mode == "mdi"
+
+
 # ---- who may come in ---------------------------------------------------------------------------------------
 
 
@@ -219,6 +242,24 @@ def test_elsewhere_the_token_opens_the_door() -> None:
     assert status_of("secret", "token=wrong") == 403
     assert status_of("secret", "token=secret") == 200
     assert status_of("secret", cookie=f"{COOKIE}=secret") == 200
+
+
+def test_a_name_that_has_been_led_to_this_computer_is_refused() -> None:
+    assert status_of("", host="evil.example:8620", origin="http://evil.example:8620") == 403
+    assert status_of("", host="evil.example:8620") == 403
+    assert status_of("secret", "token=secret", host="shop.example:8620") == 200
+    for own in ("127.0.0.1:8620", "localhost:8620", "[::1]:8620"):
+        assert status_of("", host=own, origin=f"http://{own}") == 200
+
+
+@pytest.mark.parametrize("wrong", ["http://[", "null", "http://127.0.0.1:8620@evil.example"])
+def test_an_origin_that_is_none_is_refused(wrong: str) -> None:
+    assert status_of("", host="127.0.0.1:8620", origin=wrong) == 403
+
+
+def test_a_wrong_token_beside_the_right_cookie_goes_into_no_cookie() -> None:
+    assert status_of("secret", "token=a%0d%0ab%E4%B8%AD", cookie=f"{COOKIE}=secret") == 200
+    assert status_of("secret", cookie="a b,;=\x00;" + COOKIE) == 403
 
 
 def test_a_page_of_another_server_is_refused() -> None:

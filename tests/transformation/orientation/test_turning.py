@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from polycnc.machine import load_machine
 from polycnc.machine.kinematics import Kinematics
+from polycnc.machine.model import Joint
 from polycnc.transformation.orientation.choice import nearest
 from polycnc.transformation.orientation.directions import angle_between, great_circle, unit_of
 from polycnc.transformation.orientation.solutions import pole_angle, solutions_for
@@ -107,3 +108,46 @@ def test_a_part_of_a_turn_begins_and_ends_where_it_is_cut() -> None:
     assert part.places == ((10.0,), (25.0,))
     assert turning.at([0.0], 0.125) == (5.0,)
     assert turning.part([0.0], 0.0, 1.0) == turning
+
+
+def test_directions_that_no_position_reaches_are_passed_within_the_cone_of_the_pole() -> None:
+    """Axes a degree off the square leave a hole about the first one; a way through it goes on behind it."""
+    skewed = Kinematics((joint("C", (0.02, 0.0, 1.0)), joint("A", (1.0, 0.0, 0.03))), ())
+    pole = (0.02, 0.0, 1.0)
+    assert solutions_for(skewed, pole, {}) == []
+    for side in ((1.0, 0.2, 1.0), (-0.3, -1.0, 1.0), (1.0, -0.4, 0.2)):
+        a, b = unit_of(side), unit_of((0.04 - side[0], -side[1], 2.0 - side[2]))
+        assert a is not None
+        assert b is not None
+        way = great_circle(a, b)
+        assert way is not None
+        knots = follow(skewed, way, start_of(skewed, a), anywhere, CONE)
+        assert knots is not None
+        assert skewed.tool_on_work(knots[-1].angles) == pytest.approx(b, abs=1e-6)
+        start = start_of(skewed, a)
+        for first, last in pairwise([Knot(0.0, start), *knots]):
+            middle = {axis: 0.5 * (first.angles[axis] + last.angles[axis]) for axis in start}
+            off = angle_between(skewed.tool_on_work(middle), way(0.5 * (first.share + last.share)))
+            assert off < radians(2.0 * CONE)
+        assert follow(skewed, way, start, anywhere, 0.0) is None
+
+
+def test_a_way_through_what_a_head_cannot_reach_ends() -> None:
+    nutating = Kinematics((joint("C", (0.0, 0.0, 1.0)), joint("B", (0.0, 1.0, 1.0))), ())
+    a, b = unit_of((1.0, 0.0, 0.02)), unit_of((-1.0, 0.1, 0.02))
+    assert a is not None
+    assert b is not None
+    below = great_circle(a, (0.0, 0.0, -1.0))
+    beyond = great_circle((0.0, 0.0, -1.0), b)
+    assert below is not None
+    assert beyond is not None
+
+    def way(u: float) -> Vector:
+        return below(2.0 * u) if u < 0.5 else beyond(2.0 * u - 1.0)
+
+    assert follow(nutating, way, start_of(nutating, a), anywhere, CONE) is None
+
+
+def joint(axis: str, direction: Vector) -> Joint:
+    """A rotary joint without offset."""
+    return Joint(axis, rotary=True, carries="tool", direction=direction, offset=(0.0, 0.0, 0.0))

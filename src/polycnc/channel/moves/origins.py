@@ -14,8 +14,9 @@ INTERNAL = 1000
 CORNER_LINE, CORNER_ARC = 2001, 2002
 #: Smooth approach and retraction: on a line, a quarter circle, a semicircle.
 APPROACH_LINE, APPROACH_QUARTER, APPROACH_HALF = 3001, 3002, 3003
-#: Radius compensation: what joins two parallels that do not meet; the way about an outer corner.
-JOINED, ROUND_CORNER = 4002, 4004
+#: Radius compensation: the approach behind a preprocessing stop; what joins two parallels that do not meet; the way
+#: about an outer corner.
+APPROACH_BEHIND_STOP, JOINED, ROUND_CORNER = 4001, 4002, 4004
 #: A tangential axis turns in a block of its own.
 TURN = 6001
 #: A segment of a path that is cut into them, without and with a stroke.

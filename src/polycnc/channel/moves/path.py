@@ -254,6 +254,14 @@ class Stage:
         """Pass on everything that is held back: no more moves will come that could change it."""
         self.after.flush()
 
+    def beside(self, position: list[float]) -> list[float]:
+        """Where the axes stand when the program stands at a position behind all that has been passed on."""
+        return position
+
+    def programmed(self, position: list[float]) -> list[float]:
+        """The other way round: where the program stands when the axes stand at a position."""
+        return position
+
     def pass_on(self, item: Item) -> None:
         """Pass on something that was held back, as it is."""
         if isinstance(item, Move):
@@ -424,6 +432,11 @@ class Path:
         self._aside.append(self._stages)
         self._lead([recorder])
 
+    @property
+    def is_diverted(self) -> bool:
+        """Whether moves end in a recorder: no axis goes anywhere."""
+        return bool(self._aside)
+
     def resume(self, recorder: Recorder) -> None:
         """The path is as it was before `divert`; where the recorder has gone already, nothing happens."""
         if recorder in self._stages:
@@ -437,6 +450,18 @@ class Path:
             yield
         finally:
             self.resume(recorder)
+
+    def beside(self, position: list[float]) -> list[float]:
+        """Where the axes stand when the program stands at a position: stages may have led them beside it."""
+        for stage in self._stages:
+            position = stage.beside(position)
+        return position
+
+    def programmed(self, position: list[float]) -> list[float]:
+        """The other way round: where the program stands when the axes stand at a position."""
+        for stage in reversed(self._stages):
+            position = stage.programmed(position)
+        return position
 
     def flush(self) -> None:
         """Pass on everything that stages hold back."""

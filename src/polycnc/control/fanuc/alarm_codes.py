@@ -10,6 +10,7 @@ ALARMS: dict[str, str] = {
     "minus": "PS0006",
     "point": "PS0007",
     "address": "PS0009",
+    "high_speed_company": "PS0009",
     "improper_g": "PS0010",
     "end_of_record": "PS5010",
     # motion
@@ -134,6 +135,8 @@ ALARMS: dict[str, str] = {
     "tilt_unreachable": "PS5459",
     "tip_machine": "PS5420",
     "tip_mode": "PS5421",
+    "tip_company": "PS5421",
+    "spatial_motion": "PS5460",
     "tip_direction": "PS5459",
     "cycle_word": "PS0045",
     "cycle_reference": "PS0044",

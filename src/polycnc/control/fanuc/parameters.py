@@ -19,6 +19,10 @@ class FanucAxisParameters(MacroAxisParameters):
     reference_point_3 = Number(1242, delivered=None)
     #: 1243: Fourth reference point, machine coordinates [mm].
     reference_point_4 = Number(1243, delivered=None)
+    #: 1320: Stored stroke check 1, upper limit [mm].
+    travel_upper = Number(1320, delivered=None)
+    #: 1321: Stored stroke check 1, lower limit [mm].
+    travel_lower = Number(1321, delivered=None)
     #: 1610#0: linear acceleration after interpolation (1).
     CTL = Bit(1610, 0, delivered=False)
     #: 1610#1: bell-shaped acceleration after interpolation (1).

@@ -14,6 +14,7 @@ ALARMS: dict[str, str] = {
     # text of a block
     "block_too_long": "P35",
     "too_many_digits": "P35",
+    "high_speed_company": "P33",
     "no_data": "P33",
     "minus": "P33",
     "point": "P33",
@@ -75,6 +76,12 @@ ALARMS: dict[str, str] = {
     "normal_mode": "P481",
     "normal_plane": "P903",
     "normal_preset": "P901",
+    "tip_machine": "P932",
+    "tip_mode": "P941",
+    "tip_company": "P942",
+    "tilt_mode": "P951",
+    "tilt_missing": "P953",
+    "tilt_format": "P954",
     # cycles and measuring
     "cycle_word": "P33",
     "pattern": "P33",

@@ -11,8 +11,8 @@ from polycnc.control.word_address.coordinates import systems
 from polycnc.control.word_address.cycles import hole_patterns
 from polycnc.control.word_address.macro_b import calls_as_data, subprograms
 from polycnc.control.word_address.motion import circle_cutting, path_modes, skip
-from polycnc.control.word_address.tools import data_input, measuring
-from polycnc.control.word_address.transformations import hypothetical_axis
+from polycnc.control.word_address.tools import data_input, measuring, radius
+from polycnc.control.word_address.transformations import hypothetical_axis, tool_center_point
 from polycnc.language.bulk import declare
 
 #: Codes of FANUC that the manual's table does not have.
@@ -42,6 +42,8 @@ _ROWS = table(
     moves("G36", hole_patterns.arc_of_holes, "I J P K", reals="P"),
     moves("G37", measuring.measure_length, "R D", reals="D"),
     moves("G37.1", hole_patterns.grid_of_holes, "I J P K"),
+    GCode("G40", "compensation", radius.cancel_compensation, takes="I J K", order=Order.COMPENSATION),
+    GCode("G43.4", "length", tool_center_point.start_following, takes="H", order=Order.LENGTH),
     moves("G53", systems.move_in_machine_system),
     GCode("G61.1", "path", systems.note_context, only_changes=True),
     GCode("G7", handler=hypothetical_axis.switch, axis_words=True, order=Order.MOTION),

@@ -13,6 +13,11 @@ class MeldasAxisParameters(MacroAxisParameters):
     rapid_time = Number(2004, delivered=None)
     #: 2007: G1tL: time constant of cuts (linear) without high-accuracy control, whatever the feed [ms].
     cutting_time = Number(2007, delivered=None)
+    #: 2013: OT-: soft limit in the minus direction, machine coordinates; none where OT- and OT+ are the same
+    #: [mm].
+    travel_lower = Number(2013, delivered=None)
+    #: 2014: OT+: soft limit in the plus direction, machine coordinates [mm].
+    travel_upper = Number(2014, delivered=None)
     #: 2037: G53ofs: first reference point, machine coordinates [mm].
     reference_point_1 = Number(2037, delivered=None)
     #: 2038: #2_rfp: second reference point, machine coordinates [mm].

@@ -14,7 +14,6 @@ from polycnc.control.sinumerik.actions import actions, overlay
 from polycnc.control.sinumerik.actions.user_data import user_data
 from polycnc.control.sinumerik.axes import jogging
 from polycnc.control.sinumerik.block import positions, procedures, single_block
-from polycnc.control.sinumerik.block.plain import SinumerikPlainBlocks
 from polycnc.control.sinumerik.block.plan import ExactStop, make_plan
 from polycnc.control.sinumerik.channels import axis_containers, axis_exchange, coordination
 from polycnc.control.sinumerik.contours import preparation
@@ -70,6 +69,7 @@ if TYPE_CHECKING:
     from polycnc.channel.steps import Step as ProgramStep
     from polycnc.control.interface import HandMotion
     from polycnc.control.sinumerik.block.draft import Plan, Values
+    from polycnc.control.sinumerik.block.scanned import SinumerikPlainBlocks
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.variables.registry import SystemVariable
     from polycnc.language.expressions.shapes import Shapes
@@ -102,6 +102,7 @@ class Sinumerik:
     tools_have_names: ClassVar[bool] = True
     last_bit: ClassVar[int] = 31
     mdi_intervenes: ClassVar[bool] = False
+    presets_by_hand: ClassVar[bool] = True
     form: ClassVar[Form] = Form.SINUMERIK
 
     def __init__(self) -> None:
@@ -202,9 +203,13 @@ class Sinumerik:
         """MD36100 and MD36110, or the second ones."""
         return working_area.switches(channel, axis)
 
-    def handwheel_offset_speed(self, channel: SinumerikChannel, axis: int) -> float:
+    def handwheel_offset(self, channel: SinumerikChannel, axis: int) -> tuple[float, float]:
         """DRF: MD32020 by MD32090."""
-        return overlay.handwheel_speed(channel, axis)
+        return overlay.handwheel_share(channel, axis)
+
+    def expect_handwheel(self, channel: SinumerikChannel, *, is_on: bool) -> None:
+        """The switch DRF is on: the path leaves axes their share for the handwheel (MD20610)."""
+        overlay.expect_handwheel(channel, is_on=is_on)
 
     def hand_speed(
         self, channel: SinumerikChannel, axis: int, what: HandMotion, place: int, *, rapid: bool
@@ -253,6 +258,9 @@ class Sinumerik:
 
     def plain_blocks(self, _channel: SinumerikChannel) -> SinumerikPlainBlocks:
         """What a scanner must know of plain blocks."""
+        # For long programs only.
+        from polycnc.control.sinumerik.block.scanned import SinumerikPlainBlocks
+
         return SinumerikPlainBlocks(self.plan, orientation.tool_record, orientation.note_turn)
 
     # ---- blocks
@@ -327,7 +335,7 @@ class Sinumerik:
     def preprocessing_stop(self, channel: SinumerikChannel) -> bool:
         """Wait for the main run: everything held back is written; the block need not come again."""
         curve_definition.refuse(channel, "$A")
-        channel.flush()
+        stages.end_blocks(channel)
         channel.synchronise()
         return False
 

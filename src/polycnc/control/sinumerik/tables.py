@@ -76,6 +76,11 @@ def length_factor(mode: Mode) -> float:
     return INCH_MM if mode["unit"] in ("G70", "G700") else 1.0
 
 
+def data_factor(mode: Mode) -> float:
+    """From a length in data, such as a tool offset, as programs write and read it, to mm: inches under G700 alone."""
+    return INCH_MM if mode["unit"] == "G700" else 1.0
+
+
 def metres_of_cutting_speed(mode: Mode) -> float:
     """From a programmed cutting speed or peripheral speed to metres: feet under G700."""
     return M_PER_FOOT if mode["unit"] == "G700" else 1.0

@@ -123,6 +123,7 @@ ALARMS: dict[str, str] = {
     "corner_too_short": SEMANTIC,
     "drawing_end": SEMANTIC,
     "minus": SEMANTIC,
+    "too_many_digits": SEMANTIC,
     "cycle_word": SEMANTIC,
     "retract_feed": "COR-045",
     # coordinates

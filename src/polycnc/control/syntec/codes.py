@@ -33,6 +33,7 @@ from polycnc.control.word_address.coordinates import stroke_check, systems
 from polycnc.control.word_address.motion import nurbs, path, path_modes
 from polycnc.control.word_address.tools import length as base_length
 from polycnc.control.word_address.tools import radius
+from polycnc.control.word_address.tools import spatial as base_spatial
 from polycnc.control.word_address.transformations import normal_line
 
 MOTION = Order.MOTION
@@ -86,7 +87,7 @@ G_CODES = table(
     GCode("G40", "compensation", cycles.cancel_compensation, takes="I J K", order=Order.COMPENSATION),
     GCode("G41", "compensation", cycles.compensate_left, takes="D", order=Order.COMPENSATION),
     GCode("G42", "compensation", cycles.compensate_right, takes="D", order=Order.COMPENSATION),
-    *(GCode(code, "compensation", spatial.start, takes="D", order=Order.COMPENSATION) for code in spatial.SIDES),
+    *(GCode(code, "compensation", spatial.start, takes="D", order=Order.COMPENSATION) for code in base_spatial.SIDES),
     GCode("G43", "length", tip_control.compensate_length, takes="H", order=Order.LENGTH),
     GCode("G44", "length", tip_control.compensate_length, takes="H", order=Order.LENGTH),
     GCode("G43.4", "length", tip_control.start, takes="H Q L I", order=Order.LENGTH),

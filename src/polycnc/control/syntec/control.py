@@ -15,7 +15,8 @@ from polycnc.control.syntec.axis_groups import borrowing, groups, names
 from polycnc.control.syntec.builder import SyntecBuilder
 from polycnc.control.syntec.codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
 from polycnc.control.syntec.coordinates import systems
-from polycnc.control.syntec.five_axes import mechanism, normal_direction, spatial, tilted, tip_control
+from polycnc.control.syntec.five_axes import mechanism, normal_direction, tilted, tip_control
+from polycnc.control.syntec.five_axes import spatial as spatial_radius
 from polycnc.control.syntec.macros import calls, interrupts, single_block
 from polycnc.control.syntec.macros.variables import USER, SpaceState, locals_of
 from polycnc.control.syntec.memory import SyntecMemory
@@ -32,6 +33,7 @@ from polycnc.control.word_address.control import WordAddressControl
 from polycnc.control.word_address.coordinates import frames
 from polycnc.control.word_address.cycles import drilling as drilling_cycles
 from polycnc.control.word_address.motion import corners, line_by_angle, nurbs
+from polycnc.control.word_address.tools import spatial
 from polycnc.control.word_address.transformations import normal_line
 from polycnc.language.syntec import executable, iso_grammar
 from polycnc.messages import AlarmError
@@ -114,13 +116,14 @@ class SyntecMill(WordAddressControl):
         frames.ROTATION_RULE,
         normal_line.RULE,
         oscillation.RULE,
-        spatial.RULE,
+        spatial_radius.RULE,
         calls.RULE,
         names.RULE,
         moves.LEAD_RULE,
         whole_numbers.RULE,
         corners.RULE,
         line_by_angle.RULE,
+        tip_control.COMPANY_RULE,
         tip_control.RULE,
         drilling_cycles.RULE,
         cycles.OVERLAP_RULE,
@@ -200,10 +203,17 @@ class SyntecMill(WordAddressControl):
         for number, code in zip(SyntecParameters.m_macros.numbers, memory.parameters.m_macros, strict=True):
             if code in calls.NEVER_REGISTERED - {0}:
                 raise self.fail("registered_m", number=number)
+        kept = tilted.Kept.over_power_off(channel)
         tilted.rotate_work_system(channel, on=memory.parameters.rotates_at_start == 1)
+        kept.restore(channel)
         self.begin(channel)
         if memory.parameters.travel_2_at_start == 1:
             channel.mode = channel.mode.with_code("stroke", "G22")
+
+    def travel_by_parameters(self, channel: SyntecChannel) -> Mapping[int, tuple[float, float]]:
+        """First travel limits, Pr2401 on."""
+        travel = channel.memory.parameters.first_travel
+        return systems.limits_in(channel, travel)
 
     def begin(self, channel: SyntecChannel) -> None:
         """A main program begins: it has the local variables; a channel of a file with `$n` runs its section."""

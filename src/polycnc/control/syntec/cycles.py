@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.syntec import tapping
-from polycnc.control.syntec.five_axes import spatial
 from polycnc.control.syntec.units import least_unit
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.cycles.drilling import (
@@ -19,7 +18,7 @@ from polycnc.control.word_address.cycles.drilling import (
     lead_from_feed,
 )
 from polycnc.control.word_address.cycles.hole_patterns import drill_points, plane_point
-from polycnc.control.word_address.tools import radius
+from polycnc.control.word_address.tools import radius, spatial
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.cycles.drilling import holes, patterns
 from polycnc.cycles.drilling.holes import Action, Stroke
@@ -60,6 +59,8 @@ OVERLAPS = {"G81": ("D", "Q"), "G74": ("I", "J"), "G84": ("I", "J")}
 #: Pr4020: direction off the wall after the oriented stop, as geometry axis and sense.
 SHIFT_DIRECTIONS = {0: (0, 1.0), 1: (0, -1.0), 2: (1, 1.0), 3: (1, -1.0), 4: (2, 1.0), 5: (2, -1.0)}
 MAX_HOLES = 9999
+#: K of a drilling cycle (2.72.3; the table of 2.72.1 ends at 999).
+MOST_REPEATS = 9999
 
 
 @dataclass(slots=True)
@@ -144,6 +145,7 @@ DRILLING = Drilling(
     CYCLES,
     kept="RQPIJD",
     repeats="K",
+    most_repeats=MOST_REPEATS,
     dwells_at_r=True,
     seconds=dwell_seconds,
     relief=relief,

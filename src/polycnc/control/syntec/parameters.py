@@ -50,6 +50,9 @@ class SyntecParameters(ControlParameters["SyntecAxisParameters"]):
     cnc_groups = Whole(731, delivered=0)
     #: 742: What an axis of several groups does: 1 for a roaming axis.
     shared_axes = Whole(742, delivered=0)
+    #: 2401: First travel limits, plus and minus for each axis in turn, least units; none where plus is not
+    #: above minus.
+    first_travel = WholeRun(2401, 40, delivered=0)
     #: 2501: Second travel limits, plus and minus for each axis in turn, least units.
     second_travel = WholeRun(2501, 40, delivered=0)
     #: 2542: Second travel limits forbid the outside (0) or the inside (1).
@@ -74,7 +77,7 @@ class SyntecParameters(ControlParameters["SyntecAxisParameters"]):
     rotary_travel = WholeRun(3009, 4, delivered=0)
     #: 3013: Length of the tool holder, from the rotary axis to the nose, least units.
     holder_length = Whole(3013, delivered=0)
-    #: 3014: A reset keeps the tilted plane.
+    #: 3014: The tilted plane is kept over no reset (0), over a reset (1), over power-off too (2).
     keeps_tilt = Whole(3014, delivered=0)
     #: 3057: Directions of the tool count in the machine (0) or in the work system (1) under G43.4.
     posture_in_work = Whole(3057, delivered=0)

@@ -151,6 +151,7 @@ class WordAddressControl:
     tools_have_names: ClassVar[bool] = False
     last_bit: ClassVar[int] = 7
     mdi_intervenes: ClassVar[bool] = True
+    presets_by_hand: ClassVar[bool] = False
 
     # ---- texts and alarms ---------------------------------------------------------------------------------------
 
@@ -237,6 +238,7 @@ class WordAddressControl:
         if self.FEED_AT_START is not None:
             channel.feed = self.FEED_AT_START
         systems.refresh_zero(channel)
+        self.parameters_changed(channel)
         for name, value in channel.setup.variables.items():
             if channel.memory.is_kept(name):
                 continue
@@ -277,13 +279,30 @@ class WordAddressControl:
         """Each axis goes by itself."""
         return (axis,)
 
-    def hand_range(self, _channel: Channel, _axis: int) -> tuple[float, float]:
-        """The limits of the machine alone."""
-        return -inf, inf
+    def travel_by_parameters(self, _channel: Channel) -> Mapping[int, tuple[float, float]]:
+        """Software limits of axes by column, machine position, where parameters give some."""
+        return {}
 
-    def handwheel_offset_speed(self, _channel: Channel, _axis: int) -> float:
+    def parameters_changed(self, channel: Channel) -> None:
+        """Parameters have other values: the travel of every axis is that of the machine within them."""
+        within = self.travel_by_parameters(channel)
+        machine = ((axis.limit_minus, axis.limit_plus) for axis in channel.axis_data)
+        limits = tuple(
+            (max(low, within[i][0]), min(high, within[i][1])) if i in within else (low, high)
+            for i, (low, high) in enumerate(machine)
+        )
+        channel.limits = limits if any(low > -inf or high < inf for low, high in limits) else ()
+
+    def hand_range(self, channel: Channel, axis: int) -> tuple[float, float]:
+        """Software limits stop an axis by hand too."""
+        return self.travel_by_parameters(channel).get(axis, (-inf, inf))
+
+    def expect_handwheel(self, _channel: Channel, *, is_on: bool) -> None:
+        """No handwheel shifts axes beside their program."""
+
+    def handwheel_offset(self, _channel: Channel, _axis: int) -> tuple[float, float]:
         """No handwheel shifts an axis beside its program."""
-        return 0.0
+        return 0.0, 1.0
 
     def hand_speed(
         self,

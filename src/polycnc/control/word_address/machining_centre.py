@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import inf
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.compensation.corner import CornerPolicy
@@ -76,6 +77,7 @@ class MillingControl(CustomMacroControl):
         path.INVERSE_TIME_RULE,
         line_by_angle.RULE,
         workpiece.RULE,
+        tool_center_point.COMPANY_RULE,
         tool_center_point.RULE,
         look_ahead.STOP_RULE,
         drilling.RULE,
@@ -111,6 +113,16 @@ class MillingControl(CustomMacroControl):
     def several_m_codes(self, _channel: Channel) -> bool:
         """Whether a block may hold several M codes (Hartford manual 2.3.3: the last one counts)."""
         return False
+
+    def travel_by_parameters(self, channel: MillingChannel) -> Mapping[int, tuple[float, float]]:
+        """Stroke limits by parameter (FANUC 1320, 1321, MELDAS 2013, 2014); none where plus is not above minus."""
+        found: dict[int, tuple[float, float]] = {}
+        for i, of in enumerate(map(channel.memory.parameters.of, channel.axes)):
+            low = -inf if of.travel_lower is None else of.travel_lower
+            high = inf if of.travel_upper is None else of.travel_upper
+            if -inf < low < high or low < high < inf:
+                found[i] = (low, high)
+        return found
 
     # ---- offsets -------------------------------------------------------------------------------------
 

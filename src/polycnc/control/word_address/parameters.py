@@ -17,6 +17,8 @@ class MacroAxisParameters(AxisParameters):
 
     basic_axis: Parameter[int | None] = Constant(None)
     overrun: Parameter[float] = Constant(0.0)
+    travel_lower: Parameter[float | None] = Constant(None)
+    travel_upper: Parameter[float | None] = Constant(None)
     reference_point_1: Parameter[float | None]
     reference_point_2: Parameter[float | None]
     reference_point_3: Parameter[float | None]

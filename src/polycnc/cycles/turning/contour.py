@@ -177,7 +177,10 @@ def _middle(edge: Edge) -> Point:
 
 
 def climb(contour: Sequence[Piece], gap: Gap, level: float, until: float, towards: float) -> Contour:
-    """The contour from the end of a gap up to a higher level, or to where it turns down again or ends."""
+    """The contour from the end of a gap up to a higher level, or to where it turns down again or ends.
+
+    What runs level on the way belongs to it, for stock lies on that up to the higher level.
+    """
     path: Contour = []
     at: Point = (gap.end, level)
     for piece in contour[gap.piece :]:
@@ -185,8 +188,8 @@ def climb(contour: Sequence[Piece], gap: Gap, level: float, until: float, toward
             if part.end == at or _is_before(part, at):
                 continue
             start = at if not path else part.start
-            rising = towards * (part.end[1] - start[1]) < -NO_WAY
-            if not rising or towards * (_middle(part)[1] - until) < -NO_WAY:
+            falls = towards * (part.end[1] - start[1]) > NO_WAY
+            if falls or towards * (_middle(part)[1] - until) < NO_WAY:
                 return path
             path.append(Piece(_between(piece.edge, start, part.end), piece.is_rapid))
     return path

@@ -1,4 +1,4 @@
-"""A groove on a lathe with a parting tool (SINUMERIK CYCLE93): walls at any angle, corners broken or rounded.
+"""A groove on a lathe with a parting tool (SINUMERIK CYCLE93, CYCLE930): walls at any angle, corners broken or rounded.
 
 Points are (w, t): `w` runs from the edge at which the groove begins to the other one, `t` from the rim down to the
 base. They are those of the tool's edge that lies nearer to where the groove begins. Each side of the groove is drawn
@@ -91,6 +91,9 @@ class Groove:
         lift: Height above the rim between cuts, and way back between infeeds.
         sides: That at which the groove begins, and the other one.
         nose_radius: Of both edges of the tool.
+        step: Greatest way between two plunges, as a share of the tool's width.
+        alternates: Plunges go from the middle outwards; the first two are made in turn where there is an infeed.
+        roughs: There are plunges; `finishes`: walls and base are finished, None where stock is left on them.
     """
 
     width: float
@@ -102,6 +105,10 @@ class Groove:
     lift: float = 1.0
     sides: tuple[Side, Side] = (UPRIGHT, UPRIGHT)
     nose_radius: float = 0.0
+    step: float = 1.0
+    alternates: bool = False
+    roughs: bool = True
+    finishes: bool | None = None
 
     @cached_property
     def feet(self) -> tuple[float, float]:
@@ -135,9 +142,7 @@ class Groove:
         return first, second
 
     def _contour(self, side: Side, foot: float) -> Contour:
-        reach = 0.5 * (self.width - self.tool_width) + self.nose_radius
-        if side.base.is_sharp:
-            reach = max(reach, NO_WAY * 10.0)
+        reach = max(0.5 * (self.width - self.tool_width) + self.nose_radius, NO_WAY * 10.0)
         far = self.width + self.depth
         rim = offset.line((-far, 0.0), (0.0, 0.0))
         wall = offset.line((0.0, 0.0), (foot, self.depth))
@@ -184,8 +189,12 @@ def strokes(groove: Groove) -> Iterator[GrooveStroke]:
     Raises:
         GrooveError: The corners do not fit, or the tool's nose does not into those of the base.
     """
-    yield from _rough(groove)
-    if not groove.is_plain or groove.base_allowance > 0.0 or groove.flank_allowance > 0.0:
+    finishes = groove.finishes
+    if finishes is None:
+        finishes = not groove.is_plain or groove.base_allowance > 0.0 or groove.flank_allowance > 0.0
+    if groove.roughs:
+        yield from _rough(groove)
+    if finishes:
         yield from _finish(groove)
 
 
@@ -197,25 +206,64 @@ def _rough(groove: Groove) -> Iterator[GrooveStroke]:
     ]
     first = groove.feet[0] + leans[0]
     way = groove.width - sum(leans) - groove.tool_width
-    steps = max(parts(way, groove.tool_width, _WHOLE), 0)
-    for column in range(steps + 1):
-        w = first + (way * column / steps if steps > 0 else 0.0)
-        yield from _plunge(groove, w, min(OFF_WALL_MM, way / steps) if column else 0.0)
+    steps = max(parts(way, groove.tool_width * groove.step, _WHOLE), 0)
+    places = [first + (way * column / steps if steps > 0 else 0.0) for column in range(steps + 1)]
+    if groove.alternates:
+        yield from _outwards(groove, places)
+    else:
+        for column, w in enumerate(places):
+            yield from _plunge(groove, w, min(OFF_WALL_MM, way / steps) if column else 0.0)
     for number, (foot, start, sense) in enumerate(
         ((groove.feet[0], first, -1.0), (groove.feet[1], first + max(way, 0.0), 1.0))
     ):
-        count = parts(foot, groove.tool_width, _WHOLE)
+        count = parts(foot, groove.tool_width * groove.step, _WHOLE)
         for k in range(1, count):
             yield from _plunge(groove, start + sense * foot * k / count, 0.0, number)
 
 
-def _plunge(groove: Groove, w: float, off: float, number: int | None = None) -> Iterator[GrooveStroke]:
+def _outwards(groove: Groove, places: list[float]) -> Iterator[GrooveStroke]:
+    """Plunges from the middle one outwards, on both sides in turn; the first two go down together."""
+    middle = (len(places) - 1) // 2
+    order = sorted(range(len(places)), key=lambda k: (abs(k - middle), -k))
+    together = order[:2] if groove.infeed > 0.0 else []
+    yield from _in_turn(groove, [places[k] for k in together])
+    for k in order[len(together) :]:
+        yield from _plunge(groove, places[k], 0.0, at_once=bool(together))
+
+
+def _in_turn(groove: Groove, places: list[float]) -> Iterator[GrooveStroke]:
+    """Two plunges in turn, each two infeeds deeper than the other has come; one alone goes down by one at a time.
+
+    Between them the tool rises by an infeed and the safety distance: there both are open.
+    """
+    if not places:
+        return
+    last = places[0]
+    bottoms = [_base(groove, w) for w in places]
+    below, depth, level = [0.0] * len(places), 0.0, -groove.lift
+    number = 0
+    while any(bottom - done > NO_WAY for done, bottom in zip(below, bottoms, strict=True)):
+        if bottoms[number] - below[number] > NO_WAY:
+            depth += groove.infeed
+            below[number] = min(depth, bottoms[number])
+            yield GrooveStroke((places[number], level), is_rapid=True)
+            yield GrooveStroke((places[number], below[number]))
+            level = max(below[number] - groove.infeed, 0.0) - groove.lift
+            yield GrooveStroke((places[number], level), is_rapid=True)
+            last = places[number]
+        number = (number + 1) % len(places)
+    yield GrooveStroke((last, -groove.lift), is_rapid=True)
+
+
+def _plunge(
+    groove: Groove, w: float, off: float, number: int | None = None, *, at_once: bool = False
+) -> Iterator[GrooveStroke]:
     """In and out at a place; `off` the wall at the base before the way out, `number` of the side that bounds it."""
     base = _base(groove, w)
     if base <= NO_WAY:
         return
     off = off if _base(groove, w - off) >= base else 0.0
-    infeeds = max(parts(base, groove.infeed, _WHOLE), 1) if groove.infeed > 0.0 else 1
+    infeeds = max(parts(base, groove.infeed, _WHOLE), 1) if groove.infeed > 0.0 and not at_once else 1
     yield GrooveStroke((w, -groove.lift), is_rapid=True)
     for k in range(1, infeeds + 1):
         t = base * k / infeeds

@@ -10,10 +10,18 @@ of the block, and the interpreter decides.
 
 from __future__ import annotations
 
-from polycnc.kernels.layout import Bytes
-from polycnc.language.bulk.formulas import begins_formula, calculate, read_formula
+from polycnc.kernels.layout import Bytes, Ints32
+from polycnc.language.bulk.formulas.calculating import calculate
+from polycnc.language.bulk.formulas.reading import (
+    begins_expression,
+    begins_formula,
+    read_expression,
+    read_formula,
+    read_variable,
+)
 from polycnc.language.bulk.layout import (
     CR_FORM,
+    CR_FORMULA,
     DIRECTION_FORM,
     FIRST_CODE,
     FIRST_FORMULA,
@@ -23,6 +31,7 @@ from polycnc.language.bulk.layout import (
     LAST_CODE,
     LAST_M_CODE,
     MOST_KEYS,
+    MOST_LITERALS,
     MOST_WORDS,
     Factor,
     Grammar,
@@ -34,7 +43,17 @@ from polycnc.language.bulk.layout import (
 )
 from polycnc.language.bulk.moves import Columns, act, note
 from polycnc.language.bulk.numerals import BLANK, EXACT_DIGITS, NINE, POINT, TAB, ZERO, read_number
-from polycnc.language.bulk.routines.flow import REFUSED, flow, may_flow, take_line
+from polycnc.language.bulk.routines.flow import (
+    CALLS,
+    ENDS,
+    REFUSED,
+    RETURNS,
+    call,
+    flow,
+    leave,
+    may_flow,
+    take_line,
+)
 from polycnc.language.bulk.routines.layout import NO_ROUTINE
 
 NEWLINE, THREE = 10, 51
@@ -46,6 +65,8 @@ EQUALS_SIGN, OPEN, CLOSE, SEMICOLON, SLASH, STAR = 61, 40, 41, 59, 47, 42
 LONGEST_LINE = 4096
 #: What `read_word` gives instead of a key: not plain, a block number.
 NO_KEY, BLOCK_NUMBER = -1, -2
+#: Key of an assignment.
+ASSIGNED = FIRST_FORMULA + LETTER_R - LETTER_A
 #: What `read_block` gives instead of a node: a line without a block.
 NO_BLOCK = -1
 
@@ -67,8 +88,8 @@ def scan(tables: Tables, state: State, columns: Columns) -> int:
         else:
             step = state.scan.index
             node = take_line(tables, state)
-            if node == REFUSED:
-                return Outcome.NOT_PLAIN
+            if node <= REFUSED:
+                return Outcome.NOT_PLAIN if node == REFUSED else Outcome.UNREAD
         if node >= 0:
             outcome = work_off(tables, state, columns, node)
             if outcome != Outcome.GOES_ON:
@@ -79,9 +100,13 @@ def scan(tables: Tables, state: State, columns: Columns) -> int:
         else:
             state.scan.current = step
             state.scan.index += 1
-        if node >= 0 or not in_text or not state.scan.grammar & Grammar.BLANK_LINES_ARE_NONE:
-            state.scan.blocks += 1
-        if node >= 0:
+        is_counted = node >= 0 or not in_text or not state.scan.grammar & Grammar.BLANK_LINES_ARE_NONE
+        state.scan.blocks += is_counted and node != ENDS
+        if node == CALLS:
+            call(tables, state)
+        elif node <= RETURNS:
+            leave(tables, state)
+        elif node >= 0:
             leaf = tables.leaves[node]
             if tables.rules[leaf * Rule.SIZE + Rule.FLOW]:
                 flow(tables, state, leaf * Rule.SIZE, leaf * Factor.SIZE)
@@ -126,16 +151,11 @@ def read_block(tables: Tables, state: State) -> tuple[int, int]:
         if has_formula(text, place, state.scan.grammar):
             if keys == MOST_KEYS or values == MOST_WORDS:
                 return -1, 0
-            key = FIRST_FORMULA + char - LETTER_A
             is_block = True
-            values += 1
-            state.keys[keys] = key
-            node = nexts[node * KEY_COUNT + key]
-            place, node, keys, literals = read_formula(
-                text, nexts, state, place + 1, node, keys + 1, literals
-            )
+            place, node, keys, literals = read_calculated(text, nexts, state, place, node, keys, literals)
             if place < 0:
                 return -1, 0
+            values += state.keys[state.scan.keys] != ASSIGNED
             state.scan.keys = keys
         elif LETTER_A <= char <= LETTER_Z:
             place, key, value = read_word(text, place, state.scan.grammar, state.scan.most_digits)
@@ -170,11 +190,61 @@ def read_block(tables: Tables, state: State) -> tuple[int, int]:
 def has_formula(text: Bytes, place: int, grammar: int) -> bool:
     """Whether a word with a formula begins here; one that names a code is the interpreter's."""
     letter = int(text[place])
-    if not grammar & Grammar.FORMULAS or letter < LETTER_A or letter > LETTER_Z:
+    if letter < LETTER_A or letter > LETTER_Z:
         return False
-    if letter in (LETTER_G, LETTER_M, LETTER_N, LETTER_O):
+    if grammar & Grammar.EXPRESSIONS:
+        return begins_word(text, place)
+    if not grammar & Grammar.FORMULAS or letter in (LETTER_G, LETTER_M, LETTER_N, LETTER_O):
         return False
     return begins_formula(text, place + 1)
+
+
+def read_calculated(
+    text: Bytes, nexts: Ints32, state: State, place: int, node: int, keys: int, literals: int
+) -> tuple[int, int, int, int]:
+    """Follow a word with a formula down the shape tree; as `read_formula`. Its key is that at `scan.keys`."""
+    expressions = state.scan.grammar & Grammar.EXPRESSIONS
+    key = FIRST_FORMULA + int(text[place]) - LETTER_A
+    place += 1
+    if expressions:
+        place, key, literals = read_address(text, state, place - 1, literals)
+        if place < 0:
+            return -1, 0, 0, 0
+    state.keys[keys] = key
+    state.scan.keys = keys
+    node = nexts[node * KEY_COUNT + key]
+    if expressions:
+        return read_expression(text, nexts, state, place, node, keys + 1, literals)
+    return read_formula(text, nexts, state, place, node, keys + 1, literals)
+
+
+def begins_word(text: Bytes, place: int) -> bool:
+    """Whether a word with an expression begins here: `X=R1`, `CR=R1`, or an assignment `R1=…`."""
+    letter, behind = int(text[place]), int(text[place + 1])
+    if letter == LETTER_R and ZERO <= behind <= NINE:
+        return True
+    if letter == LETTER_C and behind == LETTER_R and text[place + 2] == EQUALS_SIGN:
+        return begins_expression(text, place + 3)
+    return behind == EQUALS_SIGN and begins_expression(text, place + 2)
+
+
+def read_address(text: Bytes, state: State, place: int, literals: int) -> tuple[int, int, int]:
+    """Place behind the `=` of a word with an expression, -1 for none; its key, and how many numbers there are then."""
+    letter = int(text[place])
+    if letter == LETTER_R and text[place + 1] != EQUALS_SIGN:
+        place, _, value = read_variable(text, place + 1)
+        while place >= 0 and text[place] in (BLANK, TAB):
+            place += 1
+        if place < 0 or text[place] != EQUALS_SIGN or literals == MOST_LITERALS:
+            return -1, 0, 0
+        state.values[MOST_WORDS + literals] = value
+        return place + 1, ASSIGNED, literals + 1
+    is_radius = letter == LETTER_C and text[place + 1] == LETTER_R
+    return (
+        place + 2 + is_radius,
+        CR_FORMULA if is_radius else FIRST_FORMULA + letter - LETTER_A,
+        literals,
+    )
 
 
 def read_word(text: Bytes, place: int, grammar: int, most_digits: int) -> tuple[int, int, float]:

@@ -16,10 +16,11 @@ from polycnc.transformation.orientation.standing import StandRecord
 
 #: Words that a block may have; numbers in their formulas, which stand behind the words' values; keys of both.
 MOST_WORDS, MOST_LITERALS, MOST_KEYS = 24, 72, 128
-#: Variables by their numbers. Vacant ones are no numbers; where no variable lies, it is infinite.
-VARIABLES = 1000
-#: Values that a formula may have at a time.
-STACK = 32
+#: Variables: those that text names by their numbers, then those that only a routine's lines name. Vacant ones are no
+#: numbers; where no variable lies, it is infinite.
+NUMBERED, VARIABLES = 1000, 4000
+#: Values that a formula may have at a time, and such that it keeps for later; variables that a line may change.
+STACK, HELD, CHANGES = 32, 8, 16
 #: Local variables of a macro, with one that there is not; numbers of loops, likewise.
 LOCALS, LOOPS = 34, 4
 #: Routines that may have called each other.
@@ -78,6 +79,8 @@ class Scan(Structure):
         grammar: What the control's text looks like, flags of `Grammar`.
         most_digits: Digits that a number may have.
         keys: Keys of the block that is being read.
+        numbered: Variables that text may name by their numbers.
+        changes: Variables that the line which is being worked out has changed.
         turned: Blocks that have stood the tool along a direction.
         feed: The channel's feed.
         tolerance: Allowed difference between the radii at an arc's start and end, mm.
@@ -115,6 +118,8 @@ class Scan(Structure):
     grammar: int
     most_digits: int
     keys: int
+    numbered: int
+    changes: int
     turned: int
     feed: float
     tolerance: float
@@ -128,7 +133,8 @@ class State(NamedTuple):
         keys: Keys of the words of the block that is being read.
         values: Values of its words, then the numbers in its formulas.
         variables: Variables that formulas read, by number.
-        stack: What is being calculated.
+        stack: What is being calculated, then what is kept for later in it.
+        changed: Places and former values of variables that the line which is being worked out has changed.
         frames: Of every call that runs, what was left (`routines.layout.Frame`).
         strokes: The strokes of a hole at the end of a block that drills (`Strokes`).
         loops: By the number of a loop the step behind the one that opened it; 0 for none.
@@ -155,6 +161,7 @@ class State(NamedTuple):
     values: Floats
     variables: Floats
     stack: Floats
+    changed: Floats
     frames: Ints
     strokes: Floats
     loops: Ints
@@ -219,7 +226,8 @@ def new_state(axes: int) -> State:
         array("q", bytes(8 * MOST_KEYS)),
         zeros(MOST_WORDS + MOST_LITERALS),
         array("d", (inf,)) * VARIABLES,
-        zeros(STACK),
+        zeros(STACK + HELD),
+        zeros(2 * CHANGES),
         array("q", bytes(8 * Frame.SIZE * MOST_FRAMES)),
         zeros(Strokes.SIZE),
         array("q", bytes(8 * LOOPS)),
@@ -347,12 +355,16 @@ HALF = 0.5 + 1e-7
 
 
 class Token(Places):
-    """What a formula in a block is written with; `VARIABLE` and `NUMBER` have a number each."""
+    """What a formula in a block is written with; `VARIABLE`, `NUMBER` and `DECIMAL` have a number each.
+
+    Where the form of a number counts, `DECIMAL` is one with a point.
+    """
 
     OPEN = place()
     CLOSE = place()
     VARIABLE = place()
     NUMBER = place()
+    DECIMAL = place()
     PLUS = place()
     MINUS = place()
     TIMES = place()
@@ -363,37 +375,78 @@ class Token(Places):
     ABS = place()
     FIX = place()
     FUP = place()
+    TAN = place()
+    ROUND = place()
+    TRUNC = place()
+    POT = place()
 
 
 class Operation(Places):
     """What is done with a stack of values, with an argument each.
 
-    The end of a block's formulas. The value becomes that of a word, or of the variable of a number of the formula;
-    where it is no condition that holds, nothing more is done. Onto the stack comes a number of the formula, or the
-    variable of such a number (while it is vacant the interpreter decides, or it is 0, or no number), or no number.
-    Functions, then operators, then comparisons.
+    The end of a block's formulas; where the value is no condition that holds, nothing more is done.
+
+    Onto the stack comes a number of the formula, or the variable of such a number (while it is vacant the interpreter
+    decides, or it is 0, or no number), or no number, the variable at a place, the argument itself, what was kept.
+
+    The value is kept for later, and stays; it becomes that of a word, of the variable of a number of the formula, of
+    the one at a place, or of an element (its index on top) of those from a place on.
+
+    Of one value: an element from a place on, by its index; the index as it is, if there are so many elements. A whole
+    number stays one (of those that are exact; of INT). Signs, truth, functions; operators between two values;
+    comparisons between two.
     """
 
     END = place()
-    STORE = place()
-    ASSIGN = place()
     UNLESS = place()
+
     NUMBER = place()
     VARIABLE = place()
     VARIABLE_OR_ZERO = place()
     VARIABLE_OR_VACANT = place()
     VACANT = place()
+    PLACE = place()
+    ARGUMENT = place()
+    HELD = place()
+
+    HOLD = place()
+    STORE = place()
+    ASSIGN = place()
+    PUT = place()
+    PUT_ELEMENT = place()
+
+    ELEMENT = place()
+    WITHIN = place()
+    EXACT = place()
+    INTEGER = place()
     NEGATIVE = place()
+    NOT = place()
+    ABS = place()
+    SQRT = place()
+    SQUARE = place()
+    ASIN = place()
+    ACOS = place()
     SIN = place()
     COS = place()
-    SQRT = place()
-    ABS = place()
+    TAN = place()
+    TRUNC = place()
+    ROUND = place()
+    CEIL = place()
     FIX = place()
     FUP = place()
+
     ADD = place()
     SUBTRACT = place()
     MULTIPLY = place()
     DIVIDE = place()
+    QUOTIENT = place()
+    REMAINDER = place()
+    ATAN2 = place()
+    LESSER = place()
+    GREATER_ONE = place()
+    AND = place()
+    OR = place()
+    NEAR = place()
     EQUAL = place()
     NOT_EQUAL = place()
     GREATER = place()
@@ -429,6 +482,8 @@ class Grammar(Places):
     DIRECTIONS = 2048
     #: `M3` is a code, else a word.
     M_CODES = 4096
+    #: `X=R1*2` and `R1=R2` are words.
+    EXPRESSIONS = 8192
 
 
 #: Keys of words: letter and form (four each), then G codes below `LAST_CODE`, M codes below `LAST_M_CODE`, letters of
@@ -442,8 +497,12 @@ FIRST_CODE = 26 * FORMS
 LAST_CODE = 1000
 FIRST_M_CODE, LAST_M_CODE = FIRST_CODE + LAST_CODE, 100
 FIRST_FORMULA = FIRST_M_CODE + LAST_M_CODE
-FIRST_TOKEN = FIRST_FORMULA + 26
-KEY_COUNT = FIRST_TOKEN + Token.SIZE
+#: `CR=` with a formula; `R1=` is a word of R with one.
+CR_FORMULA = FIRST_FORMULA + 26
+FIRST_TOKEN = CR_FORMULA + 1
+#: Begins the keys of a line that a routine knows by its number; figures follow, as tokens.
+LINE_KEY = FIRST_TOKEN + Token.SIZE
+KEY_COUNT = LINE_KEY + 1
 
 # ---- outcome of a scan --------------------------------------------------------------------------------------
 
@@ -452,7 +511,8 @@ class Outcome(Places):
     """How a scan ended.
 
     The text is at its end; no room for another row or block; the next block has a shape that is not known yet; the next
-    block is for the interpreter, or calls a program that is not known yet. Within: the scan goes on.
+    block is for the interpreter, or calls a program that is not known yet, or is a line that has not been read. Within:
+    the scan goes on.
     """
 
     AT_END = place()
@@ -460,6 +520,7 @@ class Outcome(Places):
     UNKNOWN = place()
     NOT_PLAIN = place()
     UNKNOWN_PROGRAM = place()
+    UNREAD = place()
     GOES_ON = place()
 
 

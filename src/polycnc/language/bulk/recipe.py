@@ -288,6 +288,7 @@ class Spelling:
         directions: `A3=`, `B3=` and `C3=` are words.
         blank_lines_are_blocks: A line without a block counts as one.
         formulas: `X[#1+2.]` is a word.
+        expressions: `X=R1*2` and `R1=R2` are words.
         m_codes: `M3` is a code, else a word.
     """
 
@@ -304,6 +305,7 @@ class Spelling:
     directions: bool = False
     blank_lines_are_blocks: bool = True
     formulas: bool = False
+    expressions: bool = False
     m_codes: bool = False
 
     @property
@@ -320,6 +322,7 @@ class Spelling:
             | self.hexadecimal * layout.Grammar.HEXADECIMAL
             | self.cr_radius * layout.Grammar.CR_RADIUS
             | self.formulas * layout.Grammar.FORMULAS
+            | self.expressions * layout.Grammar.EXPRESSIONS
             | self.directions * layout.Grammar.DIRECTIONS
             | self.m_codes * layout.Grammar.M_CODES
             | (not self.blank_lines_are_blocks) * layout.Grammar.BLANK_LINES_ARE_NONE

@@ -73,6 +73,12 @@ class Dialect(Protocol):
     def tolerance(self, channel: Channel) -> float:
         """Allowed difference between the radii at an arc's start and end, mm."""
 
+    def recipe_of_step(self, channel: Channel, code: Any, step: int, keys: Sequence[int]) -> Recipe | None:
+        """As `recipe`, for a block of a routine."""
+
+    def numbered(self, channel: Channel) -> int:
+        """Variables below this number may be named by their numbers in text."""
+
     def put_variables(self, channel: Channel, variables: Floats) -> None:
         """Give the kernel the variables that formulas may read, by number; not a number for a vacant one."""
 
@@ -170,7 +176,8 @@ class Scanner:
     def run(self, channel: ScannedChannel) -> int:
         """Work off plain blocks from where the channel stands; gives their number."""
         blocks, level = channel.blocks, channel.level
-        self._run_loop(channel)
+        if level.data:
+            self._run_loop(channel)
         while channel.level is level and self._is_ready(channel) and self._some(channel):
             pass
         return channel.blocks - blocks
@@ -192,13 +199,14 @@ class Scanner:
             return False
         outcome = self._scanned(channel) if channel.path.is_idle else self._staged(channel)
         if outcome == layout.Outcome.UNKNOWN:
-            kept = None if self._routines is None else self._routines.line()
-            learnt = self._learn(channel, lines[window.line] if kept is None else kept)
-            return learnt and channel.level is level
+            return self._learn(channel, lines[window.line]) and channel.level is level
         if channel.level is not level:
             return False
-        if outcome == layout.Outcome.UNKNOWN_PROGRAM and self._routines is not None:
-            return self._routines.learn_callee(channel)
+        if self._routines is not None:
+            if outcome == layout.Outcome.UNREAD:
+                return self._routines.read_lines(channel)
+            if outcome == layout.Outcome.UNKNOWN_PROGRAM:
+                return self._routines.learn_callee(channel)
         room = len(channel.toolpath.chunk) < CHUNK_ROWS and channel.blocks < channel.block_limit
         return outcome == layout.Outcome.AT_END or (outcome == layout.Outcome.FULL and room)
 
@@ -212,7 +220,7 @@ class Scanner:
         if taken:
             self._take_rows(channel)
             self._go_on(channel, taken)
-            if self._routines is not None and self._has_routines:
+            if self._routines is not None and (self._has_routines or self._shapes.assigns):
                 self._routines.take(channel)
         return outcome
 
@@ -296,9 +304,15 @@ class Scanner:
         level.current = level.index - 1
 
     def _learn(self, channel: Channel, line: str) -> bool:
-        """Ask the control for the rule of a new shape; true if it has one."""
-        keys = tuple(self._state.keys[: self._state.scan.keys])
-        return self._shapes.learn(self._state.scan.root, keys, self._dialect.recipe(channel, keys, line))
+        """Ask the control for the rule of a new shape, that of a line in the text; true if it has one."""
+        keys, dialect = tuple(self._state.keys[: self._state.scan.keys]), self._dialect
+        kept = None if self._routines is None else self._routines.place()
+        read = (
+            dialect.recipe(channel, keys, line)
+            if kept is None
+            else dialect.recipe_of_step(channel, *kept, keys)
+        )
+        return self._shapes.learn(self._state.scan.root, keys, read)
 
     # ---- loops ---------------------------------------------------------------------------------------------
 
@@ -317,8 +331,7 @@ class Scanner:
     def _run_loop(self, channel: ScannedChannel) -> None:
         """Work off the loop that the channel is in, if it is in one, from the next block on."""
         while (
-            channel.level.data
-            and self._is_ready(channel)
+            self._is_ready(channel)
             and not self._guard.is_needed(channel)
             and channel.path.is_idle
             and self._turned(channel)
@@ -344,13 +357,16 @@ class Scanner:
             self._take_state(channel)
             routines.take(channel)
         if outcome == layout.Outcome.UNKNOWN:
-            learnt = self._learn(channel, routines.line() or "")
+            learnt = self._learn(channel, "")
+        elif outcome == layout.Outcome.UNREAD:
+            learnt = routines.read_lines(channel)
         elif outcome == layout.Outcome.UNKNOWN_PROGRAM:
             learnt = channel.level is level and routines.learn_callee(channel)
         else:
             learnt = outcome == layout.Outcome.FULL and at.blocks > 0
+        # Where the scan has ended within a program that it has called, it goes on there.
         room = len(channel.toolpath.chunk) < CHUNK_ROWS and channel.blocks < channel.block_limit
-        return learnt and room and channel.level is level
+        return learnt and room
 
     @staticmethod
     def _blocks_at_once(channel: ScannedChannel) -> int:
@@ -393,6 +409,7 @@ class Scanner:
             self._routines.begin()
         limits = () if self._guard.is_needed(channel) else dialect.limits(channel)
         at.limited = bool(limits)
+        at.numbered = dialect.numbered(channel)
         at.grammar, at.most_digits = spelling.flags, spelling.max_digits
         at.feed, at.tolerance = channel.feed, dialect.tolerance(channel)
         at.turned, state.tool[0] = 0, -1.0

@@ -29,6 +29,7 @@ class Shapes:
         formulas: What rules calculate; the first one is none.
         states: Modal states by the number of their root.
         notes: By the number of a rule, the steps that its blocks leave to the interpreter.
+        assigns: Whether blocks of any rule give a variable a value.
     """
 
     def __init__(self) -> None:
@@ -39,6 +40,7 @@ class Shapes:
         self.formulas = array("i", (layout.Operation.END, 0))
         self.states: dict[int, Hashable] = {}
         self.notes: dict[int, tuple[tuple[Step, Note], ...]] = {}
+        self.assigns = False
         self._roots: dict[Hashable, int] = {}
 
     def root(self, state: Hashable) -> int:
@@ -76,6 +78,7 @@ class Shapes:
         _put_notes(rule, factors, recipe.notes)
         if recipe.formulas:
             rule[layout.Rule.FORMULAS] = self.add_formulas(recipe.formulas)
+            self.assigns = self.assigns or layout.Operation.ASSIGN in recipe.formulas[::2]
         if isinstance(recipe.motion, Straight):
             _put_straight(rule, recipe.motion)
         elif isinstance(recipe.motion, Arc):

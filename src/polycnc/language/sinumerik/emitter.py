@@ -93,6 +93,7 @@ class Emitter:
         uses_clock: A block reads or writes what only a program has that is executed in time.
         numbers: Numbers of the block that the code has as parameters.
         objects: Objects that the code uses.
+        positions: Where the numbers of R parameters begin in the line, by the places of theirs among the objects.
         branch: How the block goes on, if it belongs to a control structure.
         execution: The words that one of the statements hands to the control.
         knows_place: The code holds step numbers or columns: it is good for this block only.
@@ -108,6 +109,7 @@ class Emitter:
         self.statements: list[Code] = []
         self.numbers: list[Number] = []
         self.objects: list[object] = []
+        self.positions: dict[int, int] = {}
         self.uses_locals = False
         self.uses_main = False
         self.uses_stop = self.uses_clock = False
@@ -149,6 +151,12 @@ class Emitter:
         self.objects.append(value)
         return Lifted("o", len(self.objects) - 1)
 
+    def parameter(self, number: int, token: Token) -> Lifted:
+        """The number of an R parameter as an object of its own: each that is written may be another one."""
+        self.objects.append(number)
+        self.positions[len(self.objects) - 1] = token.start
+        return Lifted("o", len(self.objects) - 1)
+
     def local(self) -> Code:
         """The list of local variables."""
         self.uses_locals = True
@@ -170,12 +178,18 @@ class Emitter:
         return not self.statements and self.branch is None and not self.uses_stop
 
     @property
+    def executes(self) -> Execution | None:
+        """The words, if all that the block does is to hand them to the control."""
+        alone = len(self.statements) == 1 and self.branch is None and not (self.uses_stop or self.uses_main)
+        return self.execution if alone else None
+
+    @property
     def plain(self) -> Block | None:
         """The block, if all that it does is to hand its own numbers to the control in their order."""
-        execution = self.execution
-        if execution is None or len(self.statements) != 1 or self.branch is not None or self.uses_stop:
+        execution = self.executes
+        if execution is None:
             return None
-        places = [_own_number(value) for value in execution.values]
+        places = [own_number(value) for value in execution.values]
         return execution.block if places == list(range(len(places))) else None
 
     def twice(self, code: Code) -> tuple[Code, Code]:
@@ -222,7 +236,7 @@ class Emitter:
         return template.function((*(number.value for number in self.numbers), *self.objects))
 
 
-def _own_number(code: Code) -> int:
+def own_number(code: Code) -> int:
     """Which of the block's numbers a value is, with or without a sign and as REAL or not; -1 for another value."""
     if code.kind is ast.Call and code[1] == name("float"):
         arguments = code[2]

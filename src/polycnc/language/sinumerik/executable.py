@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from polycnc.channel.states.unchanging import unchanging
 from polycnc.channel.steps import forget_steps, kept_steps
 from polycnc.deferred.regexes import regex
+from polycnc.language.expressions.hot_loop import HotLoop
 from polycnc.language.expressions.joined import led_by
 from polycnc.language.sinumerik import iso_dialect
 from polycnc.language.sinumerik.blocks import CompiledBlock, compile_block, compile_text, expanded
@@ -155,6 +156,20 @@ class SinumerikProgram:
         columns = compile_block(self, index, channel, text).columns
         return columns[position] if position < len(columns) else 0
 
+    def is_reached(self, index: int) -> bool:
+        """Whether a block has been run."""
+        return bool(self._reached[index])
+
+    def is_definition(self, index: int) -> bool:
+        """Whether a block defines variables (DEF)."""
+        line = self.text(index)
+        end = prefix_of(line).end
+        return line[end:].lstrip().upper().startswith("DEF ") and not self._iso
+
+    def is_repeatable(self, index: int) -> bool:
+        """Whether a block can be compiled again by itself: it defines nothing, and is of the language."""
+        return not (self._iso or self._defines(self.text(index)) or "291" in self.text(index))
+
     def forget_steps(self) -> None:
         """Compile every block anew: names may mean other programs now."""
         forget_steps(self.steps)
@@ -166,6 +181,8 @@ class SinumerikProgram:
     def forget_shapes(self) -> None:
         """A macro has been defined: equal texts may mean other blocks now."""
         self._shapes = Shapes()
+        if self._scope is not None:
+            self._scope.memory.programs.generation += 1
 
     def _first_reach(self, channel: Channel) -> None:
         index = channel.level.current
@@ -175,7 +192,8 @@ class SinumerikProgram:
             fail(error, channel)
         if self._reached[index] and step is not _skipped:
             self._singles[index] = step
-            self.steps[index] = self._joined(index, channel) or step
+            joined = self._joined(index, channel) or step
+            self.steps[index] = joined if channel.bulk is None else HotLoop(joined, step)
         self._reached[index] = 1
         step(channel)
 
@@ -333,20 +351,24 @@ class SinumerikProgram:
         return self._header
 
     def _read_header(self, scope: Scope, channel: Channel) -> Header:
-        for index in range(min(len(self), 1)):
-            line = self.text(index)
-            end = prefix_of(line).end
-            if line[end : end + 5].strip().upper().startswith("PROC"):
-                try:
-                    return read_header(
-                        ExpressionReader(tokenize(line, end), scope, Emitter(scope.control.shapes)), channel
-                    )
-                except AlarmError as error:
-                    # It is read where the program is called: the mistake is not in the block that calls.
-                    error.line = error.line or self.line(index)
-                    error.program = channel.toolpath.program_number(self.program.name)
-                    raise
-        return NO_HEADER
+        if not self.begins_with_header:
+            return NO_HEADER
+        line = self.text(0)
+        tokens = tokenize(line, prefix_of(line).end)
+        try:
+            return read_header(ExpressionReader(tokens, scope, Emitter(scope.control.shapes)), channel)
+        except AlarmError as error:
+            # It is read where the program is called: the mistake is not in the block that calls.
+            error.line = error.line or self.line(0)
+            error.program = channel.toolpath.program_number(self.program.name)
+            raise
+
+    @property
+    def begins_with_header(self) -> bool:
+        """Whether the first block is a PROC line."""
+        line = self.text(0) if len(self) else ""
+        end = prefix_of(line).end
+        return line[end : end + 5].strip().upper().startswith("PROC")
 
     def is_first_statement(self, index: int) -> bool:
         """Whether a step is the first block of the program."""

@@ -161,9 +161,14 @@ NO_AXIS = Axis("")
 
 @unchanging
 class CompiledPrograms:
-    """The programs of a channel that have resolved names. Snapshots leave them as they are, and so their list too."""
+    """The programs of a channel that have resolved names. Snapshots leave them as they are, and so their list too.
+
+    Attributes:
+        generation: Grows whenever a text may mean something else than before, in any of them.
+    """
 
     def __init__(self) -> None:
+        self.generation = 0
         self._programs: list[SinumerikProgram] = []
 
     def add(self, program: SinumerikProgram) -> None:

@@ -12,8 +12,9 @@ from polycnc.channel.steps import kept_steps, several
 from polycnc.deferred.records import dataclass
 from polycnc.deferred.regexes import regex
 from polycnc.language.expressions.code import listed
+from polycnc.language.expressions.hot_loop import HotLoop
 from polycnc.language.expressions.joined import MAX_JOINED, led_by
-from polycnc.language.word_address.joining import JOINABLE, HotLoop, join, join_loop
+from polycnc.language.word_address.joining import JOINABLE, join, join_loop
 from polycnc.language.word_address.macro_b import Lifting, Reader, macro_shapes
 from polycnc.language.word_address.patterns import Patterns, Spot, negative
 from polycnc.language.word_address.statements import KEYWORD, Assignment, LoopEnd, parse_statement

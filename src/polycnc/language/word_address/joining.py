@@ -40,14 +40,11 @@ from polycnc.language.word_address.statements import Assignment, ConditionalJump
 from polycnc.language.word_address.words import ExpressionBlock, WordBlock
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.channel.steps import Step
     from polycnc.language.expressions.code import Body, Code
     from polycnc.language.expressions.shapes import Shapes
     from polycnc.language.word_address.macro_b import Lifting
 
-#: Blocks that make a try of the scanner worth its while.
-WORTHWHILE = 16
 JOINABLE = (Assignment, ConditionalJump, WordBlock, ExpressionBlock)
 
 
@@ -144,38 +141,6 @@ def join_loop(shapes: Shapes, steps: list[tuple[int, Step]], end: int, loop_end:
         added(BLOCKS, -1),
     )
     return stretch.function(shapes, body, steps[0][1])
-
-
-class HotLoop:
-    """A loop of joined steps; once it has run for long the scanner runs it, as far as it can.
-
-    Args:
-        joined: The joined steps.
-        alone: The first one of them: single block operation runs that alone.
-    """
-
-    __slots__ = ("_done", "_joined", "_next_try", "_patience", "alone")
-
-    def __init__(self, joined: Step, alone: Step) -> None:
-        self._joined = joined
-        self.alone = alone
-        self._done = self._next_try = 0
-        self._patience = 1
-
-    def __call__(self, channel: Channel) -> None:
-        """Run passes of the loop."""
-        begin = channel.blocks
-        if channel.bulk is not None and self._done >= self._next_try and channel.bulk.pays(self._done):
-            scanner = channel.scanner()
-            taken = 0 if scanner is None else scanner.turn(channel)
-            self._patience = 1 if taken >= WORTHWHILE else 2 * self._patience
-            self._next_try = self._done + self._patience
-            if taken:
-                channel.blocks -= 1  # whoever runs a step counts it
-                channel.attention = True
-                return
-        self._joined(channel)
-        self._done += channel.blocks - begin + 1
 
 
 def _any(*conditions: Code) -> Code:

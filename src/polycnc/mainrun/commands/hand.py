@@ -51,6 +51,7 @@ class HandCommands:
         self._status = operation.status
         self._permission = permission
         self._signals = operation.signals
+        self._prepare = operation.prepare
 
     def jog(self, axis: str, direction: int, *, rapid: bool, channel: int) -> None:
         """Press a jog key."""
@@ -112,10 +113,11 @@ class HandCommands:
         """Shift an axis beside the program that runs, or may run (DRF)."""
         self._permission.ask(Command.HANDWHEEL_OFFSET)
         run, i = self._axis(axis, number)
+        self._ask_test()
         self._permission.ask_machine(*_move_words(run, i))
-        speed = run.channel.control.handwheel_offset_speed(run.channel, i)
+        speed, pull = run.channel.control.handwheel_offset(run.channel, i)
         shift = way / run.display.machine_factor(i, run.execution.context)
-        run.interpolator.shift_by_hand(i, shift, speed)
+        run.interpolator.shift_by_hand(i, shift, speed, pull)
 
     def home(self, axis: str | None, *, channel: int) -> None:
         """Approach the first reference point; with all axes of the channel where none is named."""
@@ -133,6 +135,23 @@ class HandCommands:
             )  # a reference point beyond the software limits is reached all the same
             speed = partial(self._switches.rapid_speed, data)
             run.axes[i].hand.towards(data.reference_points[0], speed, self._clock.time)
+
+    def preset(self, axis: str, shown: float, *, channel: int) -> None:
+        """Call the place where an axis stands another one, as the machine display counts (SINUMERIK's PRESET)."""
+        self._permission.ask(Command.PRESET)
+        run, i = self._axis(axis, channel)
+        if not run.channel.control.presets_by_hand:
+            raise CommandRefused("mainrun.no-preset")
+        if not abs(shown) <= ENDLESS:
+            raise CommandRefused("mainrun.value", name="value", allowed=f"±{ENDLESS:g}", value=shown)
+        if self._runs.move or self._runs.move_by_hand:
+            raise CommandRefused("mainrun.moving")
+        context, place = run.execution.context, run.machine_position
+        if context.transformation is not None:
+            raise CommandRefused("mainrun.preset-transformed", axis=axis.upper())
+        place[i] = shown / run.display.machine_factor(i, context)
+        run.stand_at(place)
+        self._prepare(run)
 
     def _shift(self, run: ChannelRun, axis: int, shown: float, *, rapid: bool) -> None:
         self._permission.ask_machine(*_move_words(run, axis))
@@ -238,12 +257,18 @@ class HandCommands:
         """Machine position from which axes of a channel are moved by hand."""
         if self._runs.move:
             raise CommandRefused("mainrun.moving")
+        self._ask_test()
         run.take_in_hand(run.machine_position)
         for column, axis in enumerate(run.axes):
             axis.hand.bound(*run.channel.control.hand_range(run.channel, column))
         if run.axes.led is not None and not run.axes.led.turns:
             run.axes.settle()
         return run.machine_position
+
+    def _ask_test(self) -> None:
+        """While a program is tested the axes stand, and what the displays show of them is the test's."""
+        if self._switches.tests:
+            raise CommandRefused("mainrun.tested")
 
     def _axis(self, name: str, channel: int) -> tuple[ChannelRun, int]:
         run = self._runs.named(channel)

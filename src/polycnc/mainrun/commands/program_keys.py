@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.mainrun.commands.search import ProgramTest, SearchMode, at_line, search
+from polycnc.mainrun.commands.search import ProgramTest, SearchMode, Wanted, at_line, search
 from polycnc.mainrun.commands.states import Command, Mode, State
 from polycnc.mainrun.errors import CommandRefused
 from polycnc.mainrun.execution.operation import AT_END
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from polycnc.mainrun.commands.permission import Permission
     from polycnc.mainrun.commands.programs import Programs
     from polycnc.mainrun.execution.operation import Operation
+    from polycnc.mainrun.preparation.items import Places
     from polycnc.program import Program
 
 
@@ -77,45 +78,59 @@ class ProgramCommands:
         self._programs.insert(block, line, channel)
         return block
 
-    def block_search(self, target: int | str, channel: int, how: SearchMode) -> None:
+    def block_search(self, target: int | str | Places, channel: int, how: SearchMode) -> None:
         """Search a block: with calculation, up to its beginning or its end, or without."""
         self._permission.ask(Command.BLOCK_SEARCH)
         operation = self._operation
         if operation.runs.move_by_hand:
             raise CommandRefused("mainrun.moving")
         run = operation.runs.named(channel)
-        program, line = self._programs.main(channel), self._programs.line_of(target, channel)
+        program = self._programs.main(channel)
+        wanted, named = self._wanted(target, channel)
+        line = wanted.levels[0][1]
         here = run.machine_position
         operation.program_mode = Mode.AUTO
         if how is SearchMode.TEST:
-            self._test(ProgramTest(channel, program.name, line, tuple(here), target), program)
+            self._test(ProgramTest(channel, wanted, tuple(here), named), program)
             return
         operation.prepare(run)
         run.machinery.reset()
         operation.mains = {channel}
         if how is SearchMode.WITHOUT:
-            if not 0 <= line - program.first_line < len(program.lines):
-                raise CommandRefused("mainrun.search", target=target)
+            if wanted.levels[1:] or not 0 <= line - program.first_line < len(program.lines):
+                raise CommandRefused("mainrun.search", target=named)
             run.preprocessing.start(program, here, at_line(line))
             operation.collected, operation.searched = {}, True
             self._status.become(State.STOPPED, halt="search")
             return
         run.preprocessing.start(program, here)
         run.channel.is_searched = True
-        found = search(run.preprocessing, program.name, line, behind=how is SearchMode.END_POINT)
+        found = search(run.preprocessing, wanted, behind=how is SearchMode.END_POINT)
         run.channel.is_searched = False
         if found is None:
             operation.give_up()
-            raise CommandRefused("mainrun.search", target=target)
+            raise CommandRefused("mainrun.search", target=named)
         run.execution.stand_before(found.position, found.context, found.modal)
         run.take_in_hand(here)
         operation.collected, operation.searched = {channel: found.functions}, True
         self._status.become(State.STOPPED, halt="search")
 
+    def _wanted(self, target: int | str | Places, channel: int) -> tuple[Wanted, int | str]:
+        """The block that is looked for, and what it is called."""
+        if not isinstance(target, int | str):
+            try:
+                levels = tuple((str(name), int(line)) for name, line in target)
+                return Wanted(levels), levels[-1][1]
+            except (TypeError, ValueError, IndexError):
+                raise CommandRefused("mainrun.search", target=target) from None
+        place = self._programs.main(channel).name, self._programs.line_of(target, channel)
+        return Wanted((place,)), target
+
     def _test(self, test: ProgramTest, program: Program) -> None:
         """Run a program to a block while the axes stand."""
-        if not 0 <= test.line - program.first_line < len(program.lines):
-            raise CommandRefused("mainrun.search", target=test.line)
+        line = test.wanted.levels[0][1]
+        if not 0 <= line - program.first_line < len(program.lines):
+            raise CommandRefused("mainrun.search", target=line)
         operation = self._operation
         operation.mains = {test.channel}
         operation.begin_test(test).preprocessing.start(program, list(test.here))

@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING
 from polycnc.deferred.records import dataclass
 from polycnc.mainrun.preparation.items import Block, Happening, Move
 from polycnc.toolpath import Context
-from polycnc.toolpath.events import Auxiliary, Raised, SignalWrite, SpindleSpeed, ToolSelection
+from polycnc.toolpath.events import Auxiliary, Raised, Shown, SignalWrite, SpindleSpeed, ToolSelection
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from polycnc.channel.channel import Channel
+    from polycnc.mainrun.preparation.items import Places
     from polycnc.mainrun.preparation.preprocessing import Preprocessing
 
 #: M functions of which the last one before the block is put out, by what they switch. Others belong to their block.
@@ -56,28 +57,37 @@ class SearchMode(StrEnum):
     """With program test (SINUMERIK's SERUPRO): the program runs, with its actions and waits, while the axes stand."""
 
 
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """The block that is looked for: of the main program, or of a subprogram with the blocks that call it."""
+
+    levels: Places
+
+    def is_met_by(self, block: Block) -> bool:
+        """Whether it is this one, or one of the subprogram that it calls."""
+        return block.levels[: len(self.levels)] == self.levels
+
+
 @dataclass(slots=True)
 class ProgramTest:
     """A search that runs the program.
 
     Attributes:
         channel: Number of the channel.
-        program: Name of the program of the block.
-        line: Line of the block in its file.
+        wanted: Where the block is.
         here: Where the axes stand, machine position.
         target: The block as it was named.
     """
 
     channel: int
-    program: str
-    line: int
+    wanted: Wanted
     here: tuple[float, ...]
     target: int | str
     _functions: dict[object, Happening] = field(default_factory=dict)
 
     def is_at(self, number: int, block: Block) -> bool:
         """Whether the block of a channel is the one that is looked for."""
-        return (number, block.program, block.line) == (self.channel, self.program, self.line)
+        return number == self.channel and self.wanted.is_met_by(block)
 
     def keeps(self, happening: Happening) -> None:
         """What the program switches on the machine is kept, and put out later."""
@@ -102,7 +112,7 @@ def at_line(line: int) -> Callable[[Channel], None]:
     return enter
 
 
-def search(preprocessing: Preprocessing, program: str, line: int, *, behind: bool = False) -> Found | None:
+def search(preprocessing: Preprocessing, wanted: Wanted, *, behind: bool = False) -> Found | None:
     """Go on in what is prepared to a block; it is then the next item. None where the program ends before it.
 
     With `behind` the block is calculated too, and what comes next is the next item.
@@ -125,8 +135,8 @@ def search(preprocessing: Preprocessing, program: str, line: int, *, behind: boo
             continue
         item = preprocessing.items[0]
         if isinstance(item, Block):
-            is_wanted = (item.program, item.line) == (program, line)
-            if reached if behind else is_wanted:
+            is_wanted = wanted.is_met_by(item)
+            if (reached and not is_wanted) if behind else is_wanted:
                 return _at(found, functions)
             reached = reached or is_wanted
             found.modal = item.modal
@@ -139,7 +149,7 @@ def search(preprocessing: Preprocessing, program: str, line: int, *, behind: boo
         preprocessing.items.popleft()
         if isinstance(item, Happening):
             found.context = item.context
-            if isinstance(item.event, Raised):
+            if isinstance(item.event, Raised) and not isinstance(item.event, Shown):
                 return None
             _keep(functions, item)
     return None

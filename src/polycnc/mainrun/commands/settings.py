@@ -95,5 +95,6 @@ class Switches:
         channel.setup = replace(channel.setup, switches=switches)
         channel.skip_levels = switches.block_skip_mask(plain=1)
         channel.is_tested = self.tests == channel.number
+        channel.control.expect_handwheel(channel, is_on=panel.drf)
         # Whether to halt is decided when the block is executed, not when it is prepared.
         channel.single_block = channel.block_by_block = channel.optional_stop = True

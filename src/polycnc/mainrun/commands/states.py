@@ -54,6 +54,7 @@ class Command(StrEnum):
     HANDLE = "handle"
     HANDWHEEL_OFFSET = "handwheel_offset"
     HOME = "home"
+    PRESET = "preset"
     TEACH = "teach"
     SELECT_MODE = "select_mode"
     BLOCK_SEARCH = "block_search"
@@ -76,6 +77,7 @@ ALLOWED: dict[Command, tuple[frozenset[Mode], frozenset[State]]] = {
     Command.HANDLE: (frozenset((Mode.HANDLE, Mode.TEACH)), AT_REST),
     Command.HANDWHEEL_OFFSET: (PROGRAM_MODES, frozenset((*AT_REST, State.RUNNING))),
     Command.HOME: (frozenset((Mode.REFERENCE,)), AT_REST),
+    Command.PRESET: (frozenset((Mode.JOG,)), frozenset((State.READY,))),
     Command.TEACH: (frozenset((Mode.TEACH,)), frozenset((State.READY,))),
     Command.SELECT_MODE: (EVERY_MODE, frozenset((*AT_REST, State.RUNNING, State.ALARM))),
     Command.BLOCK_SEARCH: (frozenset((Mode.AUTO,)), frozenset((State.READY,))),

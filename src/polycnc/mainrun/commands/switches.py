@@ -86,7 +86,8 @@ class SwitchCommands:
     def _shifts_by_handwheel(self) -> bool:
         """Whether the control lets a handwheel shift axes beside a program."""
         channel = self._operation.runs.first.channel
-        return bool(channel.control.handwheel_offset_speed(channel, 0))
+        speed, _ = channel.control.handwheel_offset(channel, 0)
+        return bool(speed)
 
     def _lock(self) -> None:
         """Locked axes stand while the display runs on; when a lock ends, the display shows the axes again."""

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from polycnc.mainrun.axes.machine_axes import MachineAxes
     from polycnc.mainrun.execution.execution import Execution
     from polycnc.mainrun.execution.machinery import Machinery
-    from polycnc.mainrun.preparation.items import Block, Rates
+    from polycnc.mainrun.preparation.items import Block, Places, Rates
     from polycnc.mainrun.preparation.preprocessing import Preprocessing
     from polycnc.mainrun.reading.display import MainRunDisplay
 
@@ -42,8 +42,8 @@ class ChannelRun:
         axes: Its axes, with what moves them beside the path.
         rates: What the operator has set.
         machine_axes: All axes of the machine.
-        reached: The line in execution, or last in it, of every program; while no block search may enter a section, that
-            in which the section begins (SINUMERIK IPTRLOCK, job planning 8.5).
+        reached: The block in execution, or last in it, of every main program: program and line of each level; while no
+            block search may enter a section, that in which the section begins (SINUMERIK IPTRLOCK, job planning 8.5).
         parts: How often a program that an operator has started has come to its end.
         interpolator: The channel as its synchronised actions see it.
     """
@@ -56,7 +56,7 @@ class ChannelRun:
     axes: ChannelAxes
     rates: Rates
     machine_axes: MachineAxes
-    reached: dict[str, int] = field(default_factory=dict)
+    reached: dict[str, Places] = field(default_factory=dict)
     parts: int = 0
     interpolator: ChannelInterpolator = field(init=False)
 
@@ -266,7 +266,8 @@ class ChannelRun:
     def reach(self, block: Block | None) -> None:
         """A block is in execution: a search for the point of interruption goes there."""
         if block is not None and not self.execution.context.search_lock:
-            self.reached[block.program] = block.line
+            levels = block.levels
+            self.reached[levels[0][0]] = levels
 
     def show_own_state(self) -> None:
         """Between programs the displays show the channel's own state."""

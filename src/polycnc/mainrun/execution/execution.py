@@ -63,6 +63,7 @@ class Execution:
         attention: Somebody else has to act on what has just happened.
         single_block: Halt behind every block.
         block: The block in execution.
+        stands_for: What the axes have stood for last, as `Standing.why`.
         context: What holds in it.
         axes: The axes, with what moves them beside the path.
         position: Where on the path the axes last were at a joint, and `place` what held there.
@@ -96,7 +97,7 @@ class Execution:
         self.position = list(position)
         self._machinery = machinery
         self._x2, self._cap2 = 0.0, inf
-        self._until, self._dwell_signal = 0.0, ""
+        self._until, self._dwell_signal, self.stands_for = 0.0, "", ""
         self._gated = self._waiting = self._blocked = self._moved_on = False
         self._by_hand: tuple[float, ...] = ()
         self._skip_after_s, self._skips_at = skip_after_s, inf
@@ -382,7 +383,7 @@ class Execution:
             self.context = item.context
             self.rates.enter(item.context)
             self._until = self.clock.time + item.wait_s(self.clock.time)
-            self._dwell_signal = item.context.dwell_signal
+            self._dwell_signal, self.stands_for = item.context.dwell_signal, item.why
         else:
             self.context = item.context
             self._machinery.perform(item)
@@ -426,7 +427,7 @@ class Execution:
         piece, record = preprocessing.queue.pop_piece()
         self._cap2, self.context, self.place = cap2, piece.context, piece.context
         if self.block is not None and (self.block.program, self.block.line) != (piece.program, piece.line):
-            self._enter(Block(piece.program, piece.line, self.modal))
+            self._enter(self.block.followed_by(piece.program, piece.line, self.modal))
         if piece.kind == Kind.SKIP and piece.first == 0.0 and self._skip_after_s is not None:
             self._skips_at = self.clock.time + self._skip_after_s
         if self._x2 == 0.0 and self.clock.time < self._rest_time:

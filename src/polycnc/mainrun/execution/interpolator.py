@@ -451,13 +451,13 @@ class ChannelInterpolator:
         found.go(value, speed, self._clock.time, pull)
         self._narrow_travel()
 
-    def shift_by_hand(self, column: int, way: float, speed: float) -> None:
+    def shift_by_hand(self, column: int, way: float, speed: float, pull: float) -> None:
         """The handwheel shifts an axis by a way more, from where it is no further than its travel allows."""
         found, axis = self._overlays.get((HANDWHEEL_OFFSET, column)), self._run.axes[column]
         before, now = (found.target, found.at(self._clock.time)) if found is not None else (0.0, 0.0)
         bare = axis.setpoint(self._clock.time) - now
         low, high = min(axis.data.limit_minus - bare, before), max(axis.data.limit_plus - bare, before)
-        self.overlay(HANDWHEEL_OFFSET, column, min(max(before + way, low), high), speed)
+        self.overlay(HANDWHEEL_OFFSET, column, min(max(before + way, low), high), speed, pull)
 
     def _narrow_travel(self) -> None:
         """Rows that are prepared from now on leave room for the shifts of the axes."""

@@ -15,6 +15,7 @@ from polycnc.toolpath.events import (
     Message,
     Print,
     Raised,
+    Shown,
     SignalWrite,
     Stop,
     StoredWrite,
@@ -52,6 +53,9 @@ class Observer(Protocol):
 
     def says(self, message: str) -> None:
         """The program has a text for the operator."""
+
+    def shows_alarms(self, number: int) -> None:
+        """The program has an alarm for the operator, and goes on."""
 
     def stops(self, number: int, code: str) -> None:
         """A programmed stop by its code, or `alarm`."""
@@ -168,9 +172,16 @@ class Machinery:
             event.store()
         elif isinstance(event, SignalWrite) and self.keeps is None:
             self._signals[event.name] = event.value
-        elif isinstance(event, Message | Print):
+        else:
+            self._tell(event)
+
+    def _tell(self, event: Event) -> None:
+        """What the operator is told of, and what stops."""
+        if isinstance(event, Message | Print):
             self.messages.append(event.text)
             self._observer.says(event.text)
+        elif isinstance(event, Shown):
+            self._observer.shows_alarms(self._number)
         elif isinstance(event, Raised):
             self._observer.stops(self._number, "alarm")
         elif isinstance(event, Stop) and (event.code not in OPTIONAL_STOPS or self.optional_stop):

@@ -291,15 +291,15 @@ class Operation:
                 self.runs.switch_on_again(run)
             run.stand_at(position)
             self.prepare(run)
-        if test is not None and missed:
+        if test is not None and missed and not self.status.is_locked:
             refusal = CommandRefused("mainrun.search", target=test.target)
             self.runs[test.channel].machinery.messages.append(str(refusal))
         self.starts_up = False
-        self._retained.commit()
         if not self.status.is_locked:
             self.status.show_alarms(())
             self.status.become(State.READY)
             self.interlocks.look()
+        self._retained.commit()  # which may fail: the state is right all the same
 
     def _stand(self) -> None:
         """No program runs: axes that were moved by hand are where one would begin."""
@@ -385,10 +385,14 @@ class Operation:
         """A text for the operator."""
         self.status.keep_message(message)
 
+    def shows_alarms(self, number: int) -> None:
+        """The alarms of a channel are shown."""
+        self.status.show_alarms(tuple(self.runs[number].channel.alarms))
+
     def stops(self, number: int, code: str) -> None:
         """A programmed stop, or `alarm`."""
         if code == "alarm":
-            self.status.show_alarms(tuple(self.runs[number].channel.alarms))
+            self.shows_alarms(number)
         self.runs[number].execution.stop(code)
 
     def halted(self, number: int, reason: str) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import inf
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from polycnc.channel.interpolator import Influence
 from polycnc.channel.intervention import NOTHING_BACK
@@ -20,6 +20,9 @@ if TYPE_CHECKING:
     from polycnc.toolpath import Context, Event
     from polycnc.toolpath.motion_settings import DryRun
 
+#: Programs with a line of each.
+Places: TypeAlias = tuple[tuple[str, int], ...]
+
 
 @dataclass(frozen=True, slots=True)
 class Block:
@@ -31,6 +34,7 @@ class Block:
         modal: Active code of every modal group behind it.
         takes_back: What it takes back of a manual intervention.
         is_silent: It does nothing on the machine, but for beginning and ending synchronised actions.
+        callers: Program and line of the blocks that have called its program, from the main program on.
     """
 
     program: str
@@ -38,6 +42,18 @@ class Block:
     modal: Mapping[str, str]
     takes_back: TakesBack = NOTHING_BACK
     is_silent: bool = False
+    callers: Places = ()
+
+    @property
+    def levels(self) -> Places:
+        """Where it stands, from the main program on."""
+        here = (self.program, self.line)
+        return self.callers if self.callers[-1:] == (here,) else (*self.callers, here)
+
+    def followed_by(self, program: str, line: int, modal: Mapping[str, str]) -> Block:
+        """A block of which rows come alone: of the same program, or of one of those that have called it."""
+        at = next((i for i, (name, _) in enumerate(self.levels) if name == program), 0)
+        return Block(program, line, modal, callers=self.levels[:at])
 
 
 @dataclass(frozen=True, slots=True)

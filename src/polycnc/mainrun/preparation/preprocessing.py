@@ -9,7 +9,7 @@ from __future__ import annotations
 from array import array
 from collections import deque
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.intervention import NOTHING_BACK, MovedByHand
 from polycnc.channel.stack import LevelKind
@@ -56,6 +56,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
     from polycnc.channel.channel import Channel
+    from polycnc.channel.stack import Level
     from polycnc.machine.model import Machine
     from polycnc.mainrun.axes.machine_axes import MachineAxes
     from polycnc.messages import AlarmError
@@ -295,6 +296,10 @@ class Preprocessing:
         if self._cut >= 0:
             self.toolpath.set_end(self._cut, self.channel.coordinates.position)
             self._cut = -1
+        coordinates = self.channel.coordinates
+        programmed = self.channel.path.programmed(coordinates.position)
+        if programmed != coordinates.position:
+            coordinates.arrive(programmed)
         self.channel.moved_by_hand = MovedByHand(tuple(real), tuple(by_hand)) if by_hand else None
 
     def stand_at(self, position: Sequence[float]) -> None:
@@ -303,7 +308,7 @@ class Preprocessing:
 
     def _step(self) -> None:
         """Run the channel to its next wait."""
-        channel = self.channel
+        channel, is_next = self.channel, self.stop_behind_next
         wait = next(self._run, None) if self._run is not None else None
         level = channel.stack[-1] if channel.stack else None
         if level is not None and (len(channel.toolpath.chunk) or (wait and wait.reason in BEHIND_A_BLOCK)):
@@ -311,13 +316,18 @@ class Preprocessing:
             line, code = level.line_of(level.current), wait.code if halts and wait is not None else ""
             key = level.program_number, line
             self._blocks.note(
-                key, code or (str(line) if halts else ""), channel.mode.codes, channel.takes_back
-            )
+                key, code or (str(line) if halts else ""), channel.mode.codes, channel.takes_back,
+                _callers(channel.stack),
+            )  # fmt: skip
             channel.takes_back = NOTHING_BACK
         self._stopped = self._rows.skips = self.has_caught_up = False
-        if self.stop_behind_next:
+        if (
+            is_next
+        ):  # not behind the block that asks for it: what stages hold there belongs to blocks in front
             channel.flush()
-        acts = acts_on_machine(self.toolpath.chunk, waits=wait is not None and wait.reason in BEHIND_A_BLOCK)
+        acts = is_next and acts_on_machine(
+            self.toolpath.chunk, waits=wait is not None and wait.reason in BEHIND_A_BLOCK
+        )
         self.toolpath.block_boundary()
         if self.on_step is not None:
             self.on_step()
@@ -331,7 +341,7 @@ class Preprocessing:
             self.waiting = wait
         elif self._rows.skips:
             self.waiting = PREPROCESSING
-        if self.stop_behind_next and acts:
+        if acts:
             self.waiting = self.waiting or PREPROCESSING
             self.stop_behind_next = False
         if self._rests():
@@ -510,3 +520,10 @@ class Preprocessing:
     def axes(self) -> int:
         """Number of axes."""
         return self._axes
+
+
+def _callers(stack: Sequence[Level[Any]]) -> tuple[tuple[int, int], ...]:
+    """Number and line of the blocks that have called the program on top, from the main program on."""
+    if len(stack) == 1:
+        return ()
+    return tuple((level.program_number, level.line_of(level.current)) for level in stack[:-1])

@@ -116,11 +116,22 @@ class Readings:
         return 60.0 * max(run.execution.speed, run.axes.hand_speed())
 
     @property
+    def _waiting(self) -> str:
+        """What the program of the first channel stands for."""
+        run = self._runs.first
+        if self._operation.status.state is not State.RUNNING or run.execution.moving:
+            return ""
+        if run.execution.standing:
+            return ""
+        return "dwell" if run.execution.stands_for == "dwell_s" and not run.machinery.busy else "function"
+
+    @property
     def snapshot(self) -> Snapshot:
         """Everything at once, of one moment."""
         operation, status, run = self._operation, self._operation.status, self._runs.first
         dials, channels = operation.switches.dials, self.channels
         first = channels[run.number]
+        interrupted = run.reached.get(first.program, ())
         return Snapshot(
             time=operation.clock.time,
             mode=status.mode,
@@ -141,5 +152,7 @@ class Readings:
             parts=first.parts,
             channels=channels,
             notices=operation.interlocks.messages,
-            interruption=run.reached.get(first.program, 0),
+            waiting=self._waiting,
+            interruption=interrupted[0][1] if interrupted else 0,
+            interrupted=interrupted,
         )

@@ -154,8 +154,10 @@ class Snapshot:
         parts: How often a program has come to its end.
         channels: Every channel that has been spoken of, by number; what stands above is of the first.
         notices: Numbers of the messages from the machine's controller.
-        interruption: Line of the loaded program to which a search for the point of interruption goes: the one in
-            execution, or at which it was given up; 0 for none.
+        waiting: What a program that runs stands for: `function` (an auxiliary function), `dwell`; empty for neither.
+        interruption: The line of the loaded program at which it was given up, or that called what was; 0 for none.
+        interrupted: Where a search for the point of interruption goes: the block of the loaded program in execution, or
+            at which it was given up, as program and line of each level from the main program on; empty for none.
     """
 
     time: float
@@ -177,7 +179,9 @@ class Snapshot:
     parts: int = 0
     channels: Mapping[int, ChannelSnapshot] = field(default_factory=dict)
     notices: tuple[str, ...] = ()
+    waiting: str = ""
     interruption: int = 0
+    interrupted: tuple[tuple[str, int], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

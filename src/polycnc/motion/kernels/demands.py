@@ -6,12 +6,20 @@ demand changes much is left to what parts it.
 
 from __future__ import annotations
 
-from math import inf, sqrt
+from math import ceil, cos, inf, sqrt
 
 from polycnc.kernels.layout import Bytes, Floats
 from polycnc.motion.kernels.columns import AT_END, AT_START, DWELL, FEED, RAPID, SHARES, Limits
 from polycnc.motion.kernels.feeds import norm
-from polycnc.transformation.orientation.linkage import Block, Room, ask, derive, set_turns, turned_by
+from polycnc.transformation.orientation.linkage import (
+    RADIAN,
+    Block,
+    Room,
+    ask,
+    derive,
+    set_turns,
+    turned_by,
+)
 
 #: Part of the acceleration that is for the bend of the real axes' way; the rest is for changes of speed.
 BEND = 0.5
@@ -20,8 +28,8 @@ TWIST, TURN = 0.2, 0.3
 #: Derivatives below this count as none.
 NOTHING = 1e-9
 #: Places at which a row is looked at first, fewer where it turns by less than so many degrees; a change of the demand
-#: by more than UNEVEN is worth shares.
-LOOKS, FEW_LOOKS, LITTLE_DEG, UNEVEN = 4, 1, 0.5, 1.3
+#: by more than UNEVEN is worth shares. Within so many degrees there is a place.
+LOOKS, FEW_LOOKS, LITTLE_DEG, UNEVEN, LOOK_DEG = 4, 1, 0.5, 1.3, 15.0
 #: Rows without a way to speak of are looked at one by one, mm.
 SHORT = 1e-9
 
@@ -74,9 +82,8 @@ def share_rows(
                 for i in range(n):
                     room[Room.BLOCKS + Block.ORIGIN * n + i] = start[i]
                     unit[i] /= length
-                looks = FEW_LOOKS if turned < LITTLE_DEG else LOOKS
                 is_even, speed, factor = even_row(
-                    linkage, limits, n, room, unit, length, looks, kind == RAPID, soft != 0
+                    linkage, limits, n, room, unit, length, turned, kind == RAPID, soft != 0
                 )
                 if is_even:
                     at = row * SHARES
@@ -93,13 +100,18 @@ def even_row(
     room: Floats,
     unit: Floats,
     length: float,
-    looks: int,
+    turned: float,
     rapid: bool,
     soft: bool,
 ) -> tuple[bool, float, float]:
-    """Whether a row that begins at ORIGIN asks for much the same all along, and its speed and `ease`."""
+    """Whether a row that begins at ORIGIN asks for much the same all along, and its speed and `ease`.
+
+    The joints turn by `turned` degrees, and with them the direction in which the real axes go: between two places one
+    of them may be asked for more than at both, by 1/cos of half the turn from the one to the other at most.
+    """
     top, bend, pull, jerk, turn = inf, 0.0, NOTHING, 0.0, 0.0
     least, most = inf, 0.0
+    looks = FEW_LOOKS if turned < LITTLE_DEG else max(LOOKS, ceil(turned / LOOK_DEG))
     for k in range(looks + 1):
         way = length * k / looks
         set_turns(linkage, n, room, unit, way)
@@ -110,6 +122,8 @@ def even_row(
         least, most = min(least, size), max(most, size)
         top, bend, pull = min(top, own_top), max(bend, own_bend), max(pull, own_pull)
         jerk, turn = max(jerk, own_jerk), max(turn, own_turn)
+    nearer = cos(0.5 * turned * RADIAN / looks)
+    top, bend, pull, jerk, turn = top * nearer, bend / nearer, pull / nearer, jerk / nearer, turn / nearer
     top, ease = within(top, bend, pull, jerk, turn, length, along_of(limits, n, unit))
     return not most >= UNEVEN * least, top, ease
 

@@ -10,6 +10,7 @@ words     words of a program under edit
 sources   where the fields of tables come from
 tables    windows with fields that can be written: offsets, tools, variables
 actions   what soft keys and keys of the MDI unit do with the key-in buffer
+programs  what keys do with programs: words, blocks, background, MDI, teach-in
 measuring measured input B of the lathe
 card      the memory card
 transfer  data between the control and the card

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -11,26 +10,22 @@ from polycnc.control.fanuc.lathe.tools import screens as lathe
 from polycnc.control.fanuc.lathe.tools.screens import Page
 from polycnc.deferred.records import dataclass
 from polycnc.deferred.regexes import regex
-from polycnc.mainrun import CommandRefused, Mode
-from polycnc.messages import UserError
+from polycnc.mainrun import CommandRefused
 from polycnc.panel.screens import forms
+from polycnc.panel.screens.programs import EDITING
 from polycnc.panel.screens.sources import SOURCES
 from polycnc.panel.screens.state import Operation
 from polycnc.panel.screens.tables import Table
 from polycnc.panel.screens.transfer import Transfer, begin_transfer
-from polycnc.panel.screens.words import END
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
+    from polycnc.mainrun.preparation.items import Places
     from polycnc.panel.screens.pages import Column
     from polycnc.panel.screens.state import ScreenState
 
 Action: TypeAlias = Callable[["ScreenState"], None]
 
-#: The number of a program.
-_PROGRAM = regex(r"(?i)O\d{1,8}")
-#: Numbers at which programs of a text begin.
-_NUMBERS = regex(r"(?im)^\s*[O:](\d{1,8})")
 #: An axis with a value behind it, which may be missing; a name with a number wants an equals sign (`Q1=5`).
 _AXIS_VALUE = regex(r"(?P<axis>[A-Z]+\d+(?==)|[A-Z])\s*=?\s*(?P<value>[+-]?\d*\.?\d*)")
 
@@ -71,8 +66,10 @@ def set_value(screen: ScreenState) -> None:
     Several values with `;` between them go into consecutive rows; those in front of one that is refused are set
     (0i-TF Plus III.2.1.1).
     """
-    if screen.shows("parameters"):
-        if not screen.writes_parameters:
+    if screen.shows("switches"):
+        set_switch(screen)
+    elif screen.shows("parameters"):
+        if screen.needs_parameter_write and not screen.writes_parameters:
             raise CommandRefused("screen.write-protected")
         number, _ = screen.parameters[screen.cursor[0]]
         screen.control.write_parameter(number, _number(screen))
@@ -85,6 +82,31 @@ def set_value(screen: ScreenState) -> None:
             for place, value in enumerate(_numbers(screen)):
                 table.write(column, row + place, value)
     screen.buffer = ""
+
+
+def _switch_at(screen: ScreenState) -> str:
+    switches = list(screen.panel_switches.values())
+    return switches[min(screen.cursor[0], len(switches) - 1)]
+
+
+def set_switch(screen: ScreenState) -> None:
+    """INPUT on the setting page: PARAMETER WRITE by 1 or 0; the other rows are switches of the machine panel."""
+    name = _switch_at(screen)
+    value = _number(screen)
+    if name:
+        raise CommandRefused("screen.no-field")
+    if value not in (0.0, 1.0):
+        raise CommandRefused("screen.value", value=f"{value:g}")
+    screen.writes_parameters = bool(value)
+
+
+def turn_switch(screen: ScreenState) -> None:
+    """SELECT on the page of program control: the switch at the cursor turns over (SINUMERIK)."""
+    name = _switch_at(screen)
+    if name:
+        screen.control.set_switches(**{name: not screen.switch(name)})
+    else:
+        write_enable(screen)
 
 
 def add_value(screen: ScreenState) -> None:
@@ -194,8 +216,14 @@ def search_program(screen: ScreenState) -> None:
     name = screen.buffer.strip()
     if not name and screen.shows("listing") and screen.control.programs:
         name = screen.control.programs[screen.cursor[0]].name
-    screen.control.select_program(name)
-    screen.program_row, screen.buffer = None, ""
+    if screen.in_background:
+        screen.control.program_lines(name)
+        screen.background, screen.program_word = name, 0
+        screen.look_at(0)
+    else:
+        screen.control.select_program(name)
+        screen.program_row = None
+    screen.buffer = ""
 
 
 def delete_program(screen: ScreenState) -> None:
@@ -210,8 +238,10 @@ def delete_program(screen: ScreenState) -> None:
 def search_block(screen: ScreenState) -> None:
     """Block search: cycle start goes on at the block number or line that has been keyed in, or at the cursor."""
     typed = screen.buffer.strip()
-    if not typed and screen.program_row is not None:
-        target: int | str = screen.control.first_line(screen.control.program) + screen.program_row
+    if not typed and screen.at_interruption:
+        target: int | str | Places = screen.control.snapshot.interrupted
+    elif not typed and screen.program_row is not None:
+        target = screen.control.first_line(screen.control.program) + screen.program_row
     else:
         target = int(typed) if typed.isdigit() else typed
     screen.control.block_search(target, how=screen.search_mode)
@@ -219,12 +249,29 @@ def search_block(screen: ScreenState) -> None:
 
 
 def search_interruption(screen: ScreenState) -> None:
-    """The cursor goes to the block at which the main program was given up."""
+    """The cursor goes to the block at which the program was given up; in a subprogram, to the block that called it.
+
+    A search from there goes on in the subprogram.
+    """
     control = screen.control
     line = control.snapshot.interruption
     if not line:
         raise CommandRefused("screen.no-interruption")
     screen.look_at(line - control.first_line(control.program))
+    screen.at_interruption = True
+
+
+def preset(screen: ScreenState) -> None:
+    """PRESET: the axis that is keyed in shows the value behind it where it stands, in mode JOG."""
+    match = _AXIS_VALUE.fullmatch(screen.buffer.strip().upper())
+    if match is None or not match["value"]:
+        raise CommandRefused("screen.no-axis", typed=screen.buffer)
+    try:
+        value = float(match["value"])
+    except ValueError:
+        raise CommandRefused("screen.no-number", typed=match["value"]) from None
+    screen.control.preset(match["axis"], value)
+    screen.buffer = ""
 
 
 def search_text(screen: ScreenState) -> None:
@@ -261,80 +308,6 @@ def calculate(screen: ScreenState) -> None:
         if operator not in "+-*/":
             raise CommandRefused("screen.no-number", typed=screen.buffer)
     screen.buffer = f"{sum(sums):.6f}".rstrip("0")
-
-
-def edit_words(screen: ScreenState, key: str) -> None:
-    """INSERT, ALTER and DELETE of words in mode EDIT; the number of a program and INSERT begin a new one.
-
-    ALTER of its number gives the program another one, which the memory must not have.
-
-    Raises:
-        CommandRefused: The mode is another one, or nothing is keyed in.
-        UserError: The memory has that program.
-    """
-    typed = screen.buffer.strip()
-    if not screen.page.edits or not (typed or key == "DELETE"):
-        raise CommandRefused("screen.no-field")
-    if not screen.edits:
-        raise CommandRefused("screen.mode", mode=screen.family.modes[Mode.EDIT])
-    if key == "INSERT" and _PROGRAM.fullmatch(typed):
-        _begin_program(screen, typed.upper(), f"{typed.upper()}\n")
-    else:
-        _change_program(screen, key, typed)
-    screen.buffer = ""
-
-
-def _begin_program(screen: ScreenState, name: str, text: str) -> None:
-    """A program that the memory has not got yet becomes the main program; nothing is left of one that cannot."""
-    control = screen.control
-    with suppress(CommandRefused):
-        control.program_lines(name)
-        raise UserError("screen.program-exists", name=name)
-    control.store_program(name, text)
-    try:
-        control.select_program(name)
-    except CommandRefused:
-        control.delete_program(name)
-        raise
-    screen.program_row, screen.program_word = 0, 0
-
-
-def _change_program(screen: ScreenState, key: str, typed: str) -> None:
-    control, edited = screen.control, screen.edited
-    before = _NUMBERS.findall(edited.text)
-    if key == "INSERT":
-        edited.insert(typed)
-    elif key == "ALTER":
-        edited.alter(typed)
-    elif typed == END:
-        edited.delete_block()
-    elif not typed:
-        edited.delete()
-    else:
-        raise CommandRefused("screen.no-field")
-    after = _NUMBERS.findall(edited.text)
-    if [int(each) for each in after] == [int(each) for each in before]:
-        control.store_program(control.program or "MAIN", edited.text)
-        screen.program_row, screen.program_word = edited.place.row, edited.place.word
-    elif key == "ALTER" and _PROGRAM.fullmatch(typed) and len(before) == len(after) == 1:
-        former = control.program
-        _begin_program(screen, typed.upper(), edited.text)
-        control.delete_program(former)
-    else:  # the number of a program is not lost, and no other program is overwritten
-        raise CommandRefused("screen.no-field")
-
-
-def insert(screen: ScreenState, _key: str = "INSERT") -> None:
-    """INSERT on the MDI page: what has been keyed in is the next block."""
-    if not screen.shows("mdi"):
-        raise CommandRefused("screen.no-field")
-    screen.mdi_text += screen.buffer.replace(";", "").strip() + "\n"
-    screen.buffer = ""
-
-
-def erase_mdi(screen: ScreenState) -> None:
-    """What has been typed in at MDI is erased."""
-    screen.mdi_text = ""
 
 
 def write_enable(screen: ScreenState) -> None:
@@ -429,6 +402,7 @@ def clear_history(screen: ScreenState) -> None:
 
 
 ACTIONS: dict[str, Action] = {
+    **EDITING,
     "set": set_value,
     "add": add_value,
     "search-number": search_number,
@@ -444,9 +418,8 @@ ACTIONS: dict[str, Action] = {
     "search-block": search_block,
     "search-interruption": search_interruption,
     "search-text": search_text,
+    "preset": preset,
     "to-top": to_top,
-    "insert": insert,
-    "erase-mdi": erase_mdi,
     "write-enable": write_enable,
     "clear-history": clear_history,
     "clear-all": partial(clear_axes, chosen=(Page.WEAR, Page.GEOMETRY)),
@@ -464,6 +437,7 @@ ACTIONS: dict[str, Action] = {
     "insert-call": forms.insert_call,
     "enter": forms.enter,
     "toggle": forms.toggle,
+    "turn-switch": turn_switch,
     "acknowledge": forms.acknowledge,
     "go-to-step": forms.go_to_step,
 }

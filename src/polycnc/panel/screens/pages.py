@@ -37,6 +37,17 @@ def in_language(text: Text, lang: str) -> str:
     return text if isinstance(text, str) else text.get(lang, text["en"])
 
 
+@cache
+def _units() -> Mapping[str, Text]:
+    file = resources.files("polycnc.panel.screens").joinpath("units.toml")
+    return tomllib.loads(file.read_text(encoding="utf-8"))
+
+
+def unit_in_language(unit: str, lang: str) -> str:
+    """A unit of a parameter in a language."""
+    return in_language(_units().get(unit, unit), lang)
+
+
 @dataclass(frozen=True)
 class SoftKey:
     """A soft key: its text, and what it does. Without any of them it is dark.
@@ -148,6 +159,7 @@ class Page:
         turns: The page that the page keys lead to; empty where they move the cursor.
         other: The page that the soft key SWITCH leads to.
         edits: Keys change words of the program, in mode EDIT.
+        edits_blocks: Keys change the program block by block.
         when: Parameters under which it is there, as for soft keys; else `instead` is the page that is shown.
         instead: See `when`.
     """
@@ -161,6 +173,7 @@ class Page:
     turns: str = ""
     other: str = ""
     edits: bool = False
+    edits_blocks: bool = False
     when: str = ""
     instead: str = ""
 
@@ -279,7 +292,7 @@ def family_of(control: str) -> Family:
 
 
 #: What a page may say beside its name, title and windows.
-_PAGE = ("menu", "operations", "data", "turns", "other", "edits", "when", "instead")
+_PAGE = ("menu", "operations", "data", "turns", "other", "edits", "edits_blocks", "when", "instead")
 
 
 def _page(row: Mapping[str, Any]) -> Page:

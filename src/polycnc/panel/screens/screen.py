@@ -17,10 +17,11 @@ from polycnc.deferred.regexes import regex
 from polycnc.mainrun import CommandRefused, Mode
 from polycnc.messages import UserError
 from polycnc.messages.catalogue import language
-from polycnc.panel.screens.actions import ACTIONS, calculate, edit_words, insert
+from polycnc.panel.screens.actions import ACTIONS, calculate
 from polycnc.panel.screens.forms import follow_dialog
 from polycnc.panel.screens.operate import state_of
 from polycnc.panel.screens.pages import SoftKey, in_language
+from polycnc.panel.screens.programs import edit_words, insert
 from polycnc.panel.screens.state import ScreenState
 from polycnc.panel.screens.view import Cell, SoftKeyView, View
 from polycnc.panel.screens.windows import window
@@ -127,16 +128,22 @@ class Screen(ScreenState):
             self.buffer = ""
         elif key == "CALC":
             calculate(self)
+        elif key == "INSERT" and self.control.mode is Mode.TEACH and self._reads_program:
+            ACTIONS["teach"](self)
+        elif key in ("INPUT", "INSERT") and self.page.edits_blocks:
+            ACTIONS["insert-block"](self)
         elif key == "INPUT":
             ACTIONS["insert" if self.shows("mdi") else "enter" if self.shows("mask") else "set"](self)
         elif key == "SELECT":
-            ACTIONS["toggle"](self)
+            ACTIONS["turn-switch" if self.shows("switches") else "toggle"](self)
         elif key in ("INSERT", "ALTER"):
             (insert if self.shows("mdi") else edit_words)(self, key)
         elif self.shows("mdi"):
             ACTIONS["erase-mdi"](self)
         elif self.edits and not _NUMBER.fullmatch(self.buffer):
             edit_words(self, key)
+        elif key in ("DELETE", "RUBOUT") and self.page.edits_blocks and not self.buffer:
+            ACTIONS["delete-block"](self)
         elif key == "DELETE":
             ACTIONS["delete-program"](self)
 
@@ -245,7 +252,7 @@ class Screen(ScreenState):
         snapshot = self.control.snapshot
         return View(
             page=self.page.id,
-            title=in_language(self.page.title, lang),
+            title=in_language(self.page.title, lang) + (" (BG-EDIT)" if self.in_background else ""),
             program=snapshot.program,
             sequence=self._sequence(snapshot),
             windows=tuple(window(self, spec, snapshot, lang) for spec in self.page.windows),
@@ -295,9 +302,12 @@ class Screen(ScreenState):
         state = self.family.states.get(state_of(snapshot), snapshot.state.upper())
         alarm = Cell("EMG" if snapshot.state == "emergency" else "ALM" if snapshot.alarms else "***",
                      "alarm" if snapshot.alarms else "")  # fmt: skip
-        moving = any(abs(way) > 1e-6 for way in snapshot.positions.to_go.values()) and snapshot.feed > 0.0
-        cells = [Cell(mode), Cell(state), Cell("MTN" if moving else "***"), alarm]
-        if self.family.clock:
+        motion = "MTN" if snapshot.feed > 0.0 else "DWL" if snapshot.waiting == "dwell" else "***"
+        cells = [Cell(mode), Cell(state), Cell(motion), alarm]
+        if (
+            self.family.clock
+        ):  # the line of FANUC: the fourth place tells that an auxiliary function is waited for
+            cells.insert(3, Cell("FIN" if snapshot.waiting == "function" else "***"))
             cells += [Cell(f"{self.clock():%H:%M:%S}"), Cell("PATH1")]
         going_on = self.pending.status if self.pending is not None else ""
         if self.measuring is not None and not going_on:

@@ -33,6 +33,15 @@ _MAINTAINED = "maintained"
 RELATIVE = {"X": "U", "Y": "V", "Z": "W", "A": "A", "B": "B", "C": "H"}
 
 
+#: Parameters that anybody may write (SINUMERIK's setting data).
+SETTING = "setting-data"
+#: What the setting page has: names and panel switches, the last one whether parameters may be written.
+PANEL_SWITCHES = {
+    "SINGLE BLOCK": "single_block", "OPTIONAL STOP": "optional_stop", "BLOCK SKIP": "block_skip", "DRY RUN": "dry_run",
+    "MACHINE LOCK": "machine_lock", "PARAMETER WRITE": "",
+}  # fmt: skip
+
+
 class Operation(ABC):
     """What has been chosen and waits for [EXEC]. `back` is the row of soft keys that is shown behind it."""
 
@@ -88,6 +97,8 @@ class ScreenState:
         dialog: The dialog of the program that is shown, since `dialog_since` (simulated time, s); the page that it lies
             upon is `behind_dialog`.
         program_row: Row of the cursor in the program; None where the window follows the block in execution.
+        background: The program that is edited while another one may run; empty for none.
+        at_interruption: The cursor stands where the program was given up, which may be in a subprogram of that block.
         program_word: The word of that row on which the cursor stands, where the page edits words.
         search_mode: The kind of block search that is chosen.
 
@@ -127,6 +138,8 @@ class ScreenState:
         self._cursors: dict[str, tuple[int, int]] = {}
         self.program_row: int | None = None
         self.program_word = 0
+        self.background = ""
+        self.at_interruption = False
         self.search_mode = "contour"
 
     @property
@@ -210,6 +223,15 @@ class ScreenState:
             self.control.signals[key.signal] = float(wanted)
 
     @property
+    def panel_switches(self) -> Mapping[str, str]:
+        """The rows of the setting page: names and panel switches; SINUMERIK has DRF."""
+        return {**PANEL_SWITCHES, "DRF": "drf"} if self.family.layout == "operate" else PANEL_SWITCHES
+
+    def switch(self, name: str) -> bool:
+        """A panel switch by its name; without one, whether parameters may be written."""
+        return bool(getattr(self.control.switches, name)) if name else self.writes_parameters
+
+    @property
     def maintained(self) -> dict[str, float]:
         """Running time at which each task of the maintenance schedule was done last, s, by its number; it lasts."""
         done: dict[str, float] = self.control.panel_settings.get(_MAINTAINED, {})
@@ -220,16 +242,35 @@ class ScreenState:
         now = self.control.counters.running_s
         self.control.panel_settings[_MAINTAINED] = {**self.maintained, str(number): now}
 
-    @cached_property
+    @property
     def parameters(self) -> tuple[tuple[str, KnownParameter], ...]:
         """The rows of the parameter page: the number, with an axis where each has its own (`1240 X`); what it is."""
+        return self._parameters.get(self._parameters_of, self._parameters[""])
+
+    @property
+    def needs_parameter_write(self) -> bool:
+        """Whether parameters of the page want to be enabled before they are written: setting data do not."""
+        return self._parameters_of != SETTING
+
+    @property
+    def _parameters_of(self) -> str:
+        return next((each.of for each in self.page.windows if each.kind == "parameters"), "")
+
+    @cached_property
+    def _parameters(self) -> Mapping[str, tuple[tuple[str, KnownParameter], ...]]:
+        """The rows by what a page wants: all; SINUMERIK's setting data and its machine data apart."""
         rows: list[tuple[str, KnownParameter]] = []
         for each in self.control.parameters:
             if each.by_axis and self.family.axis_parameters:
                 rows += [(f"{each.number} {axis}", each) for axis in self.control.channel.axes]
             else:
                 rows.append((each.number, each))
-        return tuple(rows)
+        is_setting = [each.name.startswith("$S") for _, each in rows]
+        return {
+            "": tuple(rows),
+            SETTING: tuple(row for row, yes in zip(rows, is_setting, strict=True) if yes),
+            "machine-data": tuple(row for row, yes in zip(rows, is_setting, strict=True) if not yes),
+        }
 
     # ---- the cursor ----------------------------------------------------------------------------------------
 
@@ -259,11 +300,11 @@ class ScreenState:
         if self.measuring is not None and self.measuring.leads_cursor:
             return
         if self.edits and columns and not rows:
-            place = moved(self._lines, self.edit_place, columns)
+            place = moved(self.lines, self.edit_place, columns)
             self.program_row, self.program_word = place.row, place.word
             return
-        if self.shows("program") and table is None and not self.shows("mask"):
-            self.look_at((self.program_row if self.program_row is not None else self.running_row) + rows)
+        if self.shows("program") and table is None and not (self.shows("mask") or self.shows("switches")):
+            self.look_at(self.row + rows)
             return
         row, column = row + rows, column + columns
         if table is not None:
@@ -280,6 +321,7 @@ class ScreenState:
         name = (
             snapshot.program if self.program_row is not None else snapshot.block.program or snapshot.program
         )
+        name = self.background if self.background and self.page.edits else name
         try:
             return name, self.control.program_lines(name) if name else (), self.control.first_line(name)
         except CommandRefused:
@@ -295,10 +337,11 @@ class ScreenState:
 
     def look_at(self, row: int) -> None:
         """Put the cursor into the program; while it runs, the window follows the block in execution."""
-        if self.control.state is State.RUNNING or not self.control.program:
+        self.at_interruption = False
+        if not self.in_background and (self.control.state is State.RUNNING or not self.control.program):
             self.program_row = None
             return
-        lines = self.control.program_lines(self.control.program)
+        lines = self.lines
         self.program_row, self.program_word = max(0, min(row, len(lines) - 1)), 0
 
     def find(self, text: str, step: int) -> None:
@@ -307,9 +350,8 @@ class ScreenState:
         Raises:
             CommandRefused: There is none.
         """
-        here = self.program_row if self.program_row is not None else self.running_row
-        name = self.control.program
-        lines, wanted = self.control.program_lines(name) if name else (), text.strip().upper()
+        here = self.row
+        lines, wanted = self.lines, text.strip().upper()
         rows = range(here + 1, len(lines)) if step > 0 else range(here - 1, -1, -1)
         found = next((row for row in rows if wanted in lines[row].upper()), None)
         if found is None:
@@ -321,24 +363,42 @@ class ScreenState:
 
     @property
     def edits(self) -> bool:
-        """Whether keys change words of the program: on the page for it, in the mode for it."""
-        return self.page.edits and self.control.mode is Mode.EDIT
+        """Whether keys change words of the program: on the page for it, in the mode for it or in the background."""
+        return self.page.edits and (self.control.mode is Mode.EDIT or bool(self.background))
+
+    @property
+    def in_background(self) -> bool:
+        """Whether the page shows a program that is edited in the background."""
+        return self.page.edits and bool(self.background)
+
+    @property
+    def edited_program(self) -> str:
+        """Name of the program that keys change: that in the background, or the main program."""
+        return self.background if self.in_background else self.control.program
 
     @property
     def edited(self) -> Edited:
         """The main program with the cursor in it; an empty one where none is loaded."""
-        return Edited(self._lines, self.edit_place)
+        return Edited(self.lines, self.edit_place)
 
     @property
     def edit_place(self) -> Place:
         """The word on which the cursor stands."""
         place = Place(self.program_row if self.program_row is not None else 0, self.program_word)
-        return on_words(self._lines, place)
+        return on_words(self.lines, place)
 
     @property
-    def _lines(self) -> Sequence[str]:
-        name = self.control.program
-        return self.control.program_lines(name) if name else ()
+    def row(self) -> int:
+        """The row of the cursor in the program, or of the block in execution."""
+        return self.program_row if self.program_row is not None else self.running_row
+
+    @property
+    def lines(self) -> Sequence[str]:
+        """The lines of the program that keys change."""
+        try:
+            return self.control.program_lines(self.edited_program) if self.edited_program else ()
+        except CommandRefused:  # it has been deleted meanwhile
+            return ()
 
     def _hear(self, record: Record) -> None:
         """The record button of the machine keeps where the axes are (III.2.1.2, PRC); a sensor measures (III.2.1.3)."""
@@ -358,10 +418,13 @@ class ScreenState:
         return 4 if {"G20", "G70", "G700"} & set(self.control.modal.values()) else 3
 
     def positions(self, snapshot: Snapshot, kind: str) -> Mapping[str, float]:
-        """Positions of a kind by axis: `work`, `machine`, `to_go` or `relative`."""
+        """Positions of a kind by axis: `work`, `machine`, `to_go`, `relative`, or `by_hand` while a program waits."""
         shown = snapshot.positions
         if kind == "relative":
             return {axis: at - self.origins.get(axis, 0.0) for axis, at in shown.machine.items()}
+        if kind == "by_hand":
+            left = self.control.restart
+            return {axis: 0.0 - left[axis][1] if axis in left else 0.0 for axis in shown.machine}
         by_kind = {"work": shown.work, "machine": shown.machine, "to_go": shown.to_go}
         return by_kind[kind]
 
@@ -395,5 +458,5 @@ class ScreenState:
                 self.refusal = refusal
                 self.finish()
         self._note_alarms()
-        if self.control.state is State.RUNNING:
+        if self.control.state is State.RUNNING and not self.in_background:
             self.program_row = None

@@ -12,7 +12,7 @@ from polycnc.deferred.regexes import regex
 from polycnc.messages import text
 from polycnc.panel.description import RETURNED, is_returned
 from polycnc.panel.screens import forms, operate, tables
-from polycnc.panel.screens.pages import in_language
+from polycnc.panel.screens.pages import in_language, unit_in_language
 from polycnc.panel.screens.view import Cell, Window
 from polycnc.panel.screens.words import END, spans
 
@@ -276,7 +276,7 @@ def _parameters(at: Asked) -> Rows:
                 "value",
                 cursor=i == row,
             ),
-            Cell(each.unit, "label"),
+            Cell(unit_in_language(each.unit, at.lang), "label"),
             Cell(each.texts.get(at.lang, each.texts["en"]), "label"),
         )
         for i, (number, each) in enumerate(known[first : first + at.spec.shown], first)
@@ -290,14 +290,37 @@ def _signals(at: Asked) -> Rows:
 
 
 def _switches(at: Asked) -> Rows:
-    """What the panel's switches say, and whether parameters may be written."""
-    switches = at.snapshot.switches
-    shown = {
-        "SINGLE BLOCK": bool(switches.single_block), "OPTIONAL STOP": switches.optional_stop,
-        "BLOCK SKIP": bool(switches.block_skip), "DRY RUN": switches.dry_run, "MACHINE LOCK": switches.machine_lock,
-        "PARAMETER WRITE": at.screen.writes_parameters,
-    }  # fmt: skip
-    return tuple((Cell(name, "label"), Cell(str(int(on)), "value")) for name, on in shown.items())
+    """What the panel's switches say, and whether parameters may be written; the cursor chooses one."""
+    switches = at.screen.panel_switches
+    row = at.screen.place(max(0, min(at.screen.cursor[0], len(switches) - 1)), 0)
+    return tuple(
+        (Cell(name, "label"), Cell(str(int(at.screen.switch(switch))), "value", cursor=i == row))
+        for i, (name, switch) in enumerate(switches.items())
+    )
+
+
+def _diagnosis(at: Asked) -> Rows:
+    """What the control does or waits for: a number and 0 or 1 each."""
+    snapshot, pending = at.snapshot, at.screen.pending.status if at.screen.pending is not None else ""
+    is_on = {
+        "0000": snapshot.waiting == "function",
+        "0001": snapshot.feed > 0.0,
+        "0002": snapshot.waiting == "dwell",
+        "0004": snapshot.overrides.feed == 0.0,
+        "0010": pending == "OUTPUT",
+        "0011": pending == "INPUT",
+        "0013": snapshot.overrides.feed == 0.0 and snapshot.mode == "jog",
+        "0014": snapshot.state in ("emergency", "braking"),
+        "0016": bool(at.screen.background),
+    }
+    return tuple(
+        (
+            Cell(number, "label"),
+            Cell(in_language(said, at.lang), "label"),
+            Cell(str(int(is_on[number])), "value"),
+        )
+        for number, said in at.spec.words.items()
+    )
 
 
 def _soft_switches(at: Asked) -> Rows:
@@ -343,6 +366,31 @@ def _restart(at: Asked) -> Rows:
         ),
         *((functions,) if collected else ()),
     )
+
+
+def _magazine(at: Asked) -> Rows:
+    """The tool in the spindle and the one that stands by, and where the magazine is."""
+    tool, magazine = at.snapshot.tool, at.screen.control.machine.magazine
+    pocket = at.snapshot.signals.get("MAGAZINE_POCKET", 0.0)
+    told = {
+        "spindle": tool.name or str(tool.tool),
+        "next": str(tool.next_tool or ""),
+        "places": str(magazine.places),
+        "pocket": str(int(pocket) or ""),
+    }
+    return tuple(
+        (Cell(in_language(at.spec.words[name], at.lang), "label"), Cell(said, "value"))
+        for name, said in told.items()
+    )
+
+
+def _version(at: Asked) -> Rows:
+    """What runs here: polycnc and its version, the control, the machine."""
+    from polycnc import __version__
+
+    control = at.screen.control
+    told = {"polycnc": __version__, "NCK": control.control.id, "PLC": control.machine.id}
+    return tuple((Cell(name, "label"), Cell(said, "value")) for name, said in told.items())
 
 
 def _graph(_at: Asked) -> Rows:
@@ -396,6 +444,7 @@ KINDS: dict[str, Reader] = {
     "signals": _signals,
     "restart": _restart,
     "switches": _switches,
+    "diagnosis": _diagnosis,
     "soft-switches": _soft_switches,
     "alarm-list": lambda at: operate.alarm_list(at.screen, at.snapshot, at.lang),
     "message-list": lambda at: operate.message_list(at.screen, at.snapshot, at.lang),
@@ -405,6 +454,8 @@ KINDS: dict[str, Reader] = {
     "mask": lambda at: forms.mask(at.screen, at.spec.shown),
     "dialog": lambda at: forms.dialog(at.screen, at.lang),
     "steps": lambda at: forms.steps(at.screen, at.spec.shown),
+    "magazine": _magazine,
+    "version": _version,
     "graph": _graph,
     "maintenance": _maintenance,
 }

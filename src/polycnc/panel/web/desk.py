@@ -138,10 +138,13 @@ class Desk:
         if seconds < cycle:
             self._then = now - seconds / self.speed
             return
-        if self.replay is not None:
-            self.replay.step(seconds, self._pass)
-        else:
-            self._pass(seconds)
+        try:
+            if self.replay is not None:
+                self.replay.step(seconds, self._pass)
+            else:
+                self._pass(seconds)
+        except UserError as error:  # what is to last cannot be written down: the memory file tells why
+            self.screen.refusal = error
         self.screen.follow()
         self.course.go_on()
         self._looks.clear()

@@ -22,9 +22,9 @@ if TYPE_CHECKING:
 #: Commands of `VirtualControl` that may be given over the wire; their arguments are those of Python.
 COMMANDS = (
     "load", "mdi", "block_search", "cycle_start", "feed_hold", "reset", "emergency_stop", "power_on", "power_off",
-    "key", "select_mode", "jog", "stop_jog", "increment", "handle", "home", "override", "set_switches", "read_variable",
-    "write_variable", "read_parameter", "write_parameter", "program_lines", "store_program", "delete_program",
-    "select_program",
+    "key", "select_mode", "jog", "stop_jog", "increment", "handle", "home", "preset", "override", "set_switches",
+    "read_variable", "write_variable", "read_parameter", "write_parameter", "program_lines", "store_program",
+    "delete_program", "select_program",
 )  # fmt: skip
 #: What only reads: nothing of it is recorded.
 READS = frozenset(
@@ -33,7 +33,7 @@ READS = frozenset(
 _NUMBER, _WHOLE = (int, float), (int,)
 #: What arguments may be: one name has one meaning in all commands.
 ARGUMENTS: dict[str, tuple[type, ...]] = {
-    "source": (str,), "text": (str,), "target": (int, str), "channel": _WHOLE, "pressed": (bool,), "name": (str,),
+    "source": (str,), "text": (str,), "target": (int, str, list), "channel": _WHOLE, "pressed": (bool,), "name": (str,),
     "mode": (str,), "axis": (str,), "direction": _WHOLE, "rapid": (bool, int, float), "steps": _WHOLE, "pulses": _WHOLE,
     "size": _NUMBER, "feed": _NUMBER, "spindle": _NUMBER, "value": (int, float, str), "number": (str,), "keys": (list,),
     "key": (str,), "index": _WHOLE, "switch": (str,), "position": (str, int), "notches": _WHOLE, "unit": (str,),

@@ -38,8 +38,9 @@ TYPED = {
     "PageDown": "PAGE_DOWN", "ArrowUp": "UP", "ArrowDown": "DOWN", "ArrowLeft": "LEFT", "ArrowRight": "RIGHT",
     "Escape": "RESET", "Home": "MENU",
 }  # fmt: skip
-#: Keys of a keyboard, and the key of the machine panel that each one is.
-OPERATED = {"F9": "START", "F10": "HOLD"}
+#: Keys of a keyboard, and the key of the machine panel that each one is. A control that has a key F10 of its own has
+#: the other one for it.
+OPERATED = {"F9": "START", "F10": "HOLD", "Pause": "HOLD"}
 #: Keys that edit, and what stands on each.
 EDITING = {
     "RETURN": "◁", "MENU": "▷", "CAN": "CAN", "INPUT": "INPUT", "INSERT": "INSERT", "DELETE": "DELETE",
@@ -65,7 +66,11 @@ class Page:
         self._refreshers: list[Callable[[], None]] = []
         self._held: set[str] = set()
         self._editor = Editor(desk, self._lang)
-        self._body = ui.element("div").classes("desk")
+        with ui.element("div").classes("desk"):
+            self._left = ui.element("div").classes("half")
+            with ui.element("div").classes("half"):
+                self._bar()
+                self._right = ui.element("div").classes("rest")
         self._build()
         ui.keyboard(on_key=self._typed, ignore=["input", "select", "textarea"])
         ui.timer(REFRESH_S, self._refresh)
@@ -73,14 +78,21 @@ class Page:
     def _build(self) -> None:
         self._refreshers.clear()
         self._shown.clear()
-        self._body.clear()
-        with self._body:
-            with ui.element("div").classes("half"):
-                self._screen()
-                self._keyboard()
-            with ui.element("div").classes("half"):
-                self._machine_panel()
-        self._body.client.run_javascript(f"document.documentElement.lang = '{self._lang}'")
+        for part in (self._left, self._displays, self._tools, self._right):
+            part.clear()
+        with self._left:
+            self._screen()
+            self._keyboard()
+        with self._displays:
+            self._choose_display()
+        with self._tools:
+            self._key("☀", self._day, hint=text("panel.theme", self._lang))
+            self._key("?", self._help, hint=text("panel.help", self._lang))
+            self._key("✎", self._edit, hint=text("editor.title", self._lang))
+            self._key("☑", self._teach, hint=text("lesson.title", self._lang))
+        with self._right:
+            self._machine_panel()
+        self._left.client.run_javascript(f"document.documentElement.lang = '{self._lang}'")
         self._refresh()
 
     def _refresh(self) -> None:
@@ -185,22 +197,23 @@ class Page:
 
     # ---- the machine panel ---------------------------------------------------------------------------------
 
-    def _machine_panel(self) -> None:
-        desk, description = self._desk, self._desk.panel.description
+    def _bar(self) -> None:
+        """What stands above the machine panel.
+
+        The keys of the languages stay when all else is built anew: no click on them is lost.
+        """
+        control = self._desk.control
         with ui.element("div").classes("bar"):
-            ui.html(
-                f"<h1>polycnc · {desk.control.control.id} · {escape(desk.control.machine.id)}</h1>",
-                sanitize=False,
-            )
-            tools = ui.label("").classes("tools").props('role="status"')
+            ui.html(f"<h1>polycnc · {control.control.id} · {escape(control.machine.id)}</h1>", sanitize=False)
+            self._tool_display = ui.label("").classes("tools").props('role="status"')
             with ui.element("div").classes("flow"):
-                self._displays()
+                self._displays = ui.element("div").classes("parts")
                 for lang in LANGUAGES:
                     self._key({"en": "EN", "zh-TW": "中"}.get(lang, lang), partial(self._speak, lang))
-                self._key("☀", self._day, hint=text("panel.theme", self._lang))
-                self._key("?", self._help, hint=text("panel.help", self._lang))
-                self._key("✎", self._edit, hint=text("editor.title", self._lang))
-                self._key("☑", self._teach, hint=text("lesson.title", self._lang))
+                self._tools = ui.element("div").classes("parts")
+
+    def _machine_panel(self) -> None:
+        desk, description = self._desk, self._desk.panel.description
         with self._group("panel.mode-switch"), ui.element("div").classes("flow"):
             modes = {
                 name: self._key(in_language(mode.name, self._lang), partial(desk.turn, "mode", name))
@@ -231,9 +244,9 @@ class Page:
             }
         self._refreshers.append(lambda: self._light(modes, {**keys, **lamps}))
         self._refreshers.append(lambda: self._dim(keys))
-        self._refreshers.append(lambda: self._show_tools(tools))
+        self._refreshers.append(lambda: self._show_tools(self._tool_display))
 
-    def _displays(self) -> None:
+    def _choose_display(self) -> None:
         """The displays that the control may have: keys for two, a list for more."""
         units = self._desk.panel.description.mdi_units
         names = {unit.id: in_language(unit.name, self._lang) for unit in units}
@@ -344,6 +357,8 @@ class Page:
         name = str(event.key.name)
         if name == "?":
             self._help()
+        elif name == self._desk.screen.family.next_key:
+            self._desk.do("screen_key", key="MENU")
         elif name in OPERATED:
             self._desk.press(OPERATED[name])
         elif name in TYPED:
@@ -383,13 +398,21 @@ class Page:
         title = text("panel.help", self._lang)
         with ui.dialog().props(f'aria-label="{_quoted(title)}"') as dialog, ui.card().classes("teacher"):
             ui.label(title)
-            for key, meaning in (
-                *TYPED.items(),
-                *OPERATED.items(),
-                ("F1 … F8", text("panel.soft-keys", self._lang)),
-            ):
+            for key, meaning in self._keys_of_keyboard():
                 ui.label(f"{key}: {meaning}")
         dialog.open()
+
+    def _keys_of_keyboard(self) -> list[tuple[str, str]]:
+        """Keys of a keyboard, and what each of them is on this control."""
+        family, keys = self._desk.screen.family, self._desk.panel.description.keys
+        operated = {
+            key: in_language(keys[name].name, self._lang)
+            for key, name in OPERATED.items()
+            if key != family.next_key
+        }
+        further = [(family.next_key, text("panel.next-keys", self._lang))] if family.next_key else []
+        soft = f"F1 … F{min(self._desk.screen.rows, 8)}"
+        return [*TYPED.items(), *operated.items(), (soft, text("panel.soft-keys", self._lang)), *further]
 
 
 def _quoted(value: str) -> str:

@@ -2,8 +2,9 @@
 
 The solution that is nearest to the last one is followed step by step, so the axes never leap. Near a pole one of them
 would have to turn ever faster; within a cone about it the axes go evenly from where the way enters it to where it
-leaves it, and the direction is as near to the wanted one as the cone is narrow. The tip is led by the linear axes all
-the way: it does not notice.
+leaves it, and the direction is as near to the wanted one as the cone is narrow. Where axes are not quite square, no
+position stands the tool along the directions next to the pole: the cone covers those as well. The tip is led by the
+linear axes all the way: it does not notice.
 """
 
 from __future__ import annotations
@@ -118,6 +119,8 @@ def follow(
 ) -> list[Knot] | None:
     """The knots of a way behind its start; None where the axes cannot follow it.
 
+    Directions that no position reaches are passed over where the tool stays as near to them as it does within a cone.
+
     Args:
         kinematics: The rotary joints.
         way: Directions of the tool on the work.
@@ -133,10 +136,10 @@ def follow(
         angles = nearest(found, steps[-1].angles)
         return None if angles is None else Knot(share, angles)
 
-    def is_inside(knot: Knot) -> bool:
-        return pole_angle(kinematics, knot.angles) < cone_deg
+    def is_inside(knot: Knot | None) -> bool:
+        return knot is None or pole_angle(kinematics, knot.angles) < cone_deg
 
-    length, edges = _length(way), [0]
+    length, edges, passed = _length(way), [0], list[float]()
     share, inside = 0.0, is_inside(steps[0])
     while share < 1.0:
         near = pole_angle(kinematics, steps[-1].angles) / NEAR_DEG
@@ -144,8 +147,6 @@ def follow(
         share = min(1.0, share + ahead)
         share = 1.0 if share > 1.0 - 1e-9 else share
         knot = solve(share)
-        if knot is None:
-            return None
         was_inside, inside = inside, is_inside(knot)
         if inside != was_inside:
             edge = _edge((max(share - ahead, 0.0), share), solve, is_inside, leaves=was_inside)
@@ -153,8 +154,16 @@ def follow(
                 edges.append(len(steps))
                 steps.append(edge)
                 knot = solve(share) or knot
-        if not inside or share == 1.0:
+        if knot is None:
+            passed.append(share)
+        elif not inside or share == 1.0:
             steps.append(knot)
+    if steps[-1].share < 1.0:
+        return None
+    for share in passed:
+        k = next(k for k, step in enumerate(steps) if step.share > share)
+        if _off(kinematics, way, steps[k - 1], steps[k], Knot(share, {})) > 2.0 * radians(cone_deg):
+            return None
     return _fewer(kinematics, way, steps, [*edges, len(steps) - 1])
 
 
@@ -167,7 +176,7 @@ def _length(way: Way) -> float:
 def _edge(
     between: tuple[float, float],
     solve: Callable[[float], Knot | None],
-    is_inside: Callable[[Knot], bool],
+    is_inside: Callable[[Knot | None], bool],
     *,
     leaves: bool,
 ) -> Knot | None:
@@ -177,8 +186,6 @@ def _edge(
     for _ in range(SEARCH):
         middle = 0.5 * (low + high)
         knot = solve(middle)
-        if knot is None:
-            return None
         if is_inside(knot) is leaves:
             low = middle
         else:

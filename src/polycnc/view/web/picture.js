@@ -3,6 +3,13 @@ import { OrbitControls, THREE } from "nicegui-scene";
 
 const WIDTH = 5; // numbers of a point: x, y, z, feed, kind + 8 * colour (view/lines.py)
 const POINTS_AT_FIRST = 4096;
+// While the picture moves it has fewer segments where all of them take too long: points within so many pixels of a chord
+// are left out, more where that is not enough. It is exact when it has rested for a moment.
+const COARSE_PIXELS = 0.75;
+const LONGEST_FRAME_MS = 40;
+const REST_MS = 250;
+// Nobody knows yet how long a segment takes: so many are drawn without asking.
+const SURELY_FAST = 50000, SURELY_FEW = 10000;
 // Okabe and Ito's colours, as on paper (toolpath/plot.py), but light enough for a dark ground.
 const COLOURS = ["#4ba3e3", "#e8803a", "#2fc492", "#e39bc2", "#f0b429", "#8fd0f5", "#c98a4a", "#dddddd"];
 
@@ -32,6 +39,57 @@ const plain = (name) => new THREE.Color().setStyle(name, THREE.LinearSRGBColorSp
 // The colour of a tool by its number; a program may name one itself.
 const colourOf = (tools, i) => (/^#[0-9a-f]{6}$/.test(tools[i] || "") ? tools[i] : COLOURS[i % COLOURS.length]);
 
+// A line with fewer points: numbers of points of a buffer, none of which is left out farther than twice a tolerance from
+// the chord that takes its place. Grows with the buffer.
+class Coarse {
+  constructor(tolerance) {
+    this.tolerance = tolerance;
+    this.index = new Uint32Array(1024);
+    this.count = 0; // numbers that are there
+    this.end = 0; // points that have been looked at
+  }
+
+  // Number of a point; the last one takes the place of the one before, where the chord goes on.
+  put(point, goesOn) {
+    if (goesOn) this.count -= 1;
+    if (this.count === this.index.length) {
+      const more = new Uint32Array(2 * this.count);
+      more.set(this.index);
+      this.index = more;
+    }
+    this.index[this.count++] = point;
+  }
+
+  // Look at the points that have come: a chord goes on while they lie along the ray that it began with, of one kind.
+  grow(points, end) {
+    const limit = this.tolerance * this.tolerance;
+    let { ax, ay, az, dx, dy, dz, far, what, open } = this.chord || { open: false };
+    for (let i = this.end; i < end; i++) {
+      const at = i * WIDTH, x = points[at], y = points[at + 1], z = points[at + 2], kind = points[at + 4];
+      const vx = x - ax, vy = y - ay, vz = z - az, square = vx * vx + vy * vy + vz * vz;
+      let goesOn = open && kind === what && this.count > 1;
+      if (goesOn && far > 0) {
+        const along = vx * dx + vy * dy + vz * dz;
+        goesOn = along >= far && square - along * along <= limit;
+        if (goesOn) far = along;
+      }
+      if (!goesOn) {
+        // A chord begins at the point before.
+        const from = (i > 0 ? i - 1 : 0) * WIDTH;
+        ax = points[from]; ay = points[from + 1]; az = points[from + 2];
+        what = kind; far = 0; open = true;
+      }
+      if (far === 0) {
+        const ux = x - ax, uy = y - ay, uz = z - az, length = Math.sqrt(ux * ux + uy * uy + uz * uz);
+        if (length * length > limit) { dx = ux / length; dy = uy / length; dz = uz / length; far = length; }
+      }
+      this.put(i, goesOn);
+    }
+    this.end = end;
+    this.chord = { ax, ay, az, dx, dy, dz, far, what, open };
+  }
+}
+
 class Line {
   constructor(address, pale, mode) {
     this.address = address;
@@ -52,7 +110,35 @@ class Line {
     });
     this.mesh = new THREE.Line(new THREE.BufferGeometry(), this.material);
     this.mesh.frustumCulled = false;
+    this.rough = new THREE.Line(new THREE.BufferGeometry(), this.material);
+    this.rough.frustumCulled = this.rough.visible = false;
+    this.coarse = null;
     this.hold(POINTS_AT_FIRST);
+  }
+
+  // Show all segments, or those of a coarser line; gives how many.
+  show(tolerance) {
+    this.mesh.visible = !tolerance;
+    this.rough.visible = !!tolerance;
+    if (!tolerance) return this.count;
+    const known = this.coarse, fits = known && tolerance <= 2 * known.tolerance && known.tolerance <= 2 * tolerance;
+    if (!fits) this.coarse = new Coarse(tolerance);
+    if (this.coarse.end < this.count) {
+      this.coarse.grow(this.buffer.array, this.count);
+      const { index, count } = this.coarse;
+      this.rough.geometry.dispose();
+      this.rough.geometry = this.geometry();
+      this.rough.geometry.setIndex(new THREE.BufferAttribute(index.slice(0, count), 1));
+    }
+    return this.coarse.count;
+  }
+
+  geometry() {
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.InterleavedBufferAttribute(this.buffer, 3, 0));
+    geometry.setAttribute("feed", new THREE.InterleavedBufferAttribute(this.buffer, 1, 3));
+    geometry.setAttribute("what", new THREE.InterleavedBufferAttribute(this.buffer, 1, 4));
+    return geometry;
   }
 
   // Room for so many points; what is there stays.
@@ -62,12 +148,9 @@ class Line {
     this.mesh.geometry.dispose();
     this.buffer = new THREE.InterleavedBuffer(numbers, WIDTH);
     this.buffer.setUsage(THREE.DynamicDrawUsage);
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute("position", new THREE.InterleavedBufferAttribute(this.buffer, 3, 0));
-    geometry.setAttribute("feed", new THREE.InterleavedBufferAttribute(this.buffer, 1, 3));
-    geometry.setAttribute("what", new THREE.InterleavedBufferAttribute(this.buffer, 1, 4));
-    geometry.setDrawRange(0, this.count);
-    this.mesh.geometry = geometry;
+    this.mesh.geometry = this.geometry();
+    this.mesh.geometry.setDrawRange(0, this.count);
+    this.coarse = null;
   }
 
   add(first, points) {
@@ -103,6 +186,7 @@ class Line {
         if (told.era !== this.era || told.first === 0) {
           this.era = told.era;
           this.count = 0;
+          this.coarse = null;
           this.box.makeEmpty();
           this.material.uniforms.largest.value = 1;
         }
@@ -146,13 +230,17 @@ export default {
     this.scene = new THREE.Scene();
     this.camera = new THREE.OrthographicCamera(-1, 1, 1, -1, -1e5, 1e5);
     this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.addEventListener("change", () => (this.dirty = true));
+    this.controls.addEventListener("change", () => { this.dirty = true; this.moved = performance.now(); });
+    this.moved = -Infinity;
+    this.cost = 0; // ms that a segment takes; 0 for unknown
+    this.wider = 1; // how much coarser than by pixels
     this.held = {};
     for (const [name, address] of Object.entries(this.lines)) {
       const line = new Line(address, "#8795a3", name === "path" ? 2 : 0);
       line.mesh.renderOrder = name === "path" ? 0 : 1;
       this.held[name] = line;
-      this.scene.add(line.mesh);
+      line.rough.renderOrder = line.mesh.renderOrder;
+      this.scene.add(line.mesh, line.rough);
     }
     this.scene.add(new THREE.AmbientLight("#ffffff", 1.6), new THREE.AxesHelper(20));
     const light = new THREE.DirectionalLight("#ffffff", 1.8);
@@ -172,6 +260,7 @@ export default {
     cancelAnimationFrame(this.frame);
     for (const line of Object.values(this.held || {})) {
       line.mesh.geometry.dispose();
+      line.rough.geometry.dispose();
       line.material.dispose();
     }
     this.renderer?.dispose();
@@ -272,6 +361,7 @@ export default {
         }
       }
       this.dirty = true;
+      this.moved = performance.now();
       const before = Object.values(this.held).reduce((sum, line) => sum + line.count, 0);
       const has = await Promise.all(Object.entries(counts).map(([name, [era, count]]) => this.held[name]?.follow(era, count)));
       if (!has.some(Boolean)) return;
@@ -298,22 +388,61 @@ export default {
         this.shape();
         this.dirty = true;
       }
-      if (!this.dirty) return;
+      if (this.isDrawing()) return;
+      const moves = performance.now() - this.moved < REST_MS;
+      if (!this.dirty && (moves || !this.isRough)) return;
       this.dirty = false;
+      this.render(moves);
+      const gl = this.renderer.getContext();
+      this.fence = { sync: gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0), began: performance.now() };
+      gl.flush();
+    },
+    // Whether the card still draws the last picture; how long a segment has taken where it is done.
+    isDrawing() {
+      if (!this.fence) return false;
+      const gl = this.renderer.getContext(), { sync, began } = this.fence;
+      if (gl.getSyncParameter(sync, gl.SYNC_STATUS) !== gl.SIGNALED) return true;
+      gl.deleteSync(sync);
+      this.fence = null;
+      this.learn(performance.now() - began);
+      return false;
+    },
+    // How long a picture of so many segments has taken.
+    learn(ms) {
+      if (this.segments > SURELY_FEW) this.cost = ms / this.segments;
+      if (this.isRough && ms > LONGEST_FRAME_MS && this.segments > SURELY_FEW) this.wider *= 2;
+    },
+    // Draw: all segments, or fewer while the picture moves and all of them would take too long.
+    render(moves) {
+      const lines = Object.values(this.held), all = lines.reduce((sum, line) => sum + line.count, 0);
+      const isFast = this.cost && !this.isRough ? all * this.cost < LONGEST_FRAME_MS : all < SURELY_FAST;
+      this.isRough = moves && !isFast;
+      if (!moves) this.wider = Math.max(1, this.wider / 2);
+      const pixel = (this.camera.right - this.camera.left) / (this.camera.zoom * Math.max(this.$el.clientWidth, 1));
+      const tolerance = this.isRough ? COARSE_PIXELS * this.wider * pixel : 0;
+      this.segments = lines.reduce((sum, line) => sum + line.show(tolerance), 0);
       this.renderer.render(this.scene, this.camera);
     },
-    // Turn about the picture as fast as it can be drawn; gives the pictures in a second (for measurements).
-    async pace(seconds) {
-      const gl = this.renderer.getContext(), pixel = new Uint8Array(4), begin = performance.now();
-      let pictures = 0;
-      while (performance.now() - begin < 1000 * seconds) {
-        this.camera.position.sub(this.controls.target).applyAxisAngle(new THREE.Vector3(0, 0, 1), 0.02).add(this.controls.target);
+    // Turn about the picture as fast as it can be drawn (for measurements); gives the pictures in a second, the
+    // milliseconds of the page's own thread for one, and its segments. `moves`: as while a hand turns it, else exact.
+    async pace(seconds, moves = true) {
+      const gl = this.renderer.getContext(), pixel = new Uint8Array(4), axis = new THREE.Vector3(0, 0, 1);
+      let pictures = 0, script = 0, begin = Infinity;
+      for (let k = -8; k < 0 || performance.now() - begin < 1000 * seconds; k++) {
+        if (k === 0) begin = performance.now();
+        const start = performance.now();
+        this.camera.position.sub(this.controls.target).applyAxisAngle(axis, 0.02).add(this.controls.target);
         this.camera.lookAt(this.controls.target);
-        this.renderer.render(this.scene, this.camera);
+        this.render(moves);
+        const own = performance.now() - start;
         gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel); // until the card has drawn it
-        pictures += 1;
+        this.learn(performance.now() - start);
+        if (k >= 0) { pictures += 1; script += own; }
+        if (!moves && k < -1) k = -1;
       }
-      return (1000 * pictures) / (performance.now() - begin);
+      const rate = (1000 * pictures) / (performance.now() - begin);
+      this.dirty = true;
+      return { pictures: rate, script: script / pictures, segments: this.segments };
     },
   },
 };

@@ -141,6 +141,7 @@ class FanucTurning(CustomMacroControl):
         whole_numbers.RULE,
         nose_radius.CORNER_RULE,
         tapping.WAITING_RULE,
+        offsets.WAITING_RULE,
         speed_arrival.RULE,
         drilling.RULE,
         single.ROTATION_RULE,
@@ -195,6 +196,10 @@ class FanucTurning(CustomMacroControl):
         """The active code of a modal group as the program writes it."""
         code = channel.mode[group]
         return written_codes(self.system(channel)).get((group, code), code)
+
+    def parameters_changed(self, channel: LatheChannel) -> None:
+        """Stroke limits and zone 3 are those of the parameters."""
+        limits.renew_zones(channel)
 
     def hand_range(self, channel: LatheChannel, axis: int) -> tuple[float, float]:
         """Stored stroke check 1."""

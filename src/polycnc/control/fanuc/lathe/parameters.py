@@ -15,10 +15,6 @@ class LatheAxisParameters(FanucAxisParameters):
     OT2 = Bit(1310, 0, delivered=False)
     #: 1310#1: the axis is checked against zone 3.
     OT3 = Bit(1310, 1, delivered=False)
-    #: 1320: Stored stroke check 1, upper limit [mm].
-    travel_upper = Number(1320, delivered=None)
-    #: 1321: Stored stroke check 1, lower limit [mm].
-    travel_lower = Number(1321, delivered=None)
     #: 1322: Stored stroke check 2, upper limit [mm].
     zone_2_upper = Number(1322, delivered=0.0)
     #: 1323: Stored stroke check 2, lower limit [mm].

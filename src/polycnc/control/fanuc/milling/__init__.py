@@ -1,4 +1,5 @@
 """The FANUC machining centre (`fanuc-m`).
 
-`control`, `codes` (its tables), `cycles` (drilling), `variables`, `parameters` (written from the list beside it).
+`control`, `codes` (its tables), `five_axes` (G41.2), `cycles` (drilling), `variables`, `parameters` (written from the
+list beside it).
 """

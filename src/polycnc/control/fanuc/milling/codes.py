@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import wraps
 from typing import TYPE_CHECKING, Any
 
+from polycnc.control.fanuc.milling import five_axes
 from polycnc.control.fanuc.milling.cycles import MILLING_DRILLING
 from polycnc.control.word_address.auxiliary import functions
 from polycnc.control.word_address.auxiliary.m_codes import MACHINING_CENTRE
@@ -22,7 +23,7 @@ from polycnc.control.word_address.coordinates import frames, stroke_check, syste
 from polycnc.control.word_address.cycles.drilling import is_active
 from polycnc.control.word_address.macro_b import code_calls, macro_calls, parameter_input
 from polycnc.control.word_address.motion import nurbs, path, path_modes, planes, position_offset, skip, thread
-from polycnc.control.word_address.tools import corner_vectors, length, measuring, radius
+from polycnc.control.word_address.tools import corner_vectors, length, measuring, radius, spatial
 from polycnc.control.word_address.transformations import (
     cylinder,
     normal_line,
@@ -67,7 +68,7 @@ def moves(code: str, handler: Handler, takes: str = "", **fields: Any) -> GCode:
 
 
 #: Second ways to write codes.
-ALIASES = {"G107": "G7.1", "G112": "G12.1", "G113": "G13.1"}
+ALIASES = {"G49.1": "G49", "G107": "G7.1", "G112": "G12.1", "G113": "G13.1"}
 ROWS = table(
     GCode("G0", "motion", ends="cycle", planner=path.plan_rapid),
     GCode("G1", "motion", ends="cycle", planner=path.plan_line),
@@ -110,13 +111,14 @@ ROWS = table(
     GCode("G40.1", normal_line.GROUP, normal_line.cancel),
     GCode("G41.1", normal_line.GROUP, normal_line.start),
     GCode("G42.1", normal_line.GROUP, normal_line.start),
-    GCode("G40", "compensation", radius.cancel_compensation, takes="I J K", order=Order.COMPENSATION),
+    GCode("G40", "compensation", five_axes.cancel, takes="I J K", order=Order.COMPENSATION),
     GCode("G41", "compensation", corner_vectors.compensate_left, takes="D I J K", order=Order.COMPENSATION),
     GCode("G42", "compensation", corner_vectors.compensate_right, takes="D I J K", order=Order.COMPENSATION),
+    *(GCode(code, "compensation", five_axes.compensate, takes="D", order=Order.COMPENSATION) for code in spatial.SIDES),
     GCode("G43", "length", tool_length(length.compensate_length), takes="H", order=Order.LENGTH),
     GCode("G44", "length", tool_length(length.compensate_length), takes="H", order=Order.LENGTH),
-    GCode("G43.4", "length", tool_center_point.start_following, takes="H", order=Order.LENGTH),
-    GCode("G43.5", "length", tool_center_point.start_following, takes="H", order=Order.LENGTH),
+    GCode("G43.4", "length", five_axes.start_following, takes="H", order=Order.LENGTH),
+    GCode("G43.5", "length", five_axes.start_following, takes="H", order=Order.LENGTH),
     *(moves(code, position_offset.offset_move, "D I J K R", idle_in_cycle=True) for code in position_offset.TIMES),
     GCode("G49", "length", tool_length(length.cancel_length), order=Order.LENGTH),
     GCode("G50", "scaling", frames.end_scale),
@@ -160,7 +162,7 @@ ROWS = table(
     GCode("G98", "return"),
     GCode("G99", "return"),
     not_yet(
-        "G10.9", "G41.2", "G41.3", "G41.4", "G41.5", "G41.6", "G42.2", "G42.4", "G42.5", "G42.6",
+        "G10.9", "G41.3", "G41.4", "G41.5", "G42.4", "G42.5",
     ),
 )  # fmt: skip
 G_CODES = with_aliases(ROWS, ALIASES)

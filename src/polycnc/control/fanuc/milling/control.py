@@ -9,6 +9,7 @@ from polycnc.compensation.policy import Approach, Policy
 from polycnc.control.fanuc.acceleration import accelerated
 from polycnc.control.fanuc.alarm_codes import ALARMS
 from polycnc.control.fanuc.code_calls import registered_codes
+from polycnc.control.fanuc.milling import five_axes
 from polycnc.control.fanuc.milling.codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
 from polycnc.control.fanuc.milling.cycles import MILLING_DRILLING
 from polycnc.control.fanuc.milling.parameters import FanucMillingParameters
@@ -56,7 +57,12 @@ class FanucMilling(MillingControl):
     parameter_files: ClassVar[tuple[str, ...]] = ("fanuc/parameters.toml", "fanuc/milling/parameters.toml")
     parameter_class: ClassVar = FanucMillingParameters
     drilling: ClassVar[Drilling] = MILLING_DRILLING
-    rules: ClassVar[tuple[Rule, ...]] = (*MillingControl.rules, look_ahead.TRAVEL_RULE, interruption.RULE)
+    rules: ClassVar[tuple[Rule, ...]] = (
+        five_axes.RULE,
+        *MillingControl.rules,
+        look_ahead.TRAVEL_RULE,
+        interruption.RULE,
+    )
     SCALE_CENTER_IS_ABSOLUTE: ClassVar[bool] = True
     POINT_IN_WHOLE_NUMBERS: ClassVar[DecimalPoint] = DecimalPoint.REFUSED
 

@@ -47,6 +47,11 @@ class FanucMillingParameters(FanucParameters["FanucMillingAxisParameters"]):
     #: 11600#5: an axis that the block behind G68 does not name keeps its coordinate from before (0) or its
     #: position (1).
     AX1 = Bit(11600, 5, delivered=True)
+    #: 19607#2: radius compensation in space passes sharp outer corners by lines (0) or an arc (1).
+    CCC = Bit(19607, 2, delivered=False)
+    #: 19696#5: tip control: words name the tip on the table (0) or in the work system, which does not turn
+    #: (1).
+    WKP = Bit(19696, 5, delivered=False)
     #: 19741: G53.1, G53.6, G43.5: highest machine position of the first rotary axis; both 0 for any (19742)
     #: [deg].
     first_rotary_high = Number(19741, delivered=0.0)

@@ -95,6 +95,12 @@ def speed_of(channel: SinumerikChannel, column: int) -> float:
     return own or channel.memory.data.number("$MA_POS_AX_VELO", channel.axes[column]) / tables.MINUTE
 
 
+def may_be_away(channel: SinumerikChannel, columns: Iterable[int]) -> bool:
+    """Whether actions, spindles or generated values may have moved any of these axes."""
+    axes = ActionAxes.of(channel)
+    return bool((axes.may_move | axes.geared).intersection(columns)) and channel.actual.clocked is not None
+
+
 def give_back(channel: SinumerikChannel, columns: Iterable[int]) -> None:
     """The program is about to move axes: those that actions may have moved come back to it, when they stand.
 
@@ -113,13 +119,14 @@ def give_back(channel: SinumerikChannel, columns: Iterable[int]) -> None:
     channel.synchronise()
     if any(column in axes.held or clocked.commanded(column).moves for column in taken):
         raise PreprocessingStop
-    machine = channel.coordinates.machine
+    coordinates, path = channel.coordinates, channel.path
+    machine = coordinates.to_machine(path.beside(coordinates.position))
     before = machine.copy()
     for column in taken:
         axes.states.pop(column, None)
         machine[column] = clocked.take_back(column)
-    if machine != before:
-        channel.coordinates.arrive_machine(machine)
+    if any(abs(a - b) > NO_WAY for a, b in zip(machine, before, strict=True)):
+        coordinates.arrive(path.programmed(coordinates.from_machine(machine)))
 
 
 def position_beside(channel: SinumerikChannel, column: int, end: list[float]) -> None:

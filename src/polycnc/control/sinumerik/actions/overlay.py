@@ -2,7 +2,8 @@
 
 MD36750 bit 0 says whether what is written is the shift, or is added to it in every cycle; SD43350 limits it. It moves
 no faster than MD32020, the handwheel's shift than the share of it that MD32090 says. Coordinates do not know of either.
-From an action that shifts an axis on, MD20610 keeps a part of the axis's dynamics for that: the path has the rest.
+From an action that shifts an axis on, and of all axes while the switch DRF is on, MD20610 keeps a part of the axis's
+dynamics for that: the path has the rest.
 CORROF takes them away, DRFOF the handwheel's: the axis stays, coordinates know where it is then.
 """
 
@@ -42,11 +43,13 @@ class Overlays(State, lifetime=Lifetime.POWER):
     Attributes:
         values: What they have asked for, by column, within their limits: mm or degrees.
         expected: Columns of axes that actions of the program may shift; `expected_of_static` that static ones may.
+        by_hand: The handwheel may shift every axis.
     """
 
     values: dict[int, float] = field(default_factory=dict)
     expected: set[int] = lasting(Lifetime.RESET, factory=set)
     expected_of_static: set[int] = field(default_factory=set)
+    by_hand: bool = False
 
 
 class Share(NamedTuple):
@@ -70,27 +73,47 @@ def _nothing() -> None:
     """Nothing but standing."""
 
 
+def expect_handwheel(channel: SinumerikChannel, *, is_on: bool) -> None:
+    """The handwheel may shift every axis from the next block that is prepared on, or none any more (DRF)."""
+    overlays = Overlays.of(channel)
+    if overlays.by_hand is not is_on:
+        overlays.by_hand = is_on
+        channel.context_changed()
+
+
 def share_of(channel: SinumerikChannel, column: int) -> Share:
     """The share of `$AA_OFF` in an axis: MD32020, but no more than MD20610 of what the axis can do."""
+    return _share(channel, column, 1.0)
+
+
+def handwheel_share(channel: SinumerikChannel, column: int) -> Share:
+    """The share of the handwheel in an axis (DRF): MD32020 by MD32090, within the same bounds."""
+    factor = channel.memory.data.number("$MA_HANDWH_VELO_OVERLAY_FACTOR", channel.axes[column])
+    return _share(channel, column, factor)
+
+
+def _share(channel: SinumerikChannel, column: int, factor: float) -> Share:
     data, name = channel.memory.data, channel.axes[column]
     part = min(max(data.number("$MC_ADD_MOVE_ACCEL_RESERVE"), LEAST), MOST)
     top = channel.axis_data[column].rapid
     if data.is_set("$MA_MAX_AX_VELO", name):
         top = min(top or inf, data.number("$MA_MAX_AX_VELO", name) / tables.MINUTE)
-    asked = data.number("$MA_JOG_VELO", name) / tables.MINUTE
+    asked = data.number("$MA_JOG_VELO", name) * factor / tables.MINUTE
     return Share(min(asked, part * top) if top else asked, part)
 
 
 def left_to_path(channel: SinumerikChannel) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """What the path has of every axis: velocity, and part of the acceleration; nothing where no action shifts one."""
+    """What the path has of every axis: velocity, and part of the acceleration; nothing where nothing shifts one."""
     overlays = Overlays.of(channel)
-    columns = overlays.expected | overlays.expected_of_static
-    if not columns:
+    of_actions = overlays.expected | overlays.expected_of_static
+    of_hand = range(len(channel.axes)) if overlays.by_hand else ()
+    if not of_actions and not of_hand:
         return (), ()
     tops, pulls = [inf] * len(channel.axes), [1.0] * len(channel.axes)
-    for column in columns:
-        share, top = share_of(channel, column), channel.axis_data[column].rapid
-        tops[column], pulls[column] = (top or inf) - share.velocity, 1.0 - share.pull
+    for columns, share_in in ((of_actions, share_of), (of_hand, handwheel_share)):
+        for column in columns:
+            share, top = share_in(channel, column), min(tops[column], channel.axis_data[column].rapid or inf)
+            tops[column], pulls[column] = top - share.velocity, 1.0 - share.pull
     return tuple(tops), tuple(pulls)
 
 
@@ -174,13 +197,6 @@ def refuse_suppression(channel: SinumerikChannel) -> None:
     columns = range(len(channel.axes))
     if clocked is not None and any(clocked.overlaid(name, i) for name in NAMES for i in columns):
         raise AlarmError("PC0001", hint="hint.not-supported", code="SUPA $AA_OFF/DRF")
-
-
-def handwheel_speed(channel: SinumerikChannel, axis: int) -> float:
-    """How fast the handwheel shifts an axis, mm/s or degrees/s: MD32020 by MD32090."""
-    data, name = channel.memory.data, channel.axes[axis]
-    share = data.number("$MA_HANDWH_VELO_OVERLAY_FACTOR", name)
-    return data.number("$MA_JOG_VELO", name) * share / tables.MINUTE
 
 
 OVERLAY_VARIABLES: dict[str, RowWithStop] = {

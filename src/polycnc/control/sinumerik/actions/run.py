@@ -84,8 +84,11 @@ class Running:
             self.channel.mode = mode.with_code(group, code)
 
     def end(self) -> None:
-        """The action has been looked at: what is prepared goes on as it was."""
+        """The action has been looked at: what is prepared goes on as it was; what an alarm has left does not act."""
         self.channel.mode = self._kept
+        self.targets.clear()
+        self.directions.clear()
+        self.speeds.clear()
 
     @property
     def unit(self) -> str:

@@ -39,11 +39,12 @@ def position(run: Running, index: Any, modifier: str, value: float) -> None:
             value *= 0.5
     here = clocked.machine(column)
     if modifier == "IC":
-        run.targets[column] = here + value
+        target = here + value
     else:
         offset = channel.actual.machine[column] - channel.actual.work[column]
-        run.targets[column] = _rotary(run, column, here, value + offset, modifier)
-    action_axes.check_target(run.channel, column, run.targets[column])
+        target = _rotary(run, column, here, value + offset, modifier)
+    action_axes.check_target(channel, column, target)
+    run.targets[column] = target
     run.directions.pop(column, None)
 
 

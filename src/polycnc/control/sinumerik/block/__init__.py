@@ -2,5 +2,6 @@
 
 `words` are addresses beside motion, `positions` axis words, `procedures` the predefined ones with their `arguments`;
 `offset_words` are those of tool offsets, `outside_feeds` FMA, ST and FD; `single_block` says where a block halts,
-`plain` tells plain blocks as data for the scanner.
+`plain` tells steps as data for the scanner, `scanned` is what the scanner asks, `routines` what it asks of loops, calls
+and assignments; `variables_at_hand` are what all these calculate with.
 """

@@ -6,48 +6,20 @@ does (`language.bulk.declare`): the motion functions and dimensions of its head,
 
 from __future__ import annotations
 
-from math import inf
 from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.block.positions import AxisTerm, Dimension
-from polycnc.control.sinumerik.limits.working_area import BASIC, MACHINE, Ranges, radius_beside
-from polycnc.control.sinumerik.motion.last_move import ArcOfMove, LastMove
-from polycnc.geometry.arcs import is_even
 from polycnc.language.bulk import (
-    Conditions,
     Conversion,
-    Recipe,
     Scaling,
     SetFeed,
-    Spelling,
     Straight,
     Target,
     Word,
 )
-from polycnc.language.bulk.layout import CR_FORM, DIRECTION_FORM, FIRST_CODE, FORMS
-from polycnc.language.sinumerik.words import Block
-from polycnc.messages import AlarmError
-from polycnc.toolpath import Kind
-from polycnc.toolpath.kinds import CCW_KINDS
 
 if TYPE_CHECKING:
-    from array import array
-    from collections.abc import Callable, Hashable, Sequence
-
-    from polycnc.channel.mode import Mode
-    from polycnc.control.sinumerik.block.draft import Plan
-    from polycnc.control.sinumerik.family import SinumerikChannel
-    from polycnc.kernels.layout import Floats
-    from polycnc.language.bulk.scanner import LastMoves
-    from polycnc.language.sinumerik.executable import SinumerikProgram
-
-SPELLING = Spelling(
-    max_digits=15, semicolon_comments=True, equals=True, forms_count=False, cr_radius=True, directions=True,
-    blank_lines_are_blocks=False,
-)  # fmt: skip
-
-
-# ---- what steps say of themselves
+    from collections.abc import Sequence
 
 
 def targets(terms: Sequence[AxisTerm]) -> tuple[Target, ...] | None:
@@ -82,148 +54,3 @@ def feed(position: int, factor: float) -> SetFeed:
 def length(position: int, factor: float) -> Word:
     """A word with a factor as data."""
     return Word(position, Conversion(Scaling.TIMES, 1.0, factor))
-
-
-# ---- what the scanner asks
-
-
-class SinumerikPlainBlocks:
-    """What the scanner asks of a SINUMERIK control.
-
-    The modal state of a shape is the mode and the program: names may mean something else in another one.
-
-    Args:
-        plan: What a block does in the modal state that holds.
-        tool: What must be known to stand the tool along a direction (`transformation.orientation.standing`).
-        note_turn: Called behind blocks that have turned the tool, with the positions before and behind the last one.
-    """
-
-    spelling = SPELLING
-    routines = None
-
-    def __init__(
-        self,
-        plan: Callable[[SinumerikChannel, Block], Plan],
-        tool: Callable[[SinumerikChannel], array[float]],
-        note_turn: Callable[[SinumerikChannel, list[float], list[float]], None],
-    ) -> None:
-        self._plan = plan
-        self.tool, self.turned = tool, note_turn
-        self._conditions = Conditions()
-
-    def ready(self, channel: SinumerikChannel) -> bool:
-        """Nothing watches blocks, bends arcs or follows a block, and only runs are held back; the program is open.
-
-        Under a transformation no working area acts beside limits of travel: they hold all along the curves of the axes.
-        """
-        c = channel.coordinates
-        return (
-            channel.path.takes_runs
-            and not channel.single_block
-            and c.direct
-            and is_even(c.zero)
-            and (c.transformation is None or not channel.limits or not Ranges.of(channel).limits)
-            and channel.memory.language.modal_call is None
-            and channel.level.code.whole.is_open
-        )
-
-    def generation(self, channel: SinumerikChannel) -> Hashable:
-        """Changes when plans are forgotten, with names that a program gives a meaning, and with conditions."""
-        language, scope = channel.memory.language, channel.level.code.whole.scope_of(channel)
-        macros = len(language.macros), len(scope.macros)
-        names = macros, len(scope.variables), len(language.global_variables)
-        return channel.modes.generation, names, self._conditions.hold(channel)
-
-    def state(self, channel: SinumerikChannel) -> tuple[Mode, object]:
-        """The modal state in the running program."""
-        return channel.mode, channel.level.code.whole
-
-    def enter(self, channel: SinumerikChannel, state: tuple[Mode, object]) -> None:
-        """Another modal state."""
-        channel.mode = state[0]
-
-    def owes(self, channel: SinumerikChannel) -> bool:
-        """Whether incremental words are owed a change of offsets."""
-        return channel.coordinates.owes
-
-    def limits(self, channel: SinumerikChannel) -> Sequence[tuple[float, float]]:
-        """The machine's travel, software limit switches and the working area, whichever is narrower."""
-        limits = Ranges.of(channel).limits
-        if not limits:
-            return channel.limits
-        ranges = list(channel.limits) or [(float("-inf"), float("inf"))] * len(channel.axes)
-        geometry = channel.coordinates.geometry
-        for limit in limits:
-            if limit.system not in (MACHINE, BASIC):
-                return [(inf, -inf)] * len(ranges)  # in another system only the interpreter can look
-            low, high = ranges[limit.column]
-            margin = radius_beside(channel, limit, channel.mode["plane"])
-            tool = limit.system == BASIC and limit.column in geometry
-            length = channel.coordinates.offsets[limit.column] if tool else 0.0
-            ranges[limit.column] = (
-                max(low, limit.low + length + margin),
-                min(high, limit.high + length - margin),
-            )
-        return ranges
-
-    def tolerance(self, channel: SinumerikChannel) -> float:
-        """MD21000, mm."""
-        return float(channel.memory.data.number("$MC_CIRCLE_ERROR_CONST"))
-
-    def drilled(self, _channel: SinumerikChannel) -> None:
-        """Cycles are the interpreter's."""
-
-    def put_variables(self, _channel: SinumerikChannel, _variables: Floats) -> None:
-        """No formulas read any."""
-
-    def moved(self, channel: SinumerikChannel, last: LastMoves) -> None:
-        """Where the last move came from, for CT."""
-        move = LastMove.of(channel)
-        kind = Kind(last.kind)
-        if kind in (Kind.RAPID, Kind.FEED):
-            move.start, move.arc = last.came_from, None
-        else:
-            x, y, z, i, j, k, *_ = last.curve
-            sense = 1.0 if kind in CCW_KINDS else -1.0
-            move.start, move.arc = last.came_from, ArcOfMove((x, y, z), (i, j, k), sense)
-
-    def recipe(self, channel: SinumerikChannel, keys: Sequence[int], _line: str) -> Recipe | None:
-        """What the plan of a shape does, if all of it can be told."""
-        code = channel.level.code.whole
-        try:
-            block = _block(code, channel, keys)
-            if block is None:
-                return None
-            if not block.codes and not block.words:
-                return Recipe((channel.mode, code))
-            plan = channel.mode.plans.get(block) or self._plan(channel, block)
-        except AlarmError:
-            return None  # the interpreter comes to the same block and raises it
-        if plan.shared or plan.ends:
-            return None
-        recipe = self._conditions.recipe(channel, plan.steps, channel.mode)
-        return None if recipe is None else recipe._replace(next_state=(recipe.next_state, code))
-
-
-def _block(code: SinumerikProgram, channel: SinumerikChannel, keys: Sequence[int]) -> Block | None:
-    """The block that the interpreter would run, if its functions and words are those that the scanner has read."""
-    emitter = code.compiled(channel.level.index, channel).emitter
-    if emitter.is_empty:
-        return _EMPTY if not keys else None
-    block = emitter.plain
-    if block is None:
-        return None
-    codes = [f"G{key - FIRST_CODE}" for key in keys if key >= FIRST_CODE]
-    addresses = [_address(key) for key in keys if key < FIRST_CODE]
-    words = [word.address if word.index is None and not word.modifier else "" for word in block.words]
-    return block if codes == list(block.codes) and addresses == words else None
-
-
-_EMPTY = Block((), ())
-
-
-def _address(key: int) -> str:
-    letter, form = divmod(key, FORMS)
-    if form == DIRECTION_FORM:
-        return f"{chr(ord('A') + letter)}3"
-    return "CR" if form == CR_FORM else chr(ord("A") + letter)

@@ -303,7 +303,8 @@ def _enter(mode: Mode, modal: list[tuple[str, str]], *, before: Mode) -> Step:
     """A step that brings the modal state about, behind another one."""
     changes, taps = mode is not before, not sections.RIGID_TAPS.isdisjoint((mode["motion"], before["motion"]))
     compresses = mode["compressor"] != "COMPOF" and any(name == "motion" for name, _ in modal)
-    matters = not modal or compresses or taps or any(name in IN_CONTEXT for name, _ in modal)
+    shows = any(mode.codes.get(name) != before.codes.get(name) for name in DIAMETER_OF_AXIS.values())
+    matters = not modal or compresses or taps or shows or any(name in IN_CONTEXT for name, _ in modal)
 
     def run(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
         channel.mode = mode

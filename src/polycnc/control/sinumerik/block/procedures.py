@@ -25,14 +25,14 @@ from polycnc.control.sinumerik.motion import polynomial_groups, splines
 from polycnc.control.sinumerik.punching import block as punching
 from polycnc.control.sinumerik.signals import interrupts, retraction, sections
 from polycnc.control.sinumerik.tangential import definitions as tangential
-from polycnc.control.sinumerik.tools import d_numbers, online
+from polycnc.control.sinumerik.tools import d_numbers, online, stages
 from polycnc.control.sinumerik.tools.management import lists, magazines, monitoring
 from polycnc.control.sinumerik.transformations import seat, selection, start
 from polycnc.control.sinumerik.variables import dialogs, lengths
 from polycnc.control.sinumerik.variables.stored import Stored
 from polycnc.language.sinumerik.names.initialisation import NEW_CONFIGURATION, initialise
 from polycnc.messages import Alarm, AlarmError
-from polycnc.toolpath.events import Message, Print, Raised
+from polycnc.toolpath.events import Message, Print, Shown
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -97,7 +97,7 @@ def diameters_of_channel(channel: SinumerikChannel, _args: Arguments) -> None:
 def preprocessing_stop(channel: SinumerikChannel, _args: Arguments) -> None:
     """STOPRE: everything held back is written and executed before the next block is read."""
     definition.refuse(channel, "STOPRE")
-    channel.flush()
+    stages.end_blocks(channel)
     channel.synchronise()
 
 
@@ -128,7 +128,7 @@ def set_alarm(channel: SinumerikChannel, args: Arguments) -> None:
             channel=channel.number,
         )
     )
-    channel.event(Raised(code=str(number), line=channel.line, column=0, program=program.name))
+    channel.event(Shown(code=str(number), line=channel.line, column=0, program=program.name))
 
 
 def set_master_spindle(channel: SinumerikChannel, args: Arguments) -> None:

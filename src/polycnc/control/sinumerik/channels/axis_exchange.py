@@ -13,6 +13,7 @@ from polycnc.control.sinumerik.actions import axes as action_axes
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.arguments import Arguments, Procedure
 from polycnc.control.sinumerik.channels.coordination import group_of
+from polycnc.control.sinumerik.tools import stages
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.messages import AlarmError
 
@@ -59,9 +60,16 @@ def _named(channel: SinumerikChannel, args: Iterable[Any]) -> list[str]:
 
 
 def ready(channel: SinumerikChannel, columns: Iterable[int]) -> bool:
-    """Whether a block may move these axes now; else the channel waits and runs the block again."""
+    """Whether a block may move these axes now; else the channel waits and runs the block again.
+
+    A block that only describes a contour moves none.
+    """
+    if channel.path.is_diverted:
+        return True
     columns = tuple(columns)
-    action_axes.give_back(channel, columns)
+    if action_axes.may_be_away(channel, columns):
+        stages.end_blocks(channel)
+        action_axes.give_back(channel, columns)
     axes = [_name(channel, column) for column in columns]
     if all(_is_free(channel, axis) for axis in axes):
         moved_by = group_of(channel).moved_by
@@ -83,17 +91,16 @@ def take(channel: SinumerikChannel, axes: Iterable[str]) -> None:
     """Own axes from now on, where they stand now."""
     owners, moved_by = _owners(channel), group_of(channel).moved_by
     names = channel.machine.channel(channel.number).axes
-    machine = None
+    places: dict[int, float] = {}
     for axis in axes:
         owners[axis] = channel.number
         if moved_by.get(axis, channel.number) != channel.number:
-            if machine is None:
+            if not places:
                 channel.flush()
-                machine = channel.coordinates.machine
-            machine[names.index(axis)] = position(channel, axis)
+            places[names.index(axis)] = position(channel, axis)
             moved_by[axis] = channel.number
-    if machine is not None:
-        channel.coordinates.arrive_machine(machine)
+    if places:
+        action_axes.call(channel, "GET", places)
 
 
 def position(channel: SinumerikChannel, axis: str) -> float:

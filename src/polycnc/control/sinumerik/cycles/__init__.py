@@ -10,9 +10,7 @@
     surfaces             CYCLE61, CYCLE71, CYCLE72, CYCLE76, CYCLE77, CYCLE79, CYCLE90
     engraving            CYCLE60
     contours             CYCLE62 to CYCLE64
-    turning              CYCLE95, CYCLE951, CYCLE97 to CYCLE99
-    grooves              CYCLE93
-    undercuts            CYCLE94, CYCLE96
+    turning              CYCLE93 to CYCLE99, CYCLE951
     swivel               CYCLE800
     swivel_record        its data records
     high_speed_settings  CYCLE832

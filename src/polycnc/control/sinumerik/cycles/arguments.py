@@ -1,7 +1,8 @@
 """Arguments of cycles: names from the signature, values in internal units, omitted ones zero or empty.
 
-A signature is the list of a cycle's parameter names. What kind of value a name stands for is the same in all cycles
-and stands in the tables here; a name that stands in none of them is a length.
+A signature is the list of a cycle's parameter names. What kind of value a name stands for is the same in nearly all
+cycles and stands in the tables here; a name that stands in none of them is a length. Where a cycle means something
+else by a name, its signature says so: `_FR:feed`.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ NUMBERS = _names(
     DTB DTS _DTD DTD FRF VARI _VARI _AXN _GMODE _DMODE _AMODE _UMODE SDAC SDIR SDR ENC MPIT POSS SST SST1
     _PITA _TECHNO STA1 _STA INDA NUM _NUM _NUM1 _NUM2 _NSP CDIR _CDIR NSP NRC NID NUMT IANG ANG1 ANG2 TYPTH
     _ANG1 _ANG2 _STA2 AFSL SSF _ST _MODE _A _B _C _DIR _FR _TYPE _RL _AS1 _AS2 _LIM S_TOLM S_OTOL DT _LAGE _DN _XA
-    _YA _CODEP PIT_INCH _IANG _NRC _NID _NUMT _GST _NR _EW _DR _NT _TYPTH
+    _YA _CODEP PIT_INCH _IANG _NRC _NID _NUMT _GST _NR _EW _DR _NT _TYPTH _BL _PK _N _SDAC _SS2 _SV1 _SV2
     """
 )
 #: Path feeds, in the feed type of the caller.
@@ -40,9 +41,20 @@ FEEDS = _names(
 )
 #: Diameters of turned parts, whatever DIAMON says; the value is the radius.
 DIAMETERS = _names("SPD DM1 DM2 DM3 DM4 _SPD _EPD _ZPD _DM1 _DM2")
-TEXTS = _names("_TC _KNAME _HIDE _TEXT NPP FORM _FORM _PITM _PRG _LAB1 _LAB2 _TR S_CON S_COFF")
+TEXTS = _names("_TC _KNAME _HIDE _TEXT NPP FORM _FORM _PITM _PRG _LAB1 _LAB2 _TR S_CON S_COFF _CON _CONR")
 #: Table of threads and row of it: texts that only say where a pitch came from. Older calls have numbers there.
 TABLES = _names("_PTAB _PTABA")
+
+
+#: What a signature may say of a name.
+KINDS = {"number": NUMBERS, "feed": FEEDS, "diameter": DIAMETERS, "text": TEXTS}
+LENGTH = "length"
+
+
+def kind_of(parameter: str) -> tuple[str, str]:
+    """Name of a parameter as a signature has it, and what it is."""
+    name, _, said = parameter.partition(":")
+    return name, said or next((kind for kind, names in KINDS.items() if name in names), LENGTH)
 
 
 class Arguments:
@@ -51,7 +63,7 @@ class Arguments:
     Args:
         channel: Where it stands: units and feed type count as they are at the call.
         cycle: Name of the cycle.
-        signature: Names of its parameters.
+        signature: Its parameters.
         values: As written, None for one that is left out.
 
     Raises:
@@ -67,16 +79,16 @@ class Arguments:
         if written > len(signature):
             raise AlarmError("12340", text=cycle)
         self.cycle = cycle
-        self._signature = signature
+        self._kinds = dict(map(kind_of, signature))
         self._length = length_factor(channel.mode)
         self._feed = tables.feed_type(channel.mode).factor
         if channel.mode["unit"] == "G700":
             self._feed *= INCH_MM
         self._values: dict[str, Any] = {
-            name: value for name, value in zip(signature, values, strict=False) if value is not None
+            name: value for name, value in zip(self._kinds, values, strict=False) if value is not None
         }
         for name, value in self._values.items():
-            is_wrong = isinstance(value, str) is not (name in TEXTS) and name not in TABLES
+            is_wrong = isinstance(value, str) is not (self._kinds[name] == "text") and name not in TABLES
             if is_wrong or not isinstance(value, (int, float, str)):
                 raise AlarmError("12330", text=f"{cycle} {name}")
             if isinstance(value, float) and not isfinite(value):
@@ -89,7 +101,7 @@ class Arguments:
 
     def has(self, name: str) -> bool:
         """Whether the cycle has a parameter."""
-        return name in self._signature
+        return name in self._kinds
 
     def given(self, name: str) -> bool:
         """Whether an argument was written."""
@@ -102,11 +114,12 @@ class Arguments:
     def __getitem__(self, name: str) -> float:
         """A number in internal units (mm, radius, mm/s …), 0 where it was left out."""
         value = float(self._values.get(name, 0.0))
-        if name in NUMBERS:
+        kind = self._kinds.get(name) or kind_of(name)[1]
+        if kind == "number":
             return value
-        if name in FEEDS:
+        if kind == "feed":
             return value * self._feed
-        return value * self._length * (0.5 if name in DIAMETERS else 1.0)
+        return value * self._length * (0.5 if kind == "diameter" else 1.0)
 
     def plain(self, name: str) -> float:
         """A number as it was written."""

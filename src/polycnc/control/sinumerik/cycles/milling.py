@@ -92,6 +92,7 @@ def variant(a: Arguments, name: str, allowed: tuple[int, ...], digits: int = 2) 
         AlarmError: 61002 for one that the cycle does not have, or below zero; PC0001 for chamfering, and for digits
             that are not known.
     """
+    check_start_point(a)
     value = a.digit(name, 0)
     if value == CHAMFER and a.has("_ZFS"):
         raise not_supported(f"{a.cycle} {name}")
@@ -131,18 +132,29 @@ def reference_point(moves: Moves, a: Arguments) -> Point:
     return moves.point if moves.channel.level.kind is LevelKind.MODAL and given == (0.0, 0.0) else given
 
 
-#: Digits of _GMODE: how the shape is dimensioned (from 2 on from a corner), and whether all of a pocket is milled (1).
+#: Digits of _GMODE: how the shape is dimensioned, and whether all of a pocket is milled (1).
 #: In its hundreds 2 asks for the start point alone.
 _START_POINT_PLACE, _DIMENSIONING_PLACE, _PREMACHINED_PLACE = 2, 3, 4
 ONLY_START = 2
-FROM_MIDDLE, WHOLE = (0, 1), 1
+WHOLE = 1
+#: On which side of the reference point the shape lies, by the thousands of _GMODE: about it, or from a corner: the left
+#: or right one below, the left or right one above.
+SIDES_OF_REFERENCE = {
+    0: (0.0, 0.0), 1: (0.0, 0.0), 2: (1.0, 1.0), 3: (-1.0, 1.0), 4: (1.0, -1.0), 5: (-1.0, -1.0)
+}  # fmt: skip
 
 
-def check_dimensioning(a: Arguments) -> None:
-    """PC0001 for a pocket or spigot that is dimensioned from a corner, or whose start point alone is asked for."""
-    check_start_point(a)
-    if a.digit("_GMODE", _DIMENSIONING_PLACE) not in FROM_MIDDLE:
+def place_of(moves: Moves, a: Arguments, length: float, width: float) -> Place:
+    """Middle and angle of a rectangular shape, from its reference point, which may be one of its corners.
+
+    Raises:
+        AlarmError: PC0001 for a corner that does not exist.
+    """
+    sides = SIDES_OF_REFERENCE.get(a.digit("_GMODE", _DIMENSIONING_PLACE))
+    if sides is None:
         raise not_supported(f"{a.cycle} _GMODE")
+    corner = Place(reference_point(moves, a), a["_STA"])
+    return Place(corner(0.5 * sides[0] * length, 0.5 * sides[1] * width), a["_STA"])
 
 
 def check_start_point(a: Arguments) -> None:
@@ -155,9 +167,8 @@ def check_start_point(a: Arguments) -> None:
 
 
 def pocket3(moves: Moves, a: Arguments) -> None:
-    """POCKET3: rectangular pocket about its middle."""
+    """POCKET3: rectangular pocket about its middle or from a corner."""
     radius = cutter(moves)
-    check_dimensioning(a)
     length, width, corner = abs(a["_LENG"]), abs(a["_WID"]), abs(a["_CRAD"])
     if not length or not width:
         raise AlarmError("61118")
@@ -171,7 +182,6 @@ def pocket3(moves: Moves, a: Arguments) -> None:
 
 def pocket4(moves: Moves, a: Arguments) -> None:
     """POCKET4: circular pocket."""
-    check_start_point(a)
     radius, size = cutter(moves), abs(a["_PRAD"])
     _pocket(moves, a, (2.0 * size, 2.0 * size, size), (abs(a["_AP1"]), abs(a["_AP1"])), radius)
 
@@ -200,8 +210,9 @@ def _pocket(
         (way is Insertion.HELIX and not (helix and pitch)) or (way is Insertion.OSCILLATION and not helix)
     ):
         raise AlarmError("61108")
+    is_round = a.has("_PRAD")
     pocket = Pocket(
-        Place(reference_point(moves, a), a["_STA"]),
+        Place(reference_point(moves, a)) if is_round else place_of(moves, a, size[0], size[1]),
         size[0] / 2.0,
         size[1] / 2.0,
         size[2],
@@ -403,6 +414,7 @@ def slot2(moves: Moves, a: Arguments) -> None:
 def long_hole(moves: Moves, a: Arguments) -> None:
     """LONGHOLE: elongated holes as wide as the tool, milled to and fro."""
     radius = cutter(moves)
+    check_start_point(a)
     found = levels(moves, a)
     if found is None:
         return
@@ -434,9 +446,10 @@ def open_slot(moves: Moves, a: Arguments) -> None:
 
     Raises:
         AlarmError: As the other milling cycles; 61002 for VARI, 61105 for a tool that does not go in, 61118 for a slot
-            without length or width; PC0001 for chamfering.
+            without length or width; PC0001 for chamfering and a mere start point.
     """
     radius = cutter(moves)
+    check_start_point(a)
     kind = a.digit("_VARI", 0)
     if kind == OPEN_CHAMFER:
         raise not_supported("CYCLE899 _VARI")

@@ -11,12 +11,13 @@ from polycnc.control.sinumerik.cycles.levels import levels
 from polycnc.control.sinumerik.cycles.milling import (
     FINISHING,
     ROUGHING,
-    check_dimensioning,
+    check_start_point,
     cutter,
     feed_of,
     is_ccw,
     milling_levels,
     perform,
+    place_of,
     reference_point,
     variant,
     width_of_cut,
@@ -203,7 +204,6 @@ def spigot(moves: Moves, a: Arguments) -> None:
     if radius < 0.0:
         raise AlarmError("61112")
     kind = variant(a, "_VARI", (ROUGHING, FINISHING), digits=1)
-    check_dimensioning(a)
     circular = a.cycle == "CYCLE77"
     length = abs(a["_PRAD"]) if circular else abs(a["_LENG"])
     width, corner = (length, length / 2.0) if circular else (abs(a["_WID"]), abs(a["_CRAD"]))
@@ -212,7 +212,8 @@ def spigot(moves: Moves, a: Arguments) -> None:
     if 2.0 * corner > min(length, width) + NO_WAY:
         raise AlarmError("61113")
     outline = spigots.Rectangle(length / 2.0, width / 2.0, corner)
-    _mill_spigot(moves, a, outline, kind, radius, "_FFD")
+    place = Place(reference_point(moves, a), a["_STA"]) if circular else place_of(moves, a, length, width)
+    _mill_spigot(moves, a, outline, kind, radius, place, "_FFD")
 
 
 def polygon(moves: Moves, a: Arguments) -> None:
@@ -226,11 +227,17 @@ def polygon(moves: Moves, a: Arguments) -> None:
     if abs(a["_RC"]) > inner:
         raise AlarmError("61113")
     outline = spigots.Polygon(count, inner, abs(a["_RC"]))
-    _mill_spigot(moves, a, outline, kind, radius, "_FFP1")
+    _mill_spigot(moves, a, outline, kind, radius, Place(reference_point(moves, a), a["_STA"]), "_FFP1")
 
 
 def _mill_spigot(
-    moves: Moves, a: Arguments, outline: spigots.Outline, kind: int, radius: float, depth_feed: str
+    moves: Moves,
+    a: Arguments,
+    outline: spigots.Outline,
+    kind: int,
+    radius: float,
+    place: Place,
+    depth_feed: str,
 ) -> None:
     """Mill round an outline; `depth_feed` names the parameter of the feed in depth."""
     found = milling_levels(moves, a, abs(a["_FALD"]), "_MID")
@@ -238,7 +245,7 @@ def _mill_spigot(
         return
     left, left_below = (abs(a["_FAL"]), abs(a["_FALD"])) if kind == ROUGHING else (0.0, 0.0)
     shape = spigots.Spigot(
-        Place(reference_point(moves, a), a["_STA"]),
+        place,
         outline,
         abs(a["_AP1"]) / 2.0,
         radius + left,
@@ -312,6 +319,7 @@ def thread_with_teeth(moves: Moves, a: Arguments) -> None:
             PC0001 for a pitch by module, a negative number of teeth and higher digits of VARI.
     """
     radius = cutter(moves)
+    check_start_point(a)
     kind, way, hand = (a.digit("_VARI", place) for place in range(3))
     teeth = a.integer("_NT")
     if teeth < 0 or not 0 <= a.integer("_VARI") < HIGHEST_VARI:

@@ -10,16 +10,22 @@ from typing import TYPE_CHECKING, NamedTuple
 from polycnc.control.sinumerik.cycles import (
     drilling,
     engraving,
-    grooves,
     high_speed_settings,
     milling,
     patterns,
     surfaces,
     swivel,
-    turning,
-    undercuts,
 )
 from polycnc.control.sinumerik.cycles.contours import pockets, reading
+from polycnc.control.sinumerik.cycles.turning import (
+    contours,
+    corner,
+    grooves,
+    parting,
+    stock_removal,
+    threads,
+    undercuts,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -32,7 +38,7 @@ class Cycle(NamedTuple):
     """A row of the table.
 
     Attributes:
-        signature: Names of the parameters in their order.
+        signature: The parameters in their order (`arguments`).
         plan: Notes what the cycle does, block by block.
         saves: G functions and programmable frame of the caller are in force again afterwards.
     """
@@ -144,28 +150,48 @@ CYCLES: dict[str, Cycle] = {
         f"{_MILL} _LENG _WID _PA _PO _STA _MID _MIDA _FAL _FALD _FFP1 _CDIR _VARI {_SL} _UMODE _FS _ZFS",
         milling.open_slot,
     ),
+    "CYCLE92": Cycle(
+        "_SPD _SPL _DIAG1:diameter _DIAG2:diameter _RC _SDIS _SV1:number _SV2:number _SDAC:number _FF1 _FF2 _SS2:number"
+        " _DIAGM:diameter _VARI _DN _DMODE _AMODE",
+        parting.part_off,
+    ),
     "CYCLE93": Cycle(
         "SPD SPL WIDG DIAG STA1 ANG1 ANG2 RCO1 RCO2 RCI1 RCI2 FAL1 FAL2 IDEP DTB VARI _VRT _DN",
         grooves.groove,
     ),
+    "CYCLE930": Cycle(
+        "_SPD _SPL _WIDG _WIDG2 _DIAG _DIAG2 _STA _ANG1 _ANG2 _RCO1 _RCI1 _RCI2 _RCO2 _FAL _IDEP1 _SDIS _VARI _DN"
+        " _NUM _DBH _FF1 _NR _FALX _FALZ _DMODE _AMODE",
+        grooves.grooves,
+    ),
     "CYCLE94": Cycle("SPD SPL FORM _VARI", undercuts.undercut),
     "CYCLE96": Cycle("DIATH SPL FORM _VARI", undercuts.undercut),
-    "CYCLE95": Cycle("NPP MID FALZ FALX FAL FF1 FF2 FF3 VARI DT DAM _VRT", turning.stock_removal),
+    "CYCLE940": Cycle(
+        "_SPD _SPL _FORM _LAGE _SDIS _FFP:feed _VARI _EPD:length _EPL _R1 _R2 _STA _VRT _MID _FAL _FALX _FALZ"
+        " _PITI:number _PTAB _PTABA _DMODE _AMODE",
+        undercuts.undercut_of_mask,
+    ),
+    "CYCLE95": Cycle("NPP MID FALZ FALX FAL FF1 FF2 FF3 VARI DT DAM _VRT", stock_removal.stock_removal),
     "CYCLE97": Cycle(
-        "PIT MPIT SPL FPL DM1 DM2 APP ROP TDEP FAL IANG NSP NRC NID VARI NUMT _VRT", turning.thread
+        "PIT MPIT SPL FPL DM1 DM2 APP ROP TDEP FAL IANG NSP NRC NID VARI NUMT _VRT", threads.thread
     ),
     "CYCLE98": Cycle(
         "PO1 DM1 PO2 DM2 PO3 DM3 PO4 DM4 APP ROP TDEP FAL IANG NSP NRC NID PP1 PP2 PP3 VARI NUMT _VRT",
-        turning.thread_chain,
+        threads.thread_chain,
     ),
     "CYCLE99": Cycle(
         "_SPL _DM1 _FPL _DM2 _APP _ROP _TDEP _FAL _IANG _NSP _NRC _NID _PIT _VARI _NUMT _SDIS _MID _GDEP _PIT1 _FDEP"
         " _GST _GUD _IFLANK _PITA _PITM _PTAB _PTABA _DMODE _AMODE",
-        turning.thread_of_plane,
+        threads.thread_of_plane,
     ),
     "CYCLE951": Cycle(
         "_SPD _SPL _EPD _EPL _ZPD _ZPL _LAGE _MID _FALX _FALZ _VARI _RF1 _RF2 _RF3 _SDIS _FF1 _NR _DMODE _AMODE",
-        turning.corner,
+        corner.corner,
+    ),
+    "CYCLE952": Cycle(
+        "_PRG _CON _CONR _VARI _F _FR:feed _RP:diameter _D _DX _DZ _UX _UZ _U _U1 _BL _XD _ZD _XA:diameter _ZA"
+        " _XB:diameter _ZB _XDA:diameter _XDB:diameter _N _DP _DI _SC _DN _GMODE _DMODE _AMODE _PK _DCH _FS:feed",
+        contours.turn,
     ),
     "CYCLE800": Cycle(
         "_FR _TC _ST _MODE _X0 _Y0 _Z0 _A _B _C _X1 _Y1 _Z1 _DIR _FR_I _DMODE",

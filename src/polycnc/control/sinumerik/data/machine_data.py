@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import field
 from typing import TYPE_CHECKING
 
-from polycnc.channel.states.state import Lifetime, State, retained
+from polycnc.channel.states.state import Lifetime, State, lasting, retained
 from polycnc.control.sinumerik import axis_names
 from polycnc.control.sinumerik.data import of_machine
 from polycnc.control.sinumerik.data.delivered import DATA
@@ -49,6 +49,7 @@ class MachineData(State, lifetime=Lifetime.POWER):
         values: What has a value of its own: what the setup says, and then what was changed.
         changed: What programs have given other values, retained; None for the delivered value.
         changed_everywhere: The same for data of the control (`$MN_`, `$SN_`).
+        ahead: What prepared blocks say of setting data that the main run has not written yet.
     """
 
     changed: dict[Key, object] = retained(PARAMETERS)
@@ -57,6 +58,7 @@ class MachineData(State, lifetime=Lifetime.POWER):
     built: Mapping[Key, object] = field(default_factory=dict)
     preset: dict[Key, object] = field(default_factory=dict)
     values: dict[Key, object] = field(default_factory=dict)
+    ahead: dict[Key, object] = lasting(Lifetime.RESET, factory=dict)
 
     @classmethod
     def first(cls, channel: Channel) -> MachineData:
@@ -180,11 +182,30 @@ class MachineData(State, lifetime=Lifetime.POWER):
 
     def write(self, name: str, indices: tuple[object, ...], value: object) -> None:
         """Set a datum."""
-        self._change((name, tuple(self._index(index) for index in indices)), value)
+        key = (name, tuple(self._index(index) for index in indices))
+        self.ahead.pop(key, None)
+        self._change(key, value)
 
     def items(self) -> list[tuple[Key, object]]:
         """Every datum that setup or programs gave a value, sorted by name and index."""
         return sorted(self.values.items(), key=lambda item: (item[0][0], tuple(map(str, item[0][1]))))
+
+    def say_ahead(self, name: str, indices: tuple[object, ...], value: object) -> None:
+        """A prepared block says a value: what is prepared behind it has it, the main run when that writes it."""
+        self.ahead[name, tuple(self._index(index) for index in indices)] = value
+
+    def write_as_said(self, name: str, indices: tuple[object, ...], value: object) -> None:
+        """The main run writes what a block has said; what later blocks have said stays."""
+        key = (name, tuple(self._index(index) for index in indices))
+        later = self.ahead.pop(key, value)
+        self.write(name, indices, value)
+        if later != value:
+            self.ahead[key] = later
+
+    def read_ahead(self, name: str, *indices: object) -> object:
+        """The value for a block that is prepared now; else as `read`."""
+        key = (name, tuple(self._index(index) for index in indices))
+        return self.ahead[key] if key in self.ahead else self.read(name, *indices)
 
     def restore(self, name: str) -> None:
         """A datum takes the values that the setup gave it, or the delivered ones."""

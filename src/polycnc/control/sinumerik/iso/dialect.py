@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
 #: Functions of the dialect that the control's own language has no word for.
 FUNCTIONS: dict[str, Callable[[IsoRun, IsoWord], None]] = {
+    "G10": frames.set_offset,
     "G28": reference.return_to,
     "G30": reference.return_to,
     "G43": offsets.select,
@@ -26,6 +27,7 @@ FUNCTIONS: dict[str, Callable[[IsoRun, IsoWord], None]] = {
     "G50.1": frames.unmirror,
     "G51.1": frames.mirror,
     "G52": frames.shift,
+    "G53": reference.to_machine,
     "G68": frames.rotate,
     "G69": frames.unrotate,
     "G92": frames.set_position,
@@ -50,7 +52,7 @@ GROUPS = (
     frozenset(("G98", "G99")),
     frozenset(("G65", "G66", "G67")),
     # They read the axis words.
-    frozenset(("G28", "G30", "G50.1", "G51", "G51.1", "G52", "G65", "G66", "G68", "G92")),
+    frozenset(("G10", "G28", "G30", "G50.1", "G51", "G51.1", "G52", "G53", "G65", "G66", "G68", "G92")),
 )
 #: Letters that a block may hold several times.
 _REPEATED = "GM"

@@ -1,4 +1,4 @@
-"""Frames of the ISO dialect: scale, mirror, rotation, shift, and the position that G92 sets.
+"""Frames of the ISO dialect: scale, mirror, rotation, shift, the position that G92 sets, work offsets by G10.
 
 Scale, mirror and rotation are system frames behind the programmable one, in which G52 shifts; G92 is a shift in
 `$P_SETFRAME`. A scale goes
@@ -275,3 +275,38 @@ def _set_position(running: IsoRun, word: IsoWord, words: list[IsoWord]) -> None:
         raise running.refused(word)
     shifts = {name: coordinates.position[column] - value for name, column, value in _named(running, words)}
     _put(running, _SET, ctrans(shifts) @ frames.system[_SET])
+
+
+# ---- data
+
+#: P of G10 L2: G54 to G57, G58 and G59, which are settable frames of these numbers.
+OFFSETS = range(1, 7)
+
+
+def set_offset(running: IsoRun, word: IsoWord) -> None:
+    """G10 L2 P1 to P6: the work offset G54 to G59 of the named axes has these values, or under G91 so much more.
+
+    Raises:
+        AlarmError: PC0001 for another L or P, without axes, and for the offset that is active: it is not known when
+            that acts.
+    """
+    running.positions = True
+    kind, number = running.take("L"), running.take("P")
+    words = running.axis_words()
+    running.taken += words
+    if kind is None or kind.value != 2.0 or number is None or number.value not in OFFSETS or not words:
+        raise running.refused(word)
+    codes = running.block.codes
+    adds = "G91" in codes or (running.channel.mode["distance"] == "G91" and "G90" not in codes)
+    running.after.append(partial(_set_offset, running, word, words, int(number.value), adds=adds))
+
+
+def _set_offset(running: IsoRun, word: IsoWord, words: list[IsoWord], number: int, *, adds: bool) -> None:
+    frames = running.channel.memory.frames
+    if frames.number == number:
+        raise running.refused(word)
+    frame = frames.settable[number]
+    for name, _, value in _named(running, words):
+        before = frame.component(name, "TR") if adds else 0.0
+        frame = frame.with_component(name, "TR", before + value)
+    frames.settable[number] = frame

@@ -1,4 +1,4 @@
-"""G28 and G30 of the ISO dialect: over a point to the reference points."""
+"""G28, G30 and G53 of the ISO dialect: over a point to the reference points, and to a point of the machine."""
 
 from __future__ import annotations
 
@@ -37,6 +37,33 @@ def return_to(running: IsoRun, word: IsoWord) -> None:
     running.positions = True
     with_motion(running, "G0")
     running.after.append(partial(_go_on, running, names, number - 1))
+
+
+def to_machine(running: IsoRun, word: IsoWord) -> None:
+    """G53: at rapid to a point of the machine, whatever motion function is modal.
+
+    Raises:
+        AlarmError: 17630 for an axis that a transformation uses; PC0001 without axes, under G91, with a radius
+            compensation or a length of the tool, for the dialect wants these cancelled.
+    """
+    channel = running.channel
+    words = running.axis_words()
+    codes = running.block.codes
+    incremental = "G91" in codes or (channel.mode["distance"] == "G91" and "G90" not in codes)
+    if not words or incremental or channel.mode["compensation"] != "G40" or any(channel.coordinates.offsets):
+        raise running.refused(word)
+    running.positions = True
+    running.taken += words
+    running.after.append(partial(_to_machine, running, words))
+
+
+def _to_machine(running: IsoRun, words: list[IsoWord]) -> None:
+    channel, points = running.channel, {}
+    for word in words:
+        column = channel.memory.column(word.letter)
+        points[column] = word.value if channel.axis_data[column].rotary else running.length(word)
+    seat.refuse_transformed(channel, list(points), "17630")
+    moves.to_machine(channel, Kind.RAPID, points)
 
 
 def _go_on(running: IsoRun, names: list[str], point: int) -> None:

@@ -19,6 +19,7 @@ from polycnc.control.sinumerik.motion import circles, moves
 from polycnc.control.sinumerik.signals import interrupts
 from polycnc.control.sinumerik.tables import length_factor
 from polycnc.control.sinumerik.tools import stages
+from polycnc.control.sinumerik.tools.sides import SIDES
 from polycnc.control.sinumerik.variables.row import RowWithStop
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.planes import PLANES
@@ -38,6 +39,8 @@ LINES, QUARTERS, HALVES = ("REPOSL", "REPOSA"), ("REPOSQ", "REPOSQA"), ("REPOSH"
 FUNCTIONS = (*LINES, *QUARTERS, *HALVES)
 #: Of the G functions of group 26, in the order of `$AC_REPOS_PATH_MODE` from 1.
 POINTS = ("RMB", "RMI", "RME", "RMN")
+#: Bits of `$AC_ASUP` (general knowledge: the list of system variables).
+BLSYNC, CUTS = 1, 2
 Plane = tuple[int, int, int]
 
 
@@ -87,10 +90,9 @@ def reposition(draft: Draft) -> Step:
         radius = number(values, size) * factor if size is not None and code not in LINES else 0.0
         feed = nan if rapid else moves.checked_feed(channel.feed)
         arc = _touching_arc(channel, way, part, plane, radius, half=code in HALVES)
-        if arc is not None and channel.mode["compensation"] != "G40":
-            raise not_supported(f"{code} G41/G42")  # the circle would be compensated too, or dropped
         _approach(channel, way.at(part), named, feed, arc)
         interrupted.resume_at = part
+        interrupted.left = frozenset(range(len(way.move.end))) - _moved(channel, named)
         Repositioning.of(channel).point = POINTS.index(point) + 1
         end_of_subprogram(channel)
 
@@ -127,19 +129,38 @@ def _touching_arc(
     is_left = along[0] * (position[v] - target[v]) - along[1] * (position[u] - target[u]) >= 0.0
     side = 1.0 if is_left else -1.0
     across = (-along[1] * side, along[0] * side)
-    reach = 0.5 * radius if half else radius
+    reach = (0.5 * radius if half else radius) + _beside(channel, side)
     center = (target[u] + reach * across[0], target[v] + reach * across[1])
     lead = across if half else (-along[0], -along[1])
     begin = (center[0] + reach * lead[0], center[1] + reach * lead[1])
     return Arc((u, v, columns[2]), plane, begin, center, ccw=is_left)
 
 
+def _moved(channel: SinumerikChannel, named: set[int]) -> set[int]:
+    """Columns of the axes that REPOS leads back: geometry axes and named ones."""
+    return named.union(column for column in channel.coordinates.geometry if column >= 0)
+
+
+def _beside(channel: SinumerikChannel, side: float) -> float:
+    """How much wider the circle is on the contour than on the tool's middle, which goes inside of it.
+
+    Raises:
+        AlarmError: PC0001 where compensation begins otherwise than square to the circle, or on its other side.
+    """
+    compensation = channel.mode["compensation"]
+    if compensation == "G40":
+        return 0.0
+    stage, radius = stages.active_cutter(channel), stages.radius(channel)
+    if stage is None or channel.mode["approach"] != "NORM" or SIDES[compensation] * radius * side < 0.0:
+        raise not_supported(f"REPOSQ REPOSH {compensation}")
+    return abs(radius)
+
+
 def _approach(
     channel: SinumerikChannel, target: list[float], named: set[int], feed: float, arc: Arc | None
 ) -> None:
     """Go to a point of the contour: geometry axes and named ones; the others stay."""
-    position = channel.coordinates.position
-    moved = named.union(column for column in channel.coordinates.geometry if column >= 0)
+    position, moved = channel.coordinates.position, _moved(channel, named)
     end = [target[i] if i in moved else value for i, value in enumerate(position)]
     kind = Kind.RAPID if isnan(feed) else Kind.FEED
     if arc is None:
@@ -166,6 +187,14 @@ def _return_point(channel: SinumerikChannel, indices: tuple[Any, ...]) -> float:
     return float(interrupted.way.at(interrupted.part)[column])
 
 
+def _cause(channel: SinumerikChannel, _indices: tuple[Any, ...]) -> int:
+    """$AC_ASUP: why an interrupt routine runs: bit 0 an input with BLSYNC, bit 1 one that has cut a block; else 0."""
+    interrupted = interrupts.running(channel)
+    if interrupted is None:
+        return 0
+    return BLSYNC if interrupted.waited else CUTS
+
+
 def _is_possible(channel: SinumerikChannel, _indices: tuple[Any, ...]) -> int:
     """$P_REPINF: 1 where REPOS leads back to a contour."""
     return int(interrupts.running(channel) is not None)
@@ -173,6 +202,7 @@ def _is_possible(channel: SinumerikChannel, _indices: tuple[Any, ...]) -> int:
 
 REPOS_VARIABLES: dict[str, RowWithStop] = {
     "$AC_REPOS_PATH_MODE": (Type.INT, lambda channel, _indices: Repositioning.of(channel).point, None, True),
+    "$AC_ASUP": (Type.INT, _cause, None, True),
     "$AC_RETPOINT": (Type.REAL, _return_point, None, True),
     "$P_REPINF": (Type.INT, _is_possible, None, False),
 }

@@ -57,24 +57,32 @@ def datum(draft: Draft, position: int, shape: WordShape) -> Step:
         if name in strokes.DWELL and value < 0.0 and value not in (NO_STOP, COARSE_STOP):
             raise WordAlarm("12560", position, text=shape.address)
 
-        def write() -> None:
-            data, axis = channel.memory.data, Axis(channel.axes[column])
-            data.write(name, (axis,), value + data.number(name, axis.name) if adds else value)
-            if shape.address == "OSE":
-                options = data.integer(strokes.OPTIONS, axis.name)
-                data.write(strokes.OPTIONS, (axis,), options | strokes.TO_END)
-
-        _along_with_the_path(channel, shape.address, write)
+        before = _ahead(channel, name, column) if adds else 0.0
+        _along_with_the_path(channel, shape.address, name, column, before + value)
+        if shape.address == "OSE":
+            mask = int(_ahead(channel, strokes.OPTIONS, column)) | strokes.TO_END
+            _along_with_the_path(channel, shape.address, strokes.OPTIONS, column, mask)
 
     return run
 
 
-def _along_with_the_path(channel: SinumerikChannel, word: str, write: Callable[[], None]) -> None:
-    """Write when the axes are there; at once where nothing runs on the clock yet, so that nothing looks."""
+def _ahead(channel: SinumerikChannel, name: str, column: int) -> float:
+    """The datum of an axis as blocks have said it so far."""
+    value = channel.memory.data.read_ahead(name, Axis(channel.axes[column]))
+    return float(value) if isinstance(value, int | float) else 0.0
+
+
+def _along_with_the_path(channel: SinumerikChannel, word: str, name: str, column: int, value: float) -> None:
+    """Write a datum when the axes are there: `$SA_…` of prepared blocks has it now, as in the manual's examples.
+
+    At once where nothing runs on the clock yet, so that nothing looks.
+    """
+    data, place = channel.memory.data, (Axis(channel.axes[column]),)
     if channel.actual.clocked is None:
-        write()
+        data.write(name, place, value)
     else:
-        channel.event(Deed(word, None, write))
+        data.say_ahead(name, place, value)
+        channel.event(Deed(word, None, lambda: data.write_as_said(name, place, value)))
 
 
 def options(draft: Draft, position: int, shape: WordShape) -> Step:
@@ -87,11 +95,8 @@ def options(draft: Draft, position: int, shape: WordShape) -> Step:
             raise WordAlarm("12560", position, text="OSCTRL")
         on, off = (int(value) for value in (*listed, 0)[:2])
 
-        def write() -> None:
-            data, axis = channel.memory.data, Axis(channel.axes[column])
-            data.write(strokes.OPTIONS, (axis,), data.integer(strokes.OPTIONS, axis.name) & ~off | on)
-
-        _along_with_the_path(channel, "OSCTRL", write)
+        mask = int(_ahead(channel, strokes.OPTIONS, column)) & ~off | on
+        _along_with_the_path(channel, "OSCTRL", strokes.OPTIONS, column, mask)
 
     return run
 
@@ -123,9 +128,8 @@ def take_feed(channel: SinumerikChannel, column: int) -> None:
     """FA of an axis that may oscillate: SD43740 has it when the axes are there (11.1)."""
     if channel.actual.clocked is None or column not in ActionAxes.of(channel).may_move:
         return
-    place = strokes.VELOCITY, (Axis(channel.axes[column]),)
     speed = action_axes.speed_of(channel, column) * tables.MINUTE
-    channel.event(Deed("FA", None, lambda: channel.memory.data.write(*place, speed)))
+    _along_with_the_path(channel, "FA", strokes.VELOCITY, column, speed)
 
 
 def _begin(channel: SinumerikChannel, column: int) -> Callable[[], None]:

@@ -23,6 +23,8 @@ from polycnc.language.sinumerik.statements.calls import call_without_arguments, 
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from polycnc.channel.moves.path import Move
     from polycnc.channel.stack import Level
     from polycnc.control.sinumerik.family import SinumerikChannel
@@ -63,6 +65,8 @@ class Interrupted:
         rest: Further moves of the block (of a cycle).
         end: Where the block ends.
         resume_at: Part of the way at which REPOS has come back; None before.
+        left: Columns of axes that REPOS has not led back: neither geometry axes nor named.
+        waited: The routine has waited for the end of the block (BLSYNC).
     """
 
     way: MovePath | None
@@ -72,6 +76,8 @@ class Interrupted:
     rest: list[Move]
     end: list[float]
     resume_at: float | None = None
+    left: frozenset[int] = frozenset()
+    waited: bool = False
 
 
 class Watch(Stage):
@@ -217,7 +223,10 @@ class Watch(Stage):
             raise AlarmError("PC0004")
         call_without_arguments(channel, assignment.program, LevelKind.INTERRUPT)
         single_block.begin_routine(channel, channel.level)
-        self.running.append(Interrupted(way, part, assignment.priority, channel.level, rest, end))
+        waited = assignment.waits_for_block
+        self.running.append(
+            Interrupted(way, part, assignment.priority, channel.level, rest, end, waited=waited)
+        )
 
     def _ended(self, interrupted: Interrupted) -> None:
         """A routine has ended: another one that waits for it, or what is left of the block."""
@@ -233,16 +242,16 @@ class Watch(Stage):
         if part is None or way is None:
             self._stands = stands if way is not None else None
         else:
-            self._finish(way, part, stands)
+            keep = _places_kept(interrupted, stands)
+            rest = way.beyond(part, stands)
+            rest = replace(rest, end=keep(rest.end))
+            if part < 1.0 or rest.end != stands:  # other inputs may still come
+                self.move(self._renewed(rest))
             for move in interrupted.rest:
-                self.move(self._renewed(move))
+                self.move(self._renewed(replace(move, start=keep(move.start), end=keep(move.end))))
             single_block.halt_behind_rest(channel)
+            interrupted.end = keep(interrupted.end)
         channel.coordinates.arrive(interrupted.end)
-
-    def _finish(self, way: MovePath, part: float, stands: list[float]) -> None:
-        """The rest of the interrupted move, from where REPOS has come back; other inputs may still come."""
-        if part < 1.0 or way.move.end != stands:
-            self.move(self._renewed(way.beyond(part, stands)))
 
     def _renewed(self, move: Move) -> Move:
         """A move with the tool that the routine has left in force (8.6)."""
@@ -253,6 +262,13 @@ class Watch(Stage):
             then, tool=now.tool, tool_name=now.tool_name, offsets=now.offsets, radius_mm=now.radius_mm
         )
         return replace(move, context=channel.toolpath.context_number(renewed))
+
+
+def _places_kept(interrupted: Interrupted, stands: list[float]) -> Callable[[list[float]], list[float]]:
+    """Let axes that REPOS has not led back stay where they stand, if the interrupted block does not move them (8.6)."""
+    moves = [*interrupted.rest, *([interrupted.way.move] if interrupted.way else ())]
+    still = {c for c in interrupted.left if all(move.start[c] == move.end[c] for move in moves)}
+    return lambda position: [stands[c] if c in still else value for c, value in enumerate(position)]
 
 
 @dataclass(slots=True)

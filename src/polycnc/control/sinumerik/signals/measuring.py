@@ -346,7 +346,7 @@ def _end(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - s
     channel.flush()
     prober.jobs = []
     if prober.stopped is not None:
-        channel.coordinates.arrive(prober.stopped)
+        channel.coordinates.arrive(channel.path.programmed(prober.stopped))
         prober.stopped = None
 
 

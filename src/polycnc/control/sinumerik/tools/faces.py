@@ -145,6 +145,20 @@ class FaceStage(Stage):
         self._at: list[float] | None = None
         self._shift: Vector = (0.0, 0.0, 0.0)
 
+    def beside(self, position: list[float]) -> list[float]:
+        """Where the tip stands when the program stands at a point of the surface; see `Stage`."""
+        return self._moved(position, 1.0)
+
+    def programmed(self, position: list[float]) -> list[float]:
+        """The point of the surface that the program has told when the tip stands at a position; see `Stage`."""
+        return self._moved(position, -1.0)
+
+    def _moved(self, position: list[float], sense: float) -> list[float]:
+        moved = list(position)
+        for column, value in zip(self._geometry, self._shift, strict=True):
+            moved[column] += sense * value
+        return moved
+
     def move(self, move: Move) -> None:
         """Take the next move; an arc becomes chords."""
         path = MovePath(move, self._geometry)

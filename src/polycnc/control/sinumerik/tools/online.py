@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.frames import active as frames
+from polycnc.control.sinumerik.tables import data_factor
 from polycnc.control.sinumerik.tools import selection
 from polycnc.control.sinumerik.tools.edges import DP_WEAR_LENGTH
 from polycnc.control.sinumerik.tools.holders.active import ActiveCarrier
@@ -73,7 +74,7 @@ def switch_on(channel: SinumerikChannel, args: Arguments) -> None:
     i, overlay = _direction(channel, args[0]), Overlay.of(channel)
     overlay.on[i] = True
     if len(args) == 2 and args[1] is not None:
-        put(channel, i, overlay.values[i] + arguments.real(args[1]))
+        put(channel, i, overlay.values[i] + arguments.real(args[1]) * data_factor(channel.mode))
 
 
 def switch_off(channel: SinumerikChannel, args: Arguments) -> None:
@@ -159,7 +160,8 @@ def put_fine(channel: SinumerikChannel, args: Arguments) -> None:
         raise AlarmError("14020", text="PUTFTOC")
     target = _channel(channel, number)
     edge = _wheel(target, spindle)
-    edge.values[DP_WEAR_LENGTH - 1 + arguments.whole(length)] += arguments.real(value)
+    more = arguments.real(value) * data_factor(channel.mode)
+    edge.values[DP_WEAR_LENGTH - 1 + arguments.whole(length)] += more
     if edge is target.memory.tools.edge and target.mode["fine_tool_offset"] == "FTOCON":
         _follow(target, moves=True)
 

@@ -36,7 +36,10 @@ if TYPE_CHECKING:
 
 #: MD20250 = 5 blocks without motion are bridged by compensation.
 BRIDGED_BLOCKS = 5
-_G450 = Policy(outer=Outer(0.0, Joint.ARC), read_blocks=BRIDGED_BLOCKS + 2, avoids=True, leaves_out_arcs=True)
+_G450 = Policy(
+    outer=Outer(0.0, Joint.ARC), read_blocks=BRIDGED_BLOCKS + 2, avoids=True, leaves_out_arcs=True,
+    approaches_behind_stops=True,
+)  # fmt: skip
 #: MD20210 = 100 degrees.
 _G451 = replace(_G450, outer=Outer(100.0, Joint.ARC, extend_as_circles=True))
 POLICIES = {
@@ -165,6 +168,12 @@ def _settle_corner(channel: SinumerikChannel, what: str = "G40 G41 G42") -> None
     stage = channel.path.find(CornerStage)
     if stage is not None and not stage.settle():
         raise not_supported(f"CHF CHR RND: {what}")
+
+
+def end_blocks(channel: SinumerikChannel) -> None:
+    """Preprocessing stops: the blocks in front end. PC0001 between the two moves of a chamfer or rounding."""
+    _settle_corner(channel, "STOPRE $A POS")
+    channel.flush()
 
 
 def turned_frame(channel: SinumerikChannel) -> None:

@@ -122,8 +122,16 @@ class _Led(Stage):
         else:
             self.after.move(self._arc(move, start, end, move.center))
 
-    def _point(self, position: list[float]) -> list[float]:
-        image = self.frame.apply(*(position[i] if i >= 0 else 0.0 for i in self._geometry))
+    def beside(self, position: list[float]) -> list[float]:
+        """A position as the frame shows it."""
+        return self._point(position)
+
+    def programmed(self, position: list[float]) -> list[float]:
+        """The position that the frame shows so."""
+        return self._point(position, self.frame.inverse())
+
+    def _point(self, position: list[float], frame: Frame | None = None) -> list[float]:
+        image = (frame or self.frame).apply(*(position[i] if i >= 0 else 0.0 for i in self._geometry))
         moved = position.copy()
         for column, value in zip(self._geometry, image, strict=True):
             if column >= 0:

@@ -35,6 +35,8 @@ TYPES: dict[str, range] = {
 }
 #: Types of TRACYL: groove walls by a linear axis, always or by the third argument.
 WITH_WALLS, WALLS_BY_ARGUMENT = 513, 514
+#: Sides of the pole of TRANSMIT by MD24911 and MD24951.
+SIDES = {1: 1.0, 2: -1.0}
 #: As many transformations as machine data can name.
 COUNT = 10
 _TURNS = 1e-9
@@ -59,6 +61,7 @@ class Build:
         walls: Where a linear axis keeps the tool square to groove walls (TRACYL, types 513 and 514), the column
             that says how far it goes; else -1.
         bound: Columns of axes that move with the path alone: neither positioned nor oscillating beside it.
+        order: Number of its machine data, among those of its kind.
     """
 
     inner: Transformation
@@ -66,6 +69,7 @@ class Build:
     lengths: str = "behind"
     walls: int = -1
     bound: frozenset[int] = frozenset()
+    order: int = 1
 
 
 def find(channel: SinumerikChannel, kind: str, number: int) -> DataSet:
@@ -143,9 +147,8 @@ def orientation(
     for i, axis in enumerate(in_order(kinematics)):
         offset = number_of(channel, f"$MC_TRAFO5_ROT_AX_OFFSET_{n}", i, 0.0)
         zero[axes.index(axis)] = -(offset + (added[i] if i < len(added) else 0.0))
-    return Build(
-        ToolCentrePoint(kinematics, axes, geometry, tuple(zero), (0.0, 0.0, 0.0)), frozenset(), "tip"
-    )
+    inner = ToolCentrePoint(kinematics, axes, geometry, tuple(zero), (0.0, 0.0, 0.0))
+    return Build(inner, lengths="tip", order=n)
 
 
 def in_order(kinematics: Kinematics) -> tuple[str, ...]:
@@ -156,34 +159,47 @@ def in_order(kinematics: Kinematics) -> tuple[str, ...]:
 # ---- turning machines
 
 
-def polar(channel: SinumerikChannel, found: DataSet) -> Build:
+def polar(channel: SinumerikChannel, found: DataSet, infeed: int = -1) -> Build:
     """TRANSMIT: infeed axis and rotary axis become a plane.
+
+    Args:
+        channel: The channel.
+        found: The data set.
+        infeed: Column that stands for X where TRAANG behind makes it of an oblique axis; else -1.
 
     Raises:
         AlarmError: 14401 on a machine without rotary axis in the work or without an infeed axis.
     """
-    geometry, rotary = native(channel), _work_axis(channel, found)
+    geometry, rotary = _with_infeed(channel, infeed), _work_axis(channel, found)
     second = geometry[1] if geometry[1] >= 0 else rotary
     if geometry[0] < 0:
         raise AlarmError("14401", text="TRANSMIT")
     virtual = second if second != rotary else -1
     inner = PolarPlane(geometry[0], rotary, (geometry[0], second, geometry[2]), virtual=virtual)
-    return Build(_turned(channel, inner), frozenset((rotary,)))
+    return Build(_turned(channel, found, inner), frozenset((rotary,)))
 
 
-def _turned(channel: SinumerikChannel, inner: PolarPlane) -> PolarPlane:
-    """On the side of the centre where the infeed axis stands."""
+def _turned(channel: SinumerikChannel, found: DataSet, inner: PolarPlane) -> PolarPlane:
+    """On the side of the centre that MD24911 and MD24951 name (1 plus, 2 minus), else where the infeed axis stands."""
+    name = f"$MC_TRANSMIT_POLE_SIDE_FIX_{order(channel, found)}"
+    fixed = SIDES.get(int(number_of(channel, name, 0, 0.0)))
+    if fixed is not None:
+        return replace(inner, side=fixed)
     here = channel.coordinates.machine[inner.linear]
     return replace(inner, side=-1.0 if here < -_TURNS else 1.0)
 
 
-def cylinder(channel: SinumerikChannel, found: DataSet, diameter: float, *, walls: bool) -> Build:
+def cylinder(
+    channel: SinumerikChannel, found: DataSet, diameter: float, *, walls: bool, infeed: int = -1
+) -> Build:
     """TRACYL: the rotary axis becomes a length round a cylinder; `walls`: a real Y axis keeps groove walls square.
+
+    `infeed` is the column that stands for X where TRAANG behind makes it of an oblique axis; else -1.
 
     Raises:
         AlarmError: 14401 on a machine without rotary axis in the work, or without the Y axis for walls.
     """
-    geometry, rotary = native(channel), _work_axis(channel, found)
+    geometry, rotary = _with_infeed(channel, infeed), _work_axis(channel, found)
     has_y = geometry[1] >= 0
     made = (geometry[0], geometry[1] if has_y else rotary, geometry[2])
     if walls:
@@ -201,7 +217,7 @@ def inclined(channel: SinumerikChannel, angle: float) -> Build:
     Raises:
         AlarmError: 14401 on a machine without an oblique axis.
     """
-    geometry, column = native(channel), _oblique_column(channel)
+    geometry, column = native(channel), oblique_column(channel)
     if column < 0 or geometry[2] < 0:
         raise AlarmError("14401", text="TRAANG")
     inner = InclinedAxis(column, geometry[2], angle, (column, geometry[1], geometry[2]))
@@ -218,12 +234,12 @@ def angle_of_machine(channel: SinumerikChannel, found: DataSet) -> float:
 
 
 def _oblique(channel: SinumerikChannel) -> Vector | None:
-    column = _oblique_column(channel)
+    column = oblique_column(channel)
     name = channel.axis_data[column].name if column >= 0 else ""
     return next((joint.direction for joint in channel.machine.joints if joint.axis == name), None)
 
 
-def _oblique_column(channel: SinumerikChannel) -> int:
+def oblique_column(channel: SinumerikChannel) -> int:
     """Column of the linear axis that leans from X towards Z, or else of the one that stands for X; -1 for none."""
     names = channel_names(channel)
     for joint in channel.machine.joints:
@@ -244,6 +260,12 @@ def _work_axis(channel: SinumerikChannel, found: DataSet) -> int:
 
 
 # ---- the channel's own axes
+
+
+def _with_infeed(channel: SinumerikChannel, infeed: int) -> Geometry:
+    """Columns of X, Y and Z without a transformation, X that of the infeed where one is told."""
+    x, y, z = native(channel)
+    return (x if infeed < 0 else infeed, y, z)
 
 
 def native(channel: SinumerikChannel) -> Geometry:

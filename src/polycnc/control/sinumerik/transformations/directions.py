@@ -8,6 +8,7 @@ from __future__ import annotations
 from math import radians
 from typing import TYPE_CHECKING
 
+from polycnc.control.sinumerik.tables import length_factor
 from polycnc.control.sinumerik.transformations.words import (
     ANGLES,
     AXIS,
@@ -262,25 +263,32 @@ def _through(
 def _second_curve(
     posture: Posture, state: Orienting, words: Words, values: Values, path: TipPath, start: Vector
 ) -> Way | None:
-    """ORICURVE: the tool leads through a second point, whose curve XH, YH, ZH and PO[XH] … tell (6.2.9)."""
-    channel = posture.channel
+    """ORICURVE: the tool leads through a second point, whose curve XH, YH, ZH and PO[XH] … tell (6.2.9).
+
+    Where the tool does not lead through the last one any more, it begins a millimetre along the tool from the tip.
+    """
+    channel, factor = posture.channel, length_factor(posture.channel.mode)
     columns = posture.seated.geometry
-    first = [path.at(0.0)[i] for i in columns]
+    x, y, z = (path.at(0.0)[i] for i in columns)
+    first = (x, y, z)
     given = {**words.second, **words.polynomials}
     if not any(name in given for name in SECOND):
         return None
     back = posture.seated.frame.inverse()
     along = unit_of(back.direct(*start)) or start
-    second = state.second or tuple(a + b for a, b in zip(first, along, strict=True))
+    second = state.second or first
+    leads = unit_of((second[0] - first[0], second[1] - first[1], second[2] - first[2]))
+    if leads is None or angle_between(leads, along) > SAME:
+        second = (first[0] + along[0], first[1] + along[1], first[2] + along[2])
     curves = []
     goal = []
     for i, name in enumerate(SECOND):
-        numbers = words.coefficients(values, name)
+        numbers = tuple(each * factor for each in words.coefficients(values, name))
         if name in words.second:
             value = values[words.second[name]]
             if not isinstance(value, (int, float)):
                 raise WordAlarm("12150", words.second[name], text=name)
-            numbers = (float(value), *numbers[1:])
+            numbers = (float(value) * factor, *numbers[1:])
         end = numbers[0] if numbers else second[i]
         if numbers and channel.mode["distance"] == "G91":
             end += second[i]

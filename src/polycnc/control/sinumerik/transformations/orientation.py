@@ -16,9 +16,9 @@ from polycnc.channel.moves.path import Move
 from polycnc.channel.moves.turning import TurningStage
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.motion.polynomial_groups import DIRECTION, PolynomialGroups
-from polycnc.control.sinumerik.transformations import data_sets, directions, seat, spin, standing
+from polycnc.control.sinumerik.tables import length_factor
+from polycnc.control.sinumerik.transformations import directions, seat, spin, standing
 from polycnc.control.sinumerik.transformations.posture import Orienting, Posture
-from polycnc.control.sinumerik.transformations.standing import POLE_LIMIT
 from polycnc.control.sinumerik.transformations.words import (
     BY_PATH,
     CONES,
@@ -215,7 +215,7 @@ def turn(
     else:
         way = directions.way_of(posture, state, words, values, path, kind, target, near)
     if way is not None:
-        knots = follow(posture.point.kinematics, way, near, posture.reaches, _pole_limit(channel))
+        knots = follow(posture.point.kinematics, way, near, posture.reaches, standing.pole_limit(channel))
         if knots is None:
             raise AlarmError("14112")
         state.tangent = tangent_at_end(way)
@@ -303,7 +303,7 @@ def _along_path(
     if retraction is not None and any(retraction):
         away = [(a + b) / 2.0 for a, b in zip(start, turned, strict=True)]
         for column, part in zip(posture.seated.geometry, retraction, strict=True):
-            away[column] += part
+            away[column] += part * length_factor(mode)
         points = [away, turned]
     for point in points:
         channel.straight(Kind.RAPID if rapid else Kind.FEED, point, nan if rapid else channel.feed)
@@ -366,8 +366,3 @@ def _placed(
         if channel.path.find(TurningStage) is None:
             channel.path.put(TurningStage(channel))
     return end
-
-
-def _pole_limit(channel: SinumerikChannel) -> float:
-    """MD24540: where the direction is nearer to a pole, the axes go evenly."""
-    return data_sets.number_of(channel, "$MC_TRAFO5_POLE_LIMIT_1", 0, POLE_LIMIT)

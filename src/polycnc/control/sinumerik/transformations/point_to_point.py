@@ -5,16 +5,17 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
-from polycnc.control.sinumerik.block.positions import number
+from polycnc.control.sinumerik.block.positions import Dimension, number
 from polycnc.control.sinumerik.tools import stages
 from polycnc.control.sinumerik.transformations import data_sets, seat
 from polycnc.control.sinumerik.transformations.orientation import is_point_to_point
-from polycnc.control.sinumerik.transformations.posture import Orienting
+from polycnc.control.sinumerik.transformations.posture import Orienting, Posture
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY
 from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError
 from polycnc.transformation.kinematic.polar import PolarPlane
+from polycnc.transformation.orientation.choice import is_within
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.block.draft import Draft, Step, Values
@@ -33,10 +34,12 @@ class PointToPoint(State, lifetime=Lifetime.RESET):
 
     Attributes:
         turns: TU of the running block; None where it is not programmed.
+        placed: Columns of the axes that the running block sends to a place.
         shown_by: What shows its end while it is written.
     """
 
     turns: int | None = None
+    placed: frozenset[int] = frozenset()
     shown_by: Transformation | None = None
 
 
@@ -62,6 +65,15 @@ def plan(draft: Draft) -> None:
         raise AlarmError("14144")
     if is_point_to_point(draft.mode):
         draft.by_axes = True
+        places = (Dimension.ABSOLUTE, Dimension.MODULO)
+        draft.steps.append(_placed(frozenset(t.column for t in draft.axis_terms() if t.way in places)))
+
+
+def _placed(columns: frozenset[int]) -> Step:
+    def run(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+        PointToPoint.of(channel).placed = columns
+
+    return run
 
 
 def _noted(places: dict[str, int]) -> Step:
@@ -108,7 +120,10 @@ def go(channel: SinumerikChannel, kind: Kind, end: list[float], feed: float) -> 
 
 
 def _configured(channel: SinumerikChannel, transformation: Transformation, end: list[float]) -> list[float]:
-    """Positions of the axes: by STAT of two solutions, by TU on the turn that it names, else the shortest way."""
+    """Positions of the axes: by STAT of two solutions, by TU on the turn that it names, else the shortest way.
+
+    What a block says of the way itself (IC, G91, DC, ACP, ACN) holds.
+    """
     here, machine = channel.coordinates.machine, transformation.to_machine(end)
     inner = seat.Transformations.of(channel).build
     if inner is not None and isinstance(_first(inner.inner), PolarPlane) and Orienting.of(channel).stat & 1:
@@ -120,14 +135,20 @@ def _configured(channel: SinumerikChannel, transformation: Transformation, end: 
         if turns is not None and not is_polar:
             angle = machine[column] % TURN
             machine[column] = angle - TURN if turns >> bit & 1 and angle > 0.0 else angle
-        elif is_polar or turns is None:
-            machine[column] = _shortest(machine[column], here[column], free=is_polar)
+        elif is_polar or column in PointToPoint.of(channel).placed:
+            near = _shortest(machine[column], here[column])
+            machine[column] = near if is_polar or _reaches(channel, column, near) else machine[column]
     return machine
 
 
-def _shortest(angle: float, here: float, *, free: bool) -> float:
-    """A rotary axis of a polar plane goes the shorter way; one that a block names goes where it says."""
-    return here + (angle - here + TURN / 2.0) % TURN - TURN / 2.0 if free else angle
+def _shortest(angle: float, here: float) -> float:
+    """The same direction on the turn that is nearest."""
+    return here + (angle - here + TURN / 2.0) % TURN - TURN / 2.0
+
+
+def _reaches(channel: SinumerikChannel, column: int, angle: float) -> bool:
+    """Whether the travel of an orientation axis has a position."""
+    return is_within(angle, *Posture.of(channel, channel.mode).travel(channel.axis_data[column].name))
 
 
 def _first(transformation: Transformation) -> Transformation:

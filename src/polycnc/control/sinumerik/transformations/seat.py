@@ -218,12 +218,16 @@ def _seated(channel: SinumerikChannel, build: Build, total: NcFrame) -> Seated:
             if column >= 0:
                 shifts[column] += length
     else:
-        native = data_sets.native(channel)
-        if y and native[1] < 0:
+        infeed, second, third = data_sets.native(channel)
+        if y and second < 0:
             raise not_supported(f"{Transformations.of(channel).kind}: $TC_DP")
-        for column, length in zip(native, lengths, strict=True):
+        columns = (inner.geometry[0] if infeed < 0 else infeed, second, third)
+        for column, length in zip(columns, lengths, strict=True):
             if column >= 0:
                 offsets[column] += length
+        if isinstance(inner, Chain):  # the tool belongs to the first link (6.12)
+            for link in inner.links[1:]:
+                offsets = link.to_machine(offsets)
     frame = total.frame
     return Seated(
         inner,

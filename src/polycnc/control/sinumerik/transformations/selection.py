@@ -14,6 +14,7 @@ from polycnc.control.sinumerik.couplings.links import Couplings
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.limits import protection, working_area
 from polycnc.control.sinumerik.motion import splines
+from polycnc.control.sinumerik.tables import length_factor
 from polycnc.control.sinumerik.tools import selection as lengths_of_edge
 from polycnc.control.sinumerik.tools import stages
 from polycnc.control.sinumerik.tools.holders.active import ActiveCarrier
@@ -57,20 +58,29 @@ def face(channel: SinumerikChannel, args: Arguments) -> None:
 
 
 def surface(channel: SinumerikChannel, args: Arguments) -> None:
-    """TRACYL(d, n, walls): the unrolled surface of a cylinder; 14404 for a diameter of 1 or less."""
+    """TRACYL(d, n, walls): the unrolled surface of a cylinder; 14404 for a diameter of 1 or less.
+
+    PC0001 where words are inches: whether the diameter is then, too, is not known.
+    """
     diameter, number, walls = _numbers(args, 3, "TRACYL")
     _select(channel, "TRACYL", number, lambda found: _unrolled(channel, found, diameter, walls))
 
 
 def _unrolled(
-    channel: SinumerikChannel, found: data_sets.DataSet, diameter: float | None, walls: float | None
+    channel: SinumerikChannel,
+    found: data_sets.DataSet,
+    diameter: float | None,
+    walls: float | None,
+    infeed: int = -1,
 ) -> Build:
     if diameter is None or diameter <= LEAST_DIAMETER:
         raise AlarmError("14404", text="TRACYL")
     if walls not in (None, 0, 1) or (walls and found.type != data_sets.WALLS_BY_ARGUMENT):
         raise AlarmError("14404", text="TRACYL")
+    if length_factor(channel.mode) != 1.0:
+        raise not_supported("TRACYL: G70 G700")
     by_type = found.type == data_sets.WITH_WALLS
-    return data_sets.cylinder(channel, found, diameter, walls=by_type or bool(walls))
+    return data_sets.cylinder(channel, found, diameter, walls=by_type or bool(walls), infeed=infeed)
 
 
 def oblique(channel: SinumerikChannel, args: Arguments) -> None:
@@ -118,16 +128,17 @@ def _linked(channel: SinumerikChannel, found: data_sets.DataSet, rest: list[floa
     first = _first_link(channel, links[0], parameters[0])
     second = _leaning(channel, links[1], parameters[own])
     inner = Chain((first.inner, second.inner))
-    return Build(inner, first.used | second.used, first.lengths, bound=first.bound)
+    return Build(inner, first.used | second.used, first.lengths, bound=first.bound, order=first.order)
 
 
 def _first_link(channel: SinumerikChannel, found: data_sets.DataSet, parameter: float | None) -> Build:
     if found.kind == "TRAORI":
         return _oriented(channel, found, [])
+    infeed = data_sets.oblique_column(channel)
     if found.kind == "TRANSMIT":
-        return data_sets.polar(channel, found)
+        return data_sets.polar(channel, found, infeed)
     if found.kind == "TRACYL":
-        return _unrolled(channel, found, parameter, None)
+        return _unrolled(channel, found, parameter, None, infeed)
     return _leaning(channel, found, parameter)
 
 

@@ -75,7 +75,10 @@ def turned(
         code == "ORIROTA" or (code != ALONG_PATH and not moves) or (code == ALONG_PATH and tangent is None)
     )
     into = unit_of(cross(start, end))
-    before = state.theta if absolute or code == ALONG_PATH else _theta(words, mode, values, state)
+    before = state.theta if code == ALONG_PATH else _theta(words, mode, values, state)
+    if absolute:  # blocks without THETA, and positions of the axis, have turned it from where it was told
+        stands = near[axis] - _spin(posture, near, axis, _carried(posture, start), 0.0)
+        before = on_nearest_turn(stands, state.theta)
     state.theta = _theta(words, mode, values, state)
     angle = polynomial(before, state.theta, _higher(words, values))
     found: list[Knot] = []

@@ -60,9 +60,16 @@ def record_of(channel: SinumerikChannel, mode: Mode, kind: str) -> array[float]:
         frame=posture.seated.frame if posture.turned else IDENTITY,
         shifts=posture.seated.shifts,
         travel=posture.travel,
-        cone_deg=data_sets.number_of(channel, "$MC_TRAFO5_POLE_LIMIT_1", 0, POLE_LIMIT),
+        cone_deg=pole_limit(channel),
         evenly=kind == "ORIAXES",
     )
+
+
+def pole_limit(channel: SinumerikChannel) -> float:
+    """MD24540 and its like: where the direction is nearer to a pole, the axes go evenly; degrees."""
+    build = seat.Transformations.of(channel).build
+    order = 1 if build is None else build.order
+    return data_sets.number_of(channel, f"$MC_TRAFO5_POLE_LIMIT_{order}", 0, POLE_LIMIT)
 
 
 def turned_end(

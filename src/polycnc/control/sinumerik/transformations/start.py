@@ -20,8 +20,9 @@ def reset(channel: SinumerikChannel, args: Arguments) -> None:
 
     Frames of rotary axes do not count. Alarms 14101 without an orientation transformation, 14130 for too many values.
     """
-    point, seated = seat.centre_point(channel), seat.Transformations.of(channel).seated
-    if point is None or seated is None:
+    state = seat.Transformations.of(channel)
+    point, seated, build = seat.centre_point(channel), state.seated, state.build
+    if point is None or seated is None or build is None:
         raise AlarmError("14101")
     order = data_sets.in_order(point.kinematics)
     if len(args) > len(order):
@@ -31,7 +32,7 @@ def reset(channel: SinumerikChannel, args: Arguments) -> None:
     for i, axis in enumerate(order):
         given = args[i] if i < len(args) else None
         value = (
-            data_sets.number_of(channel, "$MC_TRAFO5_ROT_AX_OFFSET_1", i, 0.0)
+            data_sets.number_of(channel, f"$MC_TRAFO5_ROT_AX_OFFSET_{build.order}", i, 0.0)
             if given is None
             else arguments.real(given)
         )

@@ -30,6 +30,13 @@ MOST_COEFFICIENTS = {"PHI": 4, "PSI": 4, "THT": 5, "XH": 5, "YH": 5, "ZH": 5}
 #: Codes of group 51 that lead the direction along a cone, and those that keep it to the path.
 CONES = ("ORICONCW", "ORICONCCW", "ORICONTO", "ORICONIO")
 BY_PATH = ("ORIPATH", "ORIPATHS")
+#: With which of them words go that no other way of the direction has (6.2.8, 6.5.4).
+GOES_WITH = {
+    AXIS: ("ORICONCW", "ORICONCCW", "ORICONTO"),
+    "NUT": ("ORICONCW", "ORICONCCW"),
+    BETWEEN: ("ORICONIO",),
+    RETRACTION: ("ORIPATHS",),
+}
 
 
 class Words(NamedTuple):
@@ -91,6 +98,8 @@ def _real(value: Any, place: int) -> float:
 def take(draft: Draft, orientation_axes: frozenset[int], *, virtual: bool = False) -> Words | None:
     """Take the words of orientation out of a block; None where it has none.
 
+    Words of a cone stay where the direction goes along none, and so does a retraction: PC0001.
+
     `virtual`: A, B and C mean what A2, B2 and C2 mean (MD21102 = 1).
 
     Raises:
@@ -104,6 +113,9 @@ def take(draft: Draft, orientation_axes: frozenset[int], *, virtual: bool = Fals
     theta = ""
     for position, word in draft.open_words():
         address = word.address
+        kind = TRIPLES[address][0] if address in TRIPLES else address
+        if draft.mode["orientation_motion"] not in GOES_WITH.get(kind, (draft.mode["orientation_motion"],)):
+            continue
         if virtual and address in LETTERS and word.index is None:
             triples.setdefault(ANGLES, {})[LETTERS.index(address)] = position
         elif address in TRIPLES:

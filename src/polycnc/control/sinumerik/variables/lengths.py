@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from polycnc.control.sinumerik.data.delivered import LENGTHS as DATA
 from polycnc.control.sinumerik.frames.variables import FRAME_VARIABLES
+from polycnc.control.sinumerik.tables import data_factor
 from polycnc.deferred.regexes import regex
-from polycnc.geometry.units import INCH_MM
 from polycnc.language.sinumerik.names.values import Axis
 
 if TYPE_CHECKING:
@@ -74,7 +74,7 @@ def of_axis(channel: SinumerikChannel, axis: str) -> float:
 
 
 def _inch(channel: SinumerikChannel, _indices: Indices) -> float:
-    return INCH_MM if channel.mode["unit"] == "G700" else 1.0
+    return data_factor(channel.mode)
 
 
 def _of_datum(channel: SinumerikChannel, indices: Indices) -> float:

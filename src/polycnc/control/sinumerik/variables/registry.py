@@ -147,7 +147,7 @@ class SystemVariables:
             return VARIABLES[name]
         # `$$` reads machine and setting data in the main run (job planning 1.1.2).
         if name.startswith(("$M", "$S", "$$M", "$$S")) and name.lstrip("$")[1:3] in ("N_", "C_", "A_"):
-            return _machine_datum("$" + name.lstrip("$"))
+            return _machine_datum("$" + name.lstrip("$"), live=name.startswith("$$"))
         if is_known(name):
             raise not_supported(name)
         raise AlarmError("12550", text=name)
@@ -188,7 +188,8 @@ _TEXT_DATUM = regex(r"_(NAME|NAME_TAB|PATH|SERIAL_NUMBER|VERSION)$")
 NOT_EXECUTED = frozenset(("$SC_CUTDIRMOD",))
 
 
-def _machine_datum(name: str) -> SystemVariable:
+def _machine_datum(name: str, *, live: bool = False) -> SystemVariable:
+    """A machine or setting datum, as prepared blocks see it or, `live`, the main run."""
     value = DELIVERED[name] if name in DELIVERED else "" if _TEXT_DATUM.search(name) else 0.0
     kinds = {bool: Type.BOOL, int: Type.INT, str: Type.STRING}
     axial = name[2] == "A"
@@ -197,7 +198,7 @@ def _machine_datum(name: str) -> SystemVariable:
         if axial and not any(isinstance(index, Axis) for index in indices):
             raise AlarmError("12400", text=name)
         data: MachineData = channel.memory.data
-        found = data.read(name, *indices)
+        found = data.read(name, *indices) if live else data.read_ahead(name, *indices)
         if isinstance(value, str):
             return "" if found is None else str(found)
         if not isinstance(found, int | float):  # the setup says a text, or nothing

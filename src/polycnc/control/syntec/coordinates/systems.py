@@ -21,16 +21,23 @@ from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.coordinates import frames as base_frames
 from polycnc.control.word_address.coordinates import systems as base_systems
 from polycnc.control.word_address.coordinates.stroke_check import StrokeZone
-from polycnc.control.word_address.coordinates.systems import ZeroState, go_to_reference, refresh_zero
+from polycnc.control.word_address.coordinates.systems import (
+    ZeroState,
+    go_to_reference,
+    refresh_zero,
+    shift_of_zero,
+)
 from polycnc.control.word_address.memory import EXTERNAL
 from polycnc.control.word_address.tools.data_input import TOOL_FIELDS
 from polycnc.control.word_address.tools.length import renew_length
 from polycnc.deferred.records import dataclass
-from polycnc.geometry.frames import IDENTITY, about, scaling
+from polycnc.geometry.frames import about, scaling
 from polycnc.geometry.planes import PLANES
 from polycnc.language.syntec.values import to_long
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.syntec.memory import SyntecMemory
     from polycnc.geometry.frames import Vector
@@ -82,21 +89,13 @@ NO_WORK_SYSTEM = "G53"
 
 def set_position(channel: SyntecChannel, words: Words) -> None:
     """G92 X Y Z: the present position gets these coordinates; G92 S: highest speed under G96 (2.63, 2.66)."""
-    state = ZeroState.of(channel)
     axes = words.axes()
     memory = channel.memory
     if axes:
-        c = channel.coordinates
-        wanted = c.position[:]
+        way, position = [0.0] * len(channel.axes), channel.coordinates.position
         for axis, value, _ in axes:
-            wanted[axis] = value
-        inside, outside = c.to_machine(wanted), c.machine
-        for axis, _, _ in axes:
-            state.preset[axis] += outside[axis] - inside[axis]
-        if state.frame is not IDENTITY:
-            for axis in c.geometry:
-                if axis >= 0 and axis not in {a for a, _, _ in axes}:
-                    state.preset[axis] += outside[axis] - inside[axis]
+            way[axis] = position[axis] - value
+        _shift_preset(channel, way, "G92")
         refresh_zero(channel)
     limit = words.typed("S")
     if limit is not None:
@@ -109,13 +108,11 @@ def preset_system(channel: SyntecChannel, words: Words) -> None:
     state, angle = TurnState.of(channel), words.angle("R")
     if angle or state.angle:
         refuse_in_compensation(channel, "G92.1")
-    c, memory = channel.coordinates, channel.memory
+    memory = channel.memory
     origin = [0.0] * len(channel.axes)
     for axis, value, _ in words.axes():
         origin[axis] = value
-    zero, target = c.to_machine([0.0] * len(channel.axes)), c.to_machine(origin)
-    for axis in range(len(channel.axes)):
-        ZeroState.of(channel).preset[axis] += target[axis] - zero[axis]
+    _shift_preset(channel, origin, "G92.1")
     vector = [words.typed(letter) or 0.0 for letter in "IJK"]
     state.angle = angle or 0.0
     state.axis = vector if any(vector) else [0.0, 0.0, 1.0]
@@ -123,6 +120,13 @@ def preset_system(channel: SyntecChannel, words: Words) -> None:
         raise words.fail("preset_rotary", "R")
     renew_preset_frame(memory)
     refresh_zero(channel)
+
+
+def _shift_preset(channel: SyntecChannel, way: list[float], code: str) -> None:
+    """All coordinates become smaller by a way."""
+    state = ZeroState.of(channel)
+    shift = shift_of_zero(channel, way, code)
+    state.preset[:] = [before + further for before, further in zip(state.preset, shift, strict=True)]
 
 
 def forget_preset_turn(memory: SyntecMemory) -> None:
@@ -166,16 +170,18 @@ def return_to_further_reference(channel: SyntecChannel, words: Words) -> None:
         go_to_reference(channel, own, int(number))
 
 
+def limits_in(channel: SyntecChannel, travel: Sequence[int]) -> dict[int, tuple[float, float]]:
+    """Minus and plus limit of axes by column, from pairs of a plus and a minus limit; none where plus is not above."""
+    unit = least_unit(channel.memory.parameters)
+    pairs = ((travel[2 * i + 1] * unit, travel[2 * i] * unit) for i in range(len(channel.axes)))
+    return {i: (low, high) for i, (low, high) in enumerate(pairs) if high > low}
+
+
 def stroke_limit_on(channel: SyntecChannel, words: Words) -> None:
     """G22 X Y Z I J K: second travel limits, X Y Z with I J K in pairs, the others from Pr2501 on (2.18)."""
     memory = channel.memory
     given = {axis: value for axis, value, _ in words.axes()}
-    zones: dict[int, tuple[float, float]] = {}
-    unit, travel = least_unit(memory.parameters), memory.parameters.second_travel
-    for axis in range(len(channel.axes)):
-        plus, minus = travel[2 * axis] * unit, travel[2 * axis + 1] * unit
-        if plus > minus:
-            zones[axis] = (minus, plus)
+    zones = limits_in(channel, memory.parameters.second_travel)
     for letter, axis in zip("IJK", channel.coordinates.geometry, strict=True):
         other = words.length(letter)
         if (other is None) != (axis not in given):

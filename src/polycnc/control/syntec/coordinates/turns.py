@@ -12,11 +12,12 @@ from polycnc.channel.states.state import Lifetime, State, lasting, retained
 from polycnc.control.syntec.parameters import SyntecParameters
 from polycnc.control.word_address.coordinates.systems import ZeroState
 from polycnc.control.word_address.coordinates.tip import TipState
+from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.tools.radius import active_compensation
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, Frame
 from polycnc.machine.kinematics import turn_about
-from polycnc.memory.retained import WORK_TURNS
+from polycnc.memory.retained import TILTED_PLANES, WORK_TURNS
 from polycnc.transformation.planes.tilted import by_own_axes
 
 if TYPE_CHECKING:
@@ -74,6 +75,32 @@ class WorkTurns(State, lifetime=Lifetime.RETAINED):
     by_system: dict[str, list[float]] = retained(WORK_TURNS)
 
 
+#: Pr3014: the tilted plane is kept over a reset; 2 over power-off too.
+OVER_POWER_OFF = 2
+
+
+@dataclass(slots=True)
+class KeptPlane(State, lifetime=Lifetime.RETAINED):
+    """The tilted plane where Pr3014 is 2; empty for none.
+
+    Attributes:
+        parts: `plane` is the matrix by rows and the origin (mm), `code` the modal code, `stands` whether the tool does.
+    """
+
+    parts: dict[str, list[float] | str | bool] = retained(TILTED_PLANES)
+
+
+def keep_plane(channel: SyntecChannel) -> None:
+    """Note the tilted plane as it is now, for the time behind power-off."""
+    tilt, kept = TurnState.of(channel).tilt, channel.memory.parameters.keeps_tilt == OVER_POWER_OFF
+    parts = KeptPlane.of(channel).parts
+    parts.clear()
+    if kept and not tilt.is_identity:
+        plane = [*(value for row in tilt.m for value in row), *tilt.t]
+        stands = LengthState.of(channel).direction is not None
+        parts.update({"plane": plane, "code": channel.mode["rotation"], "stands": stands})
+
+
 def angle(channel: Channel, system: str, axis: int) -> float:
     """An angle of the page, degrees; `axis` is 0 to 2 for X, Y, Z."""
     return WorkTurns.of(channel).by_system.get(system, [0.0] * 3)[axis]
@@ -109,8 +136,12 @@ def refuse_in_compensation(channel: SyntecChannel, code: str) -> None:
 
 
 def check_posture(channel: SyntecChannel, turn: Frame) -> None:
-    """PC0001 where rotary words would tell the tool's direction in a work system that is turned (2.28.3, note 8)."""
-    if PostureState.of(channel).in_work and not turn.is_identity:
+    """PC0001 where rotary words would tell the tool's direction in a work system that is turned (2.28.3, note 8).
+
+    Under G43.5 none do: vectors always count in the program's system (2.29.1).
+    """
+    by_words = channel.mode["length"] == "G43.4"
+    if by_words and PostureState.of(channel).in_work and not turn.is_identity:
         raise channel.control.not_yet("G54.4 Pr3057 = 1")
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from math import nan
 from typing import TYPE_CHECKING
 
-from polycnc.control.syntec.coordinates.turns import TurnState, renew_preset_frame
+from polycnc.control.syntec.coordinates.turns import TurnState, keep_plane, renew_preset_frame
 from polycnc.control.syntec.five_axes import mechanism
 from polycnc.control.syntec.units import least_unit
 from polycnc.control.word_address.coordinates import tip
@@ -127,6 +127,7 @@ def stand_on_plane(channel: SyntecChannel, angles: Angles) -> None:
     c, kinematics = channel.coordinates, channel.control.kinematics(channel)
     if is_led(channel):
         LengthState.of(channel).direction = kinematics.tool_on_machine(angles)
+        keep_plane(channel)
         return
     TurnState.of(channel).table = table_turn(kinematics, angles, (0.0, 0.0, 0.0))
     renew_preset_frame(channel.memory)
@@ -134,6 +135,7 @@ def stand_on_plane(channel: SyntecChannel, angles: Angles) -> None:
     # The length is named with the plane: no later word travels it.
     c.pending = [0.0] * len(channel.axes)
     c.owes = False
+    keep_plane(channel)
 
 
 def leave_table(channel: SyntecChannel) -> None:

@@ -2,30 +2,26 @@
 
 from __future__ import annotations
 
-from functools import partial
 from typing import TYPE_CHECKING
 
-from polycnc.channel.moves.knots import knot_context
 from polycnc.channel.states.state import Lifetime, State
-from polycnc.compensation.spatial import ARC_FIRST, INTERSECTION, Corners, Rules, SpatialStage
+from polycnc.compensation.spatial import ARC_FIRST, INTERSECTION, Corners, Rules
 from polycnc.control.syntec.coordinates.turns import PostureState
 from polycnc.control.word_address.block.rules import Rule
-from polycnc.control.word_address.coordinates.tip import TipState
+from polycnc.control.word_address.tools import spatial
 from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.normal_stage import NormalStage
 from polycnc.control.word_address.transformations.polar_interpolation import PolarState
+from polycnc.control.word_address.transformations.tool_center_point import TIP_CODES
 from polycnc.deferred.records import dataclass
-from polycnc.transformation.orientation.solutions import Posture
+from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
     from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.block.words import Words
 
-SIDES = {"G41.2": 1, "G42.2": -1, "G41.6": 1, "G42.6": -1}
-BY_VECTOR = ("G41.6", "G42.6")
-TIP_CODES = ("G43.4", "G43.5")
 WORK_SYSTEMS = (*(f"G{i}" for i in range(54, 60)), *(f"G59.{i}" for i in range(1, 10)))
 #: What each code is called in the table of mistakes while the compensation is on.
 FORBIDDEN = {
@@ -50,35 +46,17 @@ class SpatialState(State, lifetime=Lifetime.POWER):
     corner_way: int = 0
 
 
-def is_on(channel: SyntecChannel) -> bool:
-    """Whether the compensation is active."""
-    return channel.path.find(SpatialStage) is not None
-
-
 def start(channel: SyntecChannel, words: Words) -> None:
     """G41.2, G42.2, G41.6, G42.6 [D]: left or right of the path, across the tool; also changes sides."""
-    state = RadiusState.of(channel)
-    code = channel.mode["compensation"]
-    number = words.integer("D")
-    state.number = state.number if number is None else number
-    radius: float = channel.control.radius_value(channel, state.number)
-    stage = channel.path.find(SpatialStage)
-    if stage is not None:
-        stage.change(SIDES[code], radius)
-        return
-    if state.side:
-        raise words.fail("spatial_mixed", code)
-    _check_start(channel, words, code)
-    c = channel.coordinates
-    frame = TipState.of(channel).frame
-    posture = Posture(channel.control.kinematics(channel), channel.axes, tuple(c.offsets), frame)
-    channel.flush()
-    within = partial(knot_context, channel)
-    channel.path.put(SpatialStage(c.geometry, posture, radius, SIDES[code], _corners(channel), RULES, within))
+    if spatial.stage_of(channel) is None:
+        _check_start(channel, words, channel.mode["compensation"])
+    spatial.engage(channel, words, _corners(channel), RULES)
 
 
 def _check_start(channel: SyntecChannel, words: Words, code: str) -> None:
     mode = channel.mode
+    if RadiusState.of(channel).side:
+        raise words.fail("spatial_mixed", code)
     if channel.path.find(NormalStage) is not None:
         raise words.fail("normal_spatial", code)
     if mode["length"] not in TIP_CODES:
@@ -106,30 +84,30 @@ def choose_corners(channel: SyntecChannel, words: Words) -> None:
     SpatialState.of(channel).corner_way = int(way)
 
 
-def end(channel: SyntecChannel) -> None:
-    """G40: the last block ends square on itself, the next one leads back."""
-    if not is_on(channel):
-        return
-    channel.flush()
-    channel.path.take(SpatialStage)
-
-
 def _check_block(builder: Builder) -> None:
     """Refuse what the compensation does not allow."""
     before, after = builder.before["compensation"], builder.mode["compensation"]
     fail = builder.control.fail
-    if before in SIDES:
+    if before in spatial.SIDES:
         for row in builder.codes:
             if row.code in FORBIDDEN and row.code != builder.before["plane"]:
                 raise fail(FORBIDDEN[row.code], address=row.code)
+            if row.code in spatial.SHAPES:
+                raise _not_yet(row.code, before)
+        if builder.has("D") and not any(row.code in spatial.SIDES for row in builder.codes):
+            raise _not_yet("D", before)
         if builder.mode["length"] not in TIP_CODES:
             raise fail("spatial_frame", address=builder.mode["length"])
-    if after in BY_VECTOR:
+    if after in spatial.BY_VECTOR:
         for address in builder.slots:
             target = builder.control.axis_of_address(builder.channel, address, builder)
             if target is not None and builder.channel.axis_data[target[0]].rotary:
                 raise fail("tip_rotary_word", address=address)
 
 
+def _not_yet(address: str, code: str) -> AlarmError:
+    return AlarmError("PC0001", hint="hint.not-supported", address=address, code=f"{code} {address}")
+
+
 #: What must not come during spatial radius compensation.
-RULE = Rule("spatial radius compensation", modes={"compensation": SIDES}, check=_check_block)
+RULE = Rule("spatial radius compensation", modes={"compensation": spatial.SIDES}, check=_check_block)

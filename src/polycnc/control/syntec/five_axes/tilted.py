@@ -6,9 +6,16 @@ is aligned by G53.1, G53.3 or G53.6 (`alignment`).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, cast
 
-from polycnc.control.syntec.coordinates.turns import TurnState, renew_preset_frame, renew_work_turn
+from polycnc.control.syntec.coordinates.turns import (
+    OVER_POWER_OFF,
+    KeptPlane,
+    TurnState,
+    keep_plane,
+    renew_preset_frame,
+    renew_work_turn,
+)
 from polycnc.control.syntec.five_axes import alignment, mechanism
 from polycnc.control.word_address.coordinates import frames as base_frames
 from polycnc.control.word_address.coordinates.systems import refresh_zero
@@ -32,14 +39,24 @@ class Kept(NamedTuple):
     """The tilted plane as Pr3014 keeps it over a reset: with its code, and with the tool standing on it if it did."""
 
     tilt: Frame
-    code: str
-    stands: bool
+    code: str = "G69"
+    stands: bool = False
 
     @classmethod
     def of(cls, channel: SyntecChannel) -> Kept:
         """What there is in front of a reset; no plane where Pr3014 keeps none."""
         tilt = TurnState.of(channel).tilt if channel.memory.parameters.keeps_tilt else IDENTITY
         return cls(tilt, channel.mode["rotation"], LengthState.of(channel).direction is not None)
+
+    @classmethod
+    def over_power_off(cls, channel: SyntecChannel) -> Kept:
+        """What there was when the power went off; no plane unless Pr3014 is 2."""
+        parts = KeptPlane.of(channel).parts
+        if channel.memory.parameters.keeps_tilt != OVER_POWER_OFF or not parts:
+            return cls(IDENTITY)
+        a, b, c, d, e, f, g, h, i, x, y, z = cast("list[float]", parts["plane"])
+        plane = translation(x, y, z) @ Frame(((a, b, c), (d, e, f), (g, h, i)))
+        return cls(plane, str(parts["code"]), bool(parts["stands"]))
 
     def restore(self, channel: SyntecChannel) -> None:
         """The plane acts again behind the reset, or none does; nothing moves."""
@@ -137,6 +154,7 @@ def set_tilt(channel: SyntecChannel, tilt: Frame) -> None:
     if LengthState.of(channel).direction is not None:
         stand_along(channel, None)
     refresh_zero(channel)
+    keep_plane(channel)
 
 
 def tool_turn(channel: SyntecChannel) -> Frame:

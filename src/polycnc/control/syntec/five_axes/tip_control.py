@@ -17,6 +17,7 @@ from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.transformations import normal_line, tool_center_point
 from polycnc.control.word_address.transformations.polar_interpolation import PolarState
+from polycnc.control.word_address.transformations.tool_center_point import TIP_CODES
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY
 from polycnc.language.bulk import declare, declared
@@ -28,7 +29,8 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.toolpath import Context
 
-TIP_CODES = ("G43.4", "G43.5")
+#: What does not go with tip control (2.28.3, 2.29.3); G05 P10000 has an alarm of its own.
+NOT_WITH_TIP = frozenset(("G12.1", "G31.10", "G31.11", "G41", "G42"))
 MINUTE = 60.0
 
 
@@ -111,6 +113,26 @@ def end(channel: SyntecChannel) -> None:
         alignment.stand_on_plane(channel, angles)
 
 
+def _check_block(builder: Builder) -> None:
+    """COR-023 for what does not go with tip control while it is on; under G43.5 increments do not either."""
+    before, after = builder.before["length"], builder.mode["length"]
+    if before not in TIP_CODES or after not in TIP_CODES:
+        return
+    for row in builder.codes:
+        if row.code in NOT_WITH_TIP:
+            raise builder.control.fail("tip_mode", address=row.code)
+    if before == after == "G43.5" and builder.mode["distance"] == "G91" and _names_axes(builder):
+        raise builder.control.fail("tip_mode", address="G91")
+
+
+def _names_axes(builder: Builder) -> bool:
+    """Whether a block has axis words, and no code of its own that takes them."""
+    if any(row.axis_words for row in builder.codes):
+        return False
+    found = (builder.control.axis_of_address(builder.channel, word, builder) for word in builder.slots)
+    return any(target is not None for target in found)
+
+
 def _plan_with_direction(builder: Builder, plan: Plan) -> Step | None:
     """G43.5: I, J, K give the direction of the tool at the end of a straight block; rotary words are refused."""
     if builder.mode["length"] != "G43.5":
@@ -134,3 +156,5 @@ def _plan_with_direction(builder: Builder, plan: Plan) -> Step | None:
 
 #: Straight blocks that name the direction of the tool.
 RULE = Rule("tool direction by a vector", modes={"length": ("G43.5",)}, motion=_plan_with_direction)
+#: What must not come while words name the tip.
+COMPANY_RULE = Rule("company of tool tip control", modes={"length": TIP_CODES}, check=_check_block)

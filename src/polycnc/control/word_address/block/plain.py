@@ -13,7 +13,7 @@ from polycnc.control.word_address.motion import arcs
 from polycnc.control.word_address.transformations import tool_center_point
 from polycnc.geometry.planes import PLANES
 from polycnc.language.bulk import Arc, Conditions, Recipe, Spelling
-from polycnc.language.bulk.layout import FIRST_CODE, FIRST_FORMULA, FIRST_M_CODE, FORMS
+from polycnc.language.bulk.layout import FIRST_CODE, FIRST_FORMULA, FIRST_M_CODE, FORMS, NUMBERED
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from polycnc.language.bulk.recipe import Drilled
     from polycnc.language.bulk.routines.running import RoutineDialect
     from polycnc.language.bulk.scanner import LastMoves
+    from polycnc.language.word_address.executable import WordAddressProgram
 
 #: How a number was written, as the scanner counts it; see `language.word_address.words`.
 _FORMS = ("", ".", ":", ";")
@@ -87,6 +88,10 @@ class PlainBlocks:
         """Signature of a block with formulas, and what they calculate; None for what the interpreter must."""
         return (), None
 
+    def numbered(self, _channel: Channel) -> int:
+        """As many as lie there."""
+        return NUMBERED
+
     def put_variables(self, _channel: Channel, _variables: Floats) -> None:
         """No formulas read any."""
 
@@ -130,6 +135,12 @@ class PlainBlocks:
             return recipe
         geometry = channel.coordinates.geometry
         return None if any(geometry[axis] < 0 for axis in recipe.motion.plane[:2]) else recipe
+
+    def recipe_of_step(
+        self, channel: WordAddressChannel, code: WordAddressProgram, step: int, keys: Sequence[int]
+    ) -> Recipe | None:
+        """Steps are lines: as their text says."""
+        return self.recipe(channel, keys, code.program.lines[step])
 
 
 def _keeps_circles(channel: WordAddressChannel) -> bool:

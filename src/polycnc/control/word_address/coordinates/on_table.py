@@ -6,6 +6,7 @@ move of a block, for where they stand at its end (`follow`).
 
 from __future__ import annotations
 
+from dataclasses import field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, retained
@@ -33,10 +34,16 @@ FIRST_VARIABLE, VARIABLES = 26000, 10
 
 @dataclass(slots=True)
 class OnTable(State, lifetime=Lifetime.RESET):
-    """Which fixture offset (G54.2 P) and which workpiece error (G54.4 P) act; 0 for none."""
+    """Which fixture offset (G54.2 P) and which workpiece error (G54.4 P) act; 0 for none.
+
+    Attributes:
+        posture: What rotary words under G43.4 have told of the tool on the work as it should lie: machine positions of
+            the rotary axes by name, degrees; empty before the first ones.
+    """
 
     fixture: int = 0
     error: int = 0
+    posture: dict[str, float] = field(default_factory=dict)
 
     @property
     def acts(self) -> bool:

@@ -14,6 +14,7 @@ from polycnc.control.word_address.memory import EXTERNAL
 from polycnc.control.word_address.tools.radius import suspended
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, Frame, translation
+from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
@@ -161,10 +162,34 @@ def set_position(channel: WordAddressChannel, words: Words) -> None:
     A local system (G52) of these axes ends with it (macro B 10.3).
     """
     state, position = ZeroState.of(channel), channel.coordinates.position
+    way = [0.0] * len(channel.axes)
     for axis, value, _ in words.axes():
-        state.preset[axis] += position[axis] + state.local[axis] - value
+        way[axis] = position[axis] - value
+    shift = shift_of_zero(channel, way, "G92")
+    for axis, _, _ in words.axes():
+        shift[axis] += state.local[axis]
         state.local[axis] = 0.0
+    state.preset[:] = [before + further for before, further in zip(state.preset, shift, strict=True)]
     refresh_zero(channel)
+
+
+def shift_of_zero(channel: WordAddressChannel, way: list[float], code: str) -> list[float]:
+    """How far the work zero goes so that all coordinates become smaller by a way; a number for each axis.
+
+    Where the work system is turned, or a plane in it is tilted, X, Y and Z of the way lie along other axes. The work
+    zero lies on the table, so what that has turned since does not count.
+    """
+    if ZeroState.of(channel).misplaced is not None:
+        raise AlarmError("PC0001", hint="hint.not-supported", code=f"G54.4: {code}")
+    frame, geometry = frame_on_table(channel, channel.coordinates.offsets), channel.coordinates.geometry
+    shift = list(way)
+    if frame.is_identity:
+        return shift
+    x, y, z = (way[axis] if axis >= 0 else 0.0 for axis in geometry)
+    for axis, part in zip(geometry, frame.direct(x, y, z), strict=True):
+        if axis >= 0:
+            shift[axis] = part
+    return shift
 
 
 def set_position_or_limit(channel: WordAddressChannel, words: Words) -> None:

@@ -356,6 +356,13 @@ def plan_drilling(builder: Builder, plan: Plan) -> Step:
     )
 
 
+def drilling_axis(builder: Builder) -> int:
+    """Column of the axis along which the active cycle drills; -1 where the machine has none."""
+    rules: Drilling = builder.control.drilling_rules(builder.channel)
+    name = rules.cycles[builder.mode["cycle"]].axis
+    return builder.channel.axis_index[name] if name else rules.axis(builder)
+
+
 class _Words:
     """The words of a drilling block of one shape."""
 
@@ -364,9 +371,7 @@ class _Words:
         self.rules: Drilling = self.control.drilling_rules(builder.channel)
         self.code = builder.mode["cycle"]
         self.plan = plan
-        axis_name = self.rules.cycles[self.code].axis
-        channel = builder.channel
-        self.axis = channel.axis_index[axis_name] if axis_name else self.rules.axis(builder)
+        self.axis = drilling_axis(builder)
         if self.axis < 0:
             raise self.control.fail("plane")
         self.bottom = next((word for word in plan.axis_words if word.axis == self.axis), None)
@@ -424,10 +429,12 @@ class _Words:
             return max(int(value), 0)
         if self.repeat_form == "#":
             value = round_half_away(value)
-        elif self.repeat_form and self.control.POINT_IN_WHOLE_NUMBERS is DecimalPoint.CUT:
-            value = float(int(value))
         elif self.repeat_form:
-            raise self.control.fail("point", address=self.repeats)
+            point = self.control.POINT_IN_WHOLE_NUMBERS
+            is_read_over = point is DecimalPoint.READ_OVER and value.is_integer()
+            if point is not DecimalPoint.CUT and not is_read_over:
+                raise self.control.fail("point", address=self.repeats)
+            value = float(int(value))
         if not 0 <= value <= most:
             raise self.control.fail("minus" if value < 0 else "too_many_digits", address=self.repeats)
         return int(value)

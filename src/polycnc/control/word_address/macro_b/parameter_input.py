@@ -78,6 +78,7 @@ def set_parameter(
     ParameterTable.of(channel).changed[key] = whole
     if not keeps_plans:
         channel.modes.forget_plans()
+    channel.control.parameters_changed(channel)
 
 
 #: Between G10 L50 and G11 blocks are parameters.

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.block.plain import PlainBlocks
 from polycnc.control.word_address.macro_b.routines import MacroRoutines
-from polycnc.language.bulk.postfix import formulas
+from polycnc.language.bulk.formulas.postfix import formulas
 from polycnc.language.word_address.patterns import MEMORIES
 from polycnc.language.word_address.words import is_fixed_code
 from polycnc.messages import AlarmError

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.stack import LevelKind
 from polycnc.control.word_address.macro_b.variables import LOCALS
+from polycnc.language.bulk.formulas.postfix import OtherError, Postfix
 from polycnc.language.bulk.layout import Operation
-from polycnc.language.bulk.postfix import OtherError, Postfix
+from polycnc.language.bulk.routines.kept import MOST_LINES
 from polycnc.language.bulk.routines.layout import NO_LOOP, LineKind
 from polycnc.language.bulk.routines.statements import BLOCK, NOTHING, REFUSED, Statement
 from polycnc.language.word_address.executable import empty_block
@@ -58,7 +59,7 @@ class MacroRoutines:
 
     # ---- lines ---------------------------------------------------------------------------------------
 
-    def told(self, code: WordAddressProgram, index: int) -> Statement:
+    def told(self, _channel: MacroChannel, code: WordAddressProgram, index: int, _is_met: bool) -> Statement:
         """What a step of a program does."""
         try:
             return _told(code, code.compile(code.lines[index], index))
@@ -121,7 +122,7 @@ class MacroRoutines:
         if not around:
             return 0, 0
         first, last = min(start for start, _ in around), max(end for _, end in around)
-        return first, last + 1 - first
+        return (first, last + 1 - first) if last - first < MOST_LINES else (0, 0)
 
 
 def _told(code: WordAddressProgram, step: object) -> Statement:

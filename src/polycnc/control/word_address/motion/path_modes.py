@@ -76,7 +76,10 @@ def high_speed_machining(channel: WordAddressChannel, words: Words) -> None:
 
 
 def high_speed_mode(channel: WordAddressChannel, words: Words) -> None:
-    """G05 P0, P1, P2, P10000 of MELDAS: high-speed modes; the path is unchanged."""
+    """G05 P0, P1, P2, P10000 of MELDAS: high-speed modes, alone in their block (M700); the path is unchanged."""
+    for key in words.plan.order:
+        if key not in ("G5", "P"):
+            raise words.fail("high_speed_company", key)
     number = words.integer("P")
     if number not in (0, 1, 2, 10000):
         raise words.fail("address", "P")

@@ -118,7 +118,7 @@ def _check_state(channel: WordAddressChannel, words: Words, code: str) -> None:
     Radius compensation has its corners between blocks of one plane, so it ends before that changes.
     """
     if TipState.of(channel).active is not None:
-        raise words.fail("tip_mode", code)
+        raise words.fail("tip_company", code)
     state = OnTable.of(channel)
     if state.fixture or (state.error and code == "G68.3"):
         raise AlarmError(

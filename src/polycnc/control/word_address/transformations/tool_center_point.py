@@ -58,12 +58,36 @@ def start_following(channel: WordAddressChannel, words: Words) -> None:
 
 
 def _check_work_zero(channel: WordAddressChannel) -> None:
-    """PC0001 for a fixture offset, and for a workpiece error unless directions are vectors of the work (G43.5)."""
-    state, code = OnTable.of(channel), channel.mode["length"]
-    if state.fixture or (state.error and code != "G43.5"):
-        raise AlarmError(
-            "PC0001", hint="hint.not-supported", code=f"{code}: G54.{'2' if state.fixture else '4'}"
-        )
+    """PC0001 for a fixture offset; with a workpiece error the tool's direction is to be told anew."""
+    state = OnTable.of(channel)
+    state.posture.clear()
+    if state.fixture:
+        raise AlarmError("PC0001", hint="hint.not-supported", code=f"{channel.mode['length']}: G54.2")
+
+
+#: What does not go with tool centre point control (macro B reference §12), beside drilling cycles.
+NOT_WITH_TIP = frozenset(("G12.1", "G27", "G28", "G29", "G30", "G41", "G42", "G53"))
+TIP_CODES = ("G43.4", "G43.5")
+
+
+def _check_block(builder: Builder) -> None:
+    """Refuse codes of the machine, cycles and radius compensation of a plane; under G43.5 rotary words too.
+
+    A block that ends the control, or begins it, may hold what its other codes allow.
+    """
+    before, after, cycle = builder.before["length"], builder.mode["length"], builder.mode["cycle"]
+    if after in TIP_CODES and cycle != "G80" and not any(row.group == "cycle" for row in builder.codes):
+        raise builder.control.fail("tip_company", address=cycle)
+    if before not in TIP_CODES or after not in TIP_CODES:
+        return
+    for row in builder.codes:
+        if row.code in NOT_WITH_TIP or (row.group == "cycle" and row.code != "G80"):
+            raise builder.control.fail("tip_company", address=row.code)
+    if after == before == "G43.5":
+        for address in builder.slots:
+            target = builder.control.axis_of_address(builder.channel, address, builder)
+            if target is not None and builder.channel.axis_data[target[0]].rotary:
+                raise builder.control.fail("tip_company", address=address)
 
 
 def plan_with_direction(builder: Builder, plan: Plan) -> Step | None:
@@ -152,3 +176,5 @@ def end_following(channel: WordAddressChannel) -> None:
 RULE = Rule(
     "tool direction by a vector", modes={"length": ("G43.5",)}, in_cycles=False, motion=plan_with_direction
 )
+#: What must not come while words name the tip.
+COMPANY_RULE = Rule("company of tool centre point control", modes={"length": TIP_CODES}, check=_check_block)

@@ -10,18 +10,25 @@ from math import nan
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.block.rules import Rule
-from polycnc.control.word_address.coordinates import on_table
+from polycnc.control.word_address.coordinates import on_table, tip
 from polycnc.control.word_address.coordinates.on_table import OnTable
 from polycnc.control.word_address.coordinates.tip import TipState
+from polycnc.control.word_address.cycles import drilling
 from polycnc.control.word_address.motion.path import reach
 from polycnc.control.word_address.tools import data_input
-from polycnc.control.word_address.transformations.tilted_plane import TiltState, check_compensation
+from polycnc.control.word_address.transformations.tilted_plane import (
+    TiltState,
+    check_compensation,
+    nearest_angles,
+)
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from polycnc.control.word_address.block.codes import Step
-    from polycnc.control.word_address.block.plan import Builder, Plan
+    from polycnc.control.word_address.block.plan import AxisWord, Builder, Plan
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import MillingChannel, WordAddressChannel
 
@@ -107,35 +114,63 @@ def _plan(builder: Builder, plan: Plan) -> Step | None:
     """The work zero is that of the block's end; the axes go straight to where its words are then."""
     turning = _turning(builder, plan)
     if TipState.of(builder.channel).active is not None:
-        if any(builder.channel.axis_data[word.axis].rotary for word in plan.axis_words):
-            raise _not_yet(f"{builder.mode['length']}: {builder.mode[ERROR]}")
-        return None
+        return _plan_posture(builder, plan)
     if not turning:
         return None
     motion, words = builder.mode["motion"], plan.axis_words
-    if motion not in STRAIGHT or builder.mode["cycle"] != "G80":
+    if builder.mode["cycle"] != "G80":
+        return None
+    if motion not in STRAIGHT:
         raise _not_yet(f"{builder.mode[FIXTURE] or builder.mode[ERROR]}: {motion}")
     kind, names_feed = STRAIGHT[motion], builder.has("F")
     polar = builder.mode.codes.get("polar") == "G16"
 
     def move(channel: MillingChannel, values: list[float]) -> None:
-        c = channel.coordinates
         feed = channel.feed if names_feed and kind == Kind.RAPID else _feed(channel, kind)
-        before = c.programmed
+        before = channel.coordinates.programmed
         goal = channel.control.polar_target(channel, plan, values) if polar else reach(channel, words, values)
-        angles = dict(zip(channel.axes, c.machine, strict=True))
-        for axis in turning:
-            angles[channel.axes[axis]] = goal[axis] + c.offsets[axis]
-        on_table.follow(channel, angles)
-        if not OnTable.of(channel).fixture or not channel.control.goes_with_fixture(channel):
-            end = c.programmed[:]
-            for word in words:
-                way = goal[word.axis] - before[word.axis]
-                end[word.axis] = end[word.axis] + way if word.incremental else goal[word.axis]
-            goal = end
-        channel.straight(kind, c.to_position(goal), feed, goal)
+        _go(channel, (kind, feed), words, before, goal)
 
     return move
+
+
+def _go(
+    channel: MillingChannel,
+    how: tuple[Kind, float],
+    words: Sequence[AxisWord],
+    before: list[float],
+    goal: list[float],
+) -> None:
+    """Straight to a programmed point, as the work zero lies when the table has turned there; `how` is kind and feed."""
+    c, named = channel.coordinates, on_table.table_axes(channel)
+    angles = dict(zip(channel.axes, c.machine, strict=True))
+    for word in words:
+        if channel.axes[word.axis] in named:
+            angles[channel.axes[word.axis]] = goal[word.axis] + c.offsets[word.axis]
+    on_table.follow(channel, angles)
+    if not OnTable.of(channel).fixture or not channel.control.goes_with_fixture(channel):
+        end = c.programmed[:]
+        for word in words:
+            way = goal[word.axis] - before[word.axis]
+            end[word.axis] = end[word.axis] + way if word.incremental else goal[word.axis]
+        goal = end
+    kind, feed = how
+    channel.straight(kind, c.to_position(goal), feed, goal)
+
+
+def _over_hole(builder: Builder, plan: Plan, step: Step) -> Step:
+    """A block of a drilling cycle with an axis of the table: over the hole it has turned, then the cycle drills."""
+    over = tuple(word for word in plan.axis_words if word.axis != drilling.drilling_axis(builder))
+    counted = any(word.incremental for word in over) or builder.has("K") or builder.has("L")
+    if counted or builder.mode.codes.get("polar") == "G16" or builder.mode["compensation"] != "G40":
+        raise _not_yet(f"{builder.mode[FIXTURE] or builder.mode[ERROR]}: {builder.mode['cycle']}")
+
+    def drill(channel: MillingChannel, values: list[float]) -> None:
+        before = channel.coordinates.programmed
+        _go(channel, (Kind.RAPID, nan), over, before, reach(channel, over, values))
+        step(channel, values)
+
+    return drill
 
 
 def _behind(builder: Builder, plan: Plan) -> Step | None:
@@ -145,10 +180,80 @@ def _behind(builder: Builder, plan: Plan) -> Step | None:
     return lambda channel, _values: on_table.follow(channel)
 
 
+# ---- the tool's direction under tip control ----------------------------------------------------------------
+
+
+def _plan_posture(builder: Builder, plan: Plan) -> Step | None:
+    """G43.4: rotary words tell how the tool stands on the work as it should lie; it stands so on the work as it lies.
+
+    The positions of the rotary axes nearest to those words are gone to. Vectors of G43.5 are the work's by themselves.
+    """
+    words, motion = plan.axis_words, builder.mode["motion"]
+    rotary = [word for word in words if builder.channel.axis_data[word.axis].rotary]
+    if not rotary:
+        return None
+    if (
+        builder.mode["length"] != "G43.4"
+        or motion not in STRAIGHT
+        or builder.mode.codes.get("polar") == "G16"
+    ):
+        raise _not_yet(f"{builder.mode['length']}: {builder.mode[ERROR]}")
+    kind, names_feed = STRAIGHT[motion], builder.has("F")
+
+    def move(channel: MillingChannel, values: list[float]) -> None:
+        c, posture = channel.coordinates, OnTable.of(channel).posture
+        feed = channel.feed if names_feed and kind == Kind.RAPID else _feed(channel, kind)
+        before = c.programmed
+        goal = reach(channel, words, values)
+        for word in rotary:
+            name = channel.axes[word.axis]
+            if word.incremental:
+                _check_posture(channel)
+                posture[name] += goal[word.axis] - before[word.axis]
+            else:
+                posture[name] = goal[word.axis] + c.offsets[word.axis]
+        _check_posture(channel)
+        wanted = tip.direction(channel, channel.control.kinematics(channel).tool_on_work(posture))
+        angles = nearest_angles(channel, wanted, posture)
+        if angles is None:
+            raise channel.control.fail("tip_direction", address=rotary[0].address)
+        for name, angle in angles.items():
+            axis = channel.axis_index[name]
+            goal[axis] = angle - c.offsets[axis]
+            c.pending[axis] = 0.0
+        channel.straight(kind, c.to_position(goal), feed, goal)
+
+    return move
+
+
+def _check_posture(channel: WordAddressChannel) -> None:
+    """PC0001 before words have told of all rotary axes: what the control takes for the others is not known here."""
+    told = OnTable.of(channel).posture
+    if any(axis not in told for axis in channel.control.kinematics(channel).axes):
+        raise _not_yet("G54.4: G43.4")
+
+
+def _wrap(builder: Builder, plan: Plan, step: Step | None) -> Step | None:
+    """Under G43.4 nothing moves before rotary words have told how the tool stands; cycles with an axis of the table."""
+    if step is not None and builder.mode["cycle"] != "G80" and _turning(builder, plan):
+        return _over_hole(builder, plan, step)
+    if step is None or builder.mode["length"] != "G43.4" or not builder.mode[ERROR]:
+        return step
+
+    def move(channel: MillingChannel, values: list[float]) -> None:
+        before = channel.coordinates.position
+        step(channel, values)
+        if channel.coordinates.position != before:
+            _check_posture(channel)
+
+    return move
+
+
 #: What turns of the table do to the work zero.
 RULE = Rule(
     "work zero on a rotary table",
     modes={FIXTURE: ("G54.2",), ERROR: ("G54.4",)},
     motion=_plan,
+    wrap=_wrap,
     after=_behind,
 )

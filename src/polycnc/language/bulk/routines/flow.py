@@ -9,7 +9,7 @@ from __future__ import annotations
 from math import nan
 
 from polycnc.kernels.layout import Floats, Ints32
-from polycnc.language.bulk.formulas import calculate
+from polycnc.language.bulk.formulas.calculating import calculate
 from polycnc.language.bulk.layout import (
     KEY_COUNT,
     LOCALS,
@@ -25,10 +25,13 @@ from polycnc.language.bulk.layout import (
 from polycnc.language.bulk.moves import word
 from polycnc.language.bulk.routines.layout import NO_LOOP, NO_ROUTINE, Frame, Line, LineKind, Routine
 
-#: What `take_line` gives instead of the node of a block: the line is done, or the interpreter's.
-DONE, REFUSED = -1, -2
+#: What `take_line` gives instead of the node of a block: the line is done; it calls a routine, or leaves the running
+#: one, as the end of its text does; it is the interpreter's, or has not been read.
+DONE, CALLS, RETURNS, ENDS, REFUSED, UNREAD = -1, -2, -3, -4, -5, -6
 #: What `program_called` gives beside the number of a routine.
 NOT_KNOWN, NOT_SCANNED = -1, -2
+#: A line calls a routine so often at the most (SINUMERIK: P).
+MOST_PASSES = 9999.0
 
 
 def take_line(tables: Tables, state: State) -> int:
@@ -40,11 +43,15 @@ def take_line(tables: Tables, state: State) -> int:
         return REFUSED
     line = (tables.routines[routine + Routine.FIRST_LINE] + place) * Line.SIZE
     kind = lines[line + Line.KIND]
-    if kind == LineKind.REFUSED:
-        return REFUSED
+    if kind <= LineKind.REFUSED:
+        return REFUSED if kind == LineKind.REFUSED else UNREAD
     state.scan.block_line = lines[line + Line.NUMBER]
     if kind == LineKind.NOTHING:
         return DONE
+    if kind >= LineKind.RETURN:
+        if state.scan.frames == 0:
+            return REFUSED
+        return RETURNS if kind == LineKind.RETURN else ENDS
     put_values(tables, state, line)
     if kind == LineKind.BLOCK:
         return node_of(tables, state, line)
@@ -52,6 +59,8 @@ def take_line(tables: Tables, state: State) -> int:
     state.stack[0] = 1.0
     if formulas and not calculate(state, tables.formulas, formulas):
         return REFUSED
+    if kind == LineKind.CALL:
+        return CALLS if may_call(tables, state, lines[line + Line.TARGET]) else REFUSED
     if kind != LineKind.STATEMENT and not gone_on(lines, state, line, kind, state.stack[0] != 0.0):
         return REFUSED
     return DONE
@@ -138,6 +147,45 @@ def may_flow(tables: Tables, state: State, rule: int, factor: int) -> int:
     return Outcome.UNKNOWN_PROGRAM if routine == NOT_KNOWN else Outcome.NOT_PLAIN
 
 
+def may_call(tables: Tables, state: State, routine: int) -> bool:
+    """Whether a line may call a routine, as often as is on the stack: not too deep, and not what is running already."""
+    passes = state.stack[0]
+    if not 1.0 <= passes <= MOST_PASSES or passes != float(int(passes)):
+        return False
+    if state.scan.frames >= state.scan.most_frames:
+        return False
+    program = tables.routines[routine * Routine.SIZE + Routine.PROGRAM]
+    if program == state.scan.program:
+        return False
+    for i in range(state.scan.frames):
+        caller = state.frames[i * Frame.SIZE + Frame.CALLER]
+        if caller != NO_ROUTINE and program == tables.routines[caller * Routine.SIZE + Routine.PROGRAM]:
+            return False
+    return True
+
+
+def call(tables: Tables, state: State) -> None:
+    """Call the routine of the line that has just been taken, as often as is on the stack; the caller is behind it."""
+    place = state.scan.current - tables.routines[state.scan.routine * Routine.SIZE + Routine.FIRST_STEP]
+    line = (tables.routines[state.scan.routine * Routine.SIZE + Routine.FIRST_LINE] + place) * Line.SIZE
+    routine = tables.lines[line + Line.TARGET]
+    push(state, routine, int(state.stack[0]) - 1, 0)
+    state.scan.frames += 1
+    run(tables, state, routine)
+    state.scan.current = state.scan.index
+
+
+def push(state: State, routine: int, repeats: int, is_macro: int) -> None:
+    """Keep where the caller stands, in a frame that does not count yet."""
+    frame, frames = state.scan.frames * Frame.SIZE, state.frames
+    frames[frame + Frame.CALLER], frames[frame + Frame.BACK_AT] = state.scan.routine, state.scan.index
+    frames[frame + Frame.CALLED], frames[frame + Frame.IS_MACRO] = routine, is_macro
+    frames[frame + Frame.REPEATS] = repeats
+    for i in range(LOOPS):
+        frames[frame + Frame.LOOPS + i] = state.loops[i]
+        state.loops[i] = NO_LOOP
+
+
 def flow(tables: Tables, state: State, rule: int, factor: int) -> None:
     """Call or leave a routine; the caller stands behind the block."""
     if tables.rules[rule + Rule.FLOW] == Flow.RETURN:
@@ -145,17 +193,10 @@ def flow(tables: Tables, state: State, rule: int, factor: int) -> None:
         return
     routine = program_called(tables, state, rule, factor)
     is_macro = tables.rules[rule + Rule.FLOW] == Flow.MACRO
-    frame, saved = state.scan.frames * Frame.SIZE, state.scan.frames * LOCALS
-    frames = state.frames
-    frames[frame + Frame.CALLER], frames[frame + Frame.BACK_AT] = state.scan.routine, state.scan.index
-    frames[frame + Frame.CALLED], frames[frame + Frame.IS_MACRO] = routine, is_macro
-    frames[frame + Frame.REPEATS] = 0
+    saved, times = state.scan.frames * LOCALS, 1.0
     if tables.rules[rule + Rule.REPEATS] >= 0:
-        repeats = word(state, tables.rules, tables.factors, rule, factor, Rule.REPEATS)
-        frames[frame + Frame.REPEATS] = int(repeats) - 1
-    for i in range(LOOPS):
-        frames[frame + Frame.LOOPS + i] = state.loops[i]
-        state.loops[i] = NO_LOOP
+        times = word(state, tables.rules, tables.factors, rule, factor, Rule.REPEATS)
+    push(state, routine, int(times) - 1, is_macro)
     if is_macro:
         for i in range(1, LOCALS):
             state.saved[saved + i] = state.variables[i]

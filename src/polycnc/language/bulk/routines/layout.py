@@ -20,7 +20,8 @@ class Line(Places):
     FIRST_VALUE = place()
     WORDS = place()
     LITERALS = place()
-    #: What a statement calculates, 0 for nothing; the step to which it jumps; the number of its loop.
+    #: What a statement calculates, 0 for nothing; the step to which it jumps, or the routine that it calls; the number
+    #: of its loop.
     FORMULAS = place()
     TARGET = place()
     LOOP = place()
@@ -32,10 +33,13 @@ class Line(Places):
 class LineKind(Places):
     """What a line of a routine does.
 
-    It is the interpreter's; nothing; a block; it calculates; it jumps (where its condition holds); it opens a loop
-    (where its condition holds, else it jumps); it ends one, and jumps where the condition of the loop holds.
+    It has not been read; it is the interpreter's; nothing; a block; it calculates; it jumps (where its condition
+    holds); it opens a loop (where its condition holds, else it jumps); it ends one, and jumps where the condition of
+    the loop holds; it calls a routine, so often as is calculated; it leaves one; so does the end of the text, which is
+    no block.
     """
 
+    UNREAD = place()
     REFUSED = place()
     NOTHING = place()
     BLOCK = place()
@@ -43,6 +47,9 @@ class LineKind(Places):
     JUMP = place()
     LOOP = place()
     LOOP_END = place()
+    CALL = place()
+    RETURN = place()
+    END = place()
 
 
 class Routine(Places):

@@ -6,7 +6,7 @@ from array import array
 from typing import TYPE_CHECKING, Any, Protocol
 
 from polycnc.language.bulk.layout import LOCALS, LOOPS, MOST_FRAMES
-from polycnc.language.bulk.routines.kept import MOST_LINES, Routines
+from polycnc.language.bulk.routines.kept import Routines
 from polycnc.language.bulk.routines.layout import NO_ROUTINE, Frame
 
 if TYPE_CHECKING:
@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 class RoutineDialect(Protocol):
     """What a control tells of programs that are called, and of loops; see `scanner.Dialect`."""
 
-    def told(self, code: Any, index: int) -> Statement:
-        """What a step of a program does."""
+    def told(self, channel: Any, code: Any, index: int, is_met: bool) -> Statement:
+        """What a step of a program does; `UNREAD` where that is not known before the channel has come to it."""
 
     def most_frames(self, channel: Any) -> int:
         """How many programs may be called within each other from here on."""
@@ -51,7 +51,7 @@ class RoutineDialect(Protocol):
         """Loops of a level that have been opened or have ended."""
 
     def loop_around(self, channel: Any) -> tuple[int, int]:
-        """First step, and how many there are, of the outermost loop that the running level is in; else 0."""
+        """First step, and how many there are, of the part of the running program that may come round again; else 0."""
 
 
 class RunningRoutines:
@@ -89,9 +89,9 @@ class RunningRoutines:
         """The scan runs the loop that the channel is in, from the next block on; false where it cannot."""
         level, at = channel.level, self._state.scan
         first, count = self._dialect.loop_around(channel)
-        if not 0 < count <= MOST_LINES:
+        if count == 0:
             return False
-        at.routine = self.known.number(level.code, first, count, level.program_number)
+        at.routine = self.known.number(channel, level.code, first, count, level.program_number)
         at.index = at.current = level.index
         self._loops = self._dialect.put_loops(level, self._state.loops)
         for number, loop in enumerate(self._loops):
@@ -105,18 +105,23 @@ class RunningRoutines:
         number = self._state.scan.called
         program = self._dialect.program_called(channel, number)
         if program is None:
-            self.known.learn_callee(number, None, 0)
+            self.known.learn_callee(channel, number, None, 0)
             return True
         if program.name not in channel.toolpath.programs:
             return False
         code: Scannable = channel.executable(program)
-        self.known.learn_callee(number, code, channel.toolpath.program_number(program.name))
+        self.known.learn_callee(channel, number, code, channel.toolpath.program_number(program.name))
         return True
 
-    def line(self) -> str | None:
-        """The line of the routine at which the scan has ended; None where it ended in the text."""
+    def read_lines(self, channel: ScannedChannel) -> bool:
+        """Read the line at which the scan has ended; false where it must be run first."""
         at = self._state.scan
-        return None if at.routine == NO_ROUTINE else self.known.line_of(at.routine, at.index)
+        return self.known.read_lines(channel, at.routine, at.index)
+
+    def place(self) -> tuple[Scannable, int] | None:
+        """Program and step of the routine at which the scan has ended; None where it ended in the text."""
+        at = self._state.scan
+        return None if at.routine == NO_ROUTINE else (self.known.kept[at.routine].code, at.index)
 
     def take(self, channel: ScannedChannel) -> None:
         """The channel's variables, loops and levels are as the scan has left them.

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.language.bulk.routines.layout import LineKind
+
+if TYPE_CHECKING:
+    from polycnc.language.bulk.scannable import Scannable
 
 
 class Statement(NamedTuple):
@@ -16,6 +19,8 @@ class Statement(NamedTuple):
         numbers: The numbers in them.
         target: The step to which it jumps.
         loop: The number of the loop that it begins or ends.
+        callee: The program that it calls, its number in the toolpath, and how many steps it has.
+        is_known: A block that the scanner does not read: the control knows it by its place in the program.
     """
 
     kind: int
@@ -23,7 +28,11 @@ class Statement(NamedTuple):
     numbers: tuple[float, ...] = ()
     target: int = 0
     loop: int = 0
+    callee: tuple[Scannable, int, int] | None = None
+    is_known: bool = False
 
 
-#: A line that is the interpreter's, one without a block, one whose block the scanner reads.
-REFUSED, NOTHING, BLOCK = (Statement(kind) for kind in (LineKind.REFUSED, LineKind.NOTHING, LineKind.BLOCK))
+#: A line that cannot be told yet, one that is the interpreter's, one without a block, one whose block is read.
+UNREAD, REFUSED, NOTHING, BLOCK = (
+    Statement(kind) for kind in (LineKind.UNREAD, LineKind.REFUSED, LineKind.NOTHING, LineKind.BLOCK)
+)

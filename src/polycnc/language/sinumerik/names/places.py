@@ -279,7 +279,7 @@ class RPlace:
             raise reader.error(token)
         if token.value >= len(values):
             raise NcSyntaxError("12290", token.column, token.text)
-        return cls(reader.emitter.object(values), reader.emitter.object(token.value))
+        return cls(reader.emitter.object(values), reader.emitter.parameter(token.value, token))
 
     @classmethod
     def indexed(cls, reader: ExpressionReader, token: Token) -> RPlace:  # noqa: ARG003

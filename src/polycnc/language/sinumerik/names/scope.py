@@ -81,6 +81,7 @@ class Scope:
         variable.slot = self.slots
         self.slots += 1
         self.variables[variable.name] = variable
+        self.memory.programs.generation += 1
 
     def check_word(self, token: Token) -> None:
         """Raise PC0006 for a function, procedure or cycle that the program may not execute (APX)."""

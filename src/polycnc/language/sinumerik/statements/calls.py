@@ -87,6 +87,18 @@ def call_program(
     if not 1 <= passes <= MAX_PASSES:
         raise AlarmError("12100", text=str(passes))
     count_levels(channel)
+    push_program(channel, program, args, given, passes, kind)
+
+
+def push_program(
+    channel: Channel,
+    program: Program,
+    args: tuple[Any, ...],
+    given: tuple[bool, ...],
+    passes: int,
+    kind: LevelKind = LevelKind.SUBPROGRAM,
+) -> None:
+    """The level of a subprogram whose call is allowed; see `call_program`."""
     header = _header(channel, program)
     saved = channel.control.save(channel) if "SAVE" in header.attributes else None
     caller = channel.level

@@ -68,9 +68,11 @@ def set_position(channel: LatheChannel, words: Words) -> None:
         point[axis] = point[axis] + value if incremental and by_address else value
         state.local[axis] = 0.0
     refresh(channel)
-    wanted = c.to_position(point)
+    wanted, way = c.to_position(point), [0.0] * len(channel.axes)
     for axis, _, _ in named:
-        state.preset[axis] += c.position[axis] - wanted[axis]
+        way[axis] = c.position[axis] - wanted[axis]
+    for axis, part in enumerate(systems.shift_of_zero(channel, way, "G50")):
+        state.preset[axis] += part
     refresh(channel)
 
 

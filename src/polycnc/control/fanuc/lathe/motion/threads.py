@@ -209,7 +209,7 @@ def is_continued(channel: LatheChannel) -> bool:
             return bool(chunk.kind[row] == Kind.THREAD)
         if chunk.line[row] != line:
             return False
-    return False
+    return channel.toolpath.kind_before_chunk == Kind.THREAD
 
 
 def start_angle(thousandths: float) -> float:

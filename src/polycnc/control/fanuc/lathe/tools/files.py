@@ -71,6 +71,8 @@ def _offset_lines(channel: LatheChannel) -> Iterator[str]:
 
 
 def _y_lines(channel: LatheChannel) -> Iterator[str]:
+    if "Y" not in channel.axes:
+        raise DataFileError(1, "word", word="Y")
     memory: TurningMemory = channel.memory
     for number in range(1, sets(channel) + 1):
         yield _line(channel, f"P{number:02d}", OffsetMemory.of(channel).at(number).wear, {"Y": "Y"}, None)

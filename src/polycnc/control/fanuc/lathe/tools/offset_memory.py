@@ -66,6 +66,11 @@ class OffsetMemory(State, lifetime=Lifetime.RETAINED):
         """Shift of all work coordinate systems (G10 P0, work shift screen), all axes, mm."""
         return self.shifts["work"]
 
+    @property
+    def has_second(self) -> bool:
+        """Whether any number has a second geometry."""
+        return any(any(offset.second.values()) for offset in self.numbers.values())
+
     def at(self, number: int) -> TurningOffset:
         """An offset number; zero until it is set."""
         return self.numbers.setdefault(number, TurningOffset())

@@ -16,6 +16,7 @@ from polycnc.control.fanuc.lathe.cycles.modal import is_reading
 from polycnc.control.fanuc.lathe.tools.offset_memory import OffsetMemory, y_offset_axis
 from polycnc.control.word_address.auxiliary.functions import bring_to_change
 from polycnc.control.word_address.block.plan import NOT_YET
+from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
 from polycnc.control.word_address.macro_b.code_calls import calls_by_tool
 from polycnc.control.word_address.tools.radius import RadiusState, compensation_stage, side_on_display
@@ -28,7 +29,7 @@ from polycnc.toolpath.events import ToolSelection
 if TYPE_CHECKING:
     from polycnc.control.fanuc.lathe.family import LatheChannel
     from polycnc.control.word_address.block.codes import Step
-    from polycnc.control.word_address.block.plan import Builder
+    from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.words import Words
 
 THREADS = frozenset({"G32", "G34", "G35", "G36"})
@@ -111,6 +112,22 @@ def plan_tool(builder: Builder) -> Step | None:
     return select
 
 
+def _plan_signals(builder: Builder, _plan: Plan) -> Step:
+    """T: the block waits for the signals of its second geometry before it has done anything."""
+    slot = builder.slots["T"][0]
+
+    def ask(channel: LatheChannel, values: list[float]) -> None:
+        if OffsetMemory.of(channel).has_second:
+            tool, number = split_tool_word(channel, values[slot])
+            _second_geometry(channel, _geometry_number(channel, number or 0, tool))
+
+    return ask
+
+
+#: T may have to wait for signals.
+WAITING_RULE = Rule("second geometry", words=("T",), before=_plan_signals)
+
+
 def split_tool_word(channel: LatheChannel, value: float) -> tuple[int, int | None]:
     """The code sent to the turret and the offset number; None where the tool has no offset in it (5040#3)."""
     parameters = channel.memory.parameters
@@ -143,12 +160,18 @@ def select_offset(channel: LatheChannel, number: int, tool: int) -> None:
     if not 0 <= number <= (channel.memory.parameters.offset_sets or MAX_OFFSETS):
         raise channel.control.fail("offset_number", address="T")
     _refuse_rotation(channel)
-    memory, active = channel.memory, OffsetState.of(channel)
+    active = OffsetState.of(channel)
     active.number = number
-    by_tool = memory.parameters.LGN and not memory.parameters.NGW
-    active.geometry_number = 0 if not number else tool if by_tool else number
+    active.geometry_number = _geometry_number(channel, number, tool)
     apply_offset(channel, cancels=number == 0)
     renew_nose(channel)
+
+
+def _geometry_number(channel: LatheChannel, number: int, tool: int) -> int:
+    """The number of the geometry: that of the offset, or of the tool (LGN); 0 where the offset is cancelled."""
+    parameters = channel.memory.parameters
+    by_tool = parameters.LGN and not parameters.NGW
+    return 0 if not number else tool if by_tool else number
 
 
 def _refuse_rotation(channel: LatheChannel) -> None:
@@ -222,14 +245,21 @@ def _sum(a: list[float], b: list[float]) -> list[float]:
 
 def geometry_values(channel: LatheChannel) -> dict[str, float]:
     """Geometry of the active number, with the second geometry where the machine's signals ask for it (II.5.1.4)."""
-    memory, active = channel.memory, OffsetState.of(channel)
+    active = OffsetState.of(channel)
     offset = OffsetMemory.of(channel).at(active.geometry_number)
     values = dict(offset.geometry)
-    if memory.signals.get("G2SLC"):
-        for axis, value in offset.second.items():
-            if memory.signals.get(f"G2{axis}"):
-                values[axis] = values.get(axis, 0.0) + value
+    for axis, value in _second_geometry(channel, active.geometry_number).items():
+        values[axis] = values.get(axis, 0.0) + value
     return values
+
+
+def _second_geometry(channel: LatheChannel, number: int) -> dict[str, float]:
+    """What the machine's signals G2SLC and G2X … add to a geometry; where nothing is stored nobody waits for them."""
+    signals, offset = channel.memory.signals, OffsetMemory.of(channel).numbers.get(number)
+    stored = {} if offset is None else {axis: value for axis, value in offset.second.items() if value}
+    if not stored or not signals.get("G2SLC"):
+        return {}
+    return {axis: value for axis, value in stored.items() if signals.get(f"G2{axis}")}
 
 
 def move_by_offset(channel: LatheChannel) -> None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.control.sinumerik.errors import not_supported
+from polycnc.control.sinumerik.tables import data_factor
 from polycnc.control.sinumerik.tools.edges import (
     COARSE,
     DP_BASE_LENGTH,
@@ -49,7 +50,7 @@ PARTS = frozenset((BASE, SETUP, GEOMETRY, SUM, HOLDER, WEAR, KINEMATIC))
 #: Systems: basic, kinematic, machine, tool, work.
 SYSTEMS, MACHINE, TOOL, WORK, OF_KINEMATICS = frozenset("BKMTW"), "M", "T", "W", "K"
 #: Places in the result: type, edge position, three lengths, then radius and $TC_DP7 to 11.
-FIELD, FIRST_LENGTH = 11, 2
+FIELD, LENGTHS = 11, range(2, 9)
 #: Additive offsets of an edge.
 LAST_ADDITIVE = 6
 _GEOMETRY_PARAMETERS = range(DP_LENGTH, DP_SIDE_ANGLE + 1)
@@ -88,7 +89,9 @@ def length_of(channel: SinumerikChannel, args: Arguments) -> int:
     asked = _asked(channel, given)
     if isinstance(asked, int):
         return asked
-    args[0].items[:FIELD] = _values(channel, asked, frozenset(parts), system)
+    unit = data_factor(channel.mode)
+    values = _values(channel, asked, frozenset(parts), system)
+    args[0].items[:FIELD] = [value / unit if i in LENGTHS else value for i, value in enumerate(values)]
     return DONE
 
 

@@ -13,6 +13,7 @@ from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tools.lengths import Rules, axes_of
 from polycnc.control.sinumerik.tools.selection import rules_of
+from polycnc.control.sinumerik.transformations import seat
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY
 from polycnc.language.sinumerik.names.values import Type
@@ -30,8 +31,8 @@ DONE, NOTHING, NO_NAME = 0, -1, -4
 LONGEST_NAME = 31
 #: Geometry axes of abscissa, ordinate and applicate by the plane.
 ORDER = {"G17": (0, 1, 2), "G18": (2, 0, 1), "G19": (1, 2, 0)}
-#: Systems of LENTOAX: the work, and the basic one, which is that of the machine where no transformation acts.
-_WORK, _BASIC = ("W", "WCS"), ("B", "BCS", "M", "MCS")
+#: Systems of LENTOAX: the work, the basic one, which is that of the machine where no transformation acts, the tool's.
+_WORK, _BASIC, _TOOL = ("W", "WCS"), ("B", "BCS", "M", "MCS"), ("T", "TCS")
 #: What counts as no part of a direction.
 _NONE = 1e-9
 
@@ -85,23 +86,25 @@ def assignment(channel: SinumerikChannel, args: Arguments) -> int:
     """LENTOAX(VAR lengths, VAR matrix[, system]): which length acts on abscissa, ordinate and applicate.
 
     `lengths` gets the number of the length of each axis, negative where it counts against it, 0 for none. The matrix
-    makes offsets along these axes of lengths 1 to 3. The system is the work (WCS), else the basic one (BCS, MCS).
-    0, or -1 without an edge.
+    makes offsets along these axes of lengths 1 to 3. The system is the work (WCS), the basic one (BCS, MCS), or that of
+    the tool as it is drawn, whatever a toolholder does to it (TCS). 0, or -1 without an edge.
 
     Raises:
-        AlarmError: PC0001 for the systems of tool and holder (TCS, KCS).
+        AlarmError: PC0001 for the system of the head (KCS), and where TRAORI turns the tool in the others.
     """
     lengths, matrix = args[:2]
     system = str(args[2]).upper() if len(args) > 2 and args[2] is not None else "WCS"
-    if system not in (*_WORK, *_BASIC):
+    if system not in (*_WORK, *_BASIC, *_TOOL):
         raise not_supported(f"LENTOAX {system}")
+    if system not in _TOOL and seat.centre_point(channel) is not None:
+        raise not_supported("LENTOAX: TRAORI")
     field_of("LENTOAX", lengths, (3,))
     field_of("LENTOAX", matrix, (3, 3))
     tools, plane = channel.memory.tools, channel.mode["plane"]
     edge = tools.edge
     if edge is None:
         return NOTHING
-    turned = tools.carrier or IDENTITY
+    turned = IDENTITY if system in _TOOL or tools.carrier is None else tools.carrier
     rules = tools.rules or rules_of(channel)
     back = rules_of(channel).work.inverse() if system in _WORK else IDENTITY
     axes = axes_of(edge, rules, plane)

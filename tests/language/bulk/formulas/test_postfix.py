@@ -8,8 +8,8 @@ import pytest
 
 from polycnc.control.registry import control
 from polycnc.control.word_address.control import WordAddressControl
+from polycnc.language.bulk.formulas.postfix import formulas
 from polycnc.language.bulk.layout import STACK, Operation
-from polycnc.language.bulk.postfix import formulas
 from polycnc.language.expressions.code import Lifted, binary, call
 from polycnc.language.word_address.executable import BlockReader
 

@@ -9,8 +9,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from polycnc.language.bulk.formulas import cosine, read_token, sine, variable
-from polycnc.language.bulk.layout import Token
+from polycnc.language.bulk.formulas.calculating import cosine, sine, variable
+from polycnc.language.bulk.formulas.reading import read_token
+from polycnc.language.bulk.layout import Token, new_state
 from polycnc.language.bulk.settings import Bulk
 from polycnc.language.word_address import functions
 from tests.examples import examples
@@ -88,12 +89,13 @@ def test_quarters_are_exact() -> None:
 
 
 def test_a_variable_lies_where_a_number_or_nothing_is() -> None:
-    variables = array("d", (inf, 2.5, nan))
-    variables.extend([inf] * 997)
-    assert variable(variables, 1.0) == (True, 2.5)
-    assert variable(variables, 2.0)[0]
-    assert not variable(variables, 0.0)[0]
-    assert not variable(variables, 5000.0)[0]
+    state = new_state(0)
+    state.scan.numbered = 3
+    state.variables[:4] = array("d", (inf, 2.5, nan, 1.0))
+    assert variable(state, 1.0) == (True, 2.5)
+    assert variable(state, 2.0)[0]
+    assert not variable(state, 0.0)[0]
+    assert not variable(state, 3.0)[0]
 
 
 NUMBERS = ("0", "1", "2.5", "0.001", ".5", "90", "100.", "1234567.", "0.333333", "45")

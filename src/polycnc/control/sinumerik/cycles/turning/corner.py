@@ -1,0 +1,146 @@
+"""A corner CYCLE951 (cuts: `polycnc.cycles.turning.stock_removal`)."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from math import copysign
+from typing import TYPE_CHECKING
+
+from polycnc.control.sinumerik.cycles.milling import feed_of
+from polycnc.control.sinumerik.cycles.moves import require_tool
+from polycnc.control.sinumerik.cycles.turning.work import LIFT_MM, Work, onwards
+from polycnc.control.sinumerik.errors import not_supported
+from polycnc.control.sinumerik.tools import stages
+from polycnc.cycles.turning.contour import Contour, Piece, turned_round
+from polycnc.cycles.turning.groove import Corner, GrooveError, with_corner
+from polycnc.cycles.turning.stock_removal import Removal, remove
+from polycnc.cycles.turning.stroke import PlaneStroke
+from polycnc.geometry import offset
+from polycnc.geometry.tolerances import NO_WAY
+from polycnc.messages import AlarmError
+from polycnc.toolpath import Kind
+
+if TYPE_CHECKING:
+    from polycnc.control.sinumerik.cycles.arguments import Arguments
+    from polycnc.control.sinumerik.cycles.moves import Moves
+    from polycnc.geometry.arcs import Point
+
+#: CYCLE951: units and tens of VARI.
+CORNER_LENGTHWISE, CORNER_ACROSS = 1, 2
+CORNER_ROUGHING, CORNER_FINISHING = 1, 2
+#: CYCLE951: places of the corner by _LAGE: the signs of the ways from start to end along Z and X.
+CORNER_PLACES = {0: (1.0, -1.0), 1: (-1.0, -1.0), 2: (1.0, 1.0), 3: (-1.0, 1.0)}
+#: Forms by _NR: sharp, and with its three corners broken or rounded.
+SHARP_FORM, BROKEN_FORM = 0, 1
+#: Digits of _AMODE: an end that counts from the start along X and Z; then two of the intermediate point, which only
+#: other forms have; then one of each corner, 1 for a chamfer.
+END_X, END_Z, CORNERS = 0, 1, (4, 5, 6)
+
+
+def corner(moves: Moves, a: Arguments) -> None:
+    """CYCLE951: rough or finish a right-angled corner, lengthwise or across; slanted ones are PC0001.
+
+    Raises:
+        AlarmError: 61000 without tool offset, 61002 for VARI, 61003 without feed, 61606 where start and end leave
+            nothing between them or the corners do not fit, 61610 for roughing without depth of cut; PC0001 for slanted
+            corners, outer corners that differ and a `_LAGE` that start and end contradict.
+    """
+    require_tool(moves)
+    direction, stage = a.digit("_VARI", 0), a.digit("_VARI", 1)
+    if direction not in (CORNER_LENGTHWISE, CORNER_ACROSS) or stage not in (
+        CORNER_ROUGHING,
+        CORNER_FINISHING,
+    ):
+        raise AlarmError("61002")
+    start = (a["_SPL"], a["_SPD"])
+    end = (
+        a["_EPL"] + (start[0] if a.digit("_AMODE", END_Z) else 0.0),
+        start[1] + 2.0 * a["_EPD"] if a.digit("_AMODE", END_X) else a["_EPD"],
+    )
+    if start[0] == end[0] or start[1] == end[1]:
+        raise AlarmError("61606")
+    signs = (copysign(1.0, end[0] - start[0]), copysign(1.0, end[1] - start[1]))
+    broken = _corners(a)
+    unknown = {
+        "_VARI": a.integer("_VARI") >= 100,
+        "_NR": a.integer("_NR") not in (SHARP_FORM, BROKEN_FORM)
+        or (a.integer("_NR") == SHARP_FORM and not all(each.is_sharp for each in broken))
+        or broken[0] != broken[2],
+        "_AMODE": any(a.digit("_AMODE", place) > 1 for place in (END_X, END_Z, *CORNERS)),
+        "_LAGE": CORNER_PLACES.get(a.integer("_LAGE")) != signs,
+    }
+    for name, wrong in unknown.items():
+        if wrong:
+            raise not_supported(f"CYCLE951 {name}")
+    feed, lift = feed_of(a, "_FF1"), abs(a["_SDIS"]) or LIFT_MM
+    across = direction == CORNER_ACROSS
+    work = Work(moves, across=across, towards=signs[0] if across else signs[1])
+    free = (start[0] - signs[0] * lift, start[1] - signs[1] * lift)
+    work.perform(PlaneStroke(Kind.RAPID, work.pair(*free)), feed)
+    if stage == CORNER_ROUGHING:
+        if not a["_MID"] > 0.0:
+            raise AlarmError("61610")
+        off = (signs[0] * abs(a["_FALZ"]), signs[1] * abs(a["_FALX"]))
+        if any(abs(way) >= abs(e - s) for way, s, e in zip(off, start, end, strict=True)):
+            raise AlarmError("61606")
+        path = _corner_path(work, start, (end[0] - off[0], end[1] - off[1]), broken)
+        top, front = work.touching(work.pair(*start)[1]), work.front(work.pair(*start)[0], onwards(path))
+        for cut in remove(path, Removal(a["_MID"], lift, work.towards, front=front, top=top)):
+            work.perform(cut.stroke, feed)
+    else:
+        path = _corner_path(work, start, end, broken)
+        before, after = path[0].edge.start, path[-1].edge.end
+        work.perform(PlaneStroke(Kind.RAPID, (before[0] - onwards(path) * lift, before[1])), feed)
+        work.perform(PlaneStroke(Kind.FEED, before), feed)
+        # The last side is led on up to the lift-off.
+        is_side = abs(path[-1].edge.end[0] - path[-1].edge.start[0]) <= NO_WAY
+        for piece in path[:-1] if is_side else path:
+            work.perform(piece.stroke(), feed)
+        work.perform(PlaneStroke(Kind.FEED, (after[0], after[1] - work.towards * lift)), feed)
+    work.clear(path, work.pair(*free), lift)
+    work.perform(PlaneStroke(Kind.RAPID, work.pair(*free)), feed)
+
+
+def _corners(a: Arguments) -> tuple[Corner, Corner, Corner]:
+    """The corner at the front, the inner one, and the one at the other edge."""
+    first, inner, last = (
+        Corner(leg=size) if a.digit("_AMODE", place) else Corner(radius=size)
+        for size, place in zip((abs(a[f"_RF{i}"]) for i in (1, 2, 3)), CORNERS, strict=True)
+    )
+    return first, inner, last
+
+
+def _corner_path(work: Work, start: Point, end: Point, broken: tuple[Corner, Corner, Corner]) -> Contour:
+    """The tool point's way along the two sides of a corner, from its open end to where the cuts begin.
+
+    Where the nose is a corner of the tool, the way begins and ends at the start's levels.
+
+    Raises:
+        AlarmError: 61606 where a corner does not fit, or the nose does not into the inner one.
+    """
+    radius = stages.radius(work.moves.channel)
+    tip = stages.tip(work.moves.channel)
+    begin = (start[0] - radius * tip[0], start[1] - radius * tip[1])
+    first, inner, last = broken
+    points = [(begin[0], end[1]), end, (end[0], begin[1])]
+    kinds = [inner]
+    # Outer corners lie between a side and what the part goes on with: a face below it, an edge beside it.
+    if not first.is_sharp:
+        beyond = abs(end[1] - start[1]) + first.radius + first.leg
+        points[:1] = [(start[0], end[1] + copysign(beyond, end[1] - start[1])), (start[0], end[1])]
+        kinds.insert(0, first)
+    if not last.is_sharp:
+        beyond = abs(end[0] - start[0]) + last.radius + last.leg
+        points[-1:] = [(end[0], start[1]), (end[0] + copysign(beyond, end[0] - start[0]), start[1])]
+        kinds.append(last)
+    lines = [Piece(offset.line(p, q)) for p, q in pairwise(points)]
+    contour: Contour = lines[:1]
+    try:
+        for line, kind in zip(lines[1:], kinds, strict=True):
+            contour = with_corner(contour, line, kind)
+    except GrooveError:
+        raise AlarmError("61606") from None
+    contour = contour[0 if first.is_sharp else 1 : None if last.is_sharp else -1]
+    if work.across:
+        contour = turned_round(contour)
+    return work.tool_path(work.contour(contour), 0.0)

@@ -1,0 +1,158 @@
+"""The cuts of a turning cycle in its own coordinates, and the path of the nose along a contour."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import copysign
+from typing import TYPE_CHECKING
+
+from polycnc.control.sinumerik.tools import stages
+from polycnc.cycles.turning.contour import Contour, Piece, parallel, shifted, swapped, swapped_stroke
+from polycnc.cycles.turning.stock_removal import is_clear, way_clear, way_over
+from polycnc.cycles.turning.stroke import PlaneStroke
+from polycnc.geometry import offset
+from polycnc.geometry.tolerances import NO_WAY
+from polycnc.messages import AlarmError
+from polycnc.toolpath import Kind
+
+if TYPE_CHECKING:
+    from polycnc.control.sinumerik.cycles.moves import Moves
+    from polycnc.geometry.arcs import Point
+    from polycnc.geometry.offset import Edge
+
+#: Ways off the work where the call gives none.
+LIFT_MM = 1.0
+#: By so much a direction of 45 degrees may miss it and still not be steep.
+_ROUNDING = 1e-9
+
+
+class Work:
+    """Which way the cuts of a call run: lengthwise (a is Z, b the radius) or across (a is the radius, b is Z)."""
+
+    def __init__(self, moves: Moves, *, across: bool, towards: float) -> None:
+        self.moves = moves
+        self.across = across
+        self.towards = towards
+
+    def contour(self, read_: Contour) -> Contour:
+        """A contour of the plane in the coordinates of the cuts."""
+        return swapped(read_) if self.across else read_
+
+    def pair(self, along: float, radial: float) -> Point:
+        """An amount along Z and one along X in the coordinates of the cuts."""
+        return (radial, along) if self.across else (along, radial)
+
+    def touching(self, level: float) -> float:
+        """`b` of the tool's point where the nose touches a level from above."""
+        radius = stages.radius(self.moves.channel)
+        tip = self.pair(*stages.tip(self.moves.channel))
+        return level - self.towards * radius + radius * tip[1]
+
+    def front(self, edge: float, direction: float) -> float:
+        """`a` of the tool's point where the nose touches a front, when it comes in a direction, 1 or -1."""
+        radius = stages.radius(self.moves.channel)
+        tip = self.pair(*stages.tip(self.moves.channel))
+        return edge - direction * radius + radius * tip[0]
+
+    def tool_path(
+        self, contour: Contour, allowance: float, *, roughs: bool = False, rounds_begin: bool = False
+    ) -> Contour:
+        """Where the tool's point runs: the nose lies on the contour, or an allowance off it.
+
+        Roughing leaves stock in a rounding that is too narrow for both. `rounds_begin`: the nose comes round an open
+        end from which the contour goes down, for it passes over that end.
+
+        Raises:
+            AlarmError: 61606 where the nose does not fit the contour.
+        """
+        channel = self.moves.channel
+        radius = stages.radius(channel)
+        first, second = stages.tip(channel)
+        try:
+            off = -self.towards * onwards(contour) * (radius + allowance)
+            path = parallel(contour, off, leaves_fillets=roughs)
+        except ValueError:
+            raise AlarmError("61606") from None
+        if rounds_begin:
+            path = [*self._round_begin(contour[0].edge, path[0].edge.start, off, contour[-1].edge.end), *path]
+        return shifted(path, *self.pair(radius * first, radius * second))
+
+    def _round_begin(self, first: Edge, onto: Point, off: float, end: Point) -> Contour:
+        """The nose's way round the open end of a contour that goes down from there; nothing else needs one."""
+        begin = first.start
+        is_open = self.towards * (begin[1] - end[1]) >= 0.0
+        if not is_open or self.towards * first.departing[1] <= NO_WAY or abs(off) <= NO_WAY:
+            return []
+        above = (begin[0], begin[1] - self.towards * abs(off))
+        return [Piece(offset.arc(above, onto, begin, off < 0.0))]
+
+    def clear(self, contour: Contour, end: Point, lift: float, *, stock: Contour | None = None) -> None:
+        """Go past the contour before a rapid to a place, where that would touch it; 61606 where no way is clear.
+
+        `stock` is what still lies on the contour: the way passes over it as well, where there is one that does.
+        """
+        start = self.pair(*self.moves.point)
+        try:
+            way = way_clear(contour, start, end, towards=self.towards, lift=lift)
+        except ValueError:
+            raise AlarmError("61606") from None
+        if stock is not None:
+            try:
+                over = way_clear(stock, start, end, towards=self.towards, lift=lift)
+            except ValueError:
+                over = way_over(stock, start, end, towards=self.towards, lift=lift)
+            if is_clear(contour, [start, *(stroke.end for stroke in over), end], self.towards):
+                way = over
+        for stroke in way:
+            self.perform(stroke, 0.0)
+
+    def require_clear(self, contour: Contour, end: Point) -> None:
+        """61606 for a straight stroke through the contour: one that runs back on itself has no cuts that are clear."""
+        if not is_clear(contour, [self.pair(*self.moves.point), end], self.towards):
+            raise AlarmError("61606")
+
+    def perform(self, stroke: PlaneStroke, feed: float) -> None:
+        """Make a stroke, which is a block."""
+        made = swapped_stroke(stroke) if self.across else stroke
+        if made.kind is Kind.RAPID:
+            self.moves.rapid(*made.end)
+        elif made.center is None:
+            self.moves.feed(feed, *made.end)
+        else:
+            self.moves.arc(feed, made.end, made.center, made.kind is Kind.CCW)
+        self.moves.end_block()
+
+
+def onwards(contour: Contour) -> float:
+    """The direction of a contour along the cuts; 61605 where it has none."""
+    if abs(contour[-1].edge.end[0] - contour[0].edge.start[0]) <= NO_WAY:
+        raise AlarmError("61605")
+    return copysign(1.0, contour[-1].edge.end[0] - contour[0].edge.start[0])
+
+
+def finish(
+    work: Work, path: Contour, onwards_: float, feed: float, lift: float, stock: Contour | None
+) -> None:
+    """Along a path of the tool once, from beside its begin to beside its end; `stock` is what roughing has left."""
+    start, end = path[0].edge.start, path[-1].edge.end
+    before = _beside(start, path[0].edge.departing, onwards_, work.towards, lift)
+    after = _beside(end, path[-1].edge.arriving, onwards_, work.towards, lift)
+    work.clear(path, before, lift, stock=stock)
+    for stroke in (
+        PlaneStroke(Kind.RAPID, before),
+        PlaneStroke(Kind.FEED, start),
+        *(piece.stroke() for piece in path),
+        PlaneStroke(Kind.FEED, after),
+    ):
+        # A rapid in the contour cuts as well: the cycle has feeds of its own.
+        work.perform(stroke if stroke.end == before else _at_feed(stroke), feed)
+
+
+def _beside(point: Point, direction: Point, onwards_: float, towards: float, lift: float) -> Point:
+    """A place off an end of the contour: square to the cuts where it is steep there, for the nose is beside a wall."""
+    steep = direction[1] * towards > direction[0] * onwards_ + _ROUNDING
+    return (point[0] - (0.0 if steep else onwards_ * lift), point[1] - towards * lift)
+
+
+def _at_feed(stroke: PlaneStroke) -> PlaneStroke:
+    return replace(stroke, kind=Kind.FEED) if stroke.kind is Kind.RAPID else stroke

@@ -1,0 +1,262 @@
+"""Formulas in words (`X[#1+2.5]`, `X=R1*2`): read as tokens of the shape tree. Pure functions on arrays."""
+
+from __future__ import annotations
+
+from polycnc.kernels.layout import Bytes, Ints32
+from polycnc.language.bulk.layout import (
+    FIRST_TOKEN,
+    KEY_COUNT,
+    MOST_KEYS,
+    MOST_LITERALS,
+    MOST_WORDS,
+    State,
+    Token,
+)
+from polycnc.language.bulk.numerals import BLANK, EXACT_DIGITS, NINE, POINT, TAB, ZERO, read_number
+
+LETTER_A, LETTER_B, LETTER_C, LETTER_F, LETTER_I, LETTER_N, LETTER_O, LETTER_P, LETTER_Q, LETTER_R = (
+    65, 66, 67, 70, 73, 78, 79, 80, 81, 82
+)  # fmt: skip
+LETTER_S, LETTER_T, LETTER_U, LETTER_X, LETTER_Z = 83, 84, 85, 88, 90
+HASH, STAR, PLUS, MINUS, SLASH, OPEN_BRACKET, CLOSE_BRACKET = 35, 42, 43, 45, 47, 91, 93
+OPEN_ROUND, CLOSE_ROUND = 40, 41
+#: What `read_name` gives for other names.
+NO_TOKEN = -1
+#: Digits of a variable that is at hand, and of a whole number in an expression.
+VARIABLE_DIGITS, WHOLE_DIGITS = 4, 9
+
+
+def begins_formula(text: Bytes, place: int) -> bool:
+    """Whether a formula begins here, with a sign or without."""
+    if text[place] == PLUS or text[place] == MINUS:
+        place += 1
+    return text[place] == OPEN_BRACKET or text[place] == HASH
+
+
+def read_formula(
+    text: Bytes, nexts: Ints32, state: State, place: int, node: int, keys: int, literals: int
+) -> tuple[int, int, int, int]:
+    """Follow a formula down the shape tree.
+
+    Args:
+        text: Bytes, whole lines.
+        nexts: The shape tree.
+        state: Gets keys and numbers.
+        place: Where it begins.
+        node: Where the tree stands.
+        keys: Keys of the block so far.
+        literals: Numbers in its formulas so far.
+
+    Returns:
+        Place behind it, -1 where it is not plain; node, keys and numbers behind it.
+    """
+    depth = 0
+    while True:
+        char = int(text[place])
+        if depth and char in (BLANK, TAB):
+            place += 1
+            continue
+        place, token, value = read_token(text, place)
+        if place < 0 or keys == MOST_KEYS or literals == MOST_LITERALS:
+            return -1, 0, 0, 0
+        inside = depth
+        if token == Token.OPEN:
+            depth += 1
+        elif token == Token.CLOSE:
+            depth -= 1
+        elif token == Token.VARIABLE or token == Token.NUMBER:
+            state.values[MOST_WORDS + literals] = value
+            literals += 1
+        if depth < 0 or (
+            not inside and token > Token.VARIABLE and token != Token.PLUS and token != Token.MINUS
+        ):
+            return -1, 0, 0, 0
+        state.keys[keys] = FIRST_TOKEN + token
+        keys += 1
+        node = nexts[node * KEY_COUNT + FIRST_TOKEN + token]
+        if depth == 0 and (token == Token.CLOSE or token == Token.VARIABLE):
+            return place, node, keys, literals
+
+
+def read_token(text: Bytes, place: int) -> tuple[int, int, float]:
+    """Place behind a token, -1 for what is none; the token, and its number."""
+    char = int(text[place])
+    if ZERO <= char <= NINE or char == POINT:
+        place, value, _ = read_number(text, place, EXACT_DIGITS)
+        return place, Token.NUMBER, value
+    if char == HASH:
+        return read_variable(text, place + 1)
+    if LETTER_A <= char <= LETTER_Z:
+        token = read_name(text, place)
+        if token == NO_TOKEN:
+            return -1, 0, 0.0
+        return place + (4 if token == Token.SQRT else 3), token, 0.0
+    if char == OPEN_BRACKET:
+        return place + 1, Token.OPEN, 0.0
+    if char == CLOSE_BRACKET:
+        return place + 1, Token.CLOSE, 0.0
+    if char == PLUS:
+        return place + 1, Token.PLUS, 0.0
+    if char == MINUS:
+        return place + 1, Token.MINUS, 0.0
+    if char == STAR:
+        return place + 1, Token.TIMES, 0.0
+    if char == SLASH:
+        return place + 1, Token.DIVIDED, 0.0
+    return -1, 0, 0.0
+
+
+def read_variable(text: Bytes, place: int) -> tuple[int, int, float]:
+    """The number of a variable, behind its sign."""
+    number = digits = 0
+    while ZERO <= text[place] <= NINE and digits < VARIABLE_DIGITS:
+        number = number * 10 + int(text[place]) - ZERO
+        digits += 1
+        place += 1
+    if digits == 0 or ZERO <= text[place] <= NINE or text[place] == POINT:
+        return -1, 0, 0.0
+    return place, Token.VARIABLE, float(number)
+
+
+def read_name(text: Bytes, place: int) -> int:
+    """The function whose name stands here in full; its bracket must follow."""
+    one = int(text[place])
+    two = int(text[place + 1]) if one >= LETTER_A else 0
+    three = int(text[place + 2]) if two >= LETTER_A else 0
+    four = int(text[place + 3]) if three >= LETTER_A else 0
+    token = NO_TOKEN
+    if one == LETTER_S and two == LETTER_I and three == LETTER_N:
+        token = Token.SIN
+    elif one == LETTER_C and two == LETTER_O and three == LETTER_S:
+        token = Token.COS
+    elif one == LETTER_A and two == LETTER_B and three == LETTER_S:
+        token = Token.ABS
+    elif one == LETTER_F and two == LETTER_I and three == LETTER_X:
+        token = Token.FIX
+    elif one == LETTER_F and two == LETTER_U and three == LETTER_P:
+        token = Token.FUP
+    elif one == LETTER_S and two == LETTER_Q and three == LETTER_R and four == LETTER_T:
+        return Token.SQRT if text[place + 4] == OPEN_BRACKET else NO_TOKEN
+    return token if four == OPEN_BRACKET else NO_TOKEN
+
+
+# ---- expressions -----------------------------------------------------------------------------------------------------
+
+
+def begins_expression(text: Bytes, place: int) -> bool:
+    """Whether what stands behind `=` is more than a number with a sign."""
+    while text[place] in (BLANK, TAB):
+        place += 1
+    if text[place] in (PLUS, MINUS):
+        place += 1
+    char = int(text[place])
+    if not (ZERO <= char <= NINE or char == POINT):
+        return True
+    while ZERO <= text[place] <= NINE or text[place] == POINT:
+        place += 1
+    while text[place] in (BLANK, TAB):
+        place += 1
+    return text[place] in (PLUS, MINUS, STAR, SLASH)
+
+
+def read_expression(
+    text: Bytes, nexts: Ints32, state: State, place: int, node: int, keys: int, literals: int
+) -> tuple[int, int, int, int]:
+    """Follow an expression down the shape tree: operands and operators in turn; as `read_formula`."""
+    depth = 0
+    wants_operand = True
+    while True:
+        while text[place] in (BLANK, TAB):
+            place += 1
+        behind, token, value = read_expression_token(text, place)
+        begins = token in (Token.OPEN, Token.VARIABLE, Token.NUMBER, Token.DECIMAL) or token >= Token.SIN
+        if not wants_operand and depth == 0 and (behind < 0 or begins or token == Token.CLOSE):
+            return place, node, keys, literals
+        if behind < 0 or keys == MOST_KEYS or literals == MOST_LITERALS:
+            return -1, 0, 0, 0
+        is_sign = token in (Token.PLUS, Token.MINUS)
+        if wants_operand != begins and not (wants_operand and is_sign):
+            return -1, 0, 0, 0
+        if token == Token.OPEN:
+            depth += 1
+        elif token == Token.CLOSE:
+            depth -= 1
+        elif token in (Token.VARIABLE, Token.NUMBER, Token.DECIMAL):
+            state.values[MOST_WORDS + literals] = value
+            literals += 1
+        if token >= Token.SIN:
+            depth += 1  # its bracket belongs to it
+        wants_operand = token not in (Token.CLOSE, Token.VARIABLE, Token.NUMBER, Token.DECIMAL)
+        state.keys[keys] = FIRST_TOKEN + token
+        keys += 1
+        node = nexts[node * KEY_COUNT + FIRST_TOKEN + token]
+        place = behind
+
+
+def read_expression_token(text: Bytes, place: int) -> tuple[int, int, float]:
+    """As `read_token`; a function takes its bracket along."""
+    char = int(text[place])
+    if ZERO <= char <= NINE or char == POINT:
+        behind, value, decimals = read_number(text, place, EXACT_DIGITS)
+        if decimals < 0 and behind - place > WHOLE_DIGITS:
+            return -1, 0, 0.0
+        return behind, Token.NUMBER if decimals < 0 else Token.DECIMAL, value
+    if char == LETTER_R and ZERO <= text[place + 1] <= NINE:
+        return read_variable(text, place + 1)
+    if LETTER_A <= char <= LETTER_Z:
+        token, letters = read_function(text, place)
+        return (-1 if token == NO_TOKEN else place + letters + 1), token, 0.0
+    if char == OPEN_ROUND:
+        return place + 1, Token.OPEN, 0.0
+    if char == CLOSE_ROUND:
+        return place + 1, Token.CLOSE, 0.0
+    if char == PLUS:
+        return place + 1, Token.PLUS, 0.0
+    if char == MINUS:
+        return place + 1, Token.MINUS, 0.0
+    if char == STAR:
+        return place + 1, Token.TIMES, 0.0
+    if char == SLASH:
+        return place + 1, Token.DIVIDED, 0.0
+    return -1, 0, 0.0
+
+
+def _spelt(name: str) -> int:
+    """A name as one number, letter by letter."""
+    number = 0
+    for letter in name:
+        number = number * 32 + ord(letter) - LETTER_A + 1
+    return number
+
+
+SPELT_SIN, SPELT_COS, SPELT_TAN, SPELT_ABS, SPELT_POT, SPELT_SQRT, SPELT_ROUND, SPELT_TRUNC = map(
+    _spelt, ("SIN", "COS", "TAN", "ABS", "POT", "SQRT", "ROUND", "TRUNC")
+)
+#: Letters of the longest of them.
+MOST_LETTERS = 5
+
+
+def read_function(text: Bytes, place: int) -> tuple[int, int]:
+    """The function whose name stands here in full, with its bracket behind it, and how many letters it has."""
+    letters, spelt = 0, 0
+    while LETTER_A <= text[place + letters] <= LETTER_Z and letters <= MOST_LETTERS:
+        spelt = spelt * 32 + int(text[place + letters]) - LETTER_A + 1
+        letters += 1
+    token = NO_TOKEN
+    if spelt == SPELT_SIN:
+        token = Token.SIN
+    elif spelt == SPELT_COS:
+        token = Token.COS
+    elif spelt == SPELT_TAN:
+        token = Token.TAN
+    elif spelt == SPELT_ABS:
+        token = Token.ABS
+    elif spelt == SPELT_SQRT:
+        token = Token.SQRT
+    elif spelt == SPELT_POT:
+        token = Token.POT
+    elif spelt == SPELT_ROUND:
+        token = Token.ROUND
+    elif spelt == SPELT_TRUNC:
+        token = Token.TRUNC
+    return (token if text[place + letters] == OPEN_ROUND else NO_TOKEN), letters
