@@ -13,6 +13,7 @@ from polycnc.control.meldas.cycles import DRILLING
 from polycnc.control.meldas.milling_codes import G_CODES, M_CODES
 from polycnc.control.meldas.parameters import MeldasParameters
 from polycnc.control.word_address.block.whole_numbers import DecimalPoint
+from polycnc.control.word_address.coordinates import frames
 from polycnc.control.word_address.machining_centre import HARTFORD, MillingControl
 from polycnc.control.word_address.macro_b.variables import MacroMemory
 from polycnc.control.word_address.tools import length
@@ -49,6 +50,7 @@ class MeldasMilling(MillingControl):
     power_on: ClassVar[Mapping[str, str]] = POWER_ON
     alarms: ClassVar[Mapping[str, str]] = ALARMS
     drilling: ClassVar[Drilling] = DRILLING
+    SCALES_NAMED_AXES: ClassVar[bool] = True
     PLANE_HELD_BY_ROTATION: ClassVar[bool] = True
     JOINING_HINT: ClassVar[str] = "hint.single-conditions"
     #: M700 programming manual: DO1 to DO127, 27 deep; four levels of macros, eight of subprograms.
@@ -66,6 +68,11 @@ class MeldasMilling(MillingControl):
         """G28 and G30 of the axis end the length as G49 does; G53 keeps it (M700 programming manual, tool length)."""
         if to_reference:
             length.end_length(channel, axes)
+
+    def reached_reference(self, channel: Channel) -> None:
+        """G27, G28 and G30 end the scaling (M700 programming manual, 13.20)."""
+        frames.end_scale(channel)
+        channel.mode = channel.mode.with_code("scaling", "G50")
 
     def compensation_policy(self, _channel: Channel) -> Policy:
         """Rules of radius compensation."""
