@@ -88,6 +88,7 @@ class MeldasMilling(MillingControl):
         return replace(
             super().motion_settings(channel),
             rapid_by_axis=given.rapids_by_axis != 0,
+            inverse_time_by_radius=True,
             returns_to_path=False,
             rapid_ramps={
                 name: Ramp(of.rapid_time / 1000.0) for name, of in axes if of.rapid_time is not None

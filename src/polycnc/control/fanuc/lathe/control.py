@@ -208,12 +208,15 @@ class FanucTurning(CustomMacroControl):
     def motion_settings(self, channel: LatheChannel) -> MotionSettings:
         """1401#1 LRP: rapids run on a line, else every axis by itself; what acts on a rigid tap (5203#4, 5200#6).
 
+        1403#5 HTG: F of a helix counts the whole path, else the arc alone.
+
         7001#0 MIT: manual intervention and return. The main run asks this also in front of power-on.
         """
         parameters = LatheParameters.naming(channel.setup.parameters)
         return replace(
             accelerated(super().motion_settings(channel), parameters, channel.axes),
             rapid_by_axis=not parameters.LRP,
+            feed_along_arc=not parameters.HTG,
             taps_overridden=parameters.OVS,
             taps_held=parameters.FHD,
             returns_to_path=parameters.MIT,

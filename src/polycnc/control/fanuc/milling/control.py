@@ -141,11 +141,17 @@ class FanucMilling(MillingControl):
         return of.measuring_deceleration, of.measuring_window, of.measuring_feed / 60.0
 
     def motion_settings(self, channel: Channel) -> MotionSettings:
-        """1401#1 LRP: rapids on a line, else every axis by itself; 7001#0 MIT: manual intervention and return."""
+        """1401#1 LRP: rapids on a line, else every axis by itself; 7001#0 MIT: manual intervention and return.
+
+        1403#5 HTG: F of a helix counts the whole path, else the arc alone. G93 counts the radius of an arc (operator's
+        manual B-62764EN, 5.4).
+        """
         parameters = _given(channel)
         return replace(
             accelerated(super().motion_settings(channel), parameters, channel.axes),
             rapid_by_axis=not parameters.LRP,
+            feed_along_arc=not parameters.HTG,
+            inverse_time_by_radius=True,
             returns_to_path=parameters.MIT,
             dry_run=dry_run(parameters),
             slowest_rapid=parameters.rapid_f0 / 60.0,
