@@ -75,6 +75,8 @@ class FanucParameters(MacroParameters[A_co]):
     #: 3404#6: a program without M02, M30 or M99 at its end is the alarm PS5010 (0), or it ends with a reset
     #: (1).
     EOR = Bit(3404, 6, delivered=False)
+    #: 3405#1: under feed per revolution the dwell G04 counts revolutions.
+    DWL = Bit(3405, 1, delivered=False)
     #: 3410: Allowed difference of the radii of an arc; 0: no check [mm].
     arc_tolerance = Number(3410, delivered=0.03)
     #: 3411: M codes behind which no block is read before they have run.

@@ -38,6 +38,10 @@ class StatementProgram(Protocol):
     """What statements ask of the program that they stand in."""
 
     @property
+    def may_jump(self) -> bool:
+        """Whether jumps and loops may stand in it."""
+
+    @property
     def last_loop(self) -> int:
         """The largest number of a loop."""
 
@@ -177,6 +181,7 @@ def parse_names(reader: Reader, _program: StatementProgram, _index: int) -> Step
 
 def parse_goto(reader: Reader, program: StatementProgram, index: int) -> Step:
     """`GOTO n`, with a constant, a variable or an expression."""
+    _check_mode(reader, program)
     if digits := reader.match(_INTEGER):
         number = int(digits)
         if not 1 <= number <= MAX_SEQUENCE_NUMBER:
@@ -192,6 +197,11 @@ def parse_goto(reader: Reader, program: StatementProgram, index: int) -> Step:
         channel.level.index = program.find_sequence(number, index)
 
     return computed_jump
+
+
+def _check_mode(reader: Reader, program: StatementProgram) -> None:
+    if not program.may_jump:
+        raise reader.fail("jump_mode", 0)
 
 
 class Jump:
@@ -235,6 +245,7 @@ def parse_if(reader: Reader, program: StatementProgram, index: int) -> Step:
 
 def parse_while(reader: Reader, program: StatementProgram, index: int) -> Step:
     """`WHILE [c] DO m`."""
+    _check_mode(reader, program)
     if reader.peek() != "[":
         raise reader.fail("while_format")
     condition = Condition(reader)
@@ -245,6 +256,7 @@ def parse_while(reader: Reader, program: StatementProgram, index: int) -> Step:
 
 def parse_do(reader: Reader, program: StatementProgram, index: int) -> Step:
     """`DO m`: an endless loop."""
+    _check_mode(reader, program)
     return LoopBegin(program, index, _loop_number(reader, program), None)
 
 

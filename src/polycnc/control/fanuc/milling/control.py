@@ -14,7 +14,7 @@ from polycnc.control.fanuc.milling.codes import ADDRESSES, G_CODES, M_CODES, POW
 from polycnc.control.fanuc.milling.cycles import MILLING_DRILLING
 from polycnc.control.fanuc.milling.parameters import FanucMillingParameters
 from polycnc.control.fanuc.milling.variables import MILLING_VARIABLES
-from polycnc.control.fanuc.operation import dry_run, suppresses_reading
+from polycnc.control.fanuc.operation import MODES_WITHOUT_JUMPS, dry_run, suppresses_reading
 from polycnc.control.word_address.block.whole_numbers import DecimalPoint
 from polycnc.control.word_address.machining_centre import HARTFORD, MillingControl
 from polycnc.control.word_address.macro_b import interruption
@@ -64,6 +64,7 @@ class FanucMilling(MillingControl):
         interruption.RULE,
     )
     SCALE_CENTER_IS_ABSOLUTE: ClassVar[bool] = True
+    MODES_WITHOUT_JUMPS: ClassVar[frozenset[str]] = MODES_WITHOUT_JUMPS
     POINT_IN_WHOLE_NUMBERS: ClassVar[DecimalPoint] = DecimalPoint.REFUSED
 
     def code_calls(self, channel: Channel) -> CodeCalls:
