@@ -396,7 +396,11 @@ class WordAddressControl:
         return self._offset(channel, number, "H").total_length
 
     def radius_value(self, channel: Channel, number: int) -> float:
-        """Radius offset of a D number, mm."""
+        """Radius of the tool by the offset of a D number, mm."""
+        return self.offset_amount(channel, number)
+
+    def offset_amount(self, channel: Channel, number: int) -> float:
+        """The offset of a D number as it is stored, mm."""
         return self._offset(channel, number, "D").total_radius if number else 0.0
 
     def _offset(self, channel: Channel, number: int, address: str) -> ToolOffset:

@@ -71,6 +71,10 @@ class FanucMilling(MillingControl):
         """Codes registered by 6050 to 6089 and 6001#5."""
         return registered_codes(_given(channel))
 
+    def radius_value(self, channel: Channel, number: int) -> float:
+        """5004#2 ODI: the offset is the radius, or the diameter."""
+        return self.offset_amount(channel, number) * (0.5 if _given(channel).ODI else 1.0)
+
     def several_m_codes(self, channel: Channel) -> bool:
         """3404#7 M3B: up to three M codes in a block."""
         return _given(channel).M3B
