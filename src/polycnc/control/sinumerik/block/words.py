@@ -349,6 +349,20 @@ def modal_corner_feed(draft: Draft, position: int, _shape: WordShape) -> Step:
     return run
 
 
+def own_corner_feed(draft: Draft, position: int) -> Step:
+    """FRC beside no CHF, CHR or RND: the feed of a rounding by RNDM behind this block (Fundamentals)."""
+    factor, opens_line = moves.feed_factor(draft), draft.opens_line
+
+    def run(channel: SinumerikChannel, values: Values) -> None:
+        step = partial(stages.feed_once, channel, number(values, position) * factor)
+        if opens_line:
+            moves.OpenLine.of(channel).corners.append(step)
+        else:
+            step()
+
+    return run
+
+
 # ---- settings
 
 

@@ -149,6 +149,13 @@ def feed_all(channel: SinumerikChannel, feed: float) -> None:
         stage.feed_all(feed)
 
 
+def feed_once(channel: SinumerikChannel, feed: float) -> None:
+    """FRC in a block without a shape of its own: the feed of its rounding by RNDM; nothing without one."""
+    stage = channel.path.find(CornerStage)
+    if stage is not None:
+        stage.feed_once(feed)
+
+
 # ---- cutter radius compensation
 
 
