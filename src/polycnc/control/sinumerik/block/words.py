@@ -508,6 +508,7 @@ WORDS: dict[str, Maker] = {
     "POLF": retraction.retraction_position,
     "SPP": punching.longest_segment,
     **dict.fromkeys(thread_ramps.RAMPS, thread_ramps.ramp),
+    "SF": thread_ramps.start_angle,
     **outside_feeds.WORDS,
     **fixed_stop.WORDS,
     **dict.fromkeys(_PERCENT, percentage),
@@ -533,7 +534,7 @@ ASKED = {"S": "S_CODE", "T": "T_CODE"}
 PASSES = "P"
 #: Words that only mean something together with others; alone they are a mistake of the block.
 COMPANIONS = frozenset(
-    "I J K I1 J1 K1 IP CR AR TURN AP RP RPL ANG SF FB FD FRC FP DISR DISCL FAD DISPR PO PW SD PL".split()  # noqa: SIM905 - a table
+    "I J K I1 J1 K1 IP CR AR TURN AP RP RPL ANG FB FD FRC FP DISR DISCL FAD DISPR PO PW SD PL".split()  # noqa: SIM905 - a table
 )
 
 
