@@ -131,6 +131,11 @@ class CornerStage(Stage):
         """Whether moves are held back or changed."""
         return self._modal is not None or self._wanted is not None or self._held is not None
 
+    @property
+    def rounds(self) -> bool:
+        """Whether this block has asked for a rounding behind its move, which comes yet."""
+        return self._wanted is not None and self._wanted.shape is Shape.ROUNDING
+
     def settle(self) -> bool:
         """Radius compensation begins, ends or changes: a corner that waits for its second move cannot span that.
 

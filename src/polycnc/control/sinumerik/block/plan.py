@@ -343,7 +343,7 @@ def _motion(draft: Draft) -> Step | None:
         raise AlarmError("12080", text="ANG")
     if draft.mode["motion"] not in LINEAR and not _may_move(draft):
         return None
-    if draft.mode["motion"] in LINEAR and splines.is_polynomial(draft):
+    if draft.mode["motion"] in LINEAR and any("PO" in (w.address, w.modifier) for _, w in draft.open_words()):
         return splines.straight_to_ends(draft)
     return maker(draft)
 

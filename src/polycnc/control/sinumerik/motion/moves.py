@@ -463,8 +463,10 @@ def special(
 
 
 def dwell(draft: Draft) -> Step | None:
-    """G4: F seconds or S revolutions of the master spindle; the modal F and S stay."""
+    """G4: F seconds or S revolutions of the master spindle, not both (12080); the modal F and S stay."""
     seconds, revolutions = draft.take("F"), draft.take_shape("S")
+    if seconds is not None and revolutions is not None:
+        raise WordAlarm("12080", revolutions[0], text="S")
 
     def run(channel: SinumerikChannel, values: Values) -> None:
         wait = number(values, seconds) if seconds is not None else 0.0

@@ -287,11 +287,6 @@ def _by_length(
                 point[curve.column] = _at(curve.coefficients, done / whole * interval)
 
 
-def is_polynomial(draft: Draft) -> bool:
-    """Whether a block has coefficients in either spelling, `PO[axis]=` or `axis=PO(…)` (4.5)."""
-    return draft.has("PO") or any(word.modifier == "PO" for _, word in draft.open_words())
-
-
 def straight_to_ends(draft: Draft) -> Step | None:
     """Coefficients without POLY: the end points are approached in a straight line."""
     draft.take("PL")
