@@ -377,7 +377,7 @@ def _words(draft: Draft) -> list[int]:
             draft.steps.append(words.make(draft, position, word))
             if word.address == "M" and word.index is None:
                 ends.append(position)
-    own_feed = draft.take("FRC")
+    own_feed = None if {"frame", "block_motion"} & draft.codes.keys() else draft.take("FRC")
     if own_feed is not None:
         draft.steps.append(words.own_corner_feed(draft, own_feed))
     return ends
