@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import nan
 from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik import gcodes, tables
@@ -34,8 +35,9 @@ class ModalState:
         memory.frames.programmable = self.programmable
         if mode["wcs"] != before["wcs"]:
             memory.frames.select(gcodes.number_of(mode["wcs"]) - 1)
-        if mode["feed"] != before["feed"]:
-            PathFeed.of(channel).mode = tables.feed_type(mode).mode
+        feed, path_feed = tables.feed_type(mode).mode, PathFeed.of(channel)
+        if feed is not path_feed.mode:  # a feed of another kind is none, as behind G94 and G95
+            channel.feed, path_feed.mode = nan, feed
         selection.follow(channel)
         frames.changed(channel)
         channel.context_changed()
