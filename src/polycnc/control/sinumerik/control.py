@@ -365,7 +365,7 @@ class Sinumerik:
 
     def save(self, channel: SinumerikChannel) -> ModalState:
         """What PROC … SAVE brings back: all modal functions, and the frames that they chose."""
-        return ModalState(channel.mode, channel.memory.frames.programmable)
+        return ModalState(channel.mode, channel.memory.frames.programmable, channel.feed)
 
     def restore(self, channel: SinumerikChannel, saved: object) -> None:
         """Bring back what `save` returned."""
