@@ -10,7 +10,7 @@ from polycnc.control.fanuc.lathe.tools import screens as lathe
 from polycnc.control.fanuc.lathe.tools.screens import Page
 from polycnc.deferred.records import dataclass
 from polycnc.deferred.regexes import regex
-from polycnc.mainrun import CommandRefused
+from polycnc.mainrun import CommandRefused, Mode
 from polycnc.panel.keyed import number_of, whole_number_of
 from polycnc.panel.screens import forms
 from polycnc.panel.screens.programs import EDITING
@@ -218,7 +218,15 @@ def search_program(screen: ScreenState) -> None:
 
 
 def delete_program(screen: ScreenState) -> None:
-    """DELETE: the program that has been keyed in, or the one at the cursor, leaves the memory."""
+    """DELETE: the program that has been keyed in, or the one at the cursor, leaves the memory.
+
+    Raises:
+        CommandRefused: There is none, or the control does this in another mode (EDIT on FANUC; Hartford 5.2.4.2 h).
+    """
+    wanted, control = screen.family.data_mode, screen.control
+    free = screen.in_background or control.signals["EDIT_PROTECT"]  # protection is told first
+    if wanted and control.mode is not Mode(wanted) and not free:
+        raise CommandRefused("screen.mode", mode=screen.family.modes[wanted])
     name = screen.buffer.strip()
     if not name and screen.shows("listing") and screen.control.programs:
         name = screen.control.programs[screen.cursor[0]].name

@@ -14,7 +14,7 @@ from polycnc.messages import UserError
 from polycnc.panel.screens.card import Card
 from polycnc.panel.screens.measuring import SIGNALS, Measuring
 from polycnc.panel.screens.pages import family_of
-from polycnc.panel.screens.words import Edited, Place, moved, on_words, spans
+from polycnc.panel.screens.words import Edited, Place, moved, on_words, word_with
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -348,19 +348,25 @@ class ScreenState:
     def find(self, text: str, step: int) -> None:
         """Put the cursor on the next row of the program that has a text, onwards (1) or backwards (-1).
 
+        Where words are edited it goes to the next word, in the same block too.
+
         Raises:
             CommandRefused: There is none.
         """
-        here = self.row
         lines, wanted = self.lines, text.strip().upper()
+        if self.edits:
+            place = word_with(lines, self.edit_place, wanted, step)
+            if place is None:
+                raise CommandRefused("screen.not-found", text=text)
+            self.look_at(place.row)
+            self.program_word = place.word
+            return
+        here = self.row
         rows = range(here + 1, len(lines)) if step > 0 else range(here - 1, -1, -1)
         found = next((row for row in rows if wanted in lines[row].upper()), None)
         if found is None:
             raise CommandRefused("screen.not-found", text=text)
         self.look_at(found)
-        if self.edits:
-            at = lines[found].upper().index(wanted)
-            self.program_word = sum(1 for _, end in spans(lines[found]) if end <= at)
 
     @property
     def edits(self) -> bool:
