@@ -1,4 +1,4 @@
-"""Faces, contours, spigots, milled threads: CYCLE61, CYCLE71, CYCLE72, CYCLE76, CYCLE77, CYCLE79, CYCLE70, CYCLE90."""
+"""Faces, contours, spigots: CYCLE61, CYCLE71, CYCLE72, CYCLE76, CYCLE77, CYCLE79."""
 
 from __future__ import annotations
 
@@ -6,12 +6,10 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.cycles.contours.reading import read
-from polycnc.control.sinumerik.cycles.drilling import written_pitch
 from polycnc.control.sinumerik.cycles.levels import levels
 from polycnc.control.sinumerik.cycles.milling import (
     FINISHING,
     ROUGHING,
-    check_start_point,
     cutter,
     feed_of,
     is_ccw,
@@ -23,11 +21,9 @@ from polycnc.control.sinumerik.cycles.milling import (
     width_of_cut,
 )
 from polycnc.control.sinumerik.cycles.moves import require_tool
-from polycnc.control.sinumerik.errors import not_supported
 from polycnc.cycles.count import checked
 from polycnc.cycles.milling import contour as path_milling
 from polycnc.cycles.milling import facing, spigots
-from polycnc.cycles.milling import thread as thread_milling
 from polycnc.cycles.milling.contour import Approach, ApproachShape, PathMilling
 from polycnc.cycles.milling.stroke import Place, steps
 from polycnc.cycles.turning.contour import parallel, turned_round
@@ -266,100 +262,3 @@ def _rounds(a: Arguments, radius: float, stock: float) -> list[float]:
     if not a.plain("_MIDA") or stock <= NO_WAY:
         return [0.0]
     return [stock - part for part in steps(stock, width_of_cut(a, radius))]
-
-
-# ---- threads
-
-
-def thread(moves: Moves, a: Arguments) -> None:
-    """CYCLE90: internal (TYPTH 0) or external thread on a helix; CDIR 2 is G2, 3 is G3."""
-    radius = cutter(moves)
-    if a.integer("CDIR") not in (2, 3):
-        raise AlarmError("61109")
-    if a.integer("TYPTH") not in (0, 1):
-        raise AlarmError("61002")
-    if not a["PIT"] > 0.0:
-        raise AlarmError("61001")
-    inside = a.integer("TYPTH") == 0
-    size = abs(a["DIATH"]) / 2.0 - radius if inside else abs(a["KDIAM"]) / 2.0 + radius
-    if inside and 2.0 * radius >= abs(a["KDIAM"] or a["DIATH"]):
-        raise AlarmError("61105")
-    found = levels(moves, a)
-    if found is None:
-        return
-    milled = thread_milling.MilledThread(
-        Place((a["CPA"], a["CPO"])),
-        size,
-        a["PIT"],
-        found.reference,
-        found.depth,
-        ccw=a.integer("CDIR") == 3,
-        inside=inside,
-        clearance=radius + abs(a["SDIS"]),
-        feed=feed_of(a, "FFR"),
-        retract=found.retract,
-    )
-    perform(moves, thread_milling.mill(milled))
-
-
-#: Tens of VARI of CYCLE70: where the thread begins; hundreds: its hand.
-DOWNWARDS, UPWARDS = 1, 2
-RIGHT_HAND, LEFT_HAND = 0, 1
-#: No digit of VARI of CYCLE70 is known from here on.
-HIGHEST_VARI = 1000
-
-
-def thread_with_teeth(moves: Moves, a: Arguments) -> None:
-    """CYCLE70: internal or external thread in passes, with a cutter of one tooth or of several in a row.
-
-    Raises:
-        AlarmError: As the other milling cycles; 61001 without pitch or depth of thread, 61002 for VARI or TYPTH, 61010
-            for an allowance of more than the thread's depth, 61105 for a cutter that does not go into the core hole,
-            61601 for an external thread without core;
-            PC0001 for a pitch by module, a negative number of teeth and higher digits of VARI.
-    """
-    radius = cutter(moves)
-    check_start_point(a)
-    kind, way, hand = (a.digit("_VARI", place) for place in range(3))
-    teeth = a.integer("_NT")
-    if teeth < 0 or not 0 <= a.integer("_VARI") < HIGHEST_VARI:
-        raise not_supported("CYCLE70 _NT" if teeth < 0 else "CYCLE70 _VARI")
-    is_inside = a.integer("_TYPTH") == 0
-    if (
-        kind not in (ROUGHING, FINISHING)
-        or way not in (DOWNWARDS, UPWARDS)
-        or hand not in (RIGHT_HAND, LEFT_HAND)
-        or a.integer("_TYPTH") not in (0, 1)
-    ):
-        raise AlarmError("61002")
-    lead, deep = abs(written_pitch(a, "_PIT")), abs(a["_H1"])
-    if not lead or not deep:
-        raise AlarmError("61001")
-    if abs(a["_FAL"]) >= deep:
-        raise AlarmError("61010")
-    found = levels(moves, a)
-    if found is None:
-        return
-    outer = 0.5 * abs(a["_DIATH"])
-    if not is_inside and deep >= outer:
-        raise AlarmError("61601")
-    if is_inside and radius >= outer - deep:
-        raise AlarmError("61105")
-    cuts = steps(deep - abs(a["_FAL"]), abs(a["_MID"])) if kind == ROUGHING else [deep]
-    rises = way == UPWARDS
-    outwards = -found.down if rises else found.down
-    milled = thread_milling.ToothedThread(
-        Place(reference_point(moves, a), a["_NSP"]),
-        [outer - deep + cut - radius if is_inside else outer - cut + radius for cut in cuts],
-        lead,
-        max(teeth, 1),
-        found.reference,
-        found.depth,
-        rises,
-        ccw=(outwards > 0.0) is (hand == RIGHT_HAND),
-        beside=0.0 if is_inside else outer + 2.0 * radius + abs(a["SDIS"]),
-        feed=feed_of(a, "_FFR"),
-        safe=found.safe,
-        retract=found.retract,
-    )
-    perform(moves, thread_milling.mill_with_teeth(milled))
