@@ -7,6 +7,7 @@ from math import radians, sin
 from typing import TYPE_CHECKING
 
 from polycnc.channel.stack import LevelKind
+from polycnc.control.sinumerik.cycles.chamfers import CHAMFER, chamfer, is_chamfer
 from polycnc.control.sinumerik.cycles.levels import levels
 from polycnc.control.sinumerik.cycles.moves import require_tool
 from polycnc.control.sinumerik.errors import not_supported
@@ -32,7 +33,7 @@ if TYPE_CHECKING:
 USUAL_WIDTH = 0.8
 TURN = 360.0
 #: Units of VARI.
-COMPLETE, ROUGHING, FINISHING, EDGE, CHAMFER = 0, 1, 2, 4, 5
+COMPLETE, ROUGHING, FINISHING, EDGE = 0, 1, 2, 4
 
 
 def perform(moves: Moves, strokes: Iterable[MillStroke]) -> None:
@@ -59,6 +60,14 @@ def cutter(moves: Moves, *, deep: bool = False) -> float:
     if radius <= 0.0:
         raise AlarmError("61117")
     return radius
+
+
+def radius_of(moves: Moves, a: Arguments, name: str) -> float:
+    """Radius that follows the walls: the cutter's, or that of the cone that makes a chamfer."""
+    if is_chamfer(a, name):
+        require_tool(moves)
+        return chamfer(moves, a).radius
+    return cutter(moves)
 
 
 def feed_of(a: Arguments, name: str) -> float:
@@ -89,14 +98,11 @@ def variant(a: Arguments, name: str, allowed: tuple[int, ...], digits: int = 2) 
     """Units of VARI.
 
     Raises:
-        AlarmError: 61002 for one that the cycle does not have, or below zero; PC0001 for chamfering, and for digits
-            that are not known.
+        AlarmError: 61002 for one that the cycle does not have, or below zero; PC0001 for digits that are not known.
     """
     check_start_point(a)
     value = a.digit(name, 0)
-    if value == CHAMFER and a.has("_ZFS"):
-        raise not_supported(f"{a.cycle} {name}")
-    if value not in allowed or a.integer(name) < 0:
+    if (value not in allowed and not is_chamfer(a, name)) or a.integer(name) < 0:
         raise AlarmError("61002")
     if a.integer(name) >= 10**digits:
         raise not_supported(f"{a.cycle} {name}")
@@ -124,6 +130,11 @@ def milling_levels(moves: Moves, a: Arguments, base_allowance: float, infeed: st
     if found is not None and a[infeed] > 0.0 and base_allowance > a[infeed]:
         raise AlarmError("61110")
     return found
+
+
+def levels_of_work(moves: Moves, a: Arguments, kind: int, base_allowance: float) -> Levels | None:
+    """Levels as `milling_levels`, or those of a chamfer."""
+    return chamfer(moves, a).levels if kind == CHAMFER else milling_levels(moves, a, base_allowance, "_MID")
 
 
 def reference_point(moves: Moves, a: Arguments) -> Point:
@@ -168,7 +179,7 @@ def check_start_point(a: Arguments) -> None:
 
 def pocket3(moves: Moves, a: Arguments) -> None:
     """POCKET3: rectangular pocket about its middle or from a corner."""
-    radius = cutter(moves)
+    radius = radius_of(moves, a, "_VARI")
     length, width, corner = abs(a["_LENG"]), abs(a["_WID"]), abs(a["_CRAD"])
     if not length or not width:
         raise AlarmError("61118")
@@ -182,7 +193,7 @@ def pocket3(moves: Moves, a: Arguments) -> None:
 
 def pocket4(moves: Moves, a: Arguments) -> None:
     """POCKET4: circular pocket."""
-    radius, size = cutter(moves), abs(a["_PRAD"])
+    radius, size = radius_of(moves, a, "_VARI"), abs(a["_PRAD"])
     _pocket(moves, a, (2.0 * size, 2.0 * size, size), (abs(a["_AP1"]), abs(a["_AP1"])), radius)
 
 
@@ -192,11 +203,8 @@ def _pocket(
     kind = variant(a, "_VARI", (ROUGHING, FINISHING, EDGE))
     if a.digit("_GMODE", _PREMACHINED_PLACE) == WHOLE:
         core = (0.0, 0.0)
-    if kind == EDGE:
-        kind, base_allowance = FINISHING, 0.0
-    else:
-        base_allowance = abs(a["_FALD"])
-    found = milling_levels(moves, a, base_allowance, "_MID")
+    base_allowance = 0.0 if kind in (EDGE, CHAMFER) else abs(a["_FALD"])
+    found = levels_of_work(moves, a, kind, base_allowance)
     if found is None:
         return
     insertion = a.digit("_VARI", 1)
@@ -221,12 +229,12 @@ def _pocket(
         found.safe,
         found.retract,
         found.depth,
-        abs(a["_MID"]),
-        width_of_cut(a, radius),
+        0.0 if kind == CHAMFER else abs(a["_MID"]),
+        0.0 if kind == CHAMFER else width_of_cut(a, radius),
         feed_of(a, "_FFP1"),
         feed_of(a, "_FFD"),
         is_ccw(moves, a.integer("_CDIR"), inside=True),
-        allowance=abs(a["_FAL"]),
+        allowance=0.0 if kind == CHAMFER else abs(a["_FAL"]),
         base_allowance=base_allowance,
         insertion=way,
         insertion_size=helix,
@@ -235,7 +243,7 @@ def _pocket(
         core_width=core[1],
         core_depth=abs(a["_AD"]),
     )
-    _mill(moves, along(pocket), kind)
+    _mill(moves, along(pocket), kind if kind in (COMPLETE, ROUGHING) else FINISHING)
 
 
 def along(pocket: Pocket) -> Pocket:
@@ -327,9 +335,9 @@ def _apart(a: Arguments, count: int) -> float:
 
 def _slotting(moves: Moves, a: Arguments, found: Levels, insertion: Insertion) -> slots.Slotting:
     """How the slots of a call are milled; 61105 for a cutter that does not fit the width."""
-    radius = cutter(moves)
+    radius, chamfers = radius_of(moves, a, "VARI"), is_chamfer(a, "VARI")
     width = abs(a["WID"])
-    if 2.0 * radius > width + NO_WAY or 2.0 * radius <= width / 2.0:
+    if 2.0 * radius > width + NO_WAY or (2.0 * radius <= width / 2.0 and not chamfers):
         raise AlarmError("61105")
     feed = feed_of(a, "FFP1")
     return slots.Slotting(
@@ -340,12 +348,12 @@ def _slotting(moves: Moves, a: Arguments, found: Levels, insertion: Insertion) -
         retract=found.retract,
         depth=found.depth,
         infeed=abs(a["MID"]),
-        finishing_infeed=abs(a["MIDF"]),
+        finishing_infeed=0.0 if chamfers else abs(a["MIDF"]),
         allowance=abs(a["FAL"]),
         base_allowance=abs(a["_FALD"]),
         feed=feed,
         depth_feed=feed_of(a, "FFD"),
-        finishing_feed=a["FFP2"] or feed,
+        finishing_feed=feed if chamfers else a["FFP2"] or feed,
         ccw=is_ccw(moves, a.integer("CDIR"), inside=True),
         insertion=insertion,
         steepest_deg=abs(a["_STA2"]),
@@ -357,7 +365,9 @@ def _mill_slot(moves: Moves, a: Arguments, slotting: slots.Slotting, shape: slot
     kind = variant(a, "VARI", (COMPLETE, ROUGHING, FINISHING))
     if kind in (COMPLETE, ROUGHING):
         perform(moves, slots.rough(slotting, shape))
-    if kind == FINISHING or (kind == COMPLETE and slotting.leaves_allowance):
+    if kind == CHAMFER:
+        perform(moves, slots.finish(slotting, shape))
+    elif kind == FINISHING or (kind == COMPLETE and slotting.leaves_allowance):
         perform_at_speed(moves, a["SSF"], slots.finish(slotting, shape))
     moves.rapid(w=slotting.retract)
     moves.end_block()
@@ -373,7 +383,7 @@ def slot1(moves: Moves, a: Arguments) -> None:
     insertion = INSERTIONS.get(a.digit("VARI", 1))
     if insertion is None:
         raise AlarmError("61002")
-    found = levels(moves, a)
+    found = chamfer(moves, a).levels if is_chamfer(a, "VARI") else levels(moves, a)
     if found is None:
         return
     slotting = _slotting(moves, a, found, insertion)
@@ -393,7 +403,7 @@ def slot2(moves: Moves, a: Arguments) -> None:
     require_tool(moves)
     if a.digit("VARI", 1) not in (0, 1):
         raise AlarmError("61002")
-    found = levels(moves, a)
+    found = chamfer(moves, a).levels if is_chamfer(a, "VARI") else levels(moves, a)
     if found is None:
         return
     slotting = _slotting(moves, a, found, Insertion.FEED)

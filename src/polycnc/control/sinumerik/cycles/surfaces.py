@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING
 
+from polycnc.control.sinumerik.cycles.chamfers import CHAMFER, chamfer
 from polycnc.control.sinumerik.cycles.contours.reading import read
 from polycnc.control.sinumerik.cycles.levels import levels
 from polycnc.control.sinumerik.cycles.milling import (
@@ -13,7 +14,7 @@ from polycnc.control.sinumerik.cycles.milling import (
     cutter,
     feed_of,
     is_ccw,
-    milling_levels,
+    levels_of_work,
     perform,
     place_of,
     reference_point,
@@ -128,14 +129,14 @@ def path(moves: Moves, a: Arguments) -> None:
     radius = require_tool(moves, deep=True)
     if radius < 0.0:
         raise AlarmError("61112")
-    variant(a, "_VARI", (ROUGHING, FINISHING), digits=TURNED_ROUND + 1)
+    kind = variant(a, "_VARI", (ROUGHING, FINISHING), digits=TURNED_ROUND + 1)
     if a.digit("_VARI", 1) not in (0, 1) or a.digit("_VARI", 2) > STAYS:
         raise AlarmError("61002")
     side = SIDES.get(a.integer("_RL"))
-    if side is None:
+    if side is None or (kind == CHAMFER and not side):
         raise AlarmError("61114")
     ways = _approach(a, "_AS1", "_LP1", side), _approach(a, "_AS2", "_LP2", side)
-    found = milling_levels(moves, a, abs(a["_FALD"]), "_MID")
+    found = levels_of_work(moves, a, kind, abs(a["_FALD"]))
     if found is None:
         return
     feed, depth_feed = feed_of(a, "_FFP1"), feed_of(a, "_FFD")
@@ -157,14 +158,16 @@ def _mill_path(
     radius, kind = moves.memory.tools.radius, a.digit("_VARI", 0)
     if a.digit("_VARI", TURNED_ROUND) == 1:
         contour, side = turned_round(contour), -side
-    off = radius + (abs(a["_FAL"]) if kind == ROUGHING else 0.0)
+    off = chamfer(moves, a).radius if kind == CHAMFER else radius
+    off += abs(a["_FAL"]) if kind == ROUGHING else 0.0
     try:
         # Roughing leaves stock in a rounding that is too narrow for radius and allowance.
         tool = parallel(contour, side * off, leaves_fillets=kind == ROUGHING)
     except ValueError:
         raise AlarmError("61606") from None
     left = abs(a["_FALD"]) if kind == ROUGHING else 0.0
-    at = levels_below(found, abs(found.depth - found.reference) - left, a["_MID"])
+    infeed = 0.0 if kind == CHAMFER else a["_MID"]
+    at = levels_below(found, abs(found.depth - found.reference) - left, infeed)
     lifts = [_lift(found, level, a.digit("_VARI", 2), abs(a["SDIS"])) for level in at]
     work = PathMilling(tool, side, *ways, *feeds, lifts, found.safe, found.retract)
     perform(moves, path_milling.mill(work, at))
@@ -236,9 +239,12 @@ def _mill_spigot(
     depth_feed: str,
 ) -> None:
     """Mill round an outline; `depth_feed` names the parameter of the feed in depth."""
-    found = milling_levels(moves, a, abs(a["_FALD"]), "_MID")
+    found = levels_of_work(moves, a, kind, abs(a["_FALD"]))
     if found is None:
         return
+    chamfers = kind == CHAMFER
+    if chamfers:
+        radius = chamfer(moves, a).radius
     left, left_below = (abs(a["_FAL"]), abs(a["_FALD"])) if kind == ROUGHING else (0.0, 0.0)
     shape = spigots.Spigot(
         place,
@@ -253,8 +259,10 @@ def _mill_spigot(
         found.retract,
     )
     total = abs(found.depth - found.reference) - left_below
-    rounds = _rounds(a, radius, shape.blank - outline.reach - left) if a.has("_MIDA") else [0.0]
-    perform(moves, spigots.mill(shape, levels_below(found, total, a["_MID"]), rounds))
+    in_rounds = a.has("_MIDA") and not chamfers
+    rounds = _rounds(a, radius, shape.blank - outline.reach - left) if in_rounds else [0.0]
+    infeed = 0.0 if chamfers else a["_MID"]
+    perform(moves, spigots.mill(shape, levels_below(found, total, infeed), rounds))
 
 
 def _rounds(a: Arguments, radius: float, stock: float) -> list[float]:
