@@ -46,7 +46,7 @@ def thread(moves: Moves, a: Arguments) -> None:
     if found is None:
         return
     milled = thread_milling.MilledThread(
-        Place((a["CPA"], a["CPO"])),
+        Place(reference_point(moves, a)),
         size,
         a["PIT"],
         found.reference,

@@ -138,8 +138,8 @@ def levels_of_work(moves: Moves, a: Arguments, kind: int, base_allowance: float)
 
 
 def reference_point(moves: Moves, a: Arguments) -> Point:
-    """PA, PO; where the cycle is modal and both are 0, the position that was reached."""
-    given = a["_PA"], a["_PO"]
+    """PA, PO (CPA, CPO); where the cycle is modal and both are 0, the position that was reached."""
+    given = (a["_PA"], a["_PO"]) if a.has("_PA") else (a["CPA"], a["CPO"])
     return moves.point if moves.channel.level.kind is LevelKind.MODAL and given == (0.0, 0.0) else given
 
 
@@ -295,7 +295,7 @@ def older_pocket(moves: Moves, a: Arguments) -> None:
     if 2.0 * corner > min(length, width) + NO_WAY:
         raise AlarmError("61113")
     rough = Pocket(
-        Place((a["CPA"], a["CPO"]), 0.0 if circular else a["STA1"]),
+        Place(reference_point(moves, a), 0.0 if circular else a["STA1"]),
         length / 2.0,
         width / 2.0,
         corner,
@@ -393,8 +393,9 @@ def slot1(moves: Moves, a: Arguments) -> None:
     length = abs(a["LENG"]) - abs(a["WID"])
     if length < 0.0:
         raise AlarmError("61105")
+    center = reference_point(moves, a)
     for angle in angles:
-        start = Place((a["CPA"], a["CPO"]), angle)(abs(a["RAD"]) + abs(a["WID"]) / 2.0, 0.0)
+        start = Place(center, angle)(abs(a["RAD"]) + abs(a["WID"]) / 2.0, 0.0)
         _mill_slot(moves, a, slotting, slots.Straight(Place(start, angle), length))
 
 
@@ -408,7 +409,7 @@ def slot2(moves: Moves, a: Arguments) -> None:
         return
     slotting = _slotting(moves, a, found, Insertion.FEED)
     angles = _angles(a)
-    size, center = abs(a["RAD"]), (a["CPA"], a["CPO"])
+    size, center = abs(a["RAD"]), reference_point(moves, a)
     if size <= abs(a["WID"]) / 2.0:
         raise AlarmError("61105")
     if len(angles) > 1 and slots.angle_of(abs(a["WID"]), size) + abs(a["AFSL"]) > _apart(a, len(angles)):
@@ -436,8 +437,9 @@ def long_hole(moves: Moves, a: Arguments) -> None:
     if len(angles) > 1 and inner * sin(radians(_apart(a, len(angles)) / 2.0)) < radius:
         raise AlarmError("61104")
     feed, depth_feed = feed_of(a, "FFP1"), feed_of(a, "FFD")
+    center = reference_point(moves, a)
     for angle in angles:
-        place = Place((a["CPA"], a["CPO"]), angle)
+        place = Place(center, angle)
         ends = place(inner, 0.0), place(outer, 0.0)
         strokes = slots.to_and_fro(ends, moves.point, found, abs(a["MID"]), feed, depth_feed)
         perform(moves, strokes)
