@@ -449,6 +449,7 @@ def long_hole(moves: Moves, a: Arguments) -> None:
 
 #: Units of VARI of CYCLE899 beside roughing, finishing and finishing of the walls; what is behind them: the technique.
 BASE, PREFINISHING, OPEN_CHAMFER = 3, 5, 6
+KINDS_OF_OPEN_SLOTS = (ROUGHING, FINISHING, BASE, EDGE, PREFINISHING, OPEN_CHAMFER)
 TROCHOIDAL, PLUNGING = 1, 2
 _TECHNIQUE_PLACES = (1, 2, 3)
 
@@ -458,21 +459,21 @@ def open_slot(moves: Moves, a: Arguments) -> None:
 
     Raises:
         AlarmError: As the other milling cycles; 61002 for VARI, 61105 for a tool that does not go in, 61118 for a slot
-            without length or width; PC0001 for chamfering and a mere start point.
+            without length or width; PC0001 for a mere start point.
     """
-    radius = cutter(moves)
     check_start_point(a)
     kind = a.digit("_VARI", 0)
-    if kind == OPEN_CHAMFER:
-        raise not_supported("CYCLE899 _VARI")
+    chamfers = kind == OPEN_CHAMFER
+    require_tool(moves)
+    radius = chamfer(moves, a).radius if chamfers else cutter(moves)
     technique = next((digit for place in _TECHNIQUE_PLACES if (digit := a.digit("_VARI", place))), TROCHOIDAL)
-    if kind not in (ROUGHING, FINISHING, BASE, EDGE, PREFINISHING) or technique not in (TROCHOIDAL, PLUNGING):
+    if kind not in KINDS_OF_OPEN_SLOTS or technique not in (TROCHOIDAL, PLUNGING):
         raise AlarmError("61002")
     length, width = abs(a["_LENG"]), abs(a["_WID"])
     if not length or not width:
         raise AlarmError("61118")
     base_allowance = abs(a["_FALD"]) if kind in (ROUGHING, PREFINISHING) else 0.0
-    found = milling_levels(moves, a, base_allowance, "_MID")
+    found = levels_of_work(moves, a, CHAMFER if chamfers else kind, base_allowance)
     if found is None:
         return
     slot = OpenSlot(
@@ -480,9 +481,9 @@ def open_slot(moves: Moves, a: Arguments) -> None:
         length,
         width,
         radius,
-        width_of_cut(a, radius),
-        allowance=0.0 if kind in (FINISHING, EDGE) else abs(a["_FAL"]),
-        clearance=abs(a["SDIS"]),
+        0.0 if chamfers else width_of_cut(a, radius),
+        allowance=0.0 if kind in (FINISHING, EDGE, OPEN_CHAMFER) else abs(a["_FAL"]),
+        clearance=abs(a["SDIS"]) + (abs(a["_FS"]) if chamfers else 0.0),
         ccw=is_ccw(moves, a.integer("_CDIR"), inside=True),
         feed=feed_of(a, "_FFP1"),
         safe=found.safe,
@@ -491,7 +492,7 @@ def open_slot(moves: Moves, a: Arguments) -> None:
     if slot.reach < -NO_WAY or slot.last < -NO_WAY:
         raise AlarmError("61105")
     below = [found.depth]
-    if kind != BASE:
+    if kind not in (BASE, OPEN_CHAMFER):
         total = abs(found.depth - found.reference) - base_allowance
         below = [found.reference + found.down * part for part in steps(total, abs(a["_MID"]))]
     if kind != ROUGHING:
