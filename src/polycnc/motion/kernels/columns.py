@@ -425,6 +425,11 @@ MAIN_RUN = -1.0
 SAME_POINT_MM = 1e-7
 
 
+def square(value: float) -> float:
+    """A product: a power of two is one in machine code, but in Python may be off it by the last bit."""
+    return value * value
+
+
 def piece_width(n: int) -> int:
     """Numbers of one record of `pieces` with n axes."""
     return PieceRecord.VECTORS + PIECE_BLOCKS * n

@@ -103,6 +103,17 @@ class SynchronisedActions(State, lifetime=Lifetime.POWER):
             self.locked.discard(number)
         self._gate()
 
+    def bring_back(self, held: Mapping[int, Action]) -> None:
+        """REPOS: the actions of the interrupted block hold again, modal ones of the routine no more (10.7)."""
+        for number, action in tuple(self.modal.items()):
+            if number not in held and not action.is_static:
+                self._drop(self.modal.pop(number))
+        for number, action in held.items():
+            if self.modal.get(number) is not action:
+                self._drop(self.modal.get(number))
+                self.modal[number] = action
+        self._gate()
+
     def _drop(self, action: Action | None) -> None:
         """An action is no more."""
         if action is not None:
@@ -285,6 +296,20 @@ def _columns(channel: SinumerikChannel, axes: frozenset[str | None]) -> list[int
 
 def _beginning(actions: SynchronisedActions, action: Action) -> Callable[[], None]:
     return lambda: actions.begin(action)
+
+
+def note(channel: SinumerikChannel, held: dict[int, Action]) -> None:
+    """A routine interrupts a block: keep the modal and static actions that hold there."""
+    if channel.actual.clocked is not None:
+        actions = SynchronisedActions.of(channel)
+        channel.event(Deed("ASUB", None, lambda: held.update(actions.modal)))
+
+
+def bring_back(channel: SinumerikChannel, held: Mapping[int, Action]) -> None:
+    """The rest of the block comes: the actions are those that `note` has kept."""
+    if channel.actual.clocked is not None:
+        actions = SynchronisedActions.of(channel)
+        channel.event(Deed("REPOS", None, lambda: actions.bring_back(held)))
 
 
 def cancel(channel: SinumerikChannel, args: Arguments) -> None:
