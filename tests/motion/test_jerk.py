@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from polycnc.motion import Settings
@@ -107,6 +107,49 @@ def test_axes_keep_their_limits_on_facets_of_a_circle(
     radius: float, angle: float, noise: float, seed: int, context: Context
 ) -> None:
     check(facets(radius, angle, noise, seed, context), UNEVEN)
+
+
+#: Lines of such lengths, each turned against the one before it by as much: two short ones are near to one another where
+#: the average sees a long one on the other side.
+UNEVEN_LENGTHS = (
+    2.84,
+    3.47,
+    2.86,
+    3.36,
+    4.19,
+    1.98,
+    3.69,
+    1.45,
+    4.65,
+    2.54,
+    2.98,
+    2.23,
+    3.11,
+    1.97,
+    3.71,
+    3.91,
+    2.0,
+    1.93,
+)
+
+
+@settings(max_examples=examples(8), deadline=None)
+@given(
+    st.lists(st.floats(0.3, 3.0), min_size=5, max_size=12).map(tuple),
+    st.floats(0.1, 4.0),
+    st.floats(0.005, 0.3),
+    st.sampled_from([0.002, 0.01, 0.05, 0.2]),
+)
+@example(UNEVEN_LENGTHS, 1.0, 0.0501, 0.05)
+def test_axes_keep_their_limits_on_lines_of_uneven_lengths(
+    lengths: tuple[float, ...], step: float, turn: float, tolerance: float
+) -> None:
+    rows, x, y = Build(context=Context(corner_mode=CornerMode.ROUNDED, tolerance_mm=tolerance)), 0.0, 0.0
+    for k, length in enumerate(lengths):
+        heading = 0.74 + turn * k
+        x, y = x + step * length * cos(heading), y + step * length * sin(heading)
+        rows.feed(x, y, 0.0, feed=1000.0)
+    check(rows, MILL)
 
 
 @settings(max_examples=examples(25), deadline=None)

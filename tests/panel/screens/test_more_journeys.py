@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from itertools import product
+from typing import TYPE_CHECKING
 
 import pytest
 
@@ -10,6 +11,9 @@ from polycnc.mainrun import Mode, State
 from polycnc.messages.catalogue import LANGUAGES
 from tests.panel.bench import Bench
 from tests.panel.screens.test_journeys import FANUC, both, soft
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 LATHE = "fanuc-0i-tf"
 
@@ -151,6 +155,24 @@ def test_a_program_is_edited_while_another_one_runs(control: str, lang: str) -> 
         assert bench.message, "edit protection"
 
 
+@pytest.mark.parametrize(("control", "lang"), list(product(("fanuc-m", "sinumerik-840d"), LANGUAGES)))
+def test_a_subprogram_from_a_folder_is_shown_around_its_block(
+    control: str, lang: str, tmp_path: Path
+) -> None:
+    name, call, end = ("O2.nc", "M98 P2", "M99") if control == "fanuc-m" else ("SUB.SPF", "SUB", "RET")
+    head = "O2\n" if control == "fanuc-m" else ""
+    (tmp_path / name).write_text(f"{head}N1 G1 X10. F600\nN2 X20.\nN3 X30.\n{end}\n", encoding="utf-8")
+    main = f"O1\n{call}\nM30\n" if control == "fanuc-m" else f"{call}\nM30\n"
+    bench = Bench(control, lang, main, search=[tmp_path])
+    bench.press("START")
+    assert bench.control.run_until(lambda each: each.active_block.text.startswith("N2"), limit_s=20.0)
+    bench.keys("PROG" if control == "fanuc-m" else "MACHINE")
+    shown = [(cell.text, cell.style) for row in bench.window("program").rows for cell in row]
+    assert ("N2 X20.", "active") in shown
+    assert ("N1 G1 X10. F600", "code") in shown
+    assert ("N3 X30.", "code") in shown
+
+
 # ---- units, PRESET, version ------------------------------------------------------------------------------------------
 
 
@@ -167,6 +189,7 @@ def test_units_of_parameters_are_told_in_the_language(control: str) -> None:
     assert shown == {"en": "degrees/min", "zh-TW": "度/min"}
 
 
+@pytest.mark.feature("sie.b.modes", control="sinumerik-840d")
 @pytest.mark.parametrize("lang", LANGUAGES)
 def test_preset_on_the_machine_page(lang: str) -> None:
     bench = Bench("sinumerik-840d", lang)

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from polycnc.channel.stack import LevelKind
 from polycnc.channel.states.unchanging import unchanging
-from polycnc.compensation import Policy
 from polycnc.compensation.corner import CornerPolicy
+from polycnc.compensation.policy import Policy
 from polycnc.control.alarm_text import alarm_catalogue
 from polycnc.control.word_address.auxiliary import interlocks, machine_codes
 from polycnc.control.word_address.block.numbers import Convert, NumberRules, angle_converter, length_converter

@@ -142,9 +142,7 @@ class Groove:
         return first, second
 
     def _contour(self, side: Side, foot: float) -> Contour:
-        reach = 0.5 * (self.width - self.tool_width) + self.nose_radius
-        if side.base.is_sharp:
-            reach = max(reach, NO_WAY * 10.0)
+        reach = max(0.5 * (self.width - self.tool_width) + self.nose_radius, NO_WAY * 10.0)
         far = self.width + self.depth
         rim = offset.line((-far, 0.0), (0.0, 0.0))
         wall = offset.line((0.0, 0.0), (foot, self.depth))

@@ -8,6 +8,7 @@ summit closes it off.
 
 from __future__ import annotations
 
+from functools import lru_cache
 from itertools import pairwise
 from math import copysign, hypot
 from typing import TYPE_CHECKING
@@ -295,13 +296,14 @@ def _samples(contour: Contour) -> Iterator[Point]:
         yield from _chords(piece.edge)
 
 
-def _chords(edge: Edge) -> list[Point]:
-    """The ends of a line, or points of an arc whose chords are near to it."""
+@lru_cache(maxsize=4096)
+def _chords(edge: Edge) -> tuple[Point, ...]:
+    """The ends of a line, or points of an arc whose chords are near to it; every cut asks for the same ones."""
     if edge.center is None:
-        return [edge.start, edge.end]
+        return (edge.start, edge.end)
     radius = arcs.radius_of(edge.center, edge.end)
     count = arcs.parts_for_chord_error(radius, edge.sweep, max(_CHORD_MM, _CHORD_SHARE * radius))
-    return [edge.start, *arcs.split(edge.start, edge.end, edge.center, edge.ccw, count)]
+    return (edge.start, *arcs.split(edge.start, edge.end, edge.center, edge.ccw, count))
 
 
 def _sides(contour: Contour) -> Iterator[tuple[Point, Point, float]]:

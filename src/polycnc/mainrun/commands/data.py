@@ -155,11 +155,11 @@ class DataCommands:
 
     def first_line(self, name: str) -> int:
         """The line of its file at which a program begins."""
-        return self.named(name).first_line
+        return self._shown(name).first_line
 
     def lines(self, name: str) -> Sequence[str]:
         """The lines of a program."""
-        return self.named(name).lines
+        return self._shown(name).lines
 
     def store(self, name: str, text: str) -> None:
         """Put a program, or what a text has, into the memory in the place of those with their names."""
@@ -186,6 +186,12 @@ class DataCommands:
         if found is None:
             raise CommandRefused("mainrun.no-such-program", name=name)
         return found
+
+    def _shown(self, name: str) -> Program:
+        """A program of the memory, or one that a channel has called from elsewhere: a file beside, a folder."""
+        called = (each for run in self._operation.runs for each in reversed(run.channel.programs))
+        found = self._programs.named(name) or next((each for each in called if each.name == name), None)
+        return found or self.named(name)
 
     def _check_free(self, name: str) -> None:
         """A program that is under way is not changed."""

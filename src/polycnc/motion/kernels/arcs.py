@@ -19,6 +19,7 @@ from polycnc.motion.kernels.columns import (
     Limits,
     PieceRecord,
     State,
+    square,
 )
 from polycnc.motion.kernels.corners import join
 from polycnc.motion.kernels.feeds import (
@@ -196,7 +197,7 @@ def lay_arc(
         return False
     end_chord(pieces, n, limits, state)
     step = sweep / parts
-    margin, weight = 1.0 + 0.625 * (turning / parts) ** 2, contexts[record + ContextRecord.ROTARY_WEIGHT]
+    margin, weight = 1.0 + 0.625 * square(turning / parts), contexts[record + ContextRecord.ROTARY_WEIGHT]
     end_way = arc_point(sweep, n, limits, weight, state)
     way = arc_point(0.0, n, limits, weight, state)
     length = 0.5 * (way + end_way) * sweep

@@ -22,6 +22,7 @@ from polycnc.motion.kernels.columns import (
     PieceRecord,
     State,
     piece_width,
+    square,
 )
 from polycnc.motion.kernels.feeds import norm
 from polycnc.motion.kernels.hold import hold
@@ -80,8 +81,14 @@ def lay_chord(
                 pieces[at + PieceRecord.HOLD2], pieces[at + PieceRecord.ENTRY2]
             )
         state.run.exit2 = pieces[at + PieceRecord.CAP2]
-    if soft and state.run.smooth != 2.0:
+    if state.run.smooth != 2.0:
         forget_bow(n, state)
+    if not soft:
+        state.run.chord_mm = state.run.length if state.run.smooth == 2.0 else 0.0
+        # Until the next chord comes it ends straight, for which it bends twice as much at its start.
+        bend_chord(pieces, at, n)
+        state.run.chord_entry2 = pieces[at + PieceRecord.ENTRY2]
+        pieces[at + PieceRecord.ENTRY2] = min(state.run.chord_entry2, bend2(pieces, here, n, limits))
     if soft:
         state.run.chord, state.run.tolerance = OPEN, contexts[record + ContextRecord.TOLERANCE]
         state.run.chord_ease = min(state.row.ease, state.share_ease[AT_START], state.share_ease[AT_END])
@@ -103,8 +110,7 @@ def meet_chord(
     """
     unit, tangent, bend = state.unit, state.tangent, state.bend
     here, before = at + PieceRecord.VECTORS, at + PieceRecord.VECTORS - piece_width(n)
-    if soft:
-        follow_change(n, state, length)
+    follow_change(n, state, length)
     for i in range(n):
         bend[i] += unit[i] * state.run.length + tangent[i] * length
     size, mean = norm(bend, n, limits, weight), 0.5 * (length + state.run.length)
@@ -118,8 +124,10 @@ def meet_chord(
             cap2 = min(cap2, limits.acceleration[i] / abs(curvature))
         bend[i] = 0.0
     if not soft:
-        for chord in (at - piece_width(n), at):
-            cap2 = min(cap2, bend_chord(pieces, chord, n, limits))
+        chord = at - piece_width(n)
+        bend_chord(pieces, chord, n)
+        pieces[chord + PieceRecord.ENTRY2] = min(state.run.chord_entry2, bend2(pieces, before, n, limits))
+        cap2 = min(cap2, bend2(pieces, before + n, n, limits))
     if soft and pieces[at - piece_width(n) + PieceRecord.PAUSE] > 0.0:
         mirror(pieces, before, before + n, n, limits, tangent, weight)
     # In the middle of its chord the curve is longer than the chord by `turn²/16` at most (a cubic, `run.py`).
@@ -173,7 +181,7 @@ def close_chord(pieces: Floats, at: int, n: int, limits: Limits, state: State) -
     if state.run.chord != OPEN:
         return
     state.run.chord = CLOSED
-    bend_chord(pieces, at, n, limits)
+    bend_chord(pieces, at, n)
     here, length, blend = (
         at + PieceRecord.VECTORS,
         pieces[at + PieceRecord.LENGTH],
@@ -235,7 +243,7 @@ def end_chord(pieces: Floats, n: int, limits: Limits, state: State) -> None:
             top2, turn2 = chord_top2(pieces, at, n, limits), 0.0
             for i in range(n):
                 w = state.run.metric if limits.rotary[i] != 0.0 else 1.0
-                turn2 += (w * (pieces[here + n + i] - pieces[here + i])) ** 2
+                turn2 += square(w * (pieces[here + n + i] - pieces[here + i]))
             longer = 1.0 - 0.125 * min(turn2, 4.0)
             pieces[at + PieceRecord.CAP2] = min(pieces[at + PieceRecord.CAP2] * longer, top2)
         close_chord(pieces, at, n, limits, state)
@@ -252,22 +260,28 @@ def settle(pieces: Floats, n: int, limits: Limits, state: State) -> None:
     settle_alone(pieces, n, limits, state)
 
 
-def bend_chord(pieces: Floats, at: int, n: int, limits: Limits) -> float:
-    """Give a chord the q'' of its cubic (`run.py`), and say the largest x at which every axis can hold it.
+def bend_chord(pieces: Floats, at: int, n: int) -> None:
+    """Give a chord the q'' of its cubic (`run.py`).
 
     In the words of `chord_top2` it is `-(4·l + 2·a)` at the start, `2·l + 4·a` at the end, over the chord's length.
     """
-    here, length, cap2 = at + PieceRecord.VECTORS, pieces[at + PieceRecord.LENGTH], inf
+    here, length = at + PieceRecord.VECTORS, pieces[at + PieceRecord.LENGTH]
     for i in range(n):
         place = here + PLACES * n + i
         unit = (pieces[place + n] - pieces[place]) / length
         leave, arrive = pieces[here + i] - unit, pieces[here + n + i] - unit
         first, last = -(4.0 * leave + 2.0 * arrive) / length, (2.0 * leave + 4.0 * arrive) / length
         pieces[here + 2 * n + i], pieces[here + 3 * n + i] = first, last
-        most = max(abs(first), abs(last))
-        if most > 0.0:
-            cap2 = min(cap2, limits.acceleration[i] / most)
-    return cap2
+
+
+def bend2(pieces: Floats, tangents: int, n: int, limits: Limits) -> float:
+    """Largest x at an end of a curved piece at which every axis can hold it; `tangents` is the place of its q'."""
+    x2 = inf
+    for i in range(n):
+        bend = abs(pieces[tangents + 2 * n + i])
+        if bend > 0.0:
+            x2 = min(x2, limits.acceleration[i] / bend)
+    return x2
 
 
 def chord_top2(pieces: Floats, at: int, n: int, limits: Limits) -> float:

@@ -250,6 +250,7 @@ class RunState(Structure):
         chord: With limited jerk: the last piece is a chord of a spline, OPEN or CLOSED (`chords.py`), and `hold.py` has
             not spread what bounds it.
         chord_mm: Length of the chord that was closed last, 0 where a row that is none came behind it.
+        chord_entry2: Without limited jerk: highest x at the start of the last chord, whatever it bends itself.
         chord_ease: Factor on the limits along the last chord.
         tolerance: Contour tolerance along it.
         corner_top2: Highest x at a corner behind the row before, where that is led by a tip; 0 for no bound.
@@ -286,6 +287,7 @@ class RunState(Structure):
     unseen: float
     chord: float
     chord_mm: float
+    chord_entry2: float
     chord_ease: float
     tolerance: float
     corner_top2: float
@@ -425,6 +427,11 @@ SMOOTH_COS = 0.8
 MAIN_RUN = -1.0
 #: Two ends of an arc nearer than this (mm) make it a full circle.
 SAME_POINT_MM = 1e-7
+
+
+def square(value: float) -> float:
+    """A product: a power of two is one in machine code, but in Python may be off it by the last bit."""
+    return value * value
 
 
 def piece_width(n: int) -> int:

@@ -16,7 +16,7 @@ from __future__ import annotations
 from math import inf, sqrt
 
 from polycnc.kernels.layout import Floats
-from polycnc.motion.kernels.columns import SPLINE, ContextRecord, Limits, State
+from polycnc.motion.kernels.columns import SPLINE, ContextRecord, Limits, State, square
 
 #: Parts of the acceleration beside a joint in a row: along the path, across it.
 ALONG, ACROSS = 0.7, 0.3
@@ -31,6 +31,8 @@ ROW_ACROSS, TENTS, MOST_TENTS = 0.8, 3.5, 1.125
 #: curve by its speed and by its change of speed; at a corner by the change of speed; by the uneven q'' of a chord.
 JERK_CORNER, JERK_LINES, JERK_ENTRY, JERK_CURVE, JERK_BOTH, JERK_TURN = 0.5, 0.3, 0.4, 0.25, 0.2, 0.25
 JERK_BOW = 0.25
+#: How soon lines of different length in a row count as one corner more.
+UNEVEN = 2.0
 #: All that the joints of a row need, beside the acceleration along the path.
 ROW = 0.85
 #: Parts of the tolerance: of one corner, of the acceleration across the path.
@@ -122,7 +124,7 @@ def lone_speed(
     turn2 = 0.0
     for i in range(n):
         if limits.rotary[i] == 0.0:
-            turn2 += (unit[i] - tangent[i]) ** 2
+            turn2 += square(unit[i] - tangent[i])
     turn = sqrt(turn2)
     v = min(cap, 0.5 * length / blend, state.run.gap / blend - state.run.passed)
     if turn > NO_TURN:
@@ -169,7 +171,7 @@ def row_hold2(
     for i in range(n):
         step = unit[i] - tangent[i]
         if limits.rotary[i] == 0.0:
-            turn, changes = turn + step * step, changes + (step / mean - bow[i]) ** 2
+            turn, changes = turn + step * step, changes + square(step / mean - bow[i])
     turn, changes = sqrt(turn), sqrt(changes)
     for i in range(n):
         a, j = state.joint.ease * limits.acceleration[i], state.joint.ease * limits.jerk[i]
@@ -237,12 +239,17 @@ def most_bow(state: State, i: int, mean: float) -> float:
 def row_jerk(state: State, i: int, shorter: float, mean: float, blend: float, v: float) -> float:
     """Jerk of an axis at a joint in a row that is passed at v: by the turn itself, and by what changes of q''.
 
-    Where the average sees no more than one joint before and one behind a place, those are all.
+    Where the average sees no more than one joint before and one behind a place, those are all. Elsewhere it may see one
+    more on the side of the shorter line.
     """
     change = abs((state.unit[i] - state.tangent[i]) / mean - state.bow[i])
     begins: float = v * v * most_bow(state, i, mean) / blend
     turns: float = v * row_step(state, i, mean) / (blend * blend)
-    return turns if v * blend <= shorter else turns + min(begins, step_jerk(v, blend, change, mean))
+    if v * blend <= shorter:
+        return turns
+    longer = 2.0 * mean - shorter
+    more = min(1.0, UNEVEN * v * blend * (1.0 / shorter - 1.0 / longer))
+    return turns * (1.0 + more) + min(begins, step_jerk(v, blend, change, mean))
 
 
 def row_deviation2(part: float, shorter: float, blend: float) -> float:
@@ -269,7 +276,7 @@ def row_pull(
 ) -> None:
     """Lower the joint's pull in a row of joints that is passed at v: to what its own demands leave of each axis.
 
-    Or to the parts that are left whatever a joint needs, where these are more and all of the row turns to one side.
+    Beside a curve, where all of the row turns to one side, to the parts that are left whatever a joint needs.
     """
     ramp, blend = contexts[record + ContextRecord.RAMP_S], contexts[record + ContextRecord.BLEND_S]
     parts, left, turns, seen = inf, inf, False, tents(v, blend, shorter)
@@ -292,9 +299,7 @@ def row_pull(
             left = min(
                 left, free / (2.0 * way / ramp + step * seen + 2.0 * bow * v), (a - v * step * seen) / way
             )
-    if turns or not curved:
-        parts = left if turns else max(parts, left)
-    state.joint.pull = min(state.joint.pull, parts)
+    state.joint.pull = min(state.joint.pull, left if turns or not curved else parts)
 
 
 def step_top2(j: float, blend: float, step: float, spacing: float, part: float, enough: float) -> float:

@@ -82,14 +82,14 @@ def programs(draw: st.DrawFn) -> str:
     return HEAD + "\n".join([*parts, "M30", ""])
 
 
-@settings(max_examples=examples(60), deadline=None)
+@settings(max_examples=examples(14), deadline=None)
 @given(programs(), files())
 def test_programs_that_call_give_the_same(text: str, called: dict[str, str]) -> None:
     assert differences(text, CONTROL, SETUP, files=called, block_limit=1_500) == []
 
 
 @pytest.mark.skipif(LIBRARY.lack is not None, reason="needs compiled kernels")
-@settings(max_examples=examples(60), deadline=None)
+@settings(max_examples=examples(14), deadline=None)
 @given(programs(), files(), st.integers(1, 400), st.sampled_from((3, 200)))
 def test_calls_in_the_compiled_kernel_give_the_same_up_to_any_limit(
     text: str, called: dict[str, str], limit: int, rooms: int
@@ -98,7 +98,7 @@ def test_calls_in_the_compiled_kernel_give_the_same_up_to_any_limit(
     assert differences(text, CONTROL, SETUP, bulk, files=called, block_limit=limit) == []
 
 
-@settings(max_examples=examples(20), deadline=None)
+@settings(max_examples=examples(6), deadline=None)
 @given(programs(), files(), st.integers(2, 7), st.sampled_from((40.0, 400.0)))
 def test_limits_of_travel_and_room_give_the_same(
     text: str, called: dict[str, str], rooms: int, travel: float
@@ -128,7 +128,7 @@ def test_the_scanner_runs_calls_by_itself(call: str, head: str, end: str) -> Non
     assert differences(text, CONTROL, SETUP, files=called) == []
 
 
-@pytest.mark.parametrize("limit", range(300, 340))
+@pytest.mark.parametrize("limit", range(300, 340, 5))
 def test_a_limit_within_a_call_leaves_the_same_levels(limit: int) -> None:
     called = {
         FOLDER.format("SUB"): "PROC SUB(REAL A,INT B=2)\nDEF REAL MINE=A*B\nX=MINE+$P_SUBPAR[1]\nL1\nM17\n",

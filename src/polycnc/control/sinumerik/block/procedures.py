@@ -25,7 +25,7 @@ from polycnc.control.sinumerik.motion import polynomial_groups, splines
 from polycnc.control.sinumerik.punching import block as punching
 from polycnc.control.sinumerik.signals import interrupts, retraction, sections
 from polycnc.control.sinumerik.tangential import definitions as tangential
-from polycnc.control.sinumerik.tools import d_numbers, online
+from polycnc.control.sinumerik.tools import d_numbers, online, stages
 from polycnc.control.sinumerik.tools.management import lists, magazines, monitoring
 from polycnc.control.sinumerik.transformations import seat, selection, start
 from polycnc.control.sinumerik.variables import dialogs, lengths
@@ -97,7 +97,7 @@ def diameters_of_channel(channel: SinumerikChannel, _args: Arguments) -> None:
 def preprocessing_stop(channel: SinumerikChannel, _args: Arguments) -> None:
     """STOPRE: everything held back is written and executed before the next block is read."""
     definition.refuse(channel, "STOPRE")
-    channel.flush()
+    stages.end_blocks(channel)
     channel.synchronise()
 
 

@@ -13,6 +13,7 @@ from polycnc.control.sinumerik.actions import axes as action_axes
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.arguments import Arguments, Procedure
 from polycnc.control.sinumerik.channels.coordination import group_of
+from polycnc.control.sinumerik.tools import stages
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.messages import AlarmError
 
@@ -66,7 +67,9 @@ def ready(channel: SinumerikChannel, columns: Iterable[int]) -> bool:
     if channel.path.is_diverted:
         return True
     columns = tuple(columns)
-    action_axes.give_back(channel, columns)
+    if action_axes.may_be_away(channel, columns):
+        stages.end_blocks(channel)
+        action_axes.give_back(channel, columns)
     axes = [_name(channel, column) for column in columns]
     if all(_is_free(channel, axis) for axis in axes):
         moved_by = group_of(channel).moved_by
@@ -119,6 +122,7 @@ def release(channel: SinumerikChannel, args: Arguments) -> None:
     for axis in _named(channel, _some(args, "RELEASE")):
         if owners[axis] == channel.number:
             owners[axis] = NOBODY
+            action_axes.forget(channel, axis)
 
 
 def get(channel: SinumerikChannel, args: Arguments) -> None:

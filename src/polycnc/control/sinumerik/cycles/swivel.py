@@ -12,7 +12,7 @@ take the tool about its tip, as the call must ask for.
 
 from __future__ import annotations
 
-from math import inf, nan
+from math import atan2, degrees, inf, nan
 from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik import auxiliary
@@ -23,6 +23,7 @@ from polycnc.control.sinumerik.frames.codes import crots
 from polycnc.control.sinumerik.frames.memory import chain
 from polycnc.control.sinumerik.motion import moves as motion
 from polycnc.control.sinumerik.tools.holders import active as carriers
+from polycnc.control.sinumerik.tools.selection import unscaled
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.geometry.frames import IDENTITY, Frame, rotation
 from polycnc.geometry.planes import PLANES
@@ -76,7 +77,7 @@ def swivel(moves: Moves, a: Arguments) -> None:
     state = moves.memory.frames
     adds = a.digit("_ST", 0) == 1
     base = state.system["$P_WPFRAME"] @ state.programmable if adds else NEUTRAL
-    turned = _plane_frame(a, record)
+    turned = _plane_frame(a, record, _outer(channel) @ base)
     frame = base @ NcFrame(matrix=turned.m, coarse=turned.t)
     angles = _angles(channel, a, record, frame)
     if a.integer("_DIR"):
@@ -132,15 +133,21 @@ def deselect(channel: SinumerikChannel) -> None:
 # ---- the plane
 
 
-def _plane_frame(a: Arguments, record: Record) -> Frame:
-    """`p0 + R·(p1 + p)` as a frame."""
+def _outer(channel: SinumerikChannel) -> NcFrame:
+    """The frames in front of which the plane is turned."""
+    state = channel.memory.frames
+    return chain([state.system["$P_SETFRAME"], state.actual_base(), state.active_settable])
+
+
+def _plane_frame(a: Arguments, record: Record, outer: NcFrame) -> Frame:
+    """`p0 + R·(p1 + p)` as a frame, behind `outer`."""
     before = Frame(IDENTITY.m, (a["_X0"], a["_Y0"], a["_Z0"]))
     after = Frame(IDENTITY.m, (a["_X1"], a["_Y1"], a["_Z1"]))
-    return before @ _rotation(a, record) @ after
+    return before @ _rotation(a, record, outer) @ after
 
 
-def _rotation(a: Arguments, record: Record) -> Frame:
-    """R by the way in which _MODE tells the plane."""
+def _rotation(a: Arguments, record: Record, outer: NcFrame) -> Frame:
+    """R by the way in which _MODE tells the plane, behind `outer`."""
     mode = a.integer("_MODE")
     order = [(mode or DEFAULT_ORDER) >> 2 * i & 3 for i in range(3)]
     angles = [a["_A"], a["_B"], a["_C"]]
@@ -151,27 +158,44 @@ def _rotation(a: Arguments, record: Record) -> Frame:
             letters = [GEOMETRY_AXES[axis - 1] if axis else "XY"[i] for i, axis in enumerate(order[:2])]
             return crots(dict(zip(letters, angles, strict=False))).frame @ rotation(2, angles[2])
         case 3:  # rotary axes direct
-            return tilted.by_rotary_axes(record.kinematics, dict(zip(record.axes, angles, strict=False)))
+            return _square_on_tool(tilted.by_rotary_axes(record.kinematics, _told(a, record)), outer)
     if any(angle and not axis for axis, angle in zip(order, angles, strict=True)):
         raise not_supported("CYCLE800 _MODE")
     return tilted.by_own_axes((axis - 1, angle) for axis, angle in zip(order, angles, strict=True) if axis)
 
 
+def _square_on_tool(turned: Frame, outer: NcFrame) -> Frame:
+    """R whose Z is that of `turned`, which the basic system sees, behind a frame; X lies as the frame turns it about Z.
+
+    Raises:
+        AlarmError: PC0001 behind a mirror.
+    """
+    if any(outer.mirrored):
+        raise not_supported("CYCLE800 _MODE: MIRROR")
+    before = unscaled(outer.frame)
+    x, y, _ = before.direct(1.0, 0.0, 0.0)
+    return before.inverse() @ turned @ rotation(2, degrees(atan2(y, x)))
+
+
 # ---- the rotary axes
+
+
+def _told(a: Arguments, record: Record) -> dict[str, float]:
+    """Angles of the joints where _A and _B are positions of the rotary axes."""
+    return {
+        axis: position - record.zero(axis)
+        for axis, position in zip(record.axes, (a["_A"], a["_B"]), strict=False)
+    }
 
 
 def _angles(channel: SinumerikChannel, a: Arguments, record: Record, frame: NcFrame) -> dict[str, float]:
     """Positions of the rotary axes for the plane: of two solutions that which _DIR asks for; 61184 for none."""
-    memory = channel.memory
     if a.integer("_MODE") >> 6 & 3 == DIRECT:
-        wanted = dict(zip(record.axes, (a["_A"], a["_B"]), strict=False))
-        return {axis: position - record.zero(axis) for axis, position in wanted.items()}
-    state = memory.frames
-    outer = chain([state.system["$P_SETFRAME"], state.actual_base(), state.active_settable])
+        return _told(a, record)
     plane = PLANE_OF_DMODE.get(a.digit("_DMODE", 0), channel.mode["plane"])
     index = PLANES[plane][2]
     square = [1.0 if i == index else 0.0 for i in range(3)]
-    normal = (outer @ frame).frame.direct(square[0], square[1], square[2])
+    normal = (_outer(channel) @ frame).frame.direct(square[0], square[1], square[2])
     found = [
         _in_range(channel, record, angles)
         for angles in solutions_for(record.kinematics, normal, dict.fromkeys(record.axes, 0.0))

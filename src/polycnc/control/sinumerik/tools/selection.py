@@ -38,11 +38,11 @@ def rules_of(channel: SinumerikChannel) -> Rules:
         temperature,
         channel.mode["wear_system"],
         total.mirrored,
-        _unscaled(total.frame),
+        unscaled(total.frame),
     )
 
 
-def _unscaled(frame: Frame) -> Frame:
+def unscaled(frame: Frame) -> Frame:
     """Rotation and mirror of a frame: its axes with length 1."""
     columns = [tuple(value / hypot(*column) for value in column) for column in zip(*frame.m, strict=True)]
     rows = list(zip(*columns, strict=True))

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.motion import moves
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.messages import AlarmError
@@ -19,10 +20,18 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.block.draft import Draft, Step, Values
     from polycnc.control.sinumerik.family import SinumerikChannel
 
+#: How far a place that G05 names may lie beside its way, mm.
+SAME_MM = 0.001
+
 
 def plunge(draft: Draft) -> Step:
-    """G05, G07: one of the two axes of TRAANG moves; 14146 without an oblique axis."""
+    """G05, G07: one of the two axes of TRAANG moves.
+
+    Raises:
+        AlarmError: 14146 without an oblique axis, PC0001 for a place of G05 that does not lie on its way.
+    """
     starts = draft.codes["block_motion"] == "G7"
+    named = frozenset(term.column for term in draft.axis_terms())
     goal = moves.goal_of(draft)
 
     def run(channel: SinumerikChannel, values: Values) -> None:
@@ -30,13 +39,16 @@ def plunge(draft: Draft) -> Step:
         assert transformation is not None
         if goal is None:
             return
-        target, here = transformation.to_machine(goal(channel, values)), channel.coordinates.machine
+        point, here = goal(channel, values), channel.coordinates.machine
+        target = transformation.to_machine(point)
         still = axis.inclined if starts else axis.other
         if not starts:
             # The oblique axis goes as far as the infeed asks for, wherever the other one stands.
             target[axis.other] = here[axis.other]
         target[still] = here[still]
         end = transformation.to_work(target)
+        if not starts and any(abs(end[column] - point[column]) > SAME_MM for column in named):
+            raise not_supported("G05: X Z")
         moves.line(channel, Kind.FEED, end, moves.checked_feed(channel.feed))
 
     return run

@@ -65,8 +65,8 @@ def plan(draft: Draft) -> None:
         raise AlarmError("14144")
     if is_point_to_point(draft.mode):
         draft.by_axes = True
-        terms = draft.axis_terms()
-        draft.steps.append(_placed(frozenset(t.column for t in terms if t.way is Dimension.ABSOLUTE)))
+        places = (Dimension.ABSOLUTE, Dimension.MODULO)
+        draft.steps.append(_placed(frozenset(t.column for t in draft.axis_terms() if t.way in places)))
 
 
 def _placed(columns: frozenset[int]) -> Step:
