@@ -104,6 +104,8 @@ class WordAddressProgram:
         self.program = program
         self.grammar = grammar
         self.lines = program.lines
+        #: Whether jumps and loops may stand in it: not in what MDI or DNC runs as the main program.
+        self.may_jump = True
         self.steps = kept_steps(len(self.lines))
         self._reached = bytearray(len(self.lines))
         self._joined_into = bytearray(len(self.lines))

@@ -14,7 +14,8 @@ from polycnc.channel.moves.path import Recorder
 from polycnc.channel.stack import LevelKind
 from polycnc.channel.states.snapshot import Snapshot
 from polycnc.channel.states.state import Lifetime, State
-from polycnc.compensation import CutterCompensation, Plane
+from polycnc.compensation.cutter import CutterCompensation
+from polycnc.compensation.plane import Plane
 from polycnc.control.fanuc.code_calls import PROGRAM_M
 from polycnc.control.fanuc.lathe.coordinates.systems import plane_axes
 from polycnc.control.fanuc.lathe.cycles.modal import FINISHING, GROUP, READING
