@@ -85,7 +85,14 @@ class MotionSettings:
         overload: At a corner without deviation an axis may change its velocity within one interpolation cycle
             by this many times its acceleration (SINUMERIK MD32310 MAX_ACCEL_OVL_FACTOR).
         corner_speed: Highest step of an axis's velocity at a corner of two cuts, mm/s: the speed at which a right angle
-            between two axes is passed (SYNTEC Pr406).
+            between two axes is passed (SYNTEC Pr406). `corner_steps` is the same for single axes by their name in
+            programs (FANUC 1783).
+        arc_pull: Highest acceleration across the path on arcs, mm/s² (SYNTEC Pr408); `arc_pulls` that of single axes by
+            their name in programs (FANUC 1735).
+        arc_least: Speed below which these do not slow an arc, mm/s (FANUC 1732). All of them hold in cuts that are
+            planned ahead.
+        behind_times: Time constants behind the interpolation of cuts that are planned ahead, seconds, by the axes'
+            names in programs (FANUC 1769).
         path_feed: Highest speed of a cut along the path, mm/s (SYNTEC Pr405).
         rapid_caps: Highest rapid traverse of axes by their name in programs, mm/s or degrees/s, where it is below that
             of the machine (SYNTEC Pr461 on).
@@ -117,6 +124,10 @@ class MotionSettings:
     tolerance_mm: float = 0.01
     overload: float = 1.2
     corner_speed: float = inf
+    corner_steps: Mapping[str, float] = field(default_factory=dict)
+    arc_pull: float = inf
+    arc_pulls: Mapping[str, float] = field(default_factory=dict)
+    arc_least: float = 0.0
     path_feed: float = inf
     rapid_caps: Mapping[str, float] = field(default_factory=dict)
     feed_caps: Mapping[str, float] = field(default_factory=dict)
@@ -124,6 +135,7 @@ class MotionSettings:
     cut_ramps: Mapping[str, Ramp] = field(default_factory=dict)
     after_interpolation: bool = False
     after_times: Mapping[str, float] = field(default_factory=dict)
+    behind_times: Mapping[str, float] = field(default_factory=dict)
     spindle_wait: SpindleWaitFor | Literal[""] = ""
     acceleration: AccelerationMode = AccelerationMode.CONSTANT
     drive_speed: float = 1.0

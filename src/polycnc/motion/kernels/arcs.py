@@ -203,6 +203,7 @@ def lay_arc(
     length = 0.5 * (way + end_way) * sweep
     radius, highest = facing_radius(0.0, limits, state), limits.path.path_feed
     highest = min(highest, state.row.top, block_top(length, limits, state))
+    highest = min(highest, arc_top(contexts, record, way, end_way, limits, state))
     speed = min(
         bounded(asked_on_arc(curves, contexts, record, limits, state, length, radius), state), highest
     )
@@ -267,6 +268,24 @@ def lay_arc(
     state.run.exit_pull, state.run.rate = pull, 1.0 / end_way
     state.run.exit2, state.run.length, state.run.metric, state.run.smooth = entry2, length, weight, 0.0
     return True
+
+
+def arc_top(contexts: Floats, record: int, way: float, end_way: float, limits: Limits, state: State) -> float:
+    """Highest speed on the arc at hand by what parameters allow axes and path to accelerate on arcs.
+
+    `way` and `end_way` are its ways by radian at start and end, where the radius may be another one. No thread has such
+    a bound, for its speed is the spindle's.
+    """
+    if contexts[record + ContextRecord.AHEAD] == 0.0 or state.row.kind == THREAD:
+        return inf
+    last = max(state.arc.radius + state.arc.growth, SAME_POINT_MM)
+    room, pull = min(square(way) / state.arc.radius, square(end_way) / last), limits.path.arc_pull
+    for j in range(3):
+        i = limits.geometry[j]
+        share = sqrt(square(state.basis[j]) + square(state.basis[3 + j]))
+        if i >= 0 and share > SAME_RADIUS:
+            pull = min(pull, limits.arc[i] / share)
+    return max(sqrt(pull * room), limits.path.arc_least)
 
 
 def is_even(contexts: Floats, record: int, n: int, limits: Limits, state: State, speed: float) -> bool:
