@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 
 from polycnc.messages.catalogue import LANGUAGES
+from polycnc.panel.screens.tables import Table
 from tests.panel.bench import Bench
 from tests.panel.screens.test_journeys import both, soft
 
@@ -127,9 +128,10 @@ def test_every_field_of_a_table_keeps_what_is_typed(control: str) -> None:
         for place in ((table.first, column) for column in range(len(table.columns))):
             bench.screen.place(*place)
             bench.typed("1", "INPUT")
-            assert (bench.message, field(bench) in ("1", "1.000")) == ("", True), (page, place)
+            kept = Table(bench.control, table).value(table.columns[place[1]], place[0])
+            assert (bench.message, kept in (1, "1")) == ("", True), (page, place)
             written += 1
-    assert written > 10
+    assert written > 5
 
 
 @pytest.mark.parametrize("lang", LANGUAGES)
