@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import ast
+import inspect
 import subprocess
 import sys
 from array import array
@@ -75,6 +77,15 @@ def test_the_room_for_pieces_does_not_change_the_result(monkeypatch: pytest.Monk
     whole = varied(1500).plan(compiled=False)
     monkeypatch.setattr(planner_module, "FULL_ROOM", 256)
     assert bits(varied(1500).plan(compiled=False)) == bits(whole)
+
+
+def test_kernels_square_by_products() -> None:
+    """Python's power of two may be off the product, which machine code has in its place, by the last bit."""
+    for module in LIBRARY.modules:
+        for node in ast.walk(ast.parse(inspect.getsource(module))):
+            if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow):
+                whole = isinstance(node.right, ast.Constant) and isinstance(node.right.value, int)
+                assert not whole, (module.__name__, node.lineno)
 
 
 @pytest.mark.skipif(LIBRARY.lack is not None, reason="needs compiled kernels")

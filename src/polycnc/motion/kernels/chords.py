@@ -22,6 +22,7 @@ from polycnc.motion.kernels.columns import (
     PieceRecord,
     State,
     piece_width,
+    square,
 )
 from polycnc.motion.kernels.feeds import norm
 from polycnc.motion.kernels.hold import hold
@@ -242,7 +243,7 @@ def end_chord(pieces: Floats, n: int, limits: Limits, state: State) -> None:
             top2, turn2 = chord_top2(pieces, at, n, limits), 0.0
             for i in range(n):
                 w = state.run.metric if limits.rotary[i] != 0.0 else 1.0
-                turn2 += (w * (pieces[here + n + i] - pieces[here + i])) ** 2
+                turn2 += square(w * (pieces[here + n + i] - pieces[here + i]))
             longer = 1.0 - 0.125 * min(turn2, 4.0)
             pieces[at + PieceRecord.CAP2] = min(pieces[at + PieceRecord.CAP2] * longer, top2)
         close_chord(pieces, at, n, limits, state)

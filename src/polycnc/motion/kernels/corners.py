@@ -6,7 +6,7 @@ from math import inf, sqrt
 
 from polycnc.kernels.layout import Floats
 from polycnc.motion.kernels.alone import pays_to_rest
-from polycnc.motion.kernels.columns import SMOOTH_COS, SPLINE, ContextRecord, Limits, State
+from polycnc.motion.kernels.columns import SMOOTH_COS, SPLINE, ContextRecord, Limits, State, square
 from polycnc.motion.kernels.feeds import is_rapid
 from polycnc.motion.kernels.jerk import corner_hold2, forget_bow, window_s
 from polycnc.motion.kernels.rounding import bend_corner
@@ -110,7 +110,7 @@ def stepped2(n: int, limits: Limits, state: State) -> float:
     for i in range(n):
         unit, tangent = state.unit[i], state.tangent[i]
         step = max(step, abs(unit - tangent))
-    return inf if step <= SAME_DIRECTION or is_rapid(state) else (speed / step) ** 2
+    return inf if step <= SAME_DIRECTION or is_rapid(state) else square(speed / step)
 
 
 def turned2(angle: float, distance: float, n: int, limits: Limits, state: State, shorter: float) -> float:

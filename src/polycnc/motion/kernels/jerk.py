@@ -16,7 +16,7 @@ from __future__ import annotations
 from math import inf, sqrt
 
 from polycnc.kernels.layout import Floats
-from polycnc.motion.kernels.columns import SPLINE, ContextRecord, Limits, State
+from polycnc.motion.kernels.columns import SPLINE, ContextRecord, Limits, State, square
 
 #: Parts of the acceleration beside a joint in a row: along the path, across it.
 ALONG, ACROSS = 0.7, 0.3
@@ -124,7 +124,7 @@ def lone_speed(
     turn2 = 0.0
     for i in range(n):
         if limits.rotary[i] == 0.0:
-            turn2 += (unit[i] - tangent[i]) ** 2
+            turn2 += square(unit[i] - tangent[i])
     turn = sqrt(turn2)
     v = min(cap, 0.5 * length / blend, state.run.gap / blend - state.run.passed)
     if turn > NO_TURN:
@@ -171,7 +171,7 @@ def row_hold2(
     for i in range(n):
         step = unit[i] - tangent[i]
         if limits.rotary[i] == 0.0:
-            turn, changes = turn + step * step, changes + (step / mean - bow[i]) ** 2
+            turn, changes = turn + step * step, changes + square(step / mean - bow[i])
     turn, changes = sqrt(turn), sqrt(changes)
     for i in range(n):
         a, j = state.joint.ease * limits.acceleration[i], state.joint.ease * limits.jerk[i]

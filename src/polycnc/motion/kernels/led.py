@@ -20,6 +20,7 @@ from polycnc.motion.kernels.columns import (
     Limits,
     PieceRecord,
     State,
+    square,
 )
 from polycnc.motion.kernels.corners import SAME_DIRECTION, join
 from polycnc.motion.kernels.demands import demand, within
@@ -74,7 +75,7 @@ def lay_led(
     parts = min(max(ceil(turned / PIECE_DEG), 1), MOST_PIECES)
     if not has_room(pieces, contexts, record, state, parts, n):
         return False
-    margin = 1.0 + MARGIN * (turned * RADIAN / parts) ** 2
+    margin = 1.0 + MARGIN * square(turned * RADIAN / parts)
     for i in range(n):
         unit[i], state.bend[i] = delta[i] / length, 0.0
         room[Room.BLOCKS + Block.ORIGIN * n + i] = (

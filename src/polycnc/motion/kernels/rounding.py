@@ -21,6 +21,7 @@ from polycnc.motion.kernels.columns import (
     PieceRecord,
     State,
     piece_width,
+    square,
 )
 from polycnc.motion.kernels.hold import cut
 
@@ -129,7 +130,7 @@ def add_bend(
             pieces[q + 2 * n] += margin * bend
             share, curvature = abs(pieces[q]), abs(pieces[q + 2 * n])
             if share > SAME_DIRECTION:
-                cap2 = min(cap2, (tops[i] / share) ** 2)
+                cap2 = min(cap2, square(tops[i] / share))
             if curvature > SAME_DIRECTION:
                 cap2 = min(cap2, state.joint.ease * limits.acceleration[i] / curvature)
     keep_between(pieces, at, n, limits)

@@ -103,6 +103,17 @@ class SynchronisedActions(State, lifetime=Lifetime.POWER):
             self.locked.discard(number)
         self._gate()
 
+    def bring_back(self, held: Mapping[int, Action]) -> None:
+        """REPOS: the actions of the interrupted block hold again, modal ones of the routine no more (10.7)."""
+        for number, action in tuple(self.modal.items()):
+            if number not in held and not action.is_static:
+                self._drop(self.modal.pop(number))
+        for number, action in held.items():
+            if self.modal.get(number) is not action:
+                self._drop(self.modal.get(number))
+                self.modal[number] = action
+        self._gate()
+
     def _drop(self, action: Action | None) -> None:
         """An action is no more."""
         if action is not None:
@@ -116,6 +127,7 @@ class SynchronisedActions(State, lifetime=Lifetime.POWER):
 
     def coordinate(self, word: str, args: Arguments) -> None:
         """LOCK, UNLOCK, RESET of actions, by their numbers (10.5.9)."""
+        self.run.changed = True
         for value in args or tuple(self.modal):
             number = arguments.whole(value)
             if word == "LOCK":
@@ -167,6 +179,9 @@ class SynchronisedActions(State, lifetime=Lifetime.POWER):
         if run.influence != before or run.changed:
             run.changed = True
         clocked.influence(run.influence)
+        if run.releases:
+            run.releases = False
+            clocked.release()
 
     def _try(self, action: Action, modal: Mapping[str, str]) -> None:
         """Look at one action, with the modal functions of the block; an alarm ends it, and the program."""
@@ -285,6 +300,20 @@ def _columns(channel: SinumerikChannel, axes: frozenset[str | None]) -> list[int
 
 def _beginning(actions: SynchronisedActions, action: Action) -> Callable[[], None]:
     return lambda: actions.begin(action)
+
+
+def note(channel: SinumerikChannel, held: dict[int, Action]) -> None:
+    """A routine interrupts a block: keep the modal and static actions that hold there."""
+    if channel.actual.clocked is not None:
+        actions = SynchronisedActions.of(channel)
+        channel.event(Deed("ASUB", None, lambda: held.update(actions.modal)))
+
+
+def bring_back(channel: SinumerikChannel, held: Mapping[int, Action]) -> None:
+    """The rest of the block comes: the actions are those that `note` has kept."""
+    if channel.actual.clocked is not None:
+        actions = SynchronisedActions.of(channel)
+        channel.event(Deed("REPOS", None, lambda: actions.bring_back(held)))
 
 
 def cancel(channel: SinumerikChannel, args: Arguments) -> None:

@@ -15,6 +15,7 @@ from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Rank, Stage
 from polycnc.channel.stack import LevelKind
 from polycnc.channel.states.state import Lifetime, State
+from polycnc.control.sinumerik.actions import actions
 from polycnc.control.sinumerik.block import arguments, single_block
 from polycnc.control.sinumerik.block.positions import of_display
 from polycnc.control.sinumerik.signals import retraction
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
 
     from polycnc.channel.moves.path import Move
     from polycnc.channel.stack import Level
+    from polycnc.control.sinumerik.actions.action import Action
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.machine.setup.values import Interrupt
     from polycnc.program import Program
@@ -67,6 +69,7 @@ class Interrupted:
         resume_at: Part of the way at which REPOS has come back; None before.
         left: Columns of axes that REPOS has not led back: neither geometry axes nor named.
         waited: The routine has waited for the end of the block (BLSYNC).
+        actions: Modal and static actions that held in the block, once the main run comes there.
     """
 
     way: MovePath | None
@@ -78,6 +81,7 @@ class Interrupted:
     resume_at: float | None = None
     left: frozenset[int] = frozenset()
     waited: bool = False
+    actions: dict[int, Action] = field(default_factory=dict)
 
 
 class Watch(Stage):
@@ -224,9 +228,9 @@ class Watch(Stage):
         call_without_arguments(channel, assignment.program, LevelKind.INTERRUPT)
         single_block.begin_routine(channel, channel.level)
         waited = assignment.waits_for_block
-        self.running.append(
-            Interrupted(way, part, assignment.priority, channel.level, rest, end, waited=waited)
-        )
+        interrupted = Interrupted(way, part, assignment.priority, channel.level, rest, end, waited=waited)
+        self.running.append(interrupted)
+        actions.note(channel, interrupted.actions)
 
     def _ended(self, interrupted: Interrupted) -> None:
         """A routine has ended: another one that waits for it, or what is left of the block."""
@@ -235,13 +239,14 @@ class Watch(Stage):
         if self._pending and self._pending[0][1].priority < below:
             before = interrupted.resume_at
             self._call(interrupted.way, interrupted.part, interrupted.rest, interrupted.end)
-            self.running[-1].resume_at = before
+            self.running[-1].resume_at, self.running[-1].actions = before, interrupted.actions
             return
         stands = channel.coordinates.position
         part, way = interrupted.resume_at, interrupted.way
         if part is None or way is None:
             self._stands = stands if way is not None else None
         else:
+            actions.bring_back(channel, interrupted.actions)
             keep = _places_kept(interrupted, stands)
             rest = way.beyond(part, stands)
             rest = replace(rest, end=keep(rest.end))
