@@ -89,6 +89,8 @@ def axis_limits(
             min(settings.path_feed, 1e9),
             min(settings.corner_speed, 1e9),
             machine.block_time_s,
+            settings.feed_along_arc,
+            settings.inverse_time_by_radius,
         ),
         linkage=linkage,
     )

@@ -65,12 +65,16 @@ class PathLimits(Structure):
         path_feed: Highest speed of a cut.
         corner_speed: Highest step of an axis's velocity at a corner of two cuts.
         block_s: How long a cut lasts at least, because the control processes no more blocks a second (0: any).
+        feed_along_arc: Whether the feed of an arc is that along the arc, other axes beside it (1).
+        arc_by_radius: Whether inverse time counts the radius of an arc, not its length (1).
     """
 
     rapid_stops: float
     path_feed: float
     corner_speed: float
     block_s: float
+    feed_along_arc: float
+    arc_by_radius: float
 
 
 class Limits(NamedTuple):
