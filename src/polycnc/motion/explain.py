@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from polycnc.motion.kernels.columns import PLACES, UNEVEN_FORMS, Form, PieceRecord, piece_width
 from polycnc.motion.time_constants import Use
 from polycnc.toolpath import Kind
-from polycnc.toolpath.kinds import RAPID_KINDS
+from polycnc.toolpath.kinds import HELIX_KINDS, RAPID_KINDS
 from polycnc.toolpath.modes import FeedMode
 from polycnc.toolpath.table import CURVE_WIDTH
 
@@ -34,7 +34,7 @@ REAL = 1.0 + 1e-3
 EVEN = 0.05
 #: Part by which a squared speed may be off that of a joint.
 EVEN_JOINT = 1e-5
-ARC_KINDS = frozenset((Kind.CW, Kind.CCW, Kind.HELIX_CW, Kind.HELIX_CCW))
+ARC_KINDS = frozenset((Kind.CW, Kind.CCW)) | HELIX_KINDS
 
 
 class Cause(StrEnum):
@@ -169,11 +169,11 @@ class TimeAccount:
                     self._contexts[chunk.first + row] = context
 
     def _asked_speed(self, chunk: Chunk, row: int, context: Context) -> float:
-        """Path speed that the program asks for, mm/s; 0 where that changes along the row."""
+        """Path speed that the program asks for, mm/s; 0 where that changes along the row, or F counts a part of it."""
         kind, feed, pace = chunk.kind[row], chunk.feed[row], context.pace
         if kind == Kind.RAPID:
             return context.rapid_speed or inf
-        if context.surface_speed or (pace is not None and pace.weights):
+        if context.surface_speed or (pace is not None and pace.weights) or kind in HELIX_KINDS:
             return 0.0
         turns = self._planner.rpm(context, 0.0) / 60.0
         if kind in (Kind.THREAD, Kind.TAP) and chunk.curve[row] >= 0:

@@ -101,6 +101,8 @@ def axis_limits(
             settings.arc_pull,
             settings.arc_least,
             machine.block_time_s,
+            settings.feed_along_arc,
+            settings.inverse_time_by_radius,
         ),
         linkage=linkage,
     )

@@ -76,6 +76,10 @@ class MotionSettings:
         rotary_in_feed: The feed of a move of linear and rotary axes counts a degree as a millimetre (an inch
             in inch mode), as the word-address controls do; else it counts the linear axes alone (SINUMERIK
             without FGROUP).
+        feed_along_arc: The feed of an arc is the speed along it, whatever other axes do beside (FANUC 1403#5 HTG = 0);
+            else it counts their way too.
+        inverse_time_by_radius: Inverse time of an arc counts its radius (FANUC, MELDAS: F times the radius is the
+            speed), not its length.
         keeps_corners: Continuous path keeps to the corner, which costs speed; else it rounds it.
         tolerance_mm: Contour tolerance of corners that are rounded, where the program names none.
         overload: At a corner without deviation an axis may change its velocity within one interpolation cycle
@@ -114,6 +118,8 @@ class MotionSettings:
     rapid_by_axis: bool = False
     rapid_stops: bool = True
     rotary_in_feed: bool = True
+    feed_along_arc: bool = False
+    inverse_time_by_radius: bool = False
     keeps_corners: bool = True
     tolerance_mm: float = 0.01
     overload: float = 1.2

@@ -71,6 +71,8 @@ class FanucParameters(MacroParameters[A_co]):
     TDR = Bit(1401, 5, delivered=False)
     #: 1401#6: a dry run acts on rapids (1).
     RDR = Bit(1401, 6, delivered=False)
+    #: 1403#5: F of an arc with motion beside it is the speed along the arc (0), or along the whole path (1).
+    HTG = Bit(1403, 5, delivered=False)
     #: 1410: Speed of a dry run; 0 for 1000 mm/min [mm/min].
     dry_run_speed = Number(1410, delivered=0.0)
     #: 1421: Speed of the rapid override's position F0 [mm/min].
@@ -88,6 +90,8 @@ class FanucParameters(MacroParameters[A_co]):
     #: 3404#6: a program without M02, M30 or M99 at its end is the alarm PS5010 (0), or it ends with a reset
     #: (1).
     EOR = Bit(3404, 6, delivered=False)
+    #: 3405#1: under feed per revolution the dwell G04 counts revolutions.
+    DWL = Bit(3405, 1, delivered=False)
     #: 3410: Allowed difference of the radii of an arc; 0: no check [mm].
     arc_tolerance = Number(3410, delivered=0.03)
     #: 3411: M codes behind which no block is read before they have run.

@@ -159,7 +159,7 @@ class BlockCompiler(ExpressionReader):
         value = place.stored(self, value)
         if isinstance(place, SystemPlace):
             if count is None:
-                raise NcSyntaxError("12080", token.column, token.text)
+                count = quoted("elements_left(channel, {0}, {1})", place.code, place.indices)
             self._system_fill(place, quoted("({0},) * {1}", value, count))
         else:
             items, start = place.elements(self, token)

@@ -81,6 +81,10 @@ class SystemVariable(Protocol):
     def unit(self) -> Callable[[Any, tuple[Any, ...]], float] | None:
         """For indices the mm, or mm/min, that one unit of the program is; None where no value is a length."""
 
+    @property
+    def first(self) -> int:
+        """Index of the first element of an array with one index."""
+
     def element_count(self, channel: Channel) -> int | None:
         """How many elements an array with one index has; None where that is not told."""
 

@@ -257,6 +257,14 @@ def set_system_elements(
         write_length(channel, variable, at, value)
 
 
+def elements_left(channel: Channel, variable: SystemVariable, indices: tuple[Any, ...]) -> int:
+    """REP without a number on a system variable: its elements from one on; 12260 where their number is not told."""
+    count = variable.element_count(channel)
+    if count is None or len(indices) != 1 or not isinstance(indices[0], int):
+        raise AlarmError("12260", text="REP")
+    return variable.first + count - indices[0]
+
+
 def read_length(channel: Channel, variable: SystemVariable, indices: tuple[Any, ...]) -> Any:
     """The value of a system variable that may be a length, in the unit of the program."""
     value, unit = variable.read(channel, indices), variable.unit(channel, indices) if variable.unit else 1.0
@@ -330,7 +338,8 @@ NAMESPACE: dict[str, Any] = {
     for function in (
         sind, cosd, tand, asind, acosd, atan2d, root, square, natural_log, power_of_e, bound, int_quotient,
         real_quotient, remainder, number_in, is_number, axis_named, first_of, part_of, char_at, with_char,
-        fitting, limited, out_of_range, set_elements, repeat_element, set_system_elements, frame_of,
+        fitting, limited, out_of_range, set_elements, repeat_element, set_system_elements,
+        elements_left, frame_of,
         read_length, write_length,
         inverse_frame, frame_component, with_component, joined, real_text, round_half_up, checked_int,
         checked_char, char_of_text, trunc, floor, ceil, finite,

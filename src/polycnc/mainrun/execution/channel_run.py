@@ -195,6 +195,13 @@ class ChannelRun:
         self.preprocessing.clear(self.execution.position)
         self.show_own_state()
 
+    def begin_at_axes(self) -> None:
+        """A program is about to begin: its path goes from where the real axes are, whatever led them there."""
+        execution = self.execution
+        if execution.place.transformation is not None:
+            execution.position = self.display.real(execution.position, execution.place)
+            execution.place = without_transformation(execution.place)
+
     def read_variable(self, name: str) -> object:
         """A variable as programs name it; who reads from outside waits for no axis."""
         channel = self.channel

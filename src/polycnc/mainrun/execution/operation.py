@@ -178,6 +178,7 @@ class Operation:
     def prepare(self, run: ChannelRun) -> None:
         """Before a program of a channel begins: it is where its axes are, and locked axes stand there."""
         self.switches.lock(run)
+        run.begin_at_axes()
         run.channel.coordinates.arrive_machine(list(run.execution.position))
         self.switches.apply_to(run.channel, typed=self.program_mode is Mode.MDI)
 

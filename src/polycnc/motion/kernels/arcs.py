@@ -159,6 +159,26 @@ def point_cap2(n: int, limits: Limits, state: State, margin: float) -> float:
     return cap2
 
 
+def asked_on_arc(
+    curves: Floats,
+    contexts: Floats,
+    record: int,
+    limits: Limits,
+    state: State,
+    length: float,
+    radius_mm: float,
+) -> float:
+    """Path speed that the program asks for on an arc of a length: F may be the speed along the arc alone."""
+    if state.row.kind == THREAD:
+        return asked_speed(curves, contexts, record, state, length, radius_mm)
+    counted = state.arc.radius if limits.path.arc_by_radius != 0.0 else length
+    asked = asked_speed(curves, contexts, record, state, counted, radius_mm)
+    along = (state.arc.radius + 0.5 * state.arc.growth) * state.arc.sweep
+    if limits.path.feed_along_arc != 0.0 and along > 0.0 and length > along * (1.0 + SAME_RADIUS):
+        asked *= length / along
+    return asked
+
+
 def lay_arc(
     curves: Floats, contexts: Floats, record: int, n: int, limits: Limits, pieces: Floats, state: State
 ) -> bool:
@@ -184,7 +204,9 @@ def lay_arc(
     radius, highest = facing_radius(0.0, limits, state), limits.path.path_feed
     highest = min(highest, state.row.top, block_top(length, limits, state))
     highest = min(highest, arc_top(contexts, record, way, end_way, limits, state))
-    speed = min(bounded(asked_speed(curves, contexts, record, state, length, radius), state), highest)
+    speed = min(
+        bounded(asked_on_arc(curves, contexts, record, limits, state, length, radius), state), highest
+    )
     entry2, pull = point_cap2(n, limits, state, margin), inf
     if gentle:
         bend = curvature(n, limits, weight, state)
@@ -205,7 +227,8 @@ def lay_arc(
         own = share_of_arc(0.5 * (first + last) / sweep, state)
         if follows_radius(contexts, record):
             radius = facing_radius(0.5 * (first + last), limits, state)
-            speed = min(bound(asked_speed(curves, contexts, record, state, length, radius), state), highest)
+            asked = asked_on_arc(curves, contexts, record, limits, state, length, radius)
+            speed = min(bound(asked, state), highest)
         at = next_piece(pieces, state, Form.BENT if gentle else Form.CURVED, 0.0, n)
         if is_first:
             open_joint(pieces, at, state, entry2)

@@ -66,6 +66,8 @@ class PathLimits(Structure):
         arc_pull: Highest acceleration across the path on an arc that is planned ahead.
         arc_least: Speed below which neither that nor what axes may accelerate on arcs slows one.
         block_s: How long a cut lasts at least, because the control processes no more blocks a second (0: any).
+        feed_along_arc: Whether the feed of an arc is that along the arc, other axes beside it (1).
+        arc_by_radius: Whether inverse time counts the radius of an arc, not its length (1).
     """
 
     rapid_stops: float
@@ -73,6 +75,8 @@ class PathLimits(Structure):
     arc_pull: float
     arc_least: float
     block_s: float
+    feed_along_arc: float
+    arc_by_radius: float
 
 
 class Limits(NamedTuple):

@@ -12,7 +12,7 @@ from polycnc.control.sinumerik.actions.words import WORDS
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.positions import ModuloRange
 from polycnc.control.sinumerik.errors import not_supported
-from polycnc.language.sinumerik.runtime import read_length, write_length
+from polycnc.language.sinumerik.runtime import elements_left, read_length, set_elements, write_length
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -73,6 +73,19 @@ class ActionRun(Running):
             raise AlarmError("12400", text=variable.name)
         for place, value in enumerate(values, indices[0]):
             self.store(variable, (place, *indices[1:]), value)
+
+    def repeat(self, variable: SystemVariable, indices: tuple[Any, ...], values: tuple[Any]) -> None:
+        """Fill an array with one value, from an element to its end; alarm 12260 where that is not known."""
+        self.store_all(variable, indices, values * elements_left(self.channel, variable, indices))
+
+    def store_items(self, items: list[Any], start: int, values: tuple[Any, ...]) -> None:
+        """Fill an array of the user from an element on; alarm 12260 if it ends before the list."""
+        set_elements(items, start, values)
+        self.changed = True
+
+    def repeat_items(self, items: list[Any], start: int, values: tuple[Any]) -> None:
+        """Fill an array of the user with one value, from an element to its end."""
+        self.store_items(items, start, values * (len(items) - start))
 
     # ---- words ---------------------------------------------------------------------------------------------
 

@@ -127,6 +127,7 @@ class SynchronisedActions(State, lifetime=Lifetime.POWER):
 
     def coordinate(self, word: str, args: Arguments) -> None:
         """LOCK, UNLOCK, RESET of actions, by their numbers (10.5.9)."""
+        self.run.changed = True
         for value in args or tuple(self.modal):
             number = arguments.whole(value)
             if word == "LOCK":
@@ -178,6 +179,9 @@ class SynchronisedActions(State, lifetime=Lifetime.POWER):
         if run.influence != before or run.changed:
             run.changed = True
         clocked.influence(run.influence)
+        if run.releases:
+            run.releases = False
+            clocked.release()
 
     def _try(self, action: Action, modal: Mapping[str, str]) -> None:
         """Look at one action, with the modal functions of the block; an alarm ends it, and the program."""

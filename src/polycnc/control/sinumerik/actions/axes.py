@@ -29,11 +29,11 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.variables.row import Indices, RowWithStop
 
-#: `$AA_AXCHANGE_TYP`: of the program, commanded by an action, neutral; commanded, and asked for by the program or as
-#: neutral.
-PROGRAM, COMMANDED, NEUTRAL, FOR_PROGRAM, FOR_NEUTRAL = 0, 1, 3, 7, 8
+#: `$AA_AXCHANGE_TYP`: of the program, commanded by an action, of another channel, neutral; commanded, and asked for by
+#: the program or as neutral.
+PROGRAM, COMMANDED, ELSEWHERE, NEUTRAL, FOR_PROGRAM, FOR_NEUTRAL = 0, 1, 2, 3, 7, 8
 #: `$AA_TYP` of the same.
-_TYPES = {PROGRAM: 1, COMMANDED: 8, NEUTRAL: 2, FOR_PROGRAM: 8, FOR_NEUTRAL: 8}
+_TYPES = {PROGRAM: 1, COMMANDED: 8, ELSEWHERE: 0, NEUTRAL: 2, FOR_PROGRAM: 8, FOR_NEUTRAL: 8}
 #: What an axis is that is asked for once more (GET), and what it is once it stands.
 _ASKED = {COMMANDED: FOR_NEUTRAL, FOR_NEUTRAL: FOR_PROGRAM, NEUTRAL: PROGRAM}
 _AT_REST = {COMMANDED: NEUTRAL, FOR_NEUTRAL: NEUTRAL, FOR_PROGRAM: PROGRAM}
@@ -221,11 +221,24 @@ def release(channel: SinumerikChannel, args: Arguments) -> None:
 
 
 def get(channel: SinumerikChannel, args: Arguments) -> None:
-    """GET: a neutral axis is the program's; one that moves gets neutral, and the program's if asked for twice."""
+    """GET: a neutral axis is the program's; one that moves gets neutral, and the program's if asked for twice.
+
+    Raises:
+        AlarmError: PC0001 for an axis of another channel, whose program may have prepared blocks of it.
+    """
     for axis in args:
         column = arguments.column(channel, axis)
         state = _state_of(channel, column)
+        if state == ELSEWHERE:
+            raise not_supported(f"DO GET({channel.axes[column]})")
         ActionAxes.of(channel).states[column] = _ASKED.get(state, state)
+
+
+def forget(channel: SinumerikChannel, axis: str) -> None:
+    """The program has released an axis, by its name on the machine: what actions have made of it is over."""
+    names = channel.machine.channel(channel.number).axes
+    if axis in names:
+        ActionAxes.of(channel).states.pop(names.index(axis), None)
 
 
 def to_channel(channel: SinumerikChannel, args: Arguments) -> None:
@@ -245,9 +258,23 @@ def to_channel(channel: SinumerikChannel, args: Arguments) -> None:
 def _state_of(channel: SinumerikChannel, column: int) -> int:
     """Who has an axis now."""
     clocked = channel.actual.clocked
-    state = ActionAxes.of(channel).states.get(column, PROGRAM)
+    state = ActionAxes.of(channel).states.get(column)
+    if state is None:
+        return _owned(channel, column)
     rests = clocked is not None and not clocked.commanded(column).moves
     return _AT_REST.get(state, state) if rests else state
+
+
+def is_elsewhere(channel: SinumerikChannel, column: int) -> bool:
+    """Whether another channel has an axis."""
+    return _owned(channel, column) == ELSEWHERE
+
+
+def _owned(channel: SinumerikChannel, column: int) -> int:
+    """Who has an axis that no action has had: RELEASE of the program makes it neutral."""
+    axis = channel.machine.channel(channel.number).axes[column]
+    owner = channel.group.owner[axis] if channel.group is not None else channel.number
+    return PROGRAM if owner == channel.number else ELSEWHERE if owner else NEUTRAL
 
 
 def _state(channel: SinumerikChannel, indices: Indices) -> int:

@@ -1,20 +1,24 @@
 """TRAILON, TRAILOF, LEADON, LEADOF of actions: axes that follow others beside the path (job planning 10.4.21, 10.4.22).
 
 The main run adds what leading axes do to where the following axis stands, whatever moves them: path, action or overlay.
-Its dynamic limits are not looked at. The program has the axis again behind TRAILOF or LEADOF.
+Its dynamic limits are not looked at. The program has the axis again behind TRAILOF or LEADOF. An axis that is away from
+its place on the table waits until that comes to where it stands (9.3).
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from dataclasses import field
+from typing import TYPE_CHECKING, Any
 
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.actions import axes as action_axes
 from polycnc.control.sinumerik.actions.axes import ActionAxes
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.couplings.links import Couplings
-from polycnc.control.sinumerik.curve_tables.memory import table_of
+from polycnc.control.sinumerik.curve_tables.memory import CurveTables, table_of
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.variables import in_force
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError
 from polycnc.transformation.couplings.graph import CircularCouplingError
@@ -23,8 +27,11 @@ from polycnc.transformation.couplings.laws import ByCurve, Ratio
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
+    from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.actions.run import Running
     from polycnc.control.sinumerik.block.arguments import Arguments
+    from polycnc.control.sinumerik.curve_tables.curve import CurveTable
+    from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.transformation.couplings.laws import Law
 
 MOST_LEADING = 2
@@ -45,15 +52,122 @@ def _pair(run: Running, name: str, args: Arguments, least: int, most: int) -> tu
     return following, leading
 
 
-def _follow(run: Running, following: int, laws: Sequence[Law]) -> None:
-    states = ActionAxes.of(run.channel).states
+@dataclass(slots=True)
+class Led:
+    """An axis that a table leads.
+
+    Attributes:
+        leading: Column of the leading axis.
+        table: The table.
+        gap: How far its place is from where it stands, while it waits for that; None once it follows.
+    """
+
+    leading: int
+    table: CurveTable
+    gap: float | None
+
+
+@dataclass(slots=True)
+class LedAxes(State, lifetime=Lifetime.RESET):
+    """Axes that tables lead by LEADON of actions; satisfies the channel's `Watcher`.
+
+    Attributes:
+        channel: Whose axes they are.
+        led: By the column of the following axis.
+    """
+
+    channel: Channel[Any, Any, Any]
+    led: dict[int, Led] = field(default_factory=dict)
+
+    @classmethod
+    def first(cls, channel: Channel[Any, Any, Any]) -> LedAxes:
+        """None is led."""
+        return cls(channel)
+
+    def begin(self, following: int, leading: int, table: CurveTable, *, at_once: bool) -> None:
+        """A table leads an axis: where it is at its place or goes there at once, else when that comes to it."""
+        self.let_go(following)
+        CurveTables.of(self.channel).use(table.number)
+        gap = self._gap(following, leading, table)
+        self.led[following] = Led(leading, table, gap)
+        if at_once or self._is_near(following, gap):
+            self._synchronise(following)
+        else:
+            self.channel.on_clock().watch(self)
+
+    def let_go(self, following: int) -> None:
+        """No table leads an axis any more, or none that it waits for."""
+        led = self.led.pop(following, None)
+        if led is not None:
+            CurveTables.of(self.channel).leave(led.table.number)
+
+    def _gap(self, following: int, leading: int, table: CurveTable) -> float:
+        clocked = self.channel.on_clock()
+        return table.followed(clocked.machine(leading)).place - clocked.machine(following)
+
+    def _is_near(self, following: int, gap: float) -> bool:
+        tolerance: float = self.channel.memory.data.number(_TOLERANCE, self.channel.axes[following])
+        return abs(gap) <= tolerance
+
+    def _synchronise(self, following: int) -> None:
+        """The table leads an axis from where that is; it goes to its place by itself."""
+        led, clocked = self.led[following], self.channel.on_clock()
+        wanted = led.table.followed(clocked.machine(led.leading)).place
+        led.gap = None
+        _follow(self.channel, following, [ByCurve(led.leading, led.table, wanted)])
+        if abs(wanted - clocked.machine(following)) > NO_WAY:
+            clocked.commanded(following).move_to(wanted, self.channel.axis_data[following].rapid)
+
+    def look(self) -> None:
+        """An interpolation cycle: a place may have come to its axis."""
+        for following, led in tuple(self.led.items()):
+            if led.gap is None:
+                continue
+            before, led.gap = led.gap, self._gap(following, led.leading, led.table)
+            if before * led.gap <= 0.0 or self._is_near(following, led.gap):
+                self._synchronise(following)
+
+    def block_begins(self) -> None:
+        """An axis waits over the ends of blocks."""
+        self.look()
+
+    def block_ends(self) -> None:
+        """The cycles show where the axes are."""
+
+    @property
+    def lingers(self) -> bool:
+        """The end of the program waits for no place."""
+        return False
+
+    @property
+    def goes_home(self) -> bool:
+        """A reset waits for nothing here."""
+        return False
+
+    @property
+    def is_quiet(self) -> bool:
+        """No place can come to its axis."""
+        return self.channel.on_clock().is_still or all(led.gap is None for led in self.led.values())
+
+    def abandon(self, *, reset: bool) -> None:  # noqa: ARG002 - both end it
+        """The program has ended, and with it what its actions couple."""
+        for following in tuple(self.led):
+            self.let_go(following)
+
+
+def waits_for_place(channel: SinumerikChannel, following: int) -> bool:
+    """Whether an axis waits until its place on a table comes to it."""
+    led = LedAxes.of(channel).led.get(following)
+    return led is not None and led.gap is not None
+
+
+def _follow(channel: SinumerikChannel, following: int, laws: Sequence[Law]) -> None:
     try:
-        run.clocked.follow(following, laws)
+        channel.on_clock().follow(following, laws)
     except CircularCouplingError as error:
-        raise AlarmError("16778", axis=run.channel.axes[error.column]) from None
-    states[following] = action_axes.COMMANDED
-    in_force.refresh(run.channel)
-    run.changed = True
+        raise AlarmError("16778", axis=channel.axes[error.column]) from None
+    ActionAxes.of(channel).states[following] = action_axes.COMMANDED
+    in_force.refresh(channel)
 
 
 def trail(run: Running, args: Arguments) -> None:
@@ -66,33 +180,25 @@ def trail(run: Running, args: Arguments) -> None:
     others = [law for law in laws if law.leading != leading or not isinstance(law, Ratio)]
     if len(others) >= MOST_LEADING:
         raise AlarmError("16779", axis=run.channel.axes[following])
-    _follow(run, following, [*others, Ratio(leading, factor, run.clocked.machine(leading))])
+    _follow(run.channel, following, [*others, Ratio(leading, factor, run.clocked.machine(leading))])
+    run.changed = True
 
 
 def lead(run: Running, args: Arguments) -> None:
     """LEADON(following,leading,n[,overwrite]): the axis goes to its place as fast as it can, and follows from there.
 
-    Overwrite 1 lets another table act at once (10.4.22); else an axis that follows already stays with its table.
-
-    Raises:
-        AlarmError: PC0001 for an axis that is farther from its place than MD37200 says, without overwrite.
+    An axis that is farther from its place than MD37200 says waits for that. Overwrite 1 lets another table act at once
+    (10.4.22); else an axis that is led already stays with its table.
     """
     following, leading = _pair(run, "LEADON", args, 3, 4)
     table = table_of(run.channel, arguments.whole(args[2]))
     overwrites = len(args) > 3 and args[3] is not None and bool(arguments.whole(args[3]))
-    curves = [law for law in run.clocked.led_by(following) if isinstance(law, ByCurve)]
-    if curves and not overwrites:
+    axes = LedAxes.of(run.channel)
+    led = axes.led.get(following)
+    if led is not None and (not overwrites or (led.leading == leading and led.table is table)):
         return
-    wanted = table.followed(run.clocked.machine(leading)).place
-    if any(law.leading == leading and law.curve is table for law in curves):
-        return
-    off = abs(wanted - run.clocked.machine(following))
-    if off > run.channel.memory.data.number(_TOLERANCE, run.channel.axes[following]) and not overwrites:
-        raise not_supported(f"DO LEADON({run.channel.axes[following]}): CTAB")
-    _follow(run, following, [ByCurve(leading, table, wanted)])
-    if off > NO_WAY:
-        speed = run.channel.axis_data[following].rapid
-        run.clocked.commanded(following).move_to(wanted, speed)
+    axes.begin(following, leading, table, at_once=overwrites)
+    run.changed = True
 
 
 def _end(kind: type, name: str) -> Callable[[Running, Arguments], None]:
@@ -102,10 +208,15 @@ def _end(kind: type, name: str) -> Callable[[Running, Arguments], None]:
         if not 1 <= len(args) <= 3 or args[0] is None:
             raise AlarmError("14020", text=name)
         following, *leading = (arguments.column(run.channel, axis) for axis in args if axis is not None)
+        axes = LedAxes.of(run.channel)
+        led = axes.led.get(following)
+        if kind is ByCurve and led is not None and (not leading or led.leading in leading):
+            axes.let_go(following)
         laws = run.clocked.led_by(following)
         stay = [law for law in laws if not isinstance(law, kind) or (leading and law.leading not in leading)]
         if len(stay) != len(laws):
-            _follow(run, following, stay)
+            _follow(run.channel, following, stay)
+            run.changed = True
 
     return end
 

@@ -29,8 +29,8 @@ def hold_next(run: Running, _args: Arguments) -> None:
 
 
 def release_preparation(run: Running, _args: Arguments) -> None:
-    """STOPREOF: preparation goes on."""
-    run.clocked.release()
+    """STOPREOF: preparation goes on when all actions of the cycle have acted."""
+    run.releases = True
 
 
 def delete_distance(run: Running, args: Arguments) -> None:

@@ -37,6 +37,7 @@ class Running:
     Attributes:
         influence: What the actions of this cycle make of the speeds.
         changed: Something is other than before the cycle.
+        releases: Preparation need not wait any more for the end of the block (STOPREOF).
         started: Columns of axes that the running line has started.
         at_once: Whether all lines of the technology cycle that runs come in one interpolation cycle.
         action: The action that is looked at.
@@ -52,6 +53,7 @@ class Running:
         self.channel = channel
         self.influence = Influence()
         self.changed = False
+        self.releases = False
         self.started: set[int] = set()
         self.at_once = False
         self._kept = channel.mode

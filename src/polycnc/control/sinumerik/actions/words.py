@@ -85,8 +85,9 @@ def feed(run: Running, index: Any, _modifier: str, value: float) -> None:
 
 
 def _commandable(run: Running, index: Any) -> int:
+    """Column of an axis that may be commanded; 20141 for one that the path moves, or that another channel has."""
     column = arguments.column(run.channel, index)
-    if run.clocked.is_on_path(column):
+    if run.clocked.is_on_path(column) or action_axes.is_elsewhere(run.channel, column):
         raise AlarmError("20141", axis=run.channel.axes[column])
     return column
 

@@ -122,6 +122,7 @@ def release(channel: SinumerikChannel, args: Arguments) -> None:
     for axis in _named(channel, _some(args, "RELEASE")):
         if owners[axis] == channel.number:
             owners[axis] = NOBODY
+            action_axes.forget(channel, axis)
 
 
 def get(channel: SinumerikChannel, args: Arguments) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from polycnc.control.sinumerik.actions.couplings import waits_for_place
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.positions import shown
 from polycnc.control.sinumerik.couplings import generated, masters
@@ -46,6 +47,7 @@ def _acts(channel: SinumerikChannel, indices: Indices) -> int:
         kinds.add(Kind.LEAD)
     elif clocked is not None:
         kinds |= {Kind.LEAD if isinstance(law, ByCurve) else Kind.TRAIL for law in clocked.led_by(column)}
+        kinds |= {Kind.LEAD} if waits_for_place(channel, column) else set()
     return sum(max(kind, 0) for kind in kinds) + coupling_state(channel, column)
 
 

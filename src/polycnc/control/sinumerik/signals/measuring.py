@@ -387,13 +387,6 @@ def _of_probe(
     return read
 
 
-def _is_active(channel: SinumerikChannel, indices: Indices) -> bool:
-    if len(indices) != 1 or not isinstance(indices[0], Axis):
-        raise AlarmError("12400", text="$AA_MEAACT")
-    prober = Measuring.of(channel).prober
-    return prober is not None and channel.memory.column(indices[0].name) in prober.continuous
-
-
 MEASURE_VARIABLES: dict[str, RowWithStop] = {
     **{f"$AA_MM{slot or ''}": (Type.REAL, _measured(slot, work=False), None, True) for slot in range(5)},
     **{f"$AA_MW{slot or ''}": (Type.REAL, _measured(slot, work=True), None, True) for slot in range(5)},
@@ -404,5 +397,4 @@ MEASURE_VARIABLES: dict[str, RowWithStop] = {
         None,
         True,
     ),
-    "$AA_MEAACT": (Type.BOOL, _is_active, None, True),
 }

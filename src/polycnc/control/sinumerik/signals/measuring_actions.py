@@ -25,6 +25,8 @@ from polycnc.control.sinumerik.signals.measuring import (
     Measuring,
 )
 from polycnc.deferred.records import dataclass
+from polycnc.language.sinumerik.names.values import Axis, Type
+from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
@@ -33,6 +35,7 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.actions.run import Running
     from polycnc.control.sinumerik.family import SinumerikChannel
+    from polycnc.control.sinumerik.variables.row import Indices, RowWithStop
     from polycnc.machine.setup.values import ProbeEdge
 
 #: Words of actions that measure.
@@ -162,3 +165,15 @@ def start(word: str) -> Callable[[Running, Any, str, Any], None]:
         run.changed = True
 
     return measure
+
+
+def _is_active(channel: SinumerikChannel, indices: Indices) -> bool:
+    """`$AA_MEAACT[axis]`: somebody measures with an axis, a block of the program or an action."""
+    if len(indices) != 1 or not isinstance(indices[0], Axis):
+        raise AlarmError("12400", text="$AA_MEAACT")
+    column, prober = channel.memory.column(indices[0].name), Measuring.of(channel).prober
+    in_program = prober is not None and column in prober.continuous
+    return in_program or column in ActionProbes.of(channel).jobs
+
+
+ACTIVITY_VARIABLES: dict[str, RowWithStop] = {"$AA_MEAACT": (Type.BOOL, _is_active, None, True)}

@@ -38,12 +38,16 @@ TANGENTIAL = 1
 
 
 class Definition(NamedTuple):
-    """What TANG says of a following axis: columns of its leading axes, factor, optimisation; and TLIFT."""
+    """What TANG says of a following axis: columns of its leading axes, factor, optimisation; and TLIFT.
+
+    TANGON has used it where `is_used` is set: TLIFT comes too late then.
+    """
 
     leading: tuple[int, int]
     factor: float
     optimised: bool
     lifts: bool = False
+    is_used: bool = False
 
 
 @dataclass(slots=True)
@@ -88,12 +92,13 @@ def define(channel: SinumerikChannel, args: Arguments) -> None:
 
 
 def lift(channel: SinumerikChannel, args: Arguments) -> None:
-    """TLIFT(axis): behind its TANG; at corners the axis turns in a block of its own."""
+    """TLIFT(axis): behind its TANG, also while the coupling is on; at corners the axis turns in a block of its own."""
     column = _following(channel, "TLIFT", args)
-    if is_coupled(channel, column):
-        raise AlarmError("14020", text="TLIFT", hint="hint.tangential-lift")
     definitions = Tangential.of(channel).definitions
+    if definitions[column].is_used:
+        raise AlarmError("14020", text="TLIFT", hint="hint.tangential-lift")
     definitions[column] = definitions[column]._replace(lifts=True)
+    _couple_anew(channel, column)
 
 
 def couple(channel: SinumerikChannel, args: Arguments) -> None:
@@ -102,9 +107,11 @@ def couple(channel: SinumerikChannel, args: Arguments) -> None:
     angle, distance, tolerance = (
         0.0 if value is None else arguments.real(value) for value in (*args[1:], *(None,) * (4 - len(args)))
     )
-    definition = Tangential.of(channel).definitions[column]
+    definitions = Tangential.of(channel).definitions
+    definition = definitions[column]
     if distance < 0.0 or tolerance < 0.0:
         raise AlarmError("14020", text="TANGON")
+    definitions[column] = definition._replace(is_used=True)
     channel.flush()
     Tangential.of(channel).added[column] = 0.0
     axis, memory = channel.axis_data[column], channel.memory

@@ -38,6 +38,7 @@ from polycnc.control.sinumerik.motion.indexing import INDEX_VARIABLES
 from polycnc.control.sinumerik.motion.repositioning import REPOS_VARIABLES
 from polycnc.control.sinumerik.replaced import REPLACED_VARIABLES
 from polycnc.control.sinumerik.signals.measuring import MEASURE_VARIABLES
+from polycnc.control.sinumerik.signals.measuring_actions import ACTIVITY_VARIABLES
 from polycnc.control.sinumerik.signals.sections import SECTION_VARIABLES
 from polycnc.control.sinumerik.signals.workpiece import WORKPIECE_VARIABLES
 from polycnc.control.sinumerik.tables import MINUTE
@@ -87,6 +88,7 @@ class SystemVariable:
         stop: It belongs to the main run: reading it waits for that.
         goes_along: Writing it does not wait: the value goes along with the path.
         size: Number of its elements, or the machine datum that says it; empty where neither does.
+        first: Index of its first element.
         timed: Only a program that is executed in time can read or write it.
         of_actions: Synchronised actions alone can write it.
         unit: For indices the mm, or mm/min, that one unit of the program is; None where no value is a length.
@@ -102,6 +104,7 @@ class SystemVariable:
     timed: bool = False
     of_actions: bool = False
     unit: Unit | None = None
+    first: int = 0
 
     def element_count(self, channel: SinumerikChannel) -> int | None:
         """How many elements an array with one index has; None where that is not told."""
@@ -413,7 +416,7 @@ def _store(
         else:
             channel.event(written)
 
-    variable = SystemVariable(name, type_, read, write, stop, size_datum, goes_along=True)
+    variable = SystemVariable(name, type_, read, write, stop, size_datum, goes_along=True, first=first)
     return variable
 
 
@@ -460,7 +463,8 @@ VARIABLES: dict[str, SystemVariable] = {
     **{name: SystemVariable(name, *row) for name, row in INDEX_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in REPOS_VARIABLES.items()},
     **{
-        name: SystemVariable(name, *row) for name, row in {**MEASURE_VARIABLES, **WORKPIECE_VARIABLES}.items()
+        name: SystemVariable(name, *row)
+        for name, row in {**MEASURE_VARIABLES, **ACTIVITY_VARIABLES, **WORKPIECE_VARIABLES}.items()
     },
     **{name: SystemVariable(name, *row) for name, row in DEFINITION_VARIABLES.items()},
     **{name: SystemVariable(name, *row) for name, row in {**SURROUNDINGS, **BLOCK_VARIABLES}.items()},

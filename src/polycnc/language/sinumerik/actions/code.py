@@ -37,6 +37,15 @@ class Acting(Protocol):
     def store_all(self, variable: SystemVariable, indices: tuple[Any, ...], values: tuple[Any, ...]) -> None:
         """Fill an array from an element on."""
 
+    def repeat(self, variable: SystemVariable, indices: tuple[Any, ...], values: tuple[Any]) -> None:
+        """Fill an array with one value, from an element to its end."""
+
+    def store_items(self, items: list[Any], start: int, values: tuple[Any, ...]) -> None:
+        """Fill an array of the user from an element on."""
+
+    def repeat_items(self, items: list[Any], start: int, values: tuple[Any]) -> None:
+        """Fill an array of the user with one value, from an element to its end."""
+
     def use_unit(self, code: str) -> None:
         """`G70` … hold for what follows in this action; empty for those of the program."""
 

@@ -320,14 +320,12 @@ class LiveReader(ExpressionReader):
         self.expect(")")
         if word.text == "REP" and len(codes) > 1:
             raise self.error(word)
+        repeats = word.text == "REP"
         if isinstance(place, SystemPlace):
-            self._do("store_all", place.code, place.indices, sequence(codes))
+            self._do("repeat" if repeats else "store_all", place.code, place.indices, sequence(codes))
             return
         items, start = place.elements(self, word)
-        if word.text == "REP":
-            self.emitter.run(quoted("repeat_element({0}, {1}, {2}, None)", items, start, codes[0]))
-        else:
-            self.emitter.run(quoted("set_elements({0}, {1}, {2})", items, start, sequence(codes)))
+        self._do("repeat_items" if repeats else "store_items", items, start, sequence(codes))
 
     # ---- code ----------------------------------------------------------------------------------------------
 

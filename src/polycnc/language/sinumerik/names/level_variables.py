@@ -26,6 +26,7 @@ class LevelVariable(NamedTuple):
     timed: bool = False
     of_actions: bool = False
     unit: None = None
+    first: int = 0
 
     def element_count(self, _channel: Channel) -> None:
         """It is no array that could be filled."""

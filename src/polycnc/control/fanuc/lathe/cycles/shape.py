@@ -232,7 +232,7 @@ class Section(WordAddressProgram):
         self.begin, self.end = begin, end
         self.steps = []
 
-    def step(self, index: int) -> BlockStep | None:
+    def step(self, index: int, *, alone: bool = False) -> BlockStep | None:  # noqa: ARG002 - each is alone
         """The step of a block; None behind the last one of the shape, an alarm where a jump has left it."""
         if index == self.end + 1:
             return None
