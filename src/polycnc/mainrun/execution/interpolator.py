@@ -164,6 +164,11 @@ class ChannelInterpolator:
         self._set_overrides()
         self.wake()
 
+    def finish_axes(self) -> None:
+        """The end of a program test: what axes are about to do beside the path is done."""
+        for axis in self._commanded.values():
+            axis.finish()
+
     def stop_axes(self) -> None:
         """An alarm stops motions: those of actions too."""
         for axis in self._commanded.values():

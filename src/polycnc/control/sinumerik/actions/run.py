@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import field
-from math import isfinite
 from typing import TYPE_CHECKING
 
 from polycnc.channel.interpolator import Influence
@@ -127,16 +126,15 @@ class Running:
 
     def _run_on(self, column: int, direction: int) -> None:
         """MOV: an axis goes on to the end of its travel, if it has one; 0 brakes it."""
-        axis, speed = self.clocked.commanded(column), action_axes.speed_of(self.channel, column)
         self.endless.pop(column, None)
+        end = None
         if direction:
             self.endless[column] = self.action
             end = action_axes.end_of_travel(self.channel, column, direction)
-            if isfinite(end) and direction * (end - self.clocked.machine(column)) > NO_WAY:
-                axis.move_to(end, speed)
-                return
-            direction = 0 if isfinite(end) else direction
-        axis.run_on(direction, speed)
+            if direction * (end - self.clocked.machine(column)) <= NO_WAY:
+                direction = 0
+        speed = action_axes.speed_of(self.channel, column)
+        self.clocked.commanded(column).run_on(direction, speed, end)
 
     def axis_moves(self, column: int) -> bool:
         """Whether a commanded axis is under way."""
