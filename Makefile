@@ -26,6 +26,7 @@ help:
 $(VENV)/.installed-%: pyproject.toml $(KERNELS)
 	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.$(if $(filter-out plain,$*),[$*])'
+	$(BIN)/python -m compileall -q src/polycnc  # an editable installation leaves that to the first run
 	touch $@
 
 panel: $(VENV)/.installed-panel

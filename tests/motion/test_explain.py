@@ -84,3 +84,24 @@ def test_the_velocity_of_a_following_axis_is_that_of_an_axis() -> None:
     parts = account_of(Build(context=led).feed(2000.0, 0.0, 0.0, feed=10.0 * top), Settings())[2].parts
     assert parts[Cause.AXES].seconds == pytest.approx(2000.0 / (top / 5.0), rel=0.1)
     assert parts[Cause.CORNERS].seconds == 0.0
+
+
+def test_an_arc_that_a_parameter_slows_says_so() -> None:
+    lead = Settings(acceleration=AccelerationMode.JERK_LIMITED, arc_pulls={"X": 20.0, "Y": 80.0})
+    rows = Build().arc(0.0, 0.0, 0.0, center=(20.0, 0.0), feed=100.0)
+    _, _, account = account_of(rows, lead)
+    assert account.parts[Cause.ARC_PULL].way == pytest.approx(125.66, abs=3.0)
+    assert account.parts[Cause.ARC_PULL].seconds == pytest.approx(125.66 / 20.0, rel=0.03)
+    assert seconds(rows, Cause.ARC_PULL, Settings(acceleration=AccelerationMode.JERK_LIMITED)) == 0.0
+
+
+def test_corners_that_a_parameter_slows_say_so() -> None:
+    mode = AccelerationMode.JERK_LIMITED
+    rows = Build(context=Context(corner_mode=CornerMode.ROUNDED, tolerance_mm=1.0))
+    for k in range(1, 40):
+        rows.feed(1.0 * k, 0.02 * (k % 2), 0.0, feed=20.0)
+    found = account_of(rows, Settings(acceleration=mode, corner_steps={"Y": 0.7}))[2].parts
+    # Each corner turns Y by 0.04 of the speed.
+    assert found[Cause.CORNER_STEP].seconds == pytest.approx(39.0 * 0.04 / 0.7, rel=0.01)
+    assert found[Cause.CORNERS].seconds == 0.0
+    assert seconds(rows, Cause.CORNER_STEP, Settings(acceleration=mode)) == 0.0

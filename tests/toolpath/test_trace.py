@@ -45,6 +45,13 @@ def test_an_inch_program_shows_inches_but_the_machine_display_stays_metric() -> 
     assert record["feed"] == pytest.approx(1)
 
 
+def test_contexts_that_come_and_go_are_not_taken_for_one_another() -> None:
+    display = Draft().display()
+    for _ in range(50):  # a new one may stand where the last one stood in memory
+        for inch in (True, False):
+            assert display.scale(Context(inch=inch)).unit == ("mm", "inch")[inch]
+
+
 def test_diameter_axes_show_twice_the_radius_in_positions_and_centres() -> None:
     layout = AxisLayout(geometry=(0, -1, 1))
     draft = Draft(("X", "Z")).under(

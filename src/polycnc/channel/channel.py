@@ -380,7 +380,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
             if step is None:
                 level.current = index
                 self.mark = len(kinds)
-                step = level.code.step(index)
+                step = level.code.step(index, alone=self.single_block)
                 if step is None:
                     self.control.end_of_program(self)
                     break

@@ -32,8 +32,11 @@ class Executable(Protocol):
     def steps(self) -> Sequence[Step | None] | FewSteps:
         """Steps that are compiled and kept, by number; None, or nothing at all, where `step` must be asked."""
 
-    def step(self, index: int) -> Step | None:
-        """The step of a block, compiled on demand; None behind the last block."""
+    def step(self, index: int, *, alone: bool = False) -> Step | None:
+        """The step of a block, compiled on demand; None behind the last block.
+
+        It may hold the blocks behind it too, which `alone` forbids: single block runs them one by one.
+        """
 
     def line(self, index: int) -> int:
         """The line of the program's file, from 1, at which the block of a step begins."""

@@ -1,8 +1,8 @@
 """The command line: one module for each command in `commands/`, imported when it is called.
 
 `app` finds the command; `options` are those that they share, `usage` is the language of help and refusals.
-`diagnostics` says what a run found, `formats` and `sarif` how that is written, `report` what `run` tells; `console` and
-`output` write, `progress` tells those who wait how far a command is.
+`diagnostics` says what a run found, `formats` and `sarif` how that is written, `report` what `run` tells, `told`
+what of a setup has no effect; `console` and `output` write, `progress` tells those who wait how far a command is.
 """
 
 from __future__ import annotations

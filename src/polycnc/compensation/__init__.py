@@ -7,9 +7,3 @@ chamfers and roundings; `plane` is what both share. `tips` has the imaginary tip
 lines of a contour at once. `spatial` is radius compensation across a tool that tilts, `spatial_arcs` what it knows of
 arcs, `limiting_surface` of floors beside walls.
 """
-
-from polycnc.compensation.cutter import CutterCompensation
-from polycnc.compensation.plane import Plane
-from polycnc.compensation.policy import Approach, Policy, Violation
-
-__all__ = ["Approach", "CutterCompensation", "Plane", "Policy", "Violation"]

@@ -120,6 +120,8 @@ class CornerStage(Stage):
         self._violations = violations
         self._modal: _Request | None = None
         self._wanted: _Request | None = None
+        #: Feed of a rounding of this block by RNDM; NaN where the block names none.
+        self._own_feed = nan
         self._held: _Held | None = None
         #: Where the tool stands at a shape, while what came between the two moves is passed on.
         self._beside_shape: Point | None = None
@@ -128,6 +130,11 @@ class CornerStage(Stage):
     def active(self) -> bool:
         """Whether moves are held back or changed."""
         return self._modal is not None or self._wanted is not None or self._held is not None
+
+    @property
+    def rounds(self) -> bool:
+        """Whether this block has asked for a rounding behind its move, which comes yet."""
+        return self._wanted is not None and self._wanted.shape is Shape.ROUNDING
 
     def settle(self) -> bool:
         """Radius compensation begins, ends or changes: a corner that waits for its second move cannot span that.
@@ -160,6 +167,10 @@ class CornerStage(Stage):
         if self._modal is not None:
             self._modal = replace(self._modal, feed=feed)
 
+    def feed_once(self, feed: float) -> None:
+        """Another feed of a rounding by RNDM behind this block alone; call it before the move (FRC)."""
+        self._own_feed = feed
+
     def move(self, move: Move) -> None:
         """Take the next move; see `Stage`."""
         if not self.plane.moves(move):
@@ -176,7 +187,7 @@ class CornerStage(Stage):
                 move = self.plane.moved(near, (-seam[0], -seam[1]))
             else:
                 move = self._join(held, move)
-        request = wanted or (None if move.kind is Kind.RAPID else self._modal)
+        request = wanted or (None if move.kind is Kind.RAPID else self._rounding())
         if request is None:
             self._pass(move)
         else:
@@ -196,6 +207,7 @@ class CornerStage(Stage):
     def block(self) -> None:
         """A block has been read: too many without plane motion, and there is no corner."""
         self._in_order(END_OF_BLOCK)
+        self._own_feed = nan
         if self._wanted is not None:
             self._wanted = None
             self._violate(CornerViolation.NO_NEXT_MOVE, 0)
@@ -214,8 +226,13 @@ class CornerStage(Stage):
     def discard(self) -> None:
         """Forget everything that is held back (alarm, reset)."""
         self._held = self._wanted = self._modal = None
+        self._own_feed = nan
 
     # ---- inside --------------------------------------------------------------------------------------------
+
+    def _rounding(self) -> _Request | None:
+        modal, feed, self._own_feed = self._modal, self._own_feed, nan
+        return modal if modal is None or isnan(feed) else replace(modal, feed=feed)
 
     def _in_order(self, item: Item) -> None:
         if self._held is not None:

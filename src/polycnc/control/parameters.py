@@ -101,6 +101,27 @@ def known_parameters(control: Control) -> tuple[KnownParameter, ...]:
     return load_parameters(*control.parameter_files)
 
 
+def unheeded(control: Control, given: Parameters) -> dict[ParameterKey, bool]:
+    """What a setup gives and the control does not act on: true for what is known, and kept for programs to read.
+
+    A whole number is known by one of its bits.
+    """
+    if not given:
+        return {}
+    known = known_parameters(control)
+    keys = {(id_, each.key.bit): each for each in known for id_ in each.ids}
+    numbers, whole = {number for number, _ in keys}, {number for number, bit in keys if bit is None}
+    found = {}
+    for key in given:
+        of_list = keys.get((key.id, key.bit)) or keys.get((key.id, None))
+        is_known = key.id in numbers and (key.bit is None or of_list is not None or key.id in whole)
+        if not is_known:
+            found[key] = False
+        elif of_list is not None and of_list.read == NOT_YET:
+            found[key] = True
+    return found
+
+
 @cache
 def load_parameters(*names: str) -> tuple[KnownParameter, ...]:
     """The list in files of the package `control`, in the order of the numbers; of two entries the later counts."""

@@ -6,16 +6,35 @@ from enum import StrEnum
 from typing import TYPE_CHECKING, TypeVar
 
 from polycnc.messages import UserError, text
-from polycnc.messages.catalogue import listed
+from polycnc.messages.catalogue import language, listed
 
 if TYPE_CHECKING:
-    from polycnc.messages import Catalogue
+    from polycnc.messages import Alarm, Catalogue
 
 _Name = TypeVar("_Name", bound=StrEnum)
 
 
 class CommandRefused(UserError):  # noqa: N818 - a refusal is an answer, not an error of the control
     """A command is not possible now, or what it names does not exist. Nothing has happened."""
+
+
+class SearchStopped(CommandRefused):
+    """A block search comes to an alarm in front of its block.
+
+    Args:
+        target: The block as it was named.
+        alarm: The alarm, with its texts.
+    """
+
+    def __init__(self, target: object, alarm: Alarm) -> None:
+        super().__init__("mainrun.search-alarm", target=target, line=alarm.line, code=alarm.code)
+        self._alarm = alarm
+
+    def text(self, lang: str | None = None) -> str:
+        """The refusal with the alarm's own text."""
+        return text(
+            self.message, lang, **self.args_by_name, text=self._alarm.text_in(lang or language())
+        ).rstrip()
 
 
 class MachineRefused(CommandRefused):

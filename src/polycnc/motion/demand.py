@@ -7,7 +7,6 @@ along are bounded many at once by a kernel (`kernels/demands.py`), whose parts h
 from __future__ import annotations
 
 from array import array
-from itertools import groupby
 from math import ceil, cos, inf, pi, radians
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -17,14 +16,14 @@ from polycnc.motion.kernels.demands import BEND, LOOK_DEG, LOOKS, NOTHING, TURN,
 from polycnc.transformation.orientation.linkage import room_for
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Sequence
 
     from polycnc.motion.kernels.columns import Limits
     from polycnc.toolpath.table import Chunk
 
 __all__ = [
     "BEND", "FULL", "LOOKS", "NOTHING", "PATH_STEP", "TURN", "TWIST", "UNEVEN", "Demand", "RowShares", "Shares",
-    "asked_of", "between", "bound_tip", "looks_along", "runs_of", "share_ends",
+    "asked_of", "between", "bound_tip", "looks_along", "share_ends",
 ]  # fmt: skip
 
 #: Derivatives along the path are differences over so many mm or degrees at most.
@@ -86,15 +85,6 @@ def between(demand: Demand, angle: float) -> Demand:
     nearer = cos(0.5 * angle)
     bend, pull, jerk, turn = (value / nearer for value in demand[1:5])
     return Demand(demand.top * nearer, bend, pull, jerk, turn, demand.along)
-
-
-def runs_of(chunk: Chunk) -> Iterator[tuple[int, int, int]]:
-    """Rows of one context after each other: its number, the first of them, and the row behind the last one."""
-    first = 0
-    for number, group in groupby(chunk.context):
-        last = first + len(list(group))
-        yield number, first, last
-        first = last
 
 
 def bound_tip(

@@ -9,12 +9,13 @@ from __future__ import annotations
 
 from array import array
 from enum import StrEnum
-from math import inf, sqrt
+from math import hypot, inf, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.motion.kernels.columns import PLACES, UNEVEN_FORMS, Form, PieceRecord, piece_width
 from polycnc.motion.time_constants import Use
 from polycnc.toolpath import Kind
+from polycnc.toolpath.kinds import HELIX_KINDS, RAPID_KINDS
 from polycnc.toolpath.modes import FeedMode
 from polycnc.toolpath.table import CURVE_WIDTH
 
@@ -31,6 +32,9 @@ SAME = 1e-6
 REAL = 1.0 + 1e-3
 #: Part by which the squared speed on a piece of a curve may change that counts as steady.
 EVEN = 0.05
+#: Part by which a squared speed may be off that of a joint.
+EVEN_JOINT = 1e-5
+ARC_KINDS = frozenset((Kind.CW, Kind.CCW, Kind.HELIX_CW, Kind.HELIX_CCW))
 
 
 class Cause(StrEnum):
@@ -42,6 +46,10 @@ class Cause(StrEnum):
     ACCELERATION = "acceleration"
     JERK = "jerk"
     TIME_CONSTANT = "time-constant"
+    CORNER_STEP = "corner-step"
+    """A parameter for the change of an axis's speed at corners."""
+    ARC_PULL = "arc-pull"
+    """A parameter for the acceleration on arcs."""
 
 
 class Part(NamedTuple):
@@ -49,6 +57,64 @@ class Part(NamedTuple):
 
     seconds: float
     way: float
+
+
+class _Joint:
+    """Where two pieces of cuts that are planned ahead meet, and what is held at its speed around it.
+
+    Args:
+        steps: Highest step of the velocity of every column, by parameters.
+    """
+
+    def __init__(self, steps: Sequence[float]) -> None:
+        self._steps = steps
+        self._end: list[float] | None = None
+        self._top2 = inf
+        self._noted, self._noted2 = Part(0.0, 0.0), 0.0
+        self._is_new = False
+
+    def rest(self) -> None:
+        """The axes come to rest."""
+        self._end, self._top2, self._noted = None, inf, Part(0.0, 0.0)
+
+    def pass_(self, first: list[float], last: list[float], *, is_ahead: bool, rests: bool) -> None:
+        """A piece with these directions at its ends comes next."""
+        if rests or not is_ahead:
+            self.rest()
+        self._is_new = False
+        if self._end is not None:
+            turns = (abs(b - a) for a, b in zip(self._end, first, strict=True))
+            tops = [step / turn for step, turn in zip(self._steps, turns, strict=True) if turn > SAME]
+            if tops:
+                self._top2, self._is_new = min(tops) ** 2, True
+        self._end = last if is_ahead else None
+
+    def bounds(self, peak2: float) -> bool:
+        """Whether a squared speed is what the parameters allow at the last joint."""
+        return abs(peak2 - self._top2) <= EVEN_JOINT * peak2
+
+    def before(self) -> Part:
+        """What was noted before the joint, where its speed is that of the joint."""
+        found = self._noted if self._is_new and self.bounds(self._noted2) else Part(0.0, 0.0)
+        if self._is_new:
+            self._noted = Part(0.0, 0.0)
+        return found
+
+    def note(self, part: Part, peak2: float) -> None:
+        """A piece that is slow for a corner, perhaps for the one behind it."""
+        same = self._noted2 == peak2
+        self._noted = Part(self._noted.seconds + part.seconds, self._noted.way + part.way) if same else part
+        self._noted2 = peak2
+
+
+def _normal(chunk: Chunk, row: int, context: Context) -> tuple[float, ...]:
+    """The axis of a row's arc, machine coordinates; empty of other rows."""
+    if chunk.kind[row] not in ARC_KINDS or chunk.curve[row] < 0:
+        return ()
+    at = chunk.curve[row] * CURVE_WIDTH + 3
+    axis = chunk.curves[at : at + 3]
+    size = hypot(*axis) or 1.0
+    return tuple(sum(m * a for m, a in zip(line, axis, strict=True)) / size for line in context.frame.m)
 
 
 class TimeAccount:
@@ -67,6 +133,10 @@ class TimeAccount:
         self._n = len(toolpath.axes)
         self._asked: dict[int, tuple[float, bool]] = {}
         self._after: set[int] = set()
+        self._behind: dict[int, float] = {}
+        self._ahead: dict[int, tuple[float, ...]] = {}
+        self._limits = planner.cut_limits
+        self._joint = _Joint(self._limits.step)
         self._contexts: dict[int, Context] = {}
         self._seconds = dict.fromkeys(Cause, 0.0)
         self._ways = dict.fromkeys(Cause, 0.0)
@@ -92,15 +162,18 @@ class TimeAccount:
                 self._asked[chunk.first + row] = self._asked_speed(chunk, row, context), kind == Kind.RAPID
                 if self._planner.use_of(kind, context) is Use.AFTER:
                     self._after.add(chunk.first + row)
+                if kind not in RAPID_KINDS and self._planner.is_ahead(context):
+                    self._ahead[chunk.first + row] = _normal(chunk, row, context)
+                    self._behind[chunk.first + row] = self._planner.behind_s(context)
                 if kind == Kind.RAPID or context.transformation is not None:
                     self._contexts[chunk.first + row] = context
 
     def _asked_speed(self, chunk: Chunk, row: int, context: Context) -> float:
-        """Path speed that the program asks for, mm/s; 0 where that changes along the row."""
+        """Path speed that the program asks for, mm/s; 0 where that changes along the row, or F counts a part of it."""
         kind, feed, pace = chunk.kind[row], chunk.feed[row], context.pace
         if kind == Kind.RAPID:
             return context.rapid_speed or inf
-        if context.surface_speed or (pace is not None and pace.weights):
+        if context.surface_speed or (pace is not None and pace.weights) or kind in HELIX_KINDS:
             return 0.0
         turns = self._planner.rpm(context, 0.0) / 60.0
         if kind in (Kind.THREAD, Kind.TAP) and chunk.curve[row] >= 0:
@@ -115,7 +188,7 @@ class TimeAccount:
         for at in range(0, count * width, width):
             self._piece(records, at)
         done = int(records[(count - 1) * width + PieceRecord.ROW])
-        for rows in (self._asked, self._contexts):
+        for rows in (self._asked, self._contexts, self._ahead, self._behind):
             for row in [row for row in rows if row < done]:
                 del rows[row]
         self._after = {row for row in self._after if row >= done}
@@ -128,9 +201,12 @@ class TimeAccount:
             records[at + PieceRecord.EARLY], records[at + PieceRecord.PAUSE]
         )
         row = int(records[at + PieceRecord.ROW])
-        self._count(Cause.TIME_CONSTANT if row in self._after else Cause.JERK, pause, 0.0)
+        behind = pause if row in self._after else min(pause, self._behind.get(row, 0.0))
+        self._count(Cause.TIME_CONSTANT, behind, 0.0)
+        self._count(Cause.JERK, pause - behind, 0.0)
         seconds, length = records[at + PieceRecord.TIME], records[at + PieceRecord.LENGTH]
         if records[at + PieceRecord.FORM] == Form.TIMED:
+            self._joint.rest()
             level = min(self._level_of_rapid(records, at), seconds)
             share = level / seconds if seconds > 0.0 else 0.0
             self._count(Cause.AXES, level, share * length)
@@ -148,7 +224,15 @@ class TimeAccount:
             down = min(0.5 * (peak2 - end2) / rate, length - up)
         level = length - up - down
         even = seconds if level == length else level / sqrt(peak2) if peak2 > 0.0 else 0.0
-        self._count(self._bound(records, at, peak2), min(even, seconds), level)
+        cause, even = self._bound(records, at, peak2), min(even, seconds)
+        self._joint.pass_(*self._directions(records, at), is_ahead=row in self._ahead, rests=start2 == 0.0)
+        before = self._joint.before()
+        for known, sign in ((Cause.CORNERS, -1.0), (Cause.CORNER_STEP, 1.0)):
+            self._count(known, sign * before.seconds, sign * before.way)
+        if cause is Cause.CORNERS and self._joint.bounds(peak2):
+            cause = Cause.CORNER_STEP
+        self._joint.note(Part(even, level) if cause is Cause.CORNERS else Part(0.0, 0.0), peak2)
+        self._count(cause, even, level)
         self._count(Cause.ACCELERATION, max(seconds - even, 0.0), up + down)
 
     def _count(self, cause: Cause, seconds: float, way: float) -> None:
@@ -163,7 +247,35 @@ class TimeAccount:
             return Cause.FEED
         shares = self._shares(records, at)
         at_top = any(speed * share >= top for share, top in zip(shares, self._tops[rapid], strict=True))
-        return Cause.AXES if at_top else Cause.CORNERS
+        if at_top:
+            return Cause.AXES
+        return Cause.ARC_PULL if speed >= self._top_of_arc(records, at) else Cause.CORNERS
+
+    def _top_of_arc(self, records: array[float], at: int) -> float:
+        """Speed that parameters allow on a piece of an arc that is planned ahead; infinite on others."""
+        normal, n = self._ahead.get(int(records[at + PieceRecord.ROW]), ()), self._n
+        columns = [(j, i) for j, i in enumerate(self._limits.geometry) if i >= 0]
+        here = at + PieceRecord.VECTORS + 2 * n
+        bend = hypot(*(records[here + i] for _, i in columns)) / records[at + PieceRecord.MARGIN]
+        if not normal or bend == 0.0:
+            return inf
+        shares = ((i, sqrt(max(1.0 - normal[j] ** 2, 0.0))) for j, i in columns)
+        pulls = (self._limits.arc[i] / share for i, share in shares if share > SAME)
+        path = self._limits.path
+        return max(sqrt(min(path.arc_pull, *pulls) / bend), path.arc_least)
+
+    def _directions(self, records: array[float], at: int) -> tuple[list[float], list[float]]:
+        """Derivatives of the columns by the path at the start and at the end of a piece."""
+        n, here, length = self._n, at + PieceRecord.VECTORS, records[at + PieceRecord.LENGTH]
+        if records[at + PieceRecord.FORM] == Form.STRAIGHT:
+            place = here + PLACES * n
+            way = [(records[place + n + i] - records[place + i]) / (length or 1.0) for i in range(n)]
+            return way, way
+        margin = records[at + PieceRecord.MARGIN]
+        first, last = (
+            [number / margin for number in records[here + k * n : here + (k + 1) * n]] for k in (0, 1)
+        )
+        return first, last
 
     def _shares(self, records: array[float], at: int) -> list[float]:
         """The greatest way of every axis by the way of the path, on a piece."""

@@ -11,7 +11,16 @@ from polycnc.motion.kernels.alone import alone_pull, alone_top, best_ramp
 from polycnc.motion.kernels.columns import Limits, PathLimits
 from polycnc.motion.kernels.jerk import DEVIATION_CORNER, JERK_CORNER
 from polycnc.motion.settings import Settings
-from polycnc.motion.time_constants import ANY_MM, NO_LAG_S, Use, averages_after, dynamics, is_after
+from polycnc.motion.time_constants import (
+    ANY_MM,
+    NO_LAG_S,
+    Use,
+    averages_after,
+    behind_s,
+    dynamics,
+    is_after,
+    is_ahead,
+)
 from polycnc.toolpath.modes import AccelerationMode, CornerMode, FeedMode
 
 if TYPE_CHECKING:
@@ -81,14 +90,19 @@ def axis_limits(
         top_feed=feed,
         acceleration=array("d", acceleration),
         jump=array("d", [a * step for a in acceleration]),
+        step=array("d", [settings.corner_steps.get(name, settings.corner_speed) for name in names]),
+        arc=array("d", [settings.arc_pulls.get(name, inf) for name in names]),
         rotary=array("d", [axis is not None and axis.rotary for axis in axes]),
         jerk=array("d", [jerk for _, jerk in able]),
         geometry=array("q", geometry),
         path=PathLimits(
             settings.rapid_stops,
             min(settings.path_feed, 1e9),
-            min(settings.corner_speed, 1e9),
+            settings.arc_pull,
+            settings.arc_least,
             machine.block_time_s,
+            settings.feed_along_arc,
+            settings.inverse_time_by_radius,
         ),
         linkage=linkage,
     )
@@ -141,7 +155,9 @@ def context_fields(
         highest,
         spindle.acceleration_rpm_s / 60.0 if spindle else inf,
         context.corner_mode is CornerMode.EXACT_STOP,
-        ANY_MM if after else (_kept_tolerance if averages[0] > 0.0 else _tolerance)(context, settings),
+        ANY_MM
+        if after or behind_s(context, settings) > 0.0 == context.tolerance_mm
+        else (_kept_tolerance if averages[0] > 0.0 else _tolerance)(context, settings),
         rotary_weight(context, settings),
         station,
         not context.frame.is_identity,
@@ -162,6 +178,8 @@ def context_fields(
         context.turn_tolerance_deg,
         context.turn_distance_mm,
         is_led(context, settings),
+        is_ahead(context, settings),
+        behind_s(context, settings),
         *(a, b, c, d, e, f, g, h, i),
         *context.frame.t,
         *(context.offsets or [0.0] * axes),
@@ -174,7 +192,8 @@ def averages(context: Context, machine: Machine, settings: Settings) -> tuple[fl
     RAMP_S is the time in which the slowest axis builds up its acceleration: a balance between short ways, which it
     delays, and long ones, which need acceleration. Lines from rest to rest choose theirs (`kernels/alone.py`).
     BLEND_S lets a corner use up its parts of the tolerance and of the jerk alike (`kernels/jerk.py`). Where rotary axes
-    have a tolerance of their own it is no longer than they may, so that none of them leaves its way by more.
+    have a tolerance of their own it is no longer than they may, so that none of them leaves its way by more. A time
+    constant behind the interpolation is not for the plan to choose.
     """
     able = [(axis.rotary, *dynamics(axis, axis.name, settings, Use.CUT)) for axis in machine.axes]
     axes = [own for own in able if own[1] > 0.0 and own[2] > 0.0]
@@ -186,7 +205,7 @@ def averages(context: Context, machine: Machine, settings: Settings) -> tuple[fl
     blends = [_blend(tolerance, jerk)]
     if context.turn_tolerance_deg > 0.0:
         blends += [_blend(context.turn_tolerance_deg, jerk) for rotary, _, jerk in axes if rotary]
-    return ramp, min(*blends, ramp)
+    return ramp, max(min(*blends, ramp), behind_s(context, settings))
 
 
 def _blend(tolerance: float, jerk: float) -> float:

@@ -20,7 +20,7 @@ from polycnc.motion.limits import ContextTables, averages, axis_rapids
 from polycnc.motion.settings import DEFAULT, Settings
 from polycnc.motion.standing.beside import Awaits, Beside
 from polycnc.motion.standing.waits import Waits
-from polycnc.motion.time_constants import Use, use_of, uses_of
+from polycnc.motion.time_constants import Use, behind_s, is_ahead, use_of, uses_of
 from polycnc.motion.times import Plan, Times, ToolTimes
 from polycnc.motion.transformed import RealAxes
 from polycnc.toolpath import Kind
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
     from polycnc.machine import Machine
+    from polycnc.motion.kernels.columns import Limits
     from polycnc.motion.limits import AxisRapid
     from polycnc.motion.pole import PathLeg, Turn
     from polycnc.motion.standing.beside import Begins
@@ -128,6 +129,19 @@ class Planner:
     def top_speeds(self) -> tuple[Sequence[float], Sequence[float]]:
         """Highest velocity of every column in cuts, and in rapids."""
         return self._limits.top_feed, self._limits.top_rapid
+
+    @property
+    def cut_limits(self) -> Limits:
+        """What bounds cuts without a transformation."""
+        return self._real.limits(None)
+
+    def is_ahead(self, context: Context) -> bool:
+        """Whether parameters for corners and arcs of cuts that are planned ahead hold."""
+        return is_ahead(context, self._settings)
+
+    def behind_s(self, context: Context) -> float:
+        """The time constant behind the interpolation of cuts that are planned ahead, seconds."""
+        return 2.0 * behind_s(context, self._settings)
 
     def rapids(self, ways: Sequence[float], context: Context) -> list[AxisRapid]:
         """How each axis runs a rapid by itself: none does under a transformation."""

@@ -20,7 +20,6 @@ from polycnc.motion.frames import machine_of
 from polycnc.motion.kernels.alone import best_ramp
 from polycnc.motion.kernels.columns import PLACES, Form, PieceRecord, Rows, piece_width
 from polycnc.toolpath.row_path import arc_path, line_path
-from polycnc.transformation.couplings.kinks import has_kinks, kinks
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -108,6 +107,8 @@ def is_at(pole: Pole, point: Sequence[float]) -> bool:
 
 def runs_in_legs(transformation: Transformation) -> bool:
     """Whether rows under a transformation may have to be run in legs."""
+    from polycnc.transformation.couplings.kinks import has_kinks  # for paths under a transformation
+
     return transformation.pole is not None or has_kinks(transformation)
 
 
@@ -176,6 +177,8 @@ def kink_legs(
 
     None where it has no kink, and where a leg would be a full circle or more. `steps` is that of `slope_steps`.
     """
+    from polycnc.transformation.couplings.kinks import kinks
+
     geometry = transformation.geometry
     arc = arc_path(start, end, curve, geometry, ccw=ccw) if len(curve) else None
     path = arc.at if arc is not None else line_path(start, end)

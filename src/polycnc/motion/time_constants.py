@@ -120,6 +120,24 @@ def is_after(context: Context, seconds: float) -> bool:
     )
 
 
+def is_ahead(context: Context, settings: MotionSettings) -> bool:
+    """Whether cuts under a context are planned ahead, so that parameters for corners and arcs of such cuts hold."""
+    return context.acceleration is not None or not settings.after_interpolation
+
+
+def behind_s(context: Context, settings: MotionSettings) -> float:
+    """Seconds over which cuts that are planned ahead are averaged behind that, twice (FANUC 1769); 0 for none.
+
+    Together both take the time constant, as that of other cuts: the longest one of all axes. Not under a
+    transformation, nor where the context has a time constant of its own.
+    """
+    if not settings.behind_times or not settings.after_interpolation or context.acceleration is None:
+        return 0.0
+    if context.transformation is not None or context.lag_s != 0.0:
+        return 0.0
+    return 0.5 * max(settings.behind_times.values())
+
+
 class Uses(NamedTuple):
     """Which uses differ on a channel.
 

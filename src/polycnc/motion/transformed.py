@@ -39,7 +39,6 @@ from polycnc.motion.demand import (
     between,
     bound_tip,
     looks_along,
-    runs_of,
     share_ends,
 )  # fmt: skip
 from polycnc.motion.frames import carried, machine_of, path_of, real_of, real_rows, work_of
@@ -182,7 +181,8 @@ class RealAxes:
     def bounds(self, chunk: Chunk, contexts: Sequence[Context]) -> Bounds:
         """Look at the rows of a chunk."""
         n, bounds = len(self._axes), Bounds(Shares(array("d"), array("d"), array("d")), array("d"), {}, {})
-        used = [contexts[number] for number in set(chunk.context)]
+        runs = chunk.context_runs()
+        used = [contexts[number] for number in {number for number, _, _ in runs}]
         paced = any(context.pace is not None for context in used)
         if self._context.transformation is None and not paced and not any(c.transformation for c in used):
             for row in _last_move(chunk):
@@ -194,7 +194,7 @@ class RealAxes:
             for column, free in zip(bounds.shares, FREE_SHARE, strict=True):
                 column.extend(array("d", (free,)) * (SHARES * len(chunk)))
             bounds.feed.extend(array("d", (1.0,)) * len(chunk))
-        for number, first, last in runs_of(chunk):
+        for number, first, last in runs:
             moves = [row for row in range(first, last) if chunk.kind[row] < Kind.DWELL]
             if moves:
                 self._run(chunk, moves, contexts[number], bounds)

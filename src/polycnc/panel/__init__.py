@@ -2,7 +2,7 @@
 
 `editing` has what an editor says of a program's text, `checking` goes through
 long ones in another process, `course` has what a picture shows: the path of the
-program and of the tool. `screens/` has the screens, `teaching/` faults and
+program and of the tool, `keyed` reads numbers as keys have them. `screens/` has the screens, `teaching/` faults and
 exercises, `web/` the page.
 """
 

@@ -27,6 +27,7 @@ class Kind(IntEnum):
 TYPE_NAMES = tuple(kind.name.lower() for kind in Kind)
 ARC_KINDS = frozenset((Kind.CW, Kind.CCW, Kind.HELIX_CW, Kind.HELIX_CCW))
 CCW_KINDS = frozenset((Kind.CCW, Kind.HELIX_CCW))
+HELIX_KINDS = frozenset((Kind.HELIX_CW, Kind.HELIX_CCW))
 RAPID_KINDS = frozenset((Kind.RAPID, Kind.REF))
 
 

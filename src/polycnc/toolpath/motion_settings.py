@@ -76,12 +76,23 @@ class MotionSettings:
         rotary_in_feed: The feed of a move of linear and rotary axes counts a degree as a millimetre (an inch
             in inch mode), as the word-address controls do; else it counts the linear axes alone (SINUMERIK
             without FGROUP).
+        feed_along_arc: The feed of an arc is the speed along it, whatever other axes do beside (FANUC 1403#5 HTG = 0);
+            else it counts their way too.
+        inverse_time_by_radius: Inverse time of an arc counts its radius (FANUC, MELDAS: F times the radius is the
+            speed), not its length.
         keeps_corners: Continuous path keeps to the corner, which costs speed; else it rounds it.
         tolerance_mm: Contour tolerance of corners that are rounded, where the program names none.
         overload: At a corner without deviation an axis may change its velocity within one interpolation cycle
             by this many times its acceleration (SINUMERIK MD32310 MAX_ACCEL_OVL_FACTOR).
         corner_speed: Highest step of an axis's velocity at a corner of two cuts, mm/s: the speed at which a right angle
-            between two axes is passed (SYNTEC Pr406).
+            between two axes is passed (SYNTEC Pr406). `corner_steps` is the same for single axes by their name in
+            programs (FANUC 1783).
+        arc_pull: Highest acceleration across the path on arcs, mm/s² (SYNTEC Pr408); `arc_pulls` that of single axes by
+            their name in programs (FANUC 1735).
+        arc_least: Speed below which these do not slow an arc, mm/s (FANUC 1732). All of them hold in cuts that are
+            planned ahead.
+        behind_times: Time constants behind the interpolation of cuts that are planned ahead, seconds, by the axes'
+            names in programs (FANUC 1769).
         path_feed: Highest speed of a cut along the path, mm/s (SYNTEC Pr405).
         rapid_caps: Highest rapid traverse of axes by their name in programs, mm/s or degrees/s, where it is below that
             of the machine (SYNTEC Pr461 on).
@@ -107,10 +118,16 @@ class MotionSettings:
     rapid_by_axis: bool = False
     rapid_stops: bool = True
     rotary_in_feed: bool = True
+    feed_along_arc: bool = False
+    inverse_time_by_radius: bool = False
     keeps_corners: bool = True
     tolerance_mm: float = 0.01
     overload: float = 1.2
     corner_speed: float = inf
+    corner_steps: Mapping[str, float] = field(default_factory=dict)
+    arc_pull: float = inf
+    arc_pulls: Mapping[str, float] = field(default_factory=dict)
+    arc_least: float = 0.0
     path_feed: float = inf
     rapid_caps: Mapping[str, float] = field(default_factory=dict)
     feed_caps: Mapping[str, float] = field(default_factory=dict)
@@ -118,6 +135,7 @@ class MotionSettings:
     cut_ramps: Mapping[str, Ramp] = field(default_factory=dict)
     after_interpolation: bool = False
     after_times: Mapping[str, float] = field(default_factory=dict)
+    behind_times: Mapping[str, float] = field(default_factory=dict)
     spindle_wait: SpindleWaitFor | Literal[""] = ""
     acceleration: AccelerationMode = AccelerationMode.CONSTANT
     drive_speed: float = 1.0

@@ -32,6 +32,8 @@ NO_CURVE = -1
 #: A skip move that a signal ends: way that is left to its programmed end, mm.
 CURVE_WIDTH = 8
 CHUNK_ROWS = 65_536
+#: So many rows are looked at one by one rather than halved.
+FEW_ROWS = 32
 NO_FEED = nan
 _KINDS = tuple(Kind)
 
@@ -66,6 +68,18 @@ class Columns(NamedTuple):
     end: NDArray[np.float64]
     curve: NDArray[np.int32]
     curves: NDArray[np.float64]
+
+
+def _add_run(runs: list[tuple[int, int, int]], number: int, first: int, end: int) -> None:
+    """Add rows of one number behind those so far."""
+    if runs and runs[-1][0] == number:
+        first = runs.pop()[1]
+    runs.append((number, first, end))
+
+
+def _is_even(numbers: bytes, first: int, end: int, size: int) -> bool:
+    """Whether all numbers of so many bytes from one on to before another are alike."""
+    return numbers[first * size : (end - 1) * size] == numbers[(first + 1) * size : end * size]
 
 
 class Chunk:
@@ -113,6 +127,23 @@ class Chunk:
 
     def __len__(self) -> int:
         return len(self.kind)
+
+    def context_runs(self) -> list[tuple[int, int, int]]:
+        """Rows of one context after each other: its number, the first of them, and the row behind the last one."""
+        numbers = self.context.tobytes()
+        runs: list[tuple[int, int, int]] = []
+        parts = [(0, len(self))] if self.kind else []
+        while parts:
+            first, end = parts.pop()
+            if _is_even(numbers, first, end, self.context.itemsize):
+                _add_run(runs, self.context[first], first, end)
+            elif end - first > FEW_ROWS:
+                middle = (first + end) // 2
+                parts += (middle, end), (first, middle)
+            else:
+                for row in range(first, end):
+                    _add_run(runs, self.context[row], row, row + 1)
+        return runs
 
     def extend(self, first: int, end: int, context: int, columns: Sequence[memoryview]) -> None:
         """Add rows under one context.

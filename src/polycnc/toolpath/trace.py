@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 #: From so many rows on, whole columns (and the start of NumPy) are faster than row by row.
 COLUMN_ROWS = 10_000
 _FULL_TURN = 360.0
+#: Contexts whose factors a display keeps; the main run comes to new ones without end.
+MOST_SCALES = 1000
 #: Unit of lengths, metric or in inches.
 _UNITS = ("mm", "inch")
 #: Seconds in the time unit of each feed mode: per minute, per revolution (no time in it), inverse minutes.
@@ -138,7 +140,8 @@ class Display:
         self.layout = layout
         self._alarm_text = alarm_text
         self.modulo_axes = frozenset(self.axes[i] for i in layout.modulo)
-        self._scales: dict[int, Scale] = {}
+        #: By the identity of a context, which is kept as long as the entry: another one must not come in its place.
+        self._scales: dict[int, tuple[Context, Scale]] = {}
 
     def records(self) -> Iterator[Record]:
         """The records of all motions and events that the toolpath still holds, in order."""
@@ -272,7 +275,7 @@ class Display:
 
     def scale(self, context: Context) -> Scale:
         """The factors that hold under a context."""
-        scale = self._scales.get(id(context))
+        _, scale = self._scales.get(id(context), (None, None))
         if scale is None:
             length = 1.0 / INCH_MM if context.inch else 1.0
             diameter = _diameters(context.diameter_axes, len(self.axes))
@@ -286,7 +289,10 @@ class Display:
                 context.share if context.feed_mode is FeedMode.INVERSE_TIME else length
             )
             unit = _UNITS[context.inch]
-            scale = self._scales[id(context)] = Scale(tuple(work), tuple(diameter), length, feed, unit)
+            scale = Scale(tuple(work), tuple(diameter), length, feed, unit)
+            if len(self._scales) >= MOST_SCALES:
+                self._scales.clear()
+            self._scales[id(context)] = context, scale
         return scale
 
     def _geometry(self, context: Context) -> tuple[int, int, int]:

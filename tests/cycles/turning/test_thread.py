@@ -76,8 +76,8 @@ def test_taper_moves_the_start_of_every_pass() -> None:
     assert strokes[-1].end == (5.0, 20.0)
 
 
-def test_flank_infeed_moves_the_start_along_with_the_depth_and_zigzag_only_every_other_one() -> None:
-    cuts = ThreadCuts(1.0, 0.5, finishing=0, constant_depth=True)
+def test_flank_infeed_moves_the_start_along_with_the_depth_and_zigzag_along_both_flanks() -> None:
+    cuts = ThreadCuts(1.0, 0.4, finishing=1, constant_depth=True)
     passes = thread_passes((5.0, 20.0), (-20.0, 10.0), 0.0, cuts, half_angle_deg=45.0, zigzag=True)
     starts = [begin[0] for begin, _ in passes]
-    assert starts == pytest.approx([4.5, 5.0])
+    assert starts == pytest.approx([4.6, 3.8, 4.0, 4.0])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.language.sinumerik.executable import MOST_JOINS
+from polycnc.language.expressions.joined import MOST_JOINS
 from polycnc.language.sinumerik.joining import Joiner
 from polycnc.session import open_session
 

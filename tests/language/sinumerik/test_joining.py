@@ -3,6 +3,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 from unittest.mock import patch
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -104,3 +105,12 @@ def test_an_endless_loop_of_calculations_reaches_the_block_limit() -> None:
 def test_a_branch_that_comes_to_life_late_is_joined_too() -> None:
     program = "DEF INT II\nFOR II=1 TO 100\nIF II>50\nR1=R1+1\nELSE\nR2=R2+1\nENDIF\nENDFOR\nR3=II"
     assert [value(program, name) for name in ("R1", "R2", "R3")] == [50, 50, 101]
+
+
+@pytest.mark.parametrize(("single_block", "made"), [(False, True), ("SBL1", False)])
+def test_blocks_that_run_one_by_one_are_not_joined(*, single_block: bool | str, made: bool) -> None:
+    with patch.object(Joiner, "step", autospec=True, side_effect=Joiner.step) as step:
+        result = run(
+            "FOR R1=1 TO 5\nR2=R2+R1\nR3=R2\nENDFOR", setup={"switches": {"single_block": single_block}}
+        )
+    assert (result.variables["R3"], step.called) == (15, made)

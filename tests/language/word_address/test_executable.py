@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from typing import Any
+from unittest.mock import patch
 
 import pytest
 
 from polycnc.control.registry import control
+from polycnc.language.expressions.joined import MOST_JOINS
 from polycnc.language.word_address import WordAddressProgram
+from polycnc.language.word_address.joining import join
 from polycnc.messages import AlarmError
 from polycnc.program import ProgramStore
 from tests.support import codes, ends, run
@@ -97,3 +100,24 @@ def test_an_alarm_names_the_column_of_what_it_means() -> None:
 def test_a_program_called_by_a_name_that_is_not_there() -> None:
     channel = run("M98 <SIDE-2>\nM30\n")
     assert codes(channel) == ["PS0076"]
+
+
+def joins(text: str, **how: bool) -> int:
+    """How many functions are made where every step of a program is asked for again and again."""
+    steps = program(text)
+    with patch("polycnc.language.word_address.executable.join", wraps=join) as joined:
+        for _ in range(20):
+            for index in range(len(steps.lines)):
+                if steps.steps[index] is None:
+                    steps.step(index, **how)
+    made: list[int] = [len(call.args[1]) for call in joined.call_args_list]
+    return sum(made)
+
+
+def test_what_runs_block_by_block_is_joined_with_nothing() -> None:
+    assert joins("G1 X1.\n" * 40, alone=True) == 0
+
+
+def test_a_block_that_is_entered_at_every_step_is_joined_some_times_only() -> None:
+    blocks = 40
+    assert 0 < joins("G1 X1.\n" * blocks) <= blocks * (1 + MOST_JOINS)

@@ -399,6 +399,30 @@ def test_block_search_calculates_what_lies_before(target: int | str) -> None:
     assert [r.data["code"] for r in records if r.data.get("type") == "m"] == [3, 8, 9, 30]
 
 
+#: Programs whose block N30 only calculates or jumps.
+STATEMENTS = {
+    "fanuc-m": "O1\nN10 G1 X10. F6000\nN20 Y20.\nN30 #1=30.\nN40 X#1\nM30\n",
+    "meldas-m": "O1\nN10 G1 X10. F6000\nN20 Y20.\n#1=30.\nN30 IF[#1GT3]GOTO40\nX1.\nN40 X#1\nM30\n",
+    "syntec-mill": "%@MACRO\nN10 G1 X10. F6000;\nN20 Y20.;\nN30 #1 := 30.;\nN40 X#1;\nM30;\n",
+    "sinumerik-840d": "N10 G1 X10 F6000\nN20 Y20\nR1=30\nN30 IF R1>3 GOTOF N40\nX1\nN40 X=R1\nM30\n",
+}
+
+
+@pytest.mark.parametrize("control", STATEMENTS)
+@pytest.mark.parametrize("how", ["contour", "end-point", "program-test"])
+def test_a_block_that_only_calculates_is_found(control: str, how: str) -> None:
+    virtual = VirtualControl(control)
+    virtual.load(STATEMENTS[control])
+    virtual.block_search("N30", how=how)
+    virtual.run()
+    assert (virtual.state, virtual.machine_position) == (State.STOPPED, [0.0, 0.0, 0.0])
+    records = recorded(virtual)
+    run_through(virtual)
+    assert virtual.machine_position == [30.0, 20.0, 0.0]
+    in_front = range(1, STATEMENTS[control].partition("N30")[0].count("\n") + 1)
+    assert not any(r.data["line"] in in_front for r in records if r.what == "block")
+
+
 def test_block_search_for_a_block_that_never_comes_is_refused() -> None:
     virtual = power_on(SEARCHED)
     with pytest.raises(CommandRefused):
@@ -406,6 +430,16 @@ def test_block_search_for_a_block_that_never_comes_is_refused() -> None:
     assert virtual.state is State.READY
     run_through(virtual)
     assert virtual.machine_position[:2] == [40.0, 20.0]
+
+
+def test_block_search_that_comes_to_an_alarm_tells_it() -> None:
+    virtual = power_on("O1\nG1 X10. F600\nX[1/0]\nN40 X5.\nM30\n")
+    with pytest.raises(CommandRefused) as refused:
+        virtual.block_search("N40")
+    for lang, where in (("en", "line 3"), ("zh-TW", "第 3 行")):
+        assert where in refused.value.text(lang)
+        assert "PS0112" in refused.value.text(lang)
+    assert virtual.state is State.READY
 
 
 def test_snapshots_do_not_change() -> None:

@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
+from polycnc.machine.setup.file import parse_setup
 from polycnc.mainrun import State
-from tests.mainrun.motion.random_programs import Threads, writer
+from tests.mainrun.motion import test_one_motion
+from tests.mainrun.motion.random_programs import Threads, Writer, writer
 from tests.mainrun.motion.test_disturbed import disturb, joints_of, play
 from tests.mainrun.motion.test_one_motion import PLACES, executed, planned
 from tests.mainrun.support import power_on
@@ -94,3 +96,41 @@ def test_whatever_an_operator_does_a_cut_takes_its_time_constant_to_change_its_s
         # Turned round, a speed changes by twice itself; the feed override is 200 % at most.
         most = 2.0 * 2.0 * feed / (0.5 * T)
         assert np.abs(np.diff(velocity, axis=0)).max() / step <= most * 1.01, seed
+
+
+AHEAD = {
+    "fanuc-m": {"1660": 2000, "1772": 40, "1769": 30, "1783": 300, "1735": 400, "1732": 300},
+    "syntec-mill": {"406": 300, "408": 1200},
+}
+
+
+@pytest.mark.parametrize("seed", range(9))
+def test_what_parameters_bound_ahead_is_one_motion_too(monkeypatch: pytest.MonkeyPatch, seed: int) -> None:
+    control = ("fanuc-m", "fanuc-m", "syntec-mill")[seed % 3]
+    written = Writer(Random(seed), control)
+    head, _, rest = written.program().partition("\n")
+    text = f"{head}\nG05 P10000\n{rest}" if control == "fanuc-m" else f"{head}\n{rest}"
+    setup = {**test_one_motion.TOOL, "parameters": AHEAD[control]}
+    monkeypatch.setattr(test_one_motion, "TOOL", setup)
+    total, end, samples, machine = planned(text, written)
+    assert end == pytest.approx(total, abs=1e-6)
+    rotary = [machine.axis[name].rotary for name in machine.channels[0].axes]
+    assert executed(text, written, samples.position[:PLACES], rotary) == pytest.approx(total, abs=0.001)
+
+
+def test_no_script_makes_an_axis_exceed_its_jerk_before_a_time_constant_behind() -> None:
+    cycle, pull, bell = 0.004, 2000.0, 0.04
+    text = "O1\nG05 P10000\nG90 G1 X40. F6000\nX40. Y30.\nX10. Y10.\nG05 P0\nM30\n"
+    setup = parse_setup({"parameters": {"1660": pull, "1772": 1000.0 * bell, "1769": 30}})
+    for seed in range(4):
+        virtual, random = power_on(text, setup=setup), Random(seed)
+        places = [virtual.machine_position]
+        virtual.cycle_start()
+        for _ in range(1500):
+            if random.random() < 0.05:
+                disturb(virtual, random)
+            virtual.step()
+            places.append(virtual.machine_position)
+            if virtual.state is State.READY:
+                break
+        assert np.abs(np.diff(np.array(places), 3, axis=0)).max() / cycle**3 <= pull / bell * 1.001, seed

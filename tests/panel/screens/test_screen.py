@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from polycnc.control.registry import ids
-from polycnc.mainrun import CommandRefused, State, VirtualControl
+from polycnc.mainrun import CommandRefused, Mode, State, VirtualControl
 from polycnc.panel.screens.screen import Screen
 
 TOOLS = {"tools": {1: {"length": 50.0, "radius": 5.0, "wear": {"length": 0.5}}, 3: {"length": 10.0}}}
@@ -171,6 +171,9 @@ def test_a_program_of_the_memory_is_selected_and_deleted() -> None:
     assert screen.message == ""
     assert screen.view("en").program == "O0200"
     keyed(screen, "O0100", "DELETE")
+    assert screen.message == "this is done in mode EDIT"
+    screen.control.select_mode(Mode.EDIT)
+    screen.press("DELETE")
     assert [each.name for each in screen.control.programs] == ["O0200"]
     keyed(screen, "O0300", "O SRH")
     assert "O0300" in screen.message

@@ -7,7 +7,7 @@ from time import process_time
 import pytest
 
 from polycnc.messages.catalogue import LANGUAGES
-from polycnc.panel.screens.words import Edited, Place, moved, spans
+from polycnc.panel.screens.words import Edited, Place, moved, spans, word_with
 from tests.panel.bench import Bench
 
 
@@ -67,6 +67,25 @@ def test_the_cursor_goes_from_block_to_block() -> None:
     assert moved(lines, Place(0, 1), -9) == Place(0, 0)
     assert moved(lines, Place(0, 0), 99) == Place(2, 1)
     assert moved((), Place(3, 4), 1) == Place(0, 0)
+
+
+@pytest.mark.parametrize(
+    ("place", "wanted", "step", "found"),
+    [
+        ((0, 0), "X4.", 1, (2, 0)),  # X40. is another word
+        ((1, 0), "Z5.", 1, (1, 3)),  # in the same block
+        ((1, 3), "N10", -1, (1, 0)),
+        ((1, 2), "X", 1, (1, 4)),  # an address
+        ((2, 0), "X4", -1, (1, 4)),  # no word of that text: the nearest with it
+        ((0, 0), "X4. M", 1, (2, 0)),
+        ((2, 0), "Z5.", 1, None),
+    ],
+)
+def test_a_word_is_looked_for(
+    place: tuple[int, int], wanted: str, step: int, found: tuple[int, int] | None
+) -> None:
+    lines = ["O1", "N10 G0 F9. Z5. X40.", "X4. M30"]
+    assert word_with(lines, Place(*place), wanted, step) == (None if found is None else Place(*found))
 
 
 def test_a_long_program_is_edited_on_the_screen() -> None:

@@ -131,6 +131,38 @@ def test_the_panel_is_served_and_answers(address: str, tmp_path: Path) -> None:
     assert (tmp_path / "shop.db").exists()
 
 
+def test_an_address_is_tried_before_its_link_is_printed() -> None:
+    from polycnc.messages import UserError
+    from polycnc.panel.web.server import check_address
+
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = taken.getsockname()[1]
+        with pytest.raises(UserError, match="is in use"):
+            check_address("127.0.0.1", port)
+    with pytest.raises(UserError, match="no address"):
+        check_address("300.1.1.1", port)
+    check_address("127.0.0.1", port)
+
+
+def test_further_interrupts_do_not_break_the_closing() -> None:
+    from polycnc.panel.web.server import patience
+
+    def interrupted(*, is_up: bool) -> int:
+        """How many interrupts out of two have been passed."""
+        passed = 0
+        try:
+            with patience(is_up=lambda: is_up):
+                for _ in range(2):
+                    signal.raise_signal(signal.SIGINT)
+                    passed += 1
+        except KeyboardInterrupt:
+            return passed
+        raise AssertionError
+
+    assert interrupted(is_up=True) == 2
+    assert interrupted(is_up=False) == 0
+
+
 def test_an_exercise_is_served_and_its_sheet_and_record_are_written(tmp_path: Path) -> None:
     exercises = Path(__file__).parents[3] / "examples" / "exercises.yaml"
     words = ["--exercise", f"{exercises}#low-air", "--sheet", "sheet.md", "--record", "session.jsonl"]

@@ -153,12 +153,11 @@ def _write(
 ) -> None:
     from polycnc.cli import formats
     from polycnc.cli.output import write_whole
-    from polycnc.cli.sarif import as_sarif
 
     content = {
         Format.TEXT: lambda: formats.as_text([d for d in found if not d.unreadable]),
         Format.JSON: lambda: formats.as_json(found),
-        Format.SARIF: lambda: as_sarif(found, status),
+        Format.SARIF: lambda: _sarif(found, status),
         Format.GITHUB: lambda: formats.as_github(found),
         Format.JUNIT: lambda: formats.as_junit(found, names),
     }[form]()
@@ -170,3 +169,9 @@ def _write(
         write_whole(output, content)
     else:
         show(content)
+
+
+def _sarif(found: list[diagnostics.Diagnostic], status: int) -> str:
+    from polycnc.cli.sarif import as_sarif
+
+    return as_sarif(found, status)

@@ -29,6 +29,13 @@ _Record = Annotated[Path | None, typer.Option("--record", metavar="FILE", help=t
 _Replay = Annotated[Path | None, typer.Option("--replay", metavar="FILE", help=text("help.panel.replay"))]
 
 
+def _speed(value: float) -> float:
+    """Refuse what is no number; it is in every range."""
+    if value != value:
+        raise typer.BadParameter("nan is not in the range 0.01<=x<=1000.0.")
+    return value
+
+
 @app.command(help=text("help.panel"))
 def panel(
     file: Annotated[Path | None, typer.Argument(metavar="[FILE]", help=text("help.panel.file"))] = None,
@@ -49,7 +56,8 @@ def panel(
     ] = "127.0.0.1",
     port: Annotated[int, typer.Option("--port", min=1, max=65535, help=text("help.panel.port"))] = PORT,
     speed: Annotated[
-        float, typer.Option("--speed", min=0.01, max=1000.0, help=text("help.panel.speed"))
+        float,
+        typer.Option("--speed", min=0.01, max=1000.0, help=text("help.panel.speed"), callback=_speed),
     ] = 1.0,
     no_open: Annotated[bool, typer.Option("--no-open", help=text("help.panel.no-open"))] = False,
     _lang: options.Lang = None,
@@ -58,7 +66,7 @@ def panel(
     from polycnc.control.registry import ids
     from polycnc.messages.catalogue import listed
     from polycnc.panel.web.desk import Desk
-    from polycnc.panel.web.server import build, needs_token, serve
+    from polycnc.panel.web.server import build, check_address, needs_token, serve
     from polycnc.session import SessionError
 
     task = _exercise(exercise) if exercise else None
@@ -71,6 +79,7 @@ def panel(
         return fail(text("panel.one-control"), 2)
     if card is not None and not card.is_dir():
         return fail(text("file.unreadable", file=card, reason=text("file.no-folder")), 2)
+    check_address(host, port)
     desks: dict[str, Desk] = {}
     for each in chosen:
         made = _control(each, machine, setup, search or (), memory, task)
@@ -80,7 +89,8 @@ def panel(
     _teach(next(iter(desks.values())), task, replay)
     token = token_urlsafe(16) if needs_token(host) else ""
     build(desks, language(), token)
-    say(f"http://{host}:{port}/" + (f"?token={token}" if token else ""))
+    named = f"[{host}]" if ":" in host else host
+    say(f"http://{named}:{port}/" + (f"?token={token}" if token else ""))
     try:
         serve(host=host, port=port, opens=not no_open)
     finally:

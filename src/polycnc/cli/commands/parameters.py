@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from polycnc.cli import options
-from polycnc.cli.console import fail, note, say
+from polycnc.cli.console import fail, say
 from polycnc.messages import text
 from polycnc.messages.catalogue import listed
 
@@ -31,6 +31,9 @@ def list_parameters(
     control: options.Control = None, setup: options.Setup = None, _lang: options.Lang = None
 ) -> int:
     """One parameter a line: number, value, meaning; what the setup names beside these is told on standard error."""
+    from polycnc.cli.told import tell_unheeded
+    from polycnc.control import registry
+
     known = _known(control)
     if isinstance(known, int):
         return known
@@ -38,8 +41,7 @@ def list_parameters(
     for parameter in known:
         shown = " ".join(_shown(parameter, values))
         say(f"{parameter.numbers:9} {shown:12} {_meaning(parameter)}")
-    for number in _not_known(known, values):
-        note(text("parameters.unknown", control=control, number=number))
+    tell_unheeded(registry.control(str(control)), values)
     return 0
 
 
@@ -181,20 +183,6 @@ def _shown(parameter: KnownParameter, values: Parameters) -> Iterator[str]:
 def _told(value: float | str) -> str:
     """A delivered value."""
     return f"{value:g}" if not isinstance(value, str) else value or "-"
-
-
-def _not_known(known: tuple[KnownParameter, ...], values: Parameters) -> list[str]:
-    """Numbers and bits of a setup that the list does not have; a whole number is known by one of its bits."""
-    keys = {(id_, parameter.key.bit) for parameter in known for id_ in parameter.ids}
-    numbers = {number for number, _ in keys}
-    whole = {number for number, bit in keys if bit is None}
-    unknown = [
-        key
-        for key in values
-        if key.id not in numbers
-        or (key.bit is not None and key.id not in whole and (key.id, key.bit) not in keys)
-    ]
-    return [f"{key.id}" if key.bit is None else f"{key.id}#{key.bit}" for key in unknown]
 
 
 def _given(parameter: KnownParameter, values: Parameters) -> Iterator[str]:

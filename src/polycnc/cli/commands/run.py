@@ -102,16 +102,18 @@ def run(
     if state is not None:
         _write_state(state, result, usage)
     show(as_text(result, happenings, "<stdin>" if is_stdin else file, usage))
-    _say_more(account, result)
+    _say_more(account, result, session)
     return 0 if result.ok else 1
 
 
-def _say_more(account: TimeAccount | None, result: Result) -> None:
-    """Which limits held for how long, where that is asked for, and whether it could have been quicker."""
+def _say_more(account: TimeAccount | None, result: Result, session: Session) -> None:
+    """Which limits held for how long, where that is asked for; what of the setup had no effect; what made it slow."""
     from polycnc.cli.report import explained
+    from polycnc.cli.told import tell_unheeded
 
     if account is not None:
         show(explained(account.parts, result.plan.times, account.hidden_s))
+    tell_unheeded(session.channel.control, session.channel.setup.parameters)
     _say_if_slow(len(result.toolpath))
 
 

@@ -183,6 +183,7 @@ ALARMS: dict[str, str] = {
     "missing_do": "PS1124",
     "statement": "PS0125",
     "loop_number": "PS0126",
+    "jump_mode": "PS0123",
     "nc_and_macro": "PS0127",
     "no_sequence": "PS0128",
     "sequence_range": "PS1128",

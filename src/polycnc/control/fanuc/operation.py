@@ -9,6 +9,9 @@ from polycnc.toolpath.motion_settings import DryRun
 if TYPE_CHECKING:
     from polycnc.control.fanuc.parameters import FanucAxisParameters, FanucParameters
 
+#: Modes whose main program may hold no GOTO, WHILE and DO (PS0123).
+MODES_WITHOUT_JUMPS = frozenset(("mdi", "dnc", "tape", "remote"))
+
 
 def dry_run(parameters: FanucParameters[FanucAxisParameters]) -> DryRun:
     """1410: its speed, mm/min. 1401#6 RDR: rapids too; 1401#5 TDR: not in threads and taps."""

@@ -37,6 +37,17 @@ class FanucAxisParameters(MacroAxisParameters):
     #: 1660: Cuts with look-ahead: largest acceleration before interpolation; 0 for that of the machine
     #: [mm/s²].
     cutting_acceleration = Number(1660, delivered=None)
+    #: 1671: Rapids on a line with acceleration before interpolation (19501#5): largest acceleration; 0 for
+    #: that of 1620 [mm/s²].
+    rapid_acceleration = Number(1671, delivered=None)
+    #: 1735: Arcs with look-ahead: largest acceleration, which bounds the feed by the radius; 0 for none
+    #: [mm/s²].
+    arc_acceleration = Number(1735, delivered=0.0)
+    #: 1769: Cuts with look-ahead: time constant of the acceleration after interpolation; 0 for none [ms].
+    ahead_time = Number(1769, delivered=0.0)
+    #: 1783: Corners with look-ahead: largest change of an axis's feed, which bounds the feed there; 0 for
+    #: none [mm/min].
+    corner_step = Number(1783, delivered=0.0)
     #: 6241: Speed of automatic tool offset [mm/min].
     measuring_feed = Number(6241, delivered=0.0)
     #: 6251: Automatic tool offset: deceleration distance [mm].
@@ -60,10 +71,16 @@ class FanucParameters(MacroParameters[A_co]):
     TDR = Bit(1401, 5, delivered=False)
     #: 1401#6: a dry run acts on rapids (1).
     RDR = Bit(1401, 6, delivered=False)
+    #: 1403#5: F of an arc with motion beside it is the speed along the arc (0), or along the whole path (1).
+    HTG = Bit(1403, 5, delivered=False)
     #: 1410: Speed of a dry run; 0 for 1000 mm/min [mm/min].
     dry_run_speed = Number(1410, delivered=0.0)
     #: 1421: Speed of the rapid override's position F0 [mm/min].
     rapid_f0 = Number(1421, delivered=400.0)
+    #: 1672: The same rapids: time in which that acceleration builds up (bell-shaped); 0 for at once [ms].
+    rapid_change_time = Number(1672, delivered=None)
+    #: 1732: Arcs with look-ahead: feed below which 1735 slows none [mm/min].
+    arc_least_feed = Number(1732, delivered=0.0)
     #: 1772: Cuts with look-ahead: time constant T2 of the bell-shaped acceleration before interpolation [ms].
     cutting_bell_time = Number(1772, delivered=None)
     #: 3401#0: words without a point are least increments (0) or millimetres, inches, seconds (1).
@@ -73,6 +90,8 @@ class FanucParameters(MacroParameters[A_co]):
     #: 3404#6: a program without M02, M30 or M99 at its end is the alarm PS5010 (0), or it ends with a reset
     #: (1).
     EOR = Bit(3404, 6, delivered=False)
+    #: 3405#1: under feed per revolution the dwell G04 counts revolutions.
+    DWL = Bit(3405, 1, delivered=False)
     #: 3410: Allowed difference of the radii of an arc; 0: no check [mm].
     arc_tolerance = Number(3410, delivered=0.03)
     #: 3411: M codes behind which no block is read before they have run.
@@ -147,5 +166,8 @@ class FanucParameters(MacroParameters[A_co]):
     MIT = Bit(7001, 0, delivered=False)
     #: 11304#3: program numbers have four (0) or eight digits (1).
     ON8 = Bit(11304, 3, delivered=False)
+    #: 19501#5: rapids on a line are accelerated after the interpolation (0) or before it, by 1671 and 1672
+    #: (1).
+    FRP = Bit(19501, 5, delivered=False)
     #: 19625: Blocks that compensation looks ahead.
     read_blocks = Whole(19625, delivered=3)

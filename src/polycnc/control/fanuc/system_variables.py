@@ -28,18 +28,27 @@ def _signal(prefix: str) -> Read:
     return lambda m, i: float(bool(m.signals.get(f"{prefix}{i:03d}", 0)))
 
 
-def _signal_word(prefix: str) -> Read:
-    return lambda m, _i: float(sum(1 << bit for bit in range(16) if m.signals.get(f"{prefix}{bit:03d}")))
+def _signal_word(prefix: str, first: int = 0, bits: int = 16) -> Read:
+    """Signals as one number, from signal `first` on; 100 numbers on for each further variable of a range."""
+
+    def read(m: MacroMemory, i: int) -> float:
+        at = first + 100 * i
+        return float(sum(1 << bit for bit in range(bits) if m.signals.get(f"{prefix}{at + bit:03d}")))
+
+    return read
 
 
 def _set_signal(m: MacroMemory, i: int, value: float | None, _text: str) -> None:
     m.signals[f"UO{i:03d}"] = int(bool(value))
 
 
-def _set_signal_word(m: MacroMemory, _i: int, value: float | None, _text: str) -> None:
-    word = int(value or 0.0)
-    for bit in range(16):
-        m.signals[f"UO{bit:03d}"] = word >> bit & 1
+def _set_signal_word(first: int = 0, bits: int = 16) -> Write:
+    def write(m: MacroMemory, i: int, value: float | None, _text: str) -> None:
+        word, at = int(value or 0.0), first + 100 * i
+        for bit in range(bits):
+            m.signals[f"UO{at + bit:03d}"] = word >> bit & 1
+
+    return write
 
 
 # ---- messages and control ------------------------------------------------------------
@@ -134,6 +143,22 @@ def modal_rows(first: int, codes: Mapping[int, Read], words: Mapping[int, Read])
     return [SystemRange(first + n, first + n, read) for n, read in ({**codes, **common, **words}).items()]
 
 
+#: Modal words by their number from that of the groups on.
+_MODAL_WORDS = {"B": 102, "D": 107, "E": 108, "F": 109, "H": 111, "M": 113, "N": 114, "O": 115, "S": 119, "T": 120,
+                "WZP": 130}  # fmt: skip
+_MODAL_NAMES = {"_BUF": 4000, "_ACT": 4200, "_INT": 4400}
+
+
+def modal_names(*prefixes: str) -> dict[str, tuple[int, int]]:
+    """Names of modal information: `_BUFG[g]` of the blocks before, `_ACTG` of the running one, `_INTG` interrupted."""
+    names: dict[str, tuple[int, int]] = {}
+    for prefix in prefixes:
+        first = _MODAL_NAMES[prefix]
+        names[prefix + "G"] = (first + 1, first + 30)
+        names |= {prefix + word: (first + number, first + number) for word, number in _MODAL_WORDS.items()}
+    return names
+
+
 #: Positions by axis: 20 axes, and 50 further on.
 _POSITIONS = (
     (5001, 100001, "_ABSIO"),
@@ -162,10 +187,12 @@ def position_rows(*reads: Read) -> list[SystemRange]:
 
 #: What every FANUC control has.
 COMMON_VARIABLES = [
-    SystemRange(1000, 1015, _signal("UI"), name="_UI"),
+    SystemRange(1000, 1015, _signal("UI"), name="_UI", index=0),
     SystemRange(1032, 1032, _signal_word("UI"), name="_UIW"),
-    SystemRange(1100, 1115, _signal("UO"), _set_signal, name="_UO"),
-    SystemRange(1132, 1132, _signal_word("UO"), _set_signal_word, name="_UOW"),
+    SystemRange(1033, 1035, _signal_word("UI", 100, 32), name="_UIL", index=0),
+    SystemRange(1100, 1115, _signal("UO"), _set_signal, name="_UO", index=0),
+    SystemRange(1132, 1132, _signal_word("UO"), _set_signal_word(), name="_UOW"),
+    SystemRange(1133, 1135, _signal_word("UO", 100, 32), _set_signal_word(100, 32), name="_UOL", index=0),
     SystemRange(3000, 3000, None, _raise_user_alarm, name="_ALM"),
     SystemRange(3001, 3001, *_clock("clock1", 0.001), name="_CLOCK1"),
     SystemRange(3002, 3002, *_clock("clock2", 3600.0), name="_CLOCK2"),

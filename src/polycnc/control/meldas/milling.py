@@ -13,6 +13,7 @@ from polycnc.control.meldas.cycles import DRILLING
 from polycnc.control.meldas.milling_codes import G_CODES, M_CODES
 from polycnc.control.meldas.parameters import MeldasParameters
 from polycnc.control.word_address.block.whole_numbers import DecimalPoint
+from polycnc.control.word_address.coordinates import frames
 from polycnc.control.word_address.machining_centre import HARTFORD, MillingControl
 from polycnc.control.word_address.macro_b.variables import MacroMemory
 from polycnc.control.word_address.tools import length
@@ -49,6 +50,7 @@ class MeldasMilling(MillingControl):
     power_on: ClassVar[Mapping[str, str]] = POWER_ON
     alarms: ClassVar[Mapping[str, str]] = ALARMS
     drilling: ClassVar[Drilling] = DRILLING
+    SCALES_NAMED_AXES: ClassVar[bool] = True
     PLANE_HELD_BY_ROTATION: ClassVar[bool] = True
     JOINING_HINT: ClassVar[str] = "hint.single-conditions"
     #: M700 programming manual: DO1 to DO127, 27 deep; four levels of macros, eight of subprograms.
@@ -67,6 +69,11 @@ class MeldasMilling(MillingControl):
         if to_reference:
             length.end_length(channel, axes)
 
+    def reached_reference(self, channel: Channel) -> None:
+        """G27, G28 and G30 end the scaling (M700 programming manual, 13.20)."""
+        frames.end_scale(channel)
+        channel.mode = channel.mode.with_code("scaling", "G50")
+
     def compensation_policy(self, _channel: Channel) -> Policy:
         """Rules of radius compensation."""
         return FIVE_READ
@@ -81,6 +88,7 @@ class MeldasMilling(MillingControl):
         return replace(
             super().motion_settings(channel),
             rapid_by_axis=given.rapids_by_axis != 0,
+            inverse_time_by_radius=True,
             returns_to_path=False,
             rapid_ramps={
                 name: Ramp(of.rapid_time / 1000.0) for name, of in axes if of.rapid_time is not None

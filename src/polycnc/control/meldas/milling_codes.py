@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import partial
 
 from polycnc.control.fanuc.milling.codes import ALIASES, ROWS, moves
+from polycnc.control.word_address.auxiliary import functions
 from polycnc.control.word_address.auxiliary.m_codes import MACHINING_CENTRE
 from polycnc.control.word_address.block.codes import GCode, MCode, Order, m_table, table, with_aliases
 from polycnc.control.word_address.coordinates import systems
@@ -25,6 +26,7 @@ _ROWS = table(
     tuple(row for code, row in ROWS.items() if code not in FOREIGN),
     moves("G2.1", circle_cutting.spiral_cw, "I J K P"),
     moves("G3.1", circle_cutting.spiral_ccw, "I J K P"),
+    moves("G4", functions.dwell, "X P U"),
     GCode("G5", handler=path_modes.high_speed_mode, takes="P"),
     moves("G10", data_input.input_data, "L P R"),
     moves("G12", circle_cutting.cut_circle_cw, "I D"),

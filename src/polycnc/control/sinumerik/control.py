@@ -53,6 +53,7 @@ from polycnc.language.sinumerik.interface import LanguageMemory
 from polycnc.language.sinumerik.names.initialisation import RESET, initialise
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.language.sinumerik.names.variables import Variable
+from polycnc.language.sinumerik.statements.calls import call_modal
 from polycnc.language.sinumerik.statements.sections import end_of_subprogram
 from polycnc.memory.retained import USER_VARIABLES, VARIABLES, filled
 from polycnc.messages import AlarmError
@@ -286,7 +287,8 @@ class Sinumerik:
             if values[position] in PROGRAM_ENDS:
                 if len(channel.stack) == 1:
                     part_counts.count(channel, int(values[position]))
-                self.end_of_program(channel)
+                if not (calls and _modal_in_front(channel)):
+                    self.end_of_program(channel)
                 return False
         return calls and channel.memory.language.modal_call is not None
 
@@ -363,7 +365,7 @@ class Sinumerik:
 
     def save(self, channel: SinumerikChannel) -> ModalState:
         """What PROC … SAVE brings back: all modal functions, and the frames that they chose."""
-        return ModalState(channel.mode, channel.memory.frames.programmable)
+        return ModalState(channel.mode, channel.memory.frames.programmable, channel.feed)
 
     def restore(self, channel: SinumerikChannel, saved: object) -> None:
         """Bring back what `save` returned."""
@@ -541,3 +543,13 @@ def _limit(memory: Memory, spindle: Spindle | None, feed: str) -> float:
     """The spindle's highest speed; 0 for none."""
     limit = spindle_speed.highest(memory, spindle, feed) if spindle is not None else inf
     return limit if limit < NO_LIMIT_RPM else 0.0
+
+
+def _modal_in_front(channel: SinumerikChannel) -> bool:
+    """Run what MCALL has set behind the motion of a block that ends its program; the program ends behind that."""
+    level = channel.level
+    call_modal(channel)
+    if channel.level is level:
+        return False
+    level.index = len(level.code.whole)
+    return True

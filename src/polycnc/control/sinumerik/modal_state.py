@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import field
 from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik import gcodes, tables
@@ -18,10 +19,17 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class ModalState:
-    """All modal functions, and the programmable frame (job planning 1.25.1.3, SAVE)."""
+    """All modal functions, and the programmable frame (job planning 1.25.1.3, SAVE).
+
+    Attributes:
+        mode: The functions.
+        programmable: The frame.
+        feed: F that goes with them, internal units; NaN for none. Another F of the same kind stays.
+    """
 
     mode: Mode
     programmable: NcFrame
+    feed: float = field(compare=False)
 
     def restore(self, channel: SinumerikChannel) -> None:
         """Put it back, with what hangs on it: the zero offset, the feed, the lengths of the tool."""
@@ -34,8 +42,9 @@ class ModalState:
         memory.frames.programmable = self.programmable
         if mode["wcs"] != before["wcs"]:
             memory.frames.select(gcodes.number_of(mode["wcs"]) - 1)
-        if mode["feed"] != before["feed"]:
-            PathFeed.of(channel).mode = tables.feed_type(mode).mode
+        feed, path_feed = tables.feed_type(mode).mode, PathFeed.of(channel)
+        if feed is not path_feed.mode:  # F of another kind means nothing: the one in front goes on
+            channel.feed, path_feed.mode = self.feed, feed
         selection.follow(channel)
         frames.changed(channel)
         channel.context_changed()

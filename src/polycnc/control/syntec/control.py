@@ -61,6 +61,8 @@ if TYPE_CHECKING:
     from polycnc.toolpath.motion_settings import MotionSettings
 
 
+#: Radius of the arc that Pr408 is the speed of (general knowledge), mm.
+_ARC_REFERENCE_MM = 5.0
 #: Parameters of the reference points behind the first, by number of the point.
 REFERENCE_POINTS = {
     2: SyntecParameters.reference_points_2,
@@ -185,6 +187,7 @@ class SyntecMill(WordAddressControl):
             rapid_by_axis=given.rapids_by_axis == 1,
             path_feed=(given.path_feed or inf) / 60.0,
             corner_speed=(given.corner_feed or inf) / 60.0,
+            arc_pull=((given.arc_feed or inf) / 60.0) ** 2 / _ARC_REFERENCE_MM,
             rapid_caps=caps(given.rapid_speeds),
             feed_caps=caps(given.cutting_speeds),
         )

@@ -28,6 +28,9 @@ class SyntecParameters(ControlParameters["SyntecAxisParameters"]):
     corner_feed = Whole(406, delivered=0)
     #: 407: Tolerance of curve fitting under G05, micrometres; 0 for 10.
     fit_tolerance = Whole(407, delivered=0)
+    #: 408: Reference feed of an arc of 5 mm radius; others by the root of their radius; 0 for what the axes
+    #: can do [mm/min].
+    arc_feed = Whole(408, delivered=0)
     #: 411: G00 runs on a line (0), or every axis by itself (1).
     rapids_by_axis = Whole(411, delivered=0)
     #: 413: A reset takes the turn of G92.1 back (0) or keeps it (1, 2).

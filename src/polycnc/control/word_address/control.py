@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from polycnc.channel.stack import LevelKind
 from polycnc.channel.states.unchanging import unchanging
-from polycnc.compensation import Policy
 from polycnc.compensation.corner import CornerPolicy
+from polycnc.compensation.policy import Policy
 from polycnc.control.alarm_text import alarm_catalogue
 from polycnc.control.word_address.auxiliary import interlocks, machine_codes
 from polycnc.control.word_address.block.numbers import Convert, NumberRules, angle_converter, length_converter
@@ -102,6 +102,7 @@ class WordAddressControl:
         FEED_AT_START: Feed that holds before any F (mm/s), or None for the alarm of a missing feed.
         DIAMETER_PROGRAMMING: Axes marked as transverse are programmed in diameters.
         SCALE_CENTER_IS_ABSOLUTE: The centre of G51 is an absolute point under G91 too.
+        SCALES_NAMED_AXES: G51 scales those axes alone of which it names the centre, and arcs need both of their plane.
         CURVE_BEGINS_AT_TOOL: The first pole of a G06.2 curve must be where the tool stands.
         NORMAL_LINE_RULES: What G41.1 and G42.1 refuse.
         INCREMENTAL_ADDRESSES: Addresses that are increments of an axis whatever the mode (U is X …).
@@ -136,6 +137,7 @@ class WordAddressControl:
     FEED_AT_START: ClassVar[float | None] = None
     DIAMETER_PROGRAMMING: ClassVar[bool] = False
     SCALE_CENTER_IS_ABSOLUTE: ClassVar[bool] = False
+    SCALES_NAMED_AXES: ClassVar[bool] = False
     CURVE_BEGINS_AT_TOOL: ClassVar[bool] = False
     NORMAL_LINE_RULES: ClassVar[NormalLineRules] = NormalLineRules()
     INCREMENTAL_ADDRESSES: ClassVar[Mapping[str, str]] = {}
@@ -394,7 +396,11 @@ class WordAddressControl:
         return self._offset(channel, number, "H").total_length
 
     def radius_value(self, channel: Channel, number: int) -> float:
-        """Radius offset of a D number, mm."""
+        """Radius of the tool by the offset of a D number, mm."""
+        return self.offset_amount(channel, number)
+
+    def offset_amount(self, channel: Channel, number: int) -> float:
+        """The offset of a D number as it is stored, mm."""
         return self._offset(channel, number, "D").total_radius if number else 0.0
 
     def _offset(self, channel: Channel, number: int, address: str) -> ToolOffset:
@@ -458,6 +464,9 @@ class WordAddressControl:
     def reference_point(self, channel: Channel, axis: int, number: int) -> float:
         """Machine position of a reference point of an axis, from 1."""
         return channel.axis_data[axis].reference_points[number - 1]
+
+    def reached_reference(self, channel: Channel) -> None:
+        """What G27, G28 and G30 end at the reference point: nothing."""
 
     def leave_length(self, channel: Channel, axes: list[int], *, to_reference: bool) -> None:
         """What becomes of the tool length of axes that G28 and G30, or else G53, have moved: it stays in force."""

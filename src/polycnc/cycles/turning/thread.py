@@ -119,16 +119,16 @@ def thread_passes(
         cuts: The passes.
         half_angle_deg: Infeed along the flank of half the tip angle; 0 for straight infeed. A pass of depth t
             begins t·tan(half angle) further on, so that the tool cuts with one edge.
-        zigzag: Every other pass is infed along the other flank.
+        zigzag: Every other pass is infed along the other flank of the finished thread: (2·height - t)·tan(half angle)
+            further on, so that both flanks meet at full depth.
     """
     outside = copysign(1.0, start[1] - end[1])
     onwards = copysign(1.0, end[0] - start[0])
     slope = tan(radians(half_angle_deg))
     for number, depth in enumerate(depths(cuts)):
         above = outside * (cuts.height - depth)
-        shift = onwards * depth * slope
-        if zigzag and number % 2:
-            shift = 0.0
+        along_flank = 2.0 * cuts.height - depth if zigzag and number % 2 else depth
+        shift = onwards * along_flank * slope
         begin = (start[0] + shift, end[1] + taper + above)
         last = (end[0], end[1] + above)
         yield begin, last

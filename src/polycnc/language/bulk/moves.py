@@ -249,7 +249,8 @@ def circle_within_limits(state: State, rules: Ints32, rule: int, center_u: float
         return True
     u, v, w = rules[rule + Rule.PLANE], rules[rule + Rule.PLANE + 1], rules[rule + Rule.PLANE + 2]
     first, second, third = state.geometry[u], state.geometry[v], state.geometry[w]
-    radius = sqrt((state.programmed[first] - center_u) ** 2 + (state.programmed[second] - center_v) ** 2)
+    du, dv = state.programmed[first] - center_u, state.programmed[second] - center_v
+    radius = sqrt(du * du + dv * dv)
     if state.scan.has_programming:
         radius *= reach_of(state.programming, u)
     for at_end in range(2):
@@ -364,8 +365,10 @@ def arc(
     else:
         center_u = begin_u + center_word(state, rules, factors, rule, factor, Rule.FIRST_CENTER)
         center_v = begin_v + center_word(state, rules, factors, rule, factor, Rule.SECOND_CENTER)
-        start = sqrt((begin_u - center_u) ** 2 + (begin_v - center_v) ** 2)
-        stop = sqrt((end_u - center_u) ** 2 + (end_v - center_v) ** 2)
+        du, dv = begin_u - center_u, begin_v - center_v
+        start = sqrt(du * du + dv * dv)  # a product, for a power may differ by its last bit
+        du, dv = end_u - center_u, end_v - center_v
+        stop = sqrt(du * du + dv * dv)
         found = start > SHORTEST_CHORD and abs(stop - start) <= state.scan.tolerance + SLACK
     if not found or barely_rises(state, rules, rule) or not within_limits(state):
         return False

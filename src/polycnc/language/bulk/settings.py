@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from polycnc.language.bulk.scanner import Dialect, Scanner
 
 #: Rows that one call of the kernel may give.
-ROOMS = 4096
+ROOMS = 16_384
 #: Programs shorter than this are left to the interpreter.
 FEWEST_LINES = 1_000
 

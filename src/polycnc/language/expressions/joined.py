@@ -11,6 +11,9 @@ if TYPE_CHECKING:
 
 #: How many steps are joined at the most.
 MAX_JOINED = 200
+#: Into so many functions a block is joined at the most. Jumps from everywhere, and stages that stop behind each block,
+#: would otherwise join it anew for every block in front of it.
+MOST_JOINS = 8
 #: Passes of a loop between two looks at the block limit and the size of the chunk.
 BURST = 256
 

@@ -15,7 +15,7 @@ from polycnc.channel.states.unchanging import unchanging
 from polycnc.channel.steps import forget_steps, kept_steps
 from polycnc.deferred.regexes import regex
 from polycnc.language.expressions.hot_loop import HotLoop
-from polycnc.language.expressions.joined import led_by
+from polycnc.language.expressions.joined import MOST_JOINS, led_by
 from polycnc.language.sinumerik import iso_dialect
 from polycnc.language.sinumerik.blocks import CompiledBlock, compile_block, compile_text, expanded
 from polycnc.language.sinumerik.emitter import Emitter
@@ -46,8 +46,6 @@ if TYPE_CHECKING:
 _DEFINITION = regex(r"[ \t]*(?:DEF|REDEF|DEFINE|PROC|EXTERN)\b", re.IGNORECASE)
 #: Type of comments and of the screens of own cycles (cov.com, uc.com, 1.25.4): texts, not programs.
 _COMMENT_FILE = "_COM"
-#: Joined steps that a block may be part of: a program that is entered at many places is not joined from each anew.
-MOST_JOINS = 8
 #: Texts of EXECSTRING whose steps are kept.
 _MOST_TEXTS = 1024
 #: A line that begins with none of these is a block.
@@ -102,13 +100,11 @@ class SinumerikProgram:
     def __len__(self) -> int:
         return len(self._lines)
 
-    def step(self, index: int) -> Step | None:
-        """The step of a block; None behind the last one."""
-        return self._first_reach if index < len(self.steps) else None
-
-    def single_step(self, index: int) -> Step | None:
-        """The step of one block alone, never joined with others; None behind the last one."""
-        return self._singles.get(index) or self.step(index)
+    def step(self, index: int, *, alone: bool = False) -> Step | None:
+        """The step of a block, joined with those behind it from its second run on; None behind the last one."""
+        if index >= len(self.steps):
+            return None
+        return self._singles.get(index, self._first_reach_alone) if alone else self._first_reach
 
     def counts(self, _index: int) -> bool:
         """Every step is a block for stages that look ahead."""
@@ -184,18 +180,28 @@ class SinumerikProgram:
         if self._scope is not None:
             self._scope.memory.programs.generation += 1
 
+    def _first_reach_alone(self, channel: Channel) -> None:
+        self._reach(channel.level.current, channel)(channel)
+
     def _first_reach(self, channel: Channel) -> None:
         index = channel.level.current
+        again = self._reached[index]
+        step = self._reach(index, channel)
+        if again and step is not _skipped:
+            joined = self._joined(index, channel) or step
+            self.steps[index] = joined if channel.bulk is None else HotLoop(joined, step)
+        step(channel)
+
+    def _reach(self, index: int, channel: Channel) -> Step:
+        """The step of a block; kept from its second run on."""
         try:
             step = self._compiled(index, channel)
         except AlarmError as error:
             fail(error, channel)
         if self._reached[index] and step is not _skipped:
             self._singles[index] = step
-            joined = self._joined(index, channel) or step
-            self.steps[index] = joined if channel.bulk is None else HotLoop(joined, step)
         self._reached[index] = 1
-        step(channel)
+        return step
 
     def _compiled(self, index: int, channel: Channel) -> Step:
         if self.program.name.endswith(_COMMENT_FILE):

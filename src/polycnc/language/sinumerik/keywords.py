@@ -296,3 +296,28 @@ OWN_BLOCK = SINGLE_BLOCK | {
     "SETM",
     "CLEARM",
 }
+
+#: Names of the language itself: no macro redefines them (1.26). Cycles are programs that others may replace, and
+#: components of frames stand in brackets alone.
+RESERVED = frozenset().union(
+    FUNCTIONS,
+    SAME_TYPE_FUNCTIONS,
+    FRAME_FUNCTIONS,
+    CONTROL_FUNCTIONS,
+    FILE_PROCEDURES,
+    NAME_FUNCTIONS,
+    FILE_FUNCTIONS,
+    PROCEDURES,
+    SPELLINGS,
+    ADDRESSES,
+    INDEXED_WORDS,
+    LIST_ADDRESSES,
+    MODIFIERS,
+    STRUCTURE,
+    DEFINITIONS,
+    CALLS,
+    OPERATORS,
+    PARTS,
+    SYNCHRONOUS,
+    SINGLE_BLOCK,
+)

@@ -11,6 +11,7 @@ from __future__ import annotations
 from weakref import WeakValueDictionary
 
 from polycnc.deferred.records import dataclass
+from polycnc.language.sinumerik.names.values import Axis
 from polycnc.messages import AlarmError
 
 
@@ -75,6 +76,8 @@ class WordAlarm(AlarmError):  # noqa: N818 - an alarm is what it is called on th
 
 #: How often an address may stand in a block; all others once for each index (Fundamentals 2.2).
 _MOST = {"M": 5, "H": 3}
+#: Addresses that position the axis of their index: it stands once in a block, by whichever of them or its own name.
+_POSITIONING = frozenset(("POS", "POSA", "POSP"))
 
 
 def block_of(codes: tuple[str, ...], words: tuple[WordShape, ...]) -> Block:
@@ -91,7 +94,9 @@ def _check_repetitions(words: tuple[WordShape, ...]) -> None:
     seen: dict[object, int] = {}
     for position, word in enumerate(words):
         most = _MOST.get(word.address, 1)
-        key = word.address if most > 1 else (word.address, word.index)
+        key: object = word.address if most > 1 else (word.address, word.index)
+        if word.address in _POSITIONING and isinstance(word.index, Axis):
+            key = (word.index.name, None)
         seen[key] = seen.get(key, 0) + 1
         if seen[key] > most:
             raise WordAlarm("12010", position, text=word.address)

@@ -61,7 +61,7 @@ class MacroProgram:
         """Lines of statements without their semicolon."""
         return self._layout.unclosed
 
-    def step(self, index: int) -> Step | None:
+    def step(self, index: int, *, alone: bool = False) -> Step | None:  # noqa: ARG002 - each is alone
         """A step; None behind the last one."""
         return self.steps[index] if index < len(self.steps) else None
 

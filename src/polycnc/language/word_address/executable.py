@@ -13,7 +13,7 @@ from polycnc.deferred.records import dataclass
 from polycnc.deferred.regexes import regex
 from polycnc.language.expressions.code import listed
 from polycnc.language.expressions.hot_loop import HotLoop
-from polycnc.language.expressions.joined import MAX_JOINED, led_by
+from polycnc.language.expressions.joined import MAX_JOINED, MOST_JOINS, led_by
 from polycnc.language.word_address.joining import JOINABLE, join, join_loop
 from polycnc.language.word_address.macro_b import Lifting, Reader, macro_shapes
 from polycnc.language.word_address.patterns import Patterns, Spot, negative
@@ -104,8 +104,11 @@ class WordAddressProgram:
         self.program = program
         self.grammar = grammar
         self.lines = program.lines
+        #: Whether jumps and loops may stand in it: not in what MDI or DNC runs as the main program.
+        self.may_jump = True
         self.steps = kept_steps(len(self.lines))
         self._reached = bytearray(len(self.lines))
+        self._joined_into = bytearray(len(self.lines))
         self._singles: dict[int, Step] = {}
         self._sequences: dict[int, list[int]] | None = None
         self._loops: dict[tuple[int, int], int] = {}
@@ -114,15 +117,16 @@ class WordAddressProgram:
 
     # ---- what the channel asks ----------------------------------------------------------------------------------
 
-    def step(self, index: int) -> Step | None:
+    def step(self, index: int, *, alone: bool = False) -> Step | None:
         """The step of a line; kept from its second run on, so that a long program does not fill the memory.
 
-        It is joined with those behind it when it has run so often that the time for it comes back.
+        It is joined with those behind it when it has run so often that the time for it comes back, unless it has to
+        run alone.
         """
         if index >= len(self.lines):
             return None
         step = self._single(index)
-        reached, joinable = self._reached[index], isinstance(step, JOINABLE)
+        reached, joinable = self._reached[index], isinstance(step, JOINABLE) and not alone
         if reached >= JOINED_FROM or (reached and not joinable):
             step = self.steps[index] = self._joined(step, index) if joinable else step
         elif reached:
@@ -145,6 +149,9 @@ class WordAddressProgram:
                 return HotLoop(join_loop(self.grammar.shapes, stretch, i, following), first)
             if not isinstance(following, JOINABLE) or self.steps[i] is not None:
                 break
+            if self._joined_into[i] >= MOST_JOINS:
+                break
+            self._joined_into[i] += 1
             stretch.append((i, following))
         return led_by(first, join(self.grammar.shapes, stretch)) if len(stretch) > 1 else first
 

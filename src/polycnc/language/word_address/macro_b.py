@@ -216,8 +216,7 @@ class Reader(OperatorReader[int, Code]):
             self.pos = plain.end()
             return self._numbered(int(plain[1]), plain.start(1))
         if char == "[":
-            named = _NAMED.match(self.text, self.pos)
-            return self.named_variable(named) if named else self.bracket()
+            return self.named_variable() if _NAMED.match(self.text, self.pos) else self.bracket()
         start = self.pos
         if number := self.match(NUMBER):
             value = float(number)
@@ -277,12 +276,20 @@ class Reader(OperatorReader[int, Code]):
                 return item(_MEMORIES[memory], self.lift(number, Spot(begin, int, is_variable=True)))
         return None
 
-    def named_variable(self, match: re.Match[str]) -> Code:
-        """`[#NAME]` or `[#_ABSIO[n]]`: a variable by its name."""
+    def named_variable(self) -> Code:
+        """`[#NAME]` or `[#_ABSIO[n]]`: the code that reads a variable by its name."""
+        name, index = self.name_and_index(self.pos)
+        return call("m.read_named", constant(name), index)
+
+    def name_and_index(self, begin: int) -> tuple[str, Code]:
+        """The name of a variable in its brackets, which begin at a column, and its index (None without)."""
+        match = _NAMED.match(self.text, begin)
+        if match is None:
+            raise self.fail("expression")
         self.pos = match.end()
         index = number_of(self.bracket()) if self.peek() == "[" else _NONE
         self.expect("]", "close_bracket")
-        return call("m.read_named", constant(match[1]), index)
+        return match[1], index
 
     def function(self, written: str) -> Code:
         """A function call; `ATAN[a]/[b]` and `ATAN[a,b]` have two arguments."""

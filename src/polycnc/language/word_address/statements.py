@@ -26,7 +26,9 @@ if TYPE_CHECKING:
     from polycnc.language.expressions.code import Code
     from polycnc.language.word_address.macro_b import Evaluate, Reader
 
-KEYWORD = regex(r"IF|WHILE|WH(?=\s*\[)|GOTO|GO(?=\s*[\d#\[])|DO|END|POPEN|PCLOS|DPRNT|BPRNT|SETVN|#")
+KEYWORD = regex(
+    r"IF|WHILE|WH(?=\s*\[)|GOTO|GO(?=\s*[\d#\[])|DO|END|POPEN|PCLOS|DPRNT|BPRNT|SETVN|#|\[(?=#_?[A-Z])"
+)
 _INTEGER = regex(r"\d+")
 _PRINT_FORMAT = regex(r"#\s*(\[[^\]]*\]|\d+)\s*\[\s*(\d)\s*(\d)?\s*\]")
 MAX_SEQUENCE_NUMBER = 99_999_999
@@ -34,6 +36,10 @@ MAX_SEQUENCE_NUMBER = 99_999_999
 
 class StatementProgram(Protocol):
     """What statements ask of the program that they stand in."""
+
+    @property
+    def may_jump(self) -> bool:
+        """Whether jumps and loops may stand in it."""
 
     @property
     def last_loop(self) -> int:
@@ -77,6 +83,23 @@ def parse_assignment(reader: Reader, _program: StatementProgram, _index: int) ->
         index_of, written = target, reader.evaluator(value)
         return lambda channel: channel.memory.write_indirect(index_of(channel), written(channel), text)
     return _assign(target, digits_at, value, reader, text)
+
+
+def parse_named_assignment(reader: Reader, _program: StatementProgram, _index: int) -> Step:
+    """`[#NAME] = expression`, `[#_OFSHG[n]] = …`: a variable by its name; the bracket before it is read."""
+    name, index = reader.name_and_index(reader.pos - 1)
+    index_of = reader.evaluator(index)
+    if not reader.accept("="):
+        raise reader.fail("missing_equals")
+    begin = reader.pos
+    value = reader.sum()
+    text, written = reader.comment_behind(begin), reader.evaluator(value)
+
+    def assign(channel: Channel) -> None:
+        memory = channel.memory
+        memory.write(memory.number_of(name, index_of(channel)), written(channel), text)
+
+    return assign
 
 
 def _assign(number: int, digits_at: int, value: Code, reader: Reader, text: str) -> Step:
@@ -158,6 +181,7 @@ def parse_names(reader: Reader, _program: StatementProgram, _index: int) -> Step
 
 def parse_goto(reader: Reader, program: StatementProgram, index: int) -> Step:
     """`GOTO n`, with a constant, a variable or an expression."""
+    _check_mode(reader, program)
     if digits := reader.match(_INTEGER):
         number = int(digits)
         if not 1 <= number <= MAX_SEQUENCE_NUMBER:
@@ -173,6 +197,11 @@ def parse_goto(reader: Reader, program: StatementProgram, index: int) -> Step:
         channel.level.index = program.find_sequence(number, index)
 
     return computed_jump
+
+
+def _check_mode(reader: Reader, program: StatementProgram) -> None:
+    if not program.may_jump:
+        raise reader.fail("jump_mode", 0)
 
 
 class Jump:
@@ -204,7 +233,7 @@ def parse_if(reader: Reader, program: StatementProgram, index: int) -> Step:
         raise reader.fail("if_format")
     condition = Condition(reader)
     if reader.accept("THEN"):
-        keyword = reader.match(re.compile("#|GOTO|POPEN|PCLOS|DPRNT|BPRNT"))
+        keyword = reader.match(re.compile(r"#|\[(?=#_?[A-Z])|GOTO|POPEN|PCLOS|DPRNT|BPRNT"))
         if not keyword:
             raise reader.fail("if_format")
     elif reader.match(re.compile("GOTO|GO(?=[ \t]*[\\d#\\[])")):
@@ -216,6 +245,7 @@ def parse_if(reader: Reader, program: StatementProgram, index: int) -> Step:
 
 def parse_while(reader: Reader, program: StatementProgram, index: int) -> Step:
     """`WHILE [c] DO m`."""
+    _check_mode(reader, program)
     if reader.peek() != "[":
         raise reader.fail("while_format")
     condition = Condition(reader)
@@ -226,6 +256,7 @@ def parse_while(reader: Reader, program: StatementProgram, index: int) -> Step:
 
 def parse_do(reader: Reader, program: StatementProgram, index: int) -> Step:
     """`DO m`: an endless loop."""
+    _check_mode(reader, program)
     return LoopBegin(program, index, _loop_number(reader, program), None)
 
 
@@ -373,6 +404,7 @@ def parse_binary_print(reader: Reader, _program: StatementProgram, _index: int) 
 
 _PARSERS: dict[str, Callable[[Reader, StatementProgram, int], Step]] = {
     "#": parse_assignment,
+    "[": parse_named_assignment,
     "IF": parse_if,
     "WHILE": parse_while,
     "WH": parse_while,

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.control.alarm_text import catalogue_of
 from polycnc.mainrun.commands.search import ProgramTest, SearchMode, Wanted, at_line, search
 from polycnc.mainrun.commands.states import Command, Mode, State
-from polycnc.mainrun.errors import CommandRefused
+from polycnc.mainrun.errors import CommandRefused, SearchStopped
 from polycnc.mainrun.execution.operation import AT_END
 from polycnc.mainrun.signals.machine_states import axis_names
 
@@ -104,11 +105,15 @@ class ProgramCommands:
             self._status.become(State.STOPPED, halt="search")
             return
         run.preprocessing.start(program, here)
-        run.channel.is_searched = True
+        run.channel.is_searched, run.preprocessing.sought = True, wanted.levels[-1]
         found = search(run.preprocessing, wanted, behind=how is SearchMode.END_POINT)
-        run.channel.is_searched = False
+        run.channel.is_searched, run.preprocessing.sought = False, None
         if found is None:
+            alarms = list(run.channel.alarms)
             operation.give_up()
+            if alarms:
+                texts = catalogue_of(operation.control, run.channel.machine)
+                raise SearchStopped(named, alarms[0].told_by(texts))
             raise CommandRefused("mainrun.search", target=named)
         run.execution.stand_before(found.position, found.context, found.modal)
         run.take_in_hand(here)
@@ -133,7 +138,9 @@ class ProgramCommands:
             raise CommandRefused("mainrun.search", target=line)
         operation = self._operation
         operation.mains = {test.channel}
-        operation.begin_test(test).preprocessing.start(program, list(test.here))
+        preprocessing = operation.begin_test(test).preprocessing
+        preprocessing.start(program, list(test.here))
+        preprocessing.sought = test.wanted.levels[-1]
         operation.resume()
 
     # ---- running -------------------------------------------------------------------------------------------

@@ -24,7 +24,7 @@ from polycnc.mainrun.preparation.items import (
     Standing,
 )
 from polycnc.motion.frames import with_axis
-from polycnc.motion.kernels.columns import UNEVEN_FORMS, Form, PieceRecord
+from polycnc.motion.kernels.columns import UNEVEN_FORMS, PieceRecord
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.events import Deed
 
@@ -453,7 +453,7 @@ class Execution:
     def _steadiness(self, record: array[Any]) -> tuple[Calm, tuple[float, float]]:
         """Of a piece of a line from rest to rest: how long it keeps its speed, and how far behind it the axes rest."""
         ramp = record[PieceRecord.RAMP]
-        if record[PieceRecord.BLEND] != 0.0 or record[PieceRecord.FORM] != Form.STRAIGHT or ramp == 0.0:
+        if record[PieceRecord.ALONE] == 0.0 or ramp == 0.0:
             return FREE, NO_WAYS
         if self._x2 == 0.0:
             self._calm = Calm(ramp)

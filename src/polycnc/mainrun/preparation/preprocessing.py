@@ -98,6 +98,7 @@ class Preprocessing:
         queue: Takes pieces from the items, and lays them out again for other overrides.
         on_step: Called when the channel has run a block; None where nobody asks.
         stop_behind_next: Preparation waits behind the next block that does something on the machine.
+        sought: Program and line of a block that counts as one even if it only calculates; None without a search.
     """
 
     def __init__(
@@ -110,6 +111,7 @@ class Preprocessing:
         self.items: deque[Item] = deque()
         self.channel: Channel
         self.waiting: Wait | None = None
+        self.sought: tuple[str, int] | None = None
         self.finished = True
         self.revised = False
         self.has_caught_up = False
@@ -175,7 +177,7 @@ class Preprocessing:
         self._rows.context = Context()
         self._rows.real.stand(position)
         self.stand_at(position)
-        self._run = None
+        self._run = self.sought = None
         self.waiting, self.finished, self.has_caught_up = None, True, True
 
     def fill(self, *, one_block: bool = False) -> bool:
@@ -311,7 +313,8 @@ class Preprocessing:
         channel, is_next = self.channel, self.stop_behind_next
         wait = next(self._run, None) if self._run is not None else None
         level = channel.stack[-1] if channel.stack else None
-        if level is not None and (len(channel.toolpath.chunk) or (wait and wait.reason in BEHIND_A_BLOCK)):
+        is_block = len(channel.toolpath.chunk) > 0 or (wait is not None and wait.reason in BEHIND_A_BLOCK)
+        if level is not None and (is_block or self._is_sought(level)):
             halts = wait is not None and wait.reason is Why.SINGLE_BLOCK and not channel.finished
             line, code = level.line_of(level.current), wait.code if halts and wait is not None else ""
             key = level.program_number, line
@@ -346,6 +349,12 @@ class Preprocessing:
             self.stop_behind_next = False
         if self._rests():
             self.end_in_rest()
+
+    def _is_sought(self, level: Level[Any]) -> bool:
+        """Whether a search looks for the block that has run, which may have no rows."""
+        if self.sought is None:
+            return False
+        return self.sought == (self.toolpath.programs[level.program_number], level.line_of(level.current))
 
     # ---- rows ----------------------------------------------------------------------------------------------
 

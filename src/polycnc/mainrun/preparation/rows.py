@@ -10,7 +10,7 @@ from polycnc.mainrun.motion.geometry import row_arc, row_line, turn_arc
 from polycnc.mainrun.preparation.items import Move
 from polycnc.mainrun.preparation.layout import Before, PreparedRow
 from polycnc.mainrun.preparation.run_blocks import largest_override
-from polycnc.motion.kernels.arcs import facing_radius
+from polycnc.motion.kernels.arcs import asked_on_arc, facing_radius
 from polycnc.motion.kernels.columns import SHARES, ContextRecord, Form, PieceRecord, Rows, piece_width
 from polycnc.motion.kernels.feeds import asked_speed, faster, follows_radius, is_rapid
 from polycnc.motion.time_constants import Use, use_of
@@ -194,7 +194,12 @@ class RowLayer:
         for length in lengths:
             share = length / total
             radius = self._radius(record, done + 0.5 * share, is_arc=is_arc)
-            speed = asked_speed(curves, contexts, record, state, state.run.length, radius)
+            told = (state, state.run.length, radius)
+            speed = (
+                asked_on_arc(curves, contexts, record, self._buffer.limits, *told)
+                if is_arc
+                else asked_speed(curves, contexts, record, *told)
+            )
             done += share
             asks.append((done, speed / factor if speed > 0.0 else inf))
         return tuple(asks)

@@ -4,7 +4,8 @@ Averaged over T, a line from rest to rest may accelerate by `u = j·T` if its le
 average sees no more than one of its two steps of acceleration at a time. With `T = a/j`, and a speed v at which the
 level part still lasts so long, that is the quickest motion within speed, acceleration and jerk, `L/v + v/a + a/j`. If
 the way or the speed is too small to reach the acceleration a, `T = ∛(L/2j)` or `T = √(v/j)` is, with `v = j·T²`:
-4·∛(L/2j) on a short way. Positions need no average, for there is no corner. Lines that go on in one direction at one
+4·∛(L/2j) on a short way. Positions need no average, for there is no corner; they have that of a time constant behind
+the interpolation, where there is one. Lines that go on in one direction at one
 speed are one line.
 
 A corner that is passed at c holds both lines at c on `c·W/2` around it (`hold.py`): it costs W at least. A rest there
@@ -96,8 +97,9 @@ def settle_alone(pieces: Floats, n: int, limits: Limits, state: State) -> None:
         pieces[at + PieceRecord.CAP2] = top * top
         if p > first:
             pieces[at + PieceRecord.ENTRY2] = top * top
-        pieces[at + PieceRecord.RAMP], pieces[at + PieceRecord.BLEND] = ramp, 0.0
-    pieces[first * width + PieceRecord.PAUSE] = ramp
+        pieces[at + PieceRecord.RAMP], pieces[at + PieceRecord.BLEND] = ramp, state.run.behind
+        pieces[at + PieceRecord.ALONE] = 1.0
+    pieces[first * width + PieceRecord.PAUSE] = ramp + 2.0 * state.run.behind
 
 
 def overridden_top(pieces: Floats, at: int, n: int, limits: Limits, state: State) -> float:
@@ -144,7 +146,7 @@ def pays_to_rest(
                 jerk = min(jerk, limits.jerk[i] / share)
         ramp = best_ramp(way, top, pull, jerk)
         own = alone_pull(ramp, pull, jerk)
-        resting += ramp + rest_to_rest(way, 0.0, alone_top(way, top, own, ramp), own)
+        resting += ramp + 2.0 * state.run.behind + rest_to_rest(way, 0.0, alone_top(way, top, own, ramp), own)
         held = corner * window
         if held >= way:
             passing += way / corner

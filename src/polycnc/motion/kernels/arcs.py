@@ -159,6 +159,26 @@ def point_cap2(n: int, limits: Limits, state: State, margin: float) -> float:
     return cap2
 
 
+def asked_on_arc(
+    curves: Floats,
+    contexts: Floats,
+    record: int,
+    limits: Limits,
+    state: State,
+    length: float,
+    radius_mm: float,
+) -> float:
+    """Path speed that the program asks for on an arc of a length: F may be the speed along the arc alone."""
+    if state.row.kind == THREAD:
+        return asked_speed(curves, contexts, record, state, length, radius_mm)
+    counted = state.arc.radius if limits.path.arc_by_radius != 0.0 else length
+    asked = asked_speed(curves, contexts, record, state, counted, radius_mm)
+    along = (state.arc.radius + 0.5 * state.arc.growth) * state.arc.sweep
+    if limits.path.feed_along_arc != 0.0 and along > 0.0 and length > along * (1.0 + SAME_RADIUS):
+        asked *= length / along
+    return asked
+
+
 def lay_arc(
     curves: Floats, contexts: Floats, record: int, n: int, limits: Limits, pieces: Floats, state: State
 ) -> bool:
@@ -183,7 +203,10 @@ def lay_arc(
     length = 0.5 * (way + end_way) * sweep
     radius, highest = facing_radius(0.0, limits, state), limits.path.path_feed
     highest = min(highest, state.row.top, block_top(length, limits, state))
-    speed = min(bounded(asked_speed(curves, contexts, record, state, length, radius), state), highest)
+    highest = min(highest, arc_top(contexts, record, way, end_way, limits, state))
+    speed = min(
+        bounded(asked_on_arc(curves, contexts, record, limits, state, length, radius), state), highest
+    )
     entry2, pull = point_cap2(n, limits, state, margin), inf
     if gentle:
         bend = curvature(n, limits, weight, state)
@@ -204,7 +227,8 @@ def lay_arc(
         own = share_of_arc(0.5 * (first + last) / sweep, state)
         if follows_radius(contexts, record):
             radius = facing_radius(0.5 * (first + last), limits, state)
-            speed = min(bound(asked_speed(curves, contexts, record, state, length, radius), state), highest)
+            asked = asked_on_arc(curves, contexts, record, limits, state, length, radius)
+            speed = min(bound(asked, state), highest)
         at = next_piece(pieces, state, Form.BENT if gentle else Form.CURVED, 0.0, n)
         if is_first:
             open_joint(pieces, at, state, entry2)
@@ -244,6 +268,24 @@ def lay_arc(
     state.run.exit_pull, state.run.rate = pull, 1.0 / end_way
     state.run.exit2, state.run.length, state.run.metric, state.run.smooth = entry2, length, weight, 0.0
     return True
+
+
+def arc_top(contexts: Floats, record: int, way: float, end_way: float, limits: Limits, state: State) -> float:
+    """Highest speed on the arc at hand by what parameters allow axes and path to accelerate on arcs.
+
+    `way` and `end_way` are its ways by radian at start and end, where the radius may be another one. No thread has such
+    a bound, for its speed is the spindle's.
+    """
+    if contexts[record + ContextRecord.AHEAD] == 0.0 or state.row.kind == THREAD:
+        return inf
+    last = max(state.arc.radius + state.arc.growth, SAME_POINT_MM)
+    room, pull = min(square(way) / state.arc.radius, square(end_way) / last), limits.path.arc_pull
+    for j in range(3):
+        i = limits.geometry[j]
+        share = sqrt(square(state.basis[j]) + square(state.basis[3 + j]))
+        if i >= 0 and share > SAME_RADIUS:
+            pull = min(pull, limits.arc[i] / share)
+    return max(sqrt(pull * room), limits.path.arc_least)
 
 
 def is_even(contexts: Floats, record: int, n: int, limits: Limits, state: State, speed: float) -> bool:

@@ -63,14 +63,20 @@ class PathLimits(Structure):
     Attributes:
         rapid_stops: Whether the axes stop between rapid and cutting (1).
         path_feed: Highest speed of a cut.
-        corner_speed: Highest step of an axis's velocity at a corner of two cuts.
+        arc_pull: Highest acceleration across the path on an arc that is planned ahead.
+        arc_least: Speed below which neither that nor what axes may accelerate on arcs slows one.
         block_s: How long a cut lasts at least, because the control processes no more blocks a second (0: any).
+        feed_along_arc: Whether the feed of an arc is that along the arc, other axes beside it (1).
+        arc_by_radius: Whether inverse time counts the radius of an arc, not its length (1).
     """
 
     rapid_stops: float
     path_feed: float
-    corner_speed: float
+    arc_pull: float
+    arc_least: float
     block_s: float
+    feed_along_arc: float
+    arc_by_radius: float
 
 
 class Limits(NamedTuple):
@@ -81,6 +87,8 @@ class Limits(NamedTuple):
         top_feed: Highest velocity in cuts.
         acceleration: Highest acceleration.
         jump: Highest step of the velocity at a corner.
+        step: That which the control's parameters allow at a corner of two cuts that are planned ahead.
+        arc: Highest acceleration that they allow on an arc that is planned ahead.
         rotary: 1 for a rotary axis.
         jerk: Highest jerk.
         geometry: The columns of X, Y, Z, -1 for a missing one.
@@ -93,6 +101,8 @@ class Limits(NamedTuple):
     top_feed: Floats
     acceleration: Floats
     jump: Floats
+    step: Floats
+    arc: Floats
     rotary: Floats
     jerk: Floats
     geometry: Ints
@@ -142,6 +152,10 @@ class ContextRecord(Places):
     TURN_DISTANCE = place()
     #: Straight rows are laid out under the limits of the axes behind the tip (1; `led.py`).
     LED = place()
+    #: Cuts are planned ahead (1): what parameters allow at corners and on arcs holds.
+    AHEAD = place()
+    #: They are averaged behind that, twice over so many seconds, whatever the tolerance.
+    BEHIND_S = place()
     #: Nine numbers by rows, then the shift.
     FRAME = place(12)
     OFFSETS = place(0)
@@ -158,7 +172,8 @@ class PieceRecord(Places):
     the run that begins with the piece, seconds. MARGIN is the factor by which q' and q'' are stored larger than they
     are. EARLY are the seconds by which the run that begins with the piece may begin before the averages of the one
     before have come to rest; PAUSE bounds them. PATH_PULL bounds the acceleration along a curved piece beside its axes.
-    ZONE says that the piece is bent for the corner behind it (TO_CORNER) or before it (FROM_CORNER, `rounding.py`).
+    ZONE says that the piece is bent for the corner behind it (TO_CORNER) or before it (FROM_CORNER, `rounding.py`),
+    ALONE (1) that it is of a line from rest to rest with averages of its own.
     """
 
     LENGTH = place()
@@ -184,6 +199,7 @@ class PieceRecord(Places):
     EARLY = place()
     PATH_PULL = place()
     ZONE = place()
+    ALONE = place()
     VECTORS = place(0)
 
 
@@ -236,6 +252,7 @@ class RunState(Structure):
         window: Seconds that a change of speed is spread over.
         alone: The last row is a line (1), and one from rest (2).
         wanted: Speed that it asks for.
+        behind: BEHIND_S of it, seconds; 0 of a rapid.
         free: Who says how fast feeds are (0: the plan): MAIN_RUN with overrides, 1 a dry run, 2 one that acts on
             threads too. `kernels/feeds.py` says what 1 and 2 mean, `kernels/alone.py` what MAIN_RUN does.
         straight_pieces: Of the straight run from rest that the row at hand goes on with.
@@ -273,6 +290,7 @@ class RunState(Structure):
     window: float
     alone: float
     wanted: float
+    behind: float
     free: float
     straight_pieces: int
     ease: float

@@ -70,7 +70,7 @@ def join(
         own2 = jump2(turns, n, limits, state, shorter)
     if not turns:
         own2 = min(own2, turned2(angle, distance, n, limits, state, shorter))
-    cap2 = min(cap2, own2, stepped2(n, limits, state))
+    cap2 = min(cap2, own2, stepped2(contexts, record, n, limits, state))
     if ramp > 0.0:
         cap2 = corner_hold2(contexts, record, n, limits, state, length, cap2)
         if wanted > 0.0 and pays_to_rest(n, limits, state, length, cap2, wanted):
@@ -104,13 +104,16 @@ def goes_on_smoothly(n: int, limits: Limits, state: State, weight: float) -> boo
     return cosine_of_turn(n, limits, state, weight) > SMOOTH_COS
 
 
-def stepped2(n: int, limits: Limits, state: State) -> float:
-    """Largest x at a corner of two cuts at which the velocity of no axis steps by more than CORNER_SPEED."""
-    step, speed = 0.0, limits.path.corner_speed
+def stepped2(contexts: Floats, record: int, n: int, limits: Limits, state: State) -> float:
+    """Largest x at a corner of two cuts at which the velocity of no axis steps by more than parameters allow."""
+    x2 = inf
+    if is_rapid(state) or contexts[record + ContextRecord.AHEAD] == 0.0:
+        return x2
     for i in range(n):
-        unit, tangent = state.unit[i], state.tangent[i]
-        step = max(step, abs(unit - tangent))
-    return inf if step <= SAME_DIRECTION or is_rapid(state) else square(speed / step)
+        step = abs(state.unit[i] - state.tangent[i])
+        if step > SAME_DIRECTION:
+            x2 = min(x2, square(limits.step[i] / step))
+    return x2
 
 
 def turned2(angle: float, distance: float, n: int, limits: Limits, state: State, shorter: float) -> float:

@@ -209,6 +209,7 @@ def next_piece(pieces: Floats, state: State, form: int, cap2: float, n: int) -> 
         pieces[at + PieceRecord.MARGIN],
     ) = inf, inf, 0.0, 1.0
     pieces[at + PieceRecord.PATH_PULL], pieces[at + PieceRecord.ZONE] = inf, 0.0
+    pieces[at + PieceRecord.ALONE] = 0.0
     pieces[at + PieceRecord.RAMP], pieces[at + PieceRecord.BLEND], pieces[at + PieceRecord.EARLY] = (
         state.joint.ramp,
         state.joint.blend,

@@ -326,6 +326,7 @@ def lay_straight(
             state.run.straight_pieces = state.run.straight_pieces + 1 if goes_on else 1
             state.run.alone = (2.0 if goes_on or state.joint.rest > 0.0 else 1.0) if is_line else 0.0
             state.run.wanted = wanted
+            state.run.behind = 0.0 if is_rapid(state) else contexts[record + ContextRecord.BEHIND_S]
         else:
             speed = min(top, own, bound(asked, state))
             entry2 = min(state.run.exit2, speed * speed)

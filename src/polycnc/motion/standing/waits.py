@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from array import array
-from itertools import groupby
 from math import pi
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
@@ -156,12 +155,9 @@ class Waits:
         def radius(row: int) -> float:
             return abs(chunk.end[row * chunk.axes + facing]) if facing >= 0 else 0.0
 
-        kinds, row, self._looked = chunk.kind.tobytes(), 0, 0
-        changes: list[tuple[int, int]] = []
-        for number, run in groupby(chunk.context):
-            if number != self._context or row:
-                changes.append((row, number))
-            row += len(list(run))
+        kinds, self._looked = chunk.kind.tobytes(), 0
+        runs = chunk.context_runs()
+        changes = [(row, number) for number, row, _ in runs if number != self._context or row]
         events = [(row, EVENT) for row in _places(kinds, Kind.EVENT)]
         for row, number in sorted([*changes, *events], key=lambda step: (step[0], step[1] == EVENT)):
             self._cuts(chunk, kinds, row)

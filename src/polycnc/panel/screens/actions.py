@@ -10,7 +10,8 @@ from polycnc.control.fanuc.lathe.tools import screens as lathe
 from polycnc.control.fanuc.lathe.tools.screens import Page
 from polycnc.deferred.records import dataclass
 from polycnc.deferred.regexes import regex
-from polycnc.mainrun import CommandRefused
+from polycnc.mainrun import CommandRefused, Mode
+from polycnc.panel.keyed import number_of, whole_number_of
 from polycnc.panel.screens import forms
 from polycnc.panel.screens.programs import EDITING
 from polycnc.panel.screens.sources import SOURCES
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
 Action: TypeAlias = Callable[["ScreenState"], None]
 
 #: An axis with a value behind it, which may be missing; a name with a number wants an equals sign (`Q1=5`).
-_AXIS_VALUE = regex(r"(?P<axis>[A-Z]+\d+(?==)|[A-Z])\s*=?\s*(?P<value>[+-]?\d*\.?\d*)")
+_AXIS_VALUE = regex(r"(?P<axis>[A-Z]+\d+(?==)|[A-Z])\s*=?\s*(?P<value>[+-]?[0-9]*\.?[0-9]*)")
 
 
 def _number(screen: ScreenState) -> float:
@@ -36,18 +37,12 @@ def _number(screen: ScreenState) -> float:
     Raises:
         CommandRefused: It is none.
     """
-    try:
-        return float(screen.buffer)
-    except ValueError:
-        raise CommandRefused("screen.no-number", typed=screen.buffer) from None
+    return number_of(screen.buffer)
 
 
 def _numbers(screen: ScreenState) -> list[float]:
     """The numbers that have been keyed in, `;` between them; raises `CommandRefused` where one is none."""
-    try:
-        return [float(part) for part in screen.buffer.rstrip("; ").split(";")]
-    except ValueError:
-        raise CommandRefused("screen.no-number", typed=screen.buffer) from None
+    return [number_of(part) for part in screen.buffer.rstrip("; ").split(";")]
 
 
 def _field(screen: ScreenState) -> tuple[Table, Column, int]:
@@ -118,7 +113,7 @@ def add_value(screen: ScreenState) -> None:
 
 def search_number(screen: ScreenState) -> None:
     """NO.SRH: the cursor goes to the number that has been keyed in."""
-    wanted = int(_number(screen))
+    wanted = whole_number_of(screen.buffer)
     if screen.shows("parameters"):
         found = [
             i for i, (_, each) in enumerate(screen.parameters) if each.number.split("#")[0] == str(wanted)
@@ -148,11 +143,7 @@ def _axis_field(screen: ScreenState) -> tuple[Table, Column, int, str]:
 def measure(screen: ScreenState) -> None:
     """MEASURE: the offset with which the axis reads the measured value (0i-TF Plus III.2.1.2)."""
     _, column, row, typed = _axis_field(screen)
-    try:
-        measured = float(typed)
-    except ValueError:
-        raise CommandRefused("screen.no-number", typed=typed) from None
-    SOURCES[column.source].measure(screen.control, column, row, measured, screen.latched)
+    SOURCES[column.source].measure(screen.control, column, row, number_of(typed), screen.latched)
     screen.buffer = ""
 
 
@@ -196,9 +187,9 @@ def origin(screen: ScreenState) -> None:
     axes = [screen.axis_of_relative(axis) for axis in axes]
     if not axes or any(axis not in snapshot.positions.work for axis in axes):
         raise CommandRefused("screen.no-axis", typed=screen.buffer)
-    value = float(match["value"]) if match and match["value"] not in ("", "+", "-", ".") else 0.0
+    value = number_of(match["value"]) if match and match["value"] else 0.0
     for axis in axes:
-        screen.origins[axis] = snapshot.positions.machine[axis] - value
+        screen.origins[axis] = snapshot.positions.machine[axis] - value * screen.unit_mm(axis)
     screen.buffer = ""
 
 
@@ -227,7 +218,15 @@ def search_program(screen: ScreenState) -> None:
 
 
 def delete_program(screen: ScreenState) -> None:
-    """DELETE: the program that has been keyed in, or the one at the cursor, leaves the memory."""
+    """DELETE: the program that has been keyed in, or the one at the cursor, leaves the memory.
+
+    Raises:
+        CommandRefused: There is none, or the control does this in another mode (EDIT on FANUC; Hartford 5.2.4.2 h).
+    """
+    wanted, control = screen.family.data_mode, screen.control
+    free = screen.in_background or control.signals["EDIT_PROTECT"]  # protection is told first
+    if wanted and control.mode is not Mode(wanted) and not free:
+        raise CommandRefused("screen.mode", mode=screen.family.modes[wanted])
     name = screen.buffer.strip()
     if not name and screen.shows("listing") and screen.control.programs:
         name = screen.control.programs[screen.cursor[0]].name
@@ -243,7 +242,7 @@ def search_block(screen: ScreenState) -> None:
     elif not typed and screen.program_row is not None:
         target = screen.control.first_line(screen.control.program) + screen.program_row
     else:
-        target = int(typed) if typed.isdigit() else typed
+        target = int(typed) if typed.isascii() and typed.isdigit() else typed
     screen.control.block_search(target, how=screen.search_mode)
     screen.program_row, screen.buffer = None, ""
 
@@ -266,11 +265,7 @@ def preset(screen: ScreenState) -> None:
     match = _AXIS_VALUE.fullmatch(screen.buffer.strip().upper())
     if match is None or not match["value"]:
         raise CommandRefused("screen.no-axis", typed=screen.buffer)
-    try:
-        value = float(match["value"])
-    except ValueError:
-        raise CommandRefused("screen.no-number", typed=match["value"]) from None
-    screen.control.preset(match["axis"], value)
+    screen.control.preset(match["axis"], number_of(match["value"]))
     screen.buffer = ""
 
 
@@ -285,7 +280,7 @@ def to_top(screen: ScreenState) -> None:
 
 
 #: A number behind a sign, and the operators between numbers.
-_TERM = regex(r"\s*([+-]?\d*\.?\d+|[+-]?\d+\.)\s*")
+_TERM = regex(r"\s*([+-]?[0-9]*\.?[0-9]+|[+-]?[0-9]+\.)\s*")
 
 
 def calculate(screen: ScreenState) -> None:
@@ -345,10 +340,11 @@ def clear_axes(screen: ScreenState, chosen: Sequence[Page]) -> None:
 
 
 def switch_page(screen: ScreenState) -> None:
-    """SWITCH: the other page of a pair, with the same soft keys."""
-    menu = screen.menu, screen.turned
+    """SWITCH: the other page of a pair, with the same soft keys; the cursor stays at its number."""
+    menu, (row, _) = (screen.menu, screen.turned), screen.cursor
     screen.show(screen.page.other)
     screen.menu, screen.turned = menu
+    screen.place(row, screen.cursor[1])
 
 
 def note_maintenance(screen: ScreenState) -> None:

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 from polycnc.deferred.records import dataclass
 from polycnc.deferred.regexes import regex
 from polycnc.mainrun import CommandRefused
+from polycnc.panel.keyed import number_of, whole_number_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -59,10 +60,7 @@ class MaskField:
             raise CommandRefused("screen.value", value=typed)
         if self.kind in (CHARACTER, STRING) or not typed:
             return typed
-        try:
-            value = float(typed) if self.kind == REAL else int(typed)
-        except ValueError:
-            raise CommandRefused("screen.no-number", typed=typed) from None
+        value = number_of(typed) if self.kind == REAL else whole_number_of(typed)
         beyond = self.limits is not None and not self.limits[0] <= value <= self.limits[1]
         if beyond or (self.choices and typed not in self.choices):
             raise CommandRefused("screen.value", value=typed)

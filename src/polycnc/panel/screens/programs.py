@@ -28,7 +28,7 @@ def edit_words(screen: ScreenState, key: str) -> None:
     ALTER of its number gives the program another one, which the memory must not have.
 
     Raises:
-        CommandRefused: The mode is another one, or nothing is keyed in.
+        CommandRefused: The mode is another one, nothing is keyed in, or the number is 0.
         UserError: The memory has that program.
     """
     typed = screen.buffer.strip()
@@ -36,6 +36,8 @@ def edit_words(screen: ScreenState, key: str) -> None:
         raise CommandRefused("screen.no-field")
     if not screen.edits:
         raise CommandRefused("screen.mode", mode=screen.family.modes[Mode.EDIT])
+    if key != "DELETE" and _PROGRAM.fullmatch(typed) and not int(typed[1:]):
+        raise CommandRefused("screen.value", value=typed)
     if key == "INSERT" and _PROGRAM.fullmatch(typed) and screen.in_background:
         edit_in_background(screen)
     elif key == "INSERT" and _PROGRAM.fullmatch(typed):
@@ -147,6 +149,8 @@ def edit_in_background(screen: ScreenState) -> None:
     name = screen.buffer.strip().upper()
     if not _PROGRAM.fullmatch(name):
         raise CommandRefused("screen.no-field")
+    if not int(name[1:]):
+        raise CommandRefused("screen.value", value=name)
     try:
         text = "\n".join(screen.control.program_lines(name)) + "\n"
     except CommandRefused:

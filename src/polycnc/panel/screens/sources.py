@@ -13,6 +13,7 @@ from polycnc.control.fanuc.lathe.tools.screens import RADIUS, TIP, Page
 from polycnc.control.syntec.coordinates import turns
 from polycnc.control.syntec.coordinates.systems import WORK_SYSTEMS
 from polycnc.control.syntec.motion import conditions
+from polycnc.control.word_address.tools.data_input import LARGEST_OFFSET
 from polycnc.mainrun import CommandRefused
 
 if TYPE_CHECKING:
@@ -93,7 +94,24 @@ class Variables(Source):
         """The field changes by what the axis reads too much."""
         reads, now = control.positions.work[column.axis], self.read(control, column, row)
         before = float(now) if isinstance(now, int | float) else 0.0
-        control.write_variable(column.name(row), before + reads - measured)
+        self.write(control, column, row, before + reads - measured, latched)
+
+
+class ToolOffsets(Variables):
+    """Offsets of the machining centres, whose values have an end (Hartford 3.3.2)."""
+
+    def write(
+        self, control: VirtualControl, column: Column, row: int, value: float | str, latched: Latched
+    ) -> None:
+        """An offset has another value.
+
+        Raises:
+            CommandRefused: It is too large.
+        """
+        is_inch = "G20" in control.modal.values()
+        if abs(float(value)) > LARGEST_OFFSET[is_inch]:
+            raise CommandRefused("screen.value", value=f"{value:g}")
+        super().write(control, column, row, value, latched)
 
 
 class WorkOffsets(Variables):
@@ -251,6 +269,7 @@ class ConditionSets(Source):
 
 SOURCES: dict[str, Source] = {
     "": Variables(),
+    "tool": ToolOffsets(),
     "work": WorkOffsets(),
     "geometry": LatheOffsets(Page.GEOMETRY),
     "wear": LatheOffsets(Page.WEAR),

@@ -8,12 +8,13 @@ from datetime import UTC, datetime
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from polycnc.geometry.units import INCH_MM
 from polycnc.mainrun import CommandRefused, Mode, State
 from polycnc.messages import UserError
 from polycnc.panel.screens.card import Card
 from polycnc.panel.screens.measuring import SIGNALS, Measuring
 from polycnc.panel.screens.pages import family_of
-from polycnc.panel.screens.words import Edited, Place, moved, on_words, spans
+from polycnc.panel.screens.words import Edited, Place, moved, on_words, word_with
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -347,19 +348,25 @@ class ScreenState:
     def find(self, text: str, step: int) -> None:
         """Put the cursor on the next row of the program that has a text, onwards (1) or backwards (-1).
 
+        Where words are edited it goes to the next word, in the same block too.
+
         Raises:
             CommandRefused: There is none.
         """
-        here = self.row
         lines, wanted = self.lines, text.strip().upper()
+        if self.edits:
+            place = word_with(lines, self.edit_place, wanted, step)
+            if place is None:
+                raise CommandRefused("screen.not-found", text=text)
+            self.look_at(place.row)
+            self.program_word = place.word
+            return
+        here = self.row
         rows = range(here + 1, len(lines)) if step > 0 else range(here - 1, -1, -1)
         found = next((row for row in rows if wanted in lines[row].upper()), None)
         if found is None:
             raise CommandRefused("screen.not-found", text=text)
         self.look_at(found)
-        if self.edits:
-            at = lines[found].upper().index(wanted)
-            self.program_word = sum(1 for _, end in spans(lines[found]) if end <= at)
 
     @property
     def edits(self) -> bool:
@@ -415,13 +422,34 @@ class ScreenState:
     @property
     def digits(self) -> int:
         """Decimals of lengths: four in inches."""
-        return 4 if {"G20", "G70", "G700"} & set(self.control.modal.values()) else 3
+        return 4 if self.in_inches else 3
+
+    @property
+    def in_inches(self) -> bool:
+        """Whether work positions and offsets are inches: as the program says; SINUMERIK's stay as the machine is."""
+        return self.family.layout != "operate" and bool({"G20", "G70"} & set(self.control.modal.values()))
+
+    def is_length(self, axis: str) -> bool:
+        """Whether an axis counts lengths, not degrees."""
+        channel = self.control.channel
+        at = channel.axis_index.get(axis)
+        return at is None or not channel.axis_data[at].rotary
+
+    def unit_mm(self, axis: str) -> float:
+        """Millimetres in the unit in which an axis is shown; 1 for degrees."""
+        return INCH_MM if self.in_inches and self.is_length(axis) else 1.0
+
+    def position_text(self, axis: str, kind: str, value: float) -> str:
+        """A position of a kind as it is shown: the machine's own stay millimetres and degrees."""
+        digits = self.digits if kind != "machine" and self.is_length(axis) else 3
+        return f"{value:.{digits}f}"
 
     def positions(self, snapshot: Snapshot, kind: str) -> Mapping[str, float]:
         """Positions of a kind by axis: `work`, `machine`, `to_go`, `relative`, or `by_hand` while a program waits."""
         shown = snapshot.positions
         if kind == "relative":
-            return {axis: at - self.origins.get(axis, 0.0) for axis, at in shown.machine.items()}
+            ways = {axis: at - self.origins.get(axis, 0.0) for axis, at in shown.machine.items()}
+            return {axis: way / self.unit_mm(axis) for axis, way in ways.items()}
         if kind == "by_hand":
             left = self.control.restart
             return {axis: 0.0 - left[axis][1] if axis in left else 0.0 for axis in shown.machine}

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, TypeAlias
 from polycnc.control.fanuc.lathe.tools.screens import modal_codes
 from polycnc.deferred.records import dataclass
 from polycnc.deferred.regexes import regex
+from polycnc.geometry.units import INCH_MM
 from polycnc.messages import text
 from polycnc.panel.description import RETURNED, is_returned
 from polycnc.panel.screens import forms, operate, tables
@@ -59,7 +60,10 @@ def _positions(at: Asked) -> Rows:
     style = at.spec.size or "value"
     shown = at.screen.positions(at.snapshot, at.spec.of)
     return tuple(
-        (Cell(at.screen.axis_label(axis, at.spec.of), style), Cell(f"{value:.{at.screen.digits}f}", style))
+        (
+            Cell(at.screen.axis_label(axis, at.spec.of), style),
+            Cell(at.screen.position_text(axis, at.spec.of, value), style),
+        )
         for axis, value in shown.items()
     )
 
@@ -67,13 +71,16 @@ def _positions(at: Asked) -> Rows:
 def _all_positions(at: Asked) -> Rows:
     """A column for each kind of position."""
     kinds = ("relative", "work", "machine", "to_go")
-    columns = [at.screen.positions(at.snapshot, kind) for kind in kinds]
+    columns = [(kind, at.screen.positions(at.snapshot, kind)) for kind in kinds]
     head = (Cell("", "label"), *(Cell(text(f"screen.{kind}", at.lang), "label") for kind in kinds))
     axes = at.snapshot.positions.work
     rows = [
         (
             Cell(axis, "label"),
-            *(Cell(f"{column.get(axis, 0.0):.{at.screen.digits}f}", "value") for column in columns),
+            *(
+                Cell(at.screen.position_text(axis, kind, column.get(axis, 0.0)), "value")
+                for kind, column in columns
+            ),
         )
         for axis in axes
     ]
@@ -84,7 +91,7 @@ def _rates(at: Asked) -> Rows:
     """Feed, spindle and tool, with their overrides."""
     over, spindle, tool = at.snapshot.overrides, at.snapshot.spindle, at.snapshot.tool
     return (
-        (Cell("F", "label"), Cell(f"{at.snapshot.feed:.1f}", "value"), Cell(f"{over.feed:.0%}", "label")),
+        (Cell("F", "label"), Cell(_feed(at), "value"), Cell(f"{over.feed:.0%}", "label")),
         (Cell("S", "label"), Cell(f"{spindle.rpm:.0f}", "value"), Cell(f"{over.spindle:.0%}", "label")),
         (
             Cell("T", "label"),
@@ -92,6 +99,12 @@ def _rates(at: Asked) -> Rows:
             Cell(str(tool.next_tool or ""), "label"),
         ),
     )
+
+
+def _feed(at: Asked) -> str:
+    """The feed now, in the unit of lengths a minute."""
+    inch = at.screen.in_inches
+    return f"{at.snapshot.feed / INCH_MM:.2f}" if inch else f"{at.snapshot.feed:.1f}"
 
 
 def _modal(at: Asked) -> Rows:
@@ -353,19 +366,15 @@ def _restart(at: Asked) -> Rows:
     functions = (
         Cell(text("screen.collected", at.lang), "label"), *(Cell(word, "value") for word in collected)
     )  # fmt: skip
-    return (
-        head,
-        *(
-            (
-                Cell(
-                    f"{axis} {goes_on:.{at.screen.digits}f}{RETURNED if is_returned(left) else ''}", "value"
-                ),
-                Cell(f"{axis} {left:.{at.screen.digits}f}", "value"),
-            )
-            for axis, (goes_on, left) in rows.items()
-        ),
-        *((functions,) if collected else ()),
-    )
+    shown = at.screen.position_text
+    axes = [
+        (
+            Cell(f"{axis} {shown(axis, 'work', goes_on)}{RETURNED if is_returned(left) else ''}", "value"),
+            Cell(f"{axis} {shown(axis, 'to_go', left)}", "value"),
+        )
+        for axis, (goes_on, left) in rows.items()
+    ]
+    return (head, *axes, *((functions,) if collected else ()))
 
 
 def _magazine(at: Asked) -> Rows:

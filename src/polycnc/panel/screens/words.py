@@ -76,6 +76,32 @@ def moved(lines: Sequence[str], place: Place, words: int) -> Place:
     return on_words(lines, Place(row, word))
 
 
+def word_with(lines: Sequence[str], place: Place, wanted: str, step: int) -> Place | None:
+    """The next word that begins with a text, onwards (1) or backwards (-1) from a place; else the next with it inside.
+
+    `X4` is another word than `X40`: where there is a word of just that text, or the text is an address alone, longer
+    numbers are passed.
+    """
+    rows = range(place.row, len(lines)) if step > 0 else range(place.row, -1, -1)
+    inside: Place | None = None
+    for row in rows:
+        block = lines[row].upper()
+        if wanted not in block:
+            continue
+        words = [(Place(row, at), block[start:end]) for at, (start, end) in enumerate(spans(block))]
+        if row == place.row:
+            words = [each for each in words if step * (each[0].word - place.word) > 0]
+        for here, word in words[::step]:
+            letters = _LETTERS.match(word)
+            if word == wanted or (letters is not None and letters[0] == wanted):
+                return here
+            inside = inside or (here if wanted in word else None)
+        if inside is None and row != place.row:  # over several words
+            start = block.index(wanted)
+            inside = Place(row, sum(1 for _, end in spans(block) if end <= start))
+    return inside
+
+
 class Edited:
     """The text of a program with a cursor.
 

@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+import errno
+import signal
+import socket
+from contextlib import contextmanager
 from importlib import resources
 from typing import TYPE_CHECKING
 
 from fastapi import Response, WebSocket, WebSocketDisconnect
 from nicegui import app, ui
 
-from polycnc.messages import text
+from polycnc.messages import UserError, text
 from polycnc.panel.web.guard import LOOPBACK, Guard
 from polycnc.panel.web.messages import answer
 from polycnc.panel.web.page import Page
 from polycnc.view.web import delivery
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Iterator, Mapping
 
     from polycnc.panel.web.desk import Desk
 
@@ -23,6 +27,12 @@ if TYPE_CHECKING:
 RECONNECT_S = 30.0
 #: How often the time of the controls goes on, s.
 TICK_S = 0.02
+#: Why no server can listen at an address, by what the system says; for everything else there is no such address.
+_REASONS = {
+    errno.EADDRINUSE: "panel.port-used",
+    errno.EACCES: "panel.port-refused",
+    errno.EPERM: "panel.port-refused",
+}
 
 
 def build(desks: Mapping[str, Desk], lang: str, token: str = "") -> None:
@@ -84,9 +94,51 @@ def needs_token(host: str) -> bool:
     return host not in LOOPBACK
 
 
+def check_address(host: str, port: int) -> None:
+    """Try whether a server could listen there.
+
+    Raises:
+        UserError: The port is in use or not allowed, or the computer has no such address.
+    """
+    try:
+        with socket.create_server((host, port), family=socket.AF_INET6 if ":" in host else socket.AF_INET):
+            return
+    except OSError as error:
+        told = _REASONS.get(error.errno or 0, "panel.no-address")
+        raise UserError(told, host=host, port=port) from None
+
+
 def serve(*, host: str, port: int, opens: bool) -> None:
-    """Run the server until it is interrupted."""
-    ui.run(
-        host=host, port=port, show=opens, reload=False, title="polycnc", favicon="⚙", show_welcome_message=False,
-        binding_refresh_interval=None, reconnect_timeout=RECONNECT_S,
-    )  # fmt: skip
+    """Run the server until it is interrupted.
+
+    Raises:
+        KeyboardInterrupt: It has been, once or several times; it is raised when all is closed.
+    """
+    with patience(lambda: app.is_started or app.is_stopping or app.is_stopped):
+        ui.run(
+            host=host, port=port, show=opens, reload=False, title="polycnc", favicon="⚙",
+            show_welcome_message=False, binding_refresh_interval=None, reconnect_timeout=RECONNECT_S,
+        )  # fmt: skip
+
+
+@contextmanager
+def patience(is_up: Callable[[], bool]) -> Iterator[None]:
+    """One interrupt is raised when the server has closed, which hands them on then; further ones would break that.
+
+    Args:
+        is_up: Whether the server answers interrupts itself; before that they are raised at once.
+    """
+    told: list[int] = []
+
+    def hear(number: int, _frame: object) -> None:
+        told.append(number)
+        if not is_up():
+            raise KeyboardInterrupt
+
+    before = signal.signal(signal.SIGINT, hear)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+    if told:
+        raise KeyboardInterrupt

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from polycnc.compensation import CutterCompensation
+from polycnc.compensation.cutter import CutterCompensation
 from polycnc.control import registry
 from polycnc.control.fanuc.lathe.cycles.modal import SingleCycleState
 from polycnc.control.word_address.cycles.drilling import CycleState

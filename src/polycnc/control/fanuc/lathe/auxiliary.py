@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING
 
+from polycnc.control.fanuc.dwell import dwell as seconds_or_revolutions
 from polycnc.control.fanuc.lathe.cycles import grinding
 from polycnc.control.fanuc.lathe.motion.drawing import DrawingState
 from polycnc.control.word_address.auxiliary import functions
@@ -30,24 +31,9 @@ def dwell(channel: LatheChannel, words: Words) -> None:
     """
     line = DrawingState.of(channel).open_line
     if line is None:
-        _dwell(channel, words)
+        seconds_or_revolutions(channel, words)
     else:
-        line.behind.append((channel.level.current, partial(_dwell, channel, words)))
-
-
-def _dwell(channel: LatheChannel, words: Words) -> None:
-    if not (channel.memory.parameters.DWL and channel.mode["feed"] == "G99"):
-        functions.dwell(channel, words)
-        return
-    thousandths = words.integer("P") if "P" in words else None
-    if thousandths is not None:
-        channel.dwell(revolutions=thousandths / 1000.0)
-        return
-    for address in ("X", "U"):
-        if address in words:
-            value = words.typed(address) or 0.0
-            channel.dwell(revolutions=value / 1000.0 if words.form(address) == "" else value)
-            return
+        line.behind.append((channel.level.current, partial(seconds_or_revolutions, channel, words)))
 
 
 def wait_for_blocks(channel: LatheChannel, _words: Words) -> None:

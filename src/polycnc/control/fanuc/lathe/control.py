@@ -36,7 +36,7 @@ from polycnc.control.fanuc.lathe.motion import beside, drawing, retract, threads
 from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.fanuc.lathe.tools import data_input, files, nose_radius, offsets
 from polycnc.control.fanuc.lathe.variables import TURNING_VARIABLES
-from polycnc.control.fanuc.operation import dry_run, suppresses_reading
+from polycnc.control.fanuc.operation import MODES_WITHOUT_JUMPS, dry_run, suppresses_reading
 from polycnc.control.word_address.auxiliary.interlocks import MOVES_RULE
 from polycnc.control.word_address.block import whole_numbers
 from polycnc.control.word_address.block.whole_numbers import DecimalPoint
@@ -115,6 +115,7 @@ class FanucTurning(CustomMacroControl):
     parameter_files: ClassVar[tuple[str, ...]] = ("fanuc/parameters.toml", "fanuc/lathe/parameters.toml")
     parameter_class: ClassVar = LatheParameters
     EXTENDED_WORK_SYSTEMS: ClassVar[int] = 48
+    MODES_WITHOUT_JUMPS: ClassVar[frozenset[str]] = MODES_WITHOUT_JUMPS
     DIAMETER_PROGRAMMING: ClassVar[bool] = True
     POINT_IN_WHOLE_NUMBERS: ClassVar[DecimalPoint] = DecimalPoint.REFUSED
     NORMAL_LINE_RULES: ClassVar[NormalLineRules] = NormalLineRules(preset="G50")
@@ -208,12 +209,15 @@ class FanucTurning(CustomMacroControl):
     def motion_settings(self, channel: LatheChannel) -> MotionSettings:
         """1401#1 LRP: rapids run on a line, else every axis by itself; what acts on a rigid tap (5203#4, 5200#6).
 
+        1403#5 HTG: F of a helix counts the whole path, else the arc alone.
+
         7001#0 MIT: manual intervention and return. The main run asks this also in front of power-on.
         """
         parameters = LatheParameters.naming(channel.setup.parameters)
         return replace(
             accelerated(super().motion_settings(channel), parameters, channel.axes),
             rapid_by_axis=not parameters.LRP,
+            feed_along_arc=not parameters.HTG,
             taps_overridden=parameters.OVS,
             taps_held=parameters.FHD,
             returns_to_path=parameters.MIT,

@@ -138,8 +138,6 @@ class LatheParameters(FanucParameters["LatheAxisParameters"]):
     M30 = Bit(3404, 4, delivered=False)
     #: 3404#5: rewinds the program (0), or it stays at its end (1).
     M02 = Bit(3404, 5, delivered=False)
-    #: 3405#1: under G99 the dwell G04 counts revolutions.
-    DWL = Bit(3405, 1, delivered=False)
     #: 3405#3: automatic tool offset is G36, G37 (0) or G37.1, G37.2 (1).
     G36 = Bit(3405, 3, delivered=False)
     #: 3405#4: chamfers are written by I, K (0) or C (1), and I, K of a line under compensation are a vector

@@ -9,6 +9,7 @@ from polycnc.control.fanuc.lathe.tools.offsets import OffsetState, offset_change
 from polycnc.control.fanuc.system_variables import (
     COMMON_VARIABLES,
     axis_at,
+    modal_names,
     modal_rows,
     nothing,
     position_rows,
@@ -107,15 +108,15 @@ def _rows_tools() -> list[SystemRange]:
         SystemRange(2701, 2749, *_offset("geometry", "X")),
         SystemRange(2801, 2849, *_offset("geometry", "Z")),
         SystemRange(2901, 2964, *_nose("radius")),
-        SystemRange(10001, 10999, *_offset("wear", "X")),
-        SystemRange(11001, 11999, *_offset("wear", "Z")),
-        SystemRange(12001, 12999, *_nose("radius_wear")),
-        SystemRange(13001, 13999, *_tip()),
-        SystemRange(14001, 14999, *_offset("wear", "Y")),
-        SystemRange(15001, 15999, *_offset("geometry", "X")),
-        SystemRange(16001, 16999, *_offset("geometry", "Z")),
-        SystemRange(17001, 17999, *_nose("radius")),
-        SystemRange(19001, 19999, *_offset("geometry", "Y")),
+        SystemRange(10001, 10999, *_offset("wear", "X"), name="_OFSXW"),
+        SystemRange(11001, 11999, *_offset("wear", "Z"), name="_OFSZW"),
+        SystemRange(12001, 12999, *_nose("radius_wear"), name="_OFSRW"),
+        SystemRange(13001, 13999, *_tip(), name="_OFST"),
+        SystemRange(14001, 14999, *_offset("wear", "Y"), name="_OFSYW"),
+        SystemRange(15001, 15999, *_offset("geometry", "X"), name="_OFSXG"),
+        SystemRange(16001, 16999, *_offset("geometry", "Z"), name="_OFSZG"),
+        SystemRange(17001, 17999, *_nose("radius"), name="_OFSRG"),
+        SystemRange(19001, 19999, *_offset("geometry", "Y"), name="_OFSYG"),
     ]
 
 
@@ -149,9 +150,10 @@ def _work_offset(name: str) -> tuple[Read, Write]:
 def _rows_work_offsets() -> list[SystemRange]:
     rows = [SystemRange(2501, 2501, *_work_shift("X")), SystemRange(2601, 2601, *_work_shift("Z"))]
     for i, name in enumerate([EXTERNAL, "G54", "G55", "G56", "G57", "G58", "G59"]):
-        rows.append(SystemRange(5201 + 20 * i, 5220 + 20 * i, *_work_offset(name)))
+        shown = f"_WZ{name}" if i else "_WZCMN"
+        rows.append(SystemRange(5201 + 20 * i, 5220 + 20 * i, *_work_offset(name), name=shown))
     extended = (
-        SystemRange(7001 + 20 * (p - 1), 7020 + 20 * (p - 1), *_work_offset(f"G54.1 P{p}"))
+        SystemRange(7001 + 20 * (p - 1), 7020 + 20 * (p - 1), *_work_offset(f"G54.1 P{p}"), name=f"_WZP{p}")
         for p in range(1, 49)
     )
     return [*rows, *extended]
@@ -204,5 +206,6 @@ TURNING_VARIABLES = Registry(
     + _rows_modal(4200)
     + position_rows(_end_point, _machine, _work, _skip, _offset_in_force, nothing)
     + _rows_work_offsets()
-    + _rows_tools()
+    + _rows_tools(),
+    modal_names("_BUF", "_ACT"),
 )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import wraps
 from typing import TYPE_CHECKING, Any
 
+from polycnc.control.fanuc.dwell import dwell
 from polycnc.control.fanuc.milling import five_axes
 from polycnc.control.fanuc.milling.cycles import MILLING_DRILLING
 from polycnc.control.word_address.auxiliary import functions
@@ -75,7 +76,7 @@ ROWS = table(
     GCode("G2", "motion", ends="cycle", planner=path.plan_arc_cw),
     GCode("G3", "motion", ends="cycle", planner=path.plan_arc_ccw),
     GCode("G6.2", "motion", ends="cycle", planner=nurbs.plan_nurbs),
-    moves("G4", functions.dwell, "X P U"),
+    moves("G4", dwell, "X P U"),
     GCode("G5", handler=path_modes.high_speed_machining, takes="P"),
     GCode("G5.1", handler=path_modes.contour_control, takes="Q R"),
     GCode("G5.4", handler=path_modes.select_current_loop, takes="Q"),

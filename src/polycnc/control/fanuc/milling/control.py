@@ -14,7 +14,7 @@ from polycnc.control.fanuc.milling.codes import ADDRESSES, G_CODES, M_CODES, POW
 from polycnc.control.fanuc.milling.cycles import MILLING_DRILLING
 from polycnc.control.fanuc.milling.parameters import FanucMillingParameters
 from polycnc.control.fanuc.milling.variables import MILLING_VARIABLES
-from polycnc.control.fanuc.operation import dry_run, suppresses_reading
+from polycnc.control.fanuc.operation import MODES_WITHOUT_JUMPS, dry_run, suppresses_reading
 from polycnc.control.word_address.block.whole_numbers import DecimalPoint
 from polycnc.control.word_address.machining_centre import HARTFORD, MillingControl
 from polycnc.control.word_address.macro_b import interruption
@@ -64,11 +64,16 @@ class FanucMilling(MillingControl):
         interruption.RULE,
     )
     SCALE_CENTER_IS_ABSOLUTE: ClassVar[bool] = True
+    MODES_WITHOUT_JUMPS: ClassVar[frozenset[str]] = MODES_WITHOUT_JUMPS
     POINT_IN_WHOLE_NUMBERS: ClassVar[DecimalPoint] = DecimalPoint.REFUSED
 
     def code_calls(self, channel: Channel) -> CodeCalls:
         """Codes registered by 6050 to 6089 and 6001#5."""
         return registered_codes(_given(channel))
+
+    def radius_value(self, channel: Channel, number: int) -> float:
+        """5004#2 ODI: the offset is the radius, or the diameter."""
+        return self.offset_amount(channel, number) * (0.5 if _given(channel).ODI else 1.0)
 
     def several_m_codes(self, channel: Channel) -> bool:
         """3404#7 M3B: up to three M codes in a block."""
@@ -141,11 +146,17 @@ class FanucMilling(MillingControl):
         return of.measuring_deceleration, of.measuring_window, of.measuring_feed / 60.0
 
     def motion_settings(self, channel: Channel) -> MotionSettings:
-        """1401#1 LRP: rapids on a line, else every axis by itself; 7001#0 MIT: manual intervention and return."""
+        """1401#1 LRP: rapids on a line, else every axis by itself; 7001#0 MIT: manual intervention and return.
+
+        1403#5 HTG: F of a helix counts the whole path, else the arc alone. G93 counts the radius of an arc (operator's
+        manual B-62764EN, 5.4).
+        """
         parameters = _given(channel)
         return replace(
             accelerated(super().motion_settings(channel), parameters, channel.axes),
             rapid_by_axis=not parameters.LRP,
+            feed_along_arc=not parameters.HTG,
+            inverse_time_by_radius=True,
             returns_to_path=parameters.MIT,
             dry_run=dry_run(parameters),
             slowest_rapid=parameters.rapid_f0 / 60.0,

@@ -28,6 +28,8 @@ class FanucMillingParameters(FanucParameters["FanucMillingAxisParameters"]):
     #: 5001#6: a length that G28, G30 or G53 has cancelled comes back with the next G43, G44 or H (0) or the
     #: next absolute word (1).
     EVO = Bit(5001, 6, delivered=True)
+    #: 5004#2: D of cutter compensation names a radius (0) or a diameter (1).
+    ODI = Bit(5004, 2, delivered=False)
     #: 5008#1: the interference check of compensation compares directions (0) or not (1).
     CNC = Bit(5008, 1, delivered=False)
     #: 5101#0: drilling cycles run along Z (0) or the third axis of the plane (1).

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from polycnc.control.fanuc.system_variables import (
     COMMON_VARIABLES,
     axis_at,
+    modal_names,
     modal_rows,
     nothing,
     position_rows,
@@ -193,17 +194,6 @@ def _rows_modal(first: int) -> list[SystemRange]:
     return modal_rows(first, {n: _modal(group) for n, group in MILLING_GROUPS.items()}, words)
 
 
-def modal_names() -> dict[str, tuple[int, int]]:
-    """Names of modal information: `_BUFG[g]` of the blocks before, `_ACTG` of the running one, `_INTG` interrupted."""
-    words = {"B": 102, "D": 107, "E": 108, "F": 109, "H": 111, "M": 113, "N": 114, "O": 115, "S": 119, "T": 120,
-             "WZP": 130}  # fmt: skip
-    names: dict[str, tuple[int, int]] = {}
-    for prefix, first in (("_BUF", 4000), ("_ACT", 4200), ("_INT", 4400)):
-        names[prefix + "G"] = (first + 1, first + 30)
-        names |= {prefix + word: (first + number, first + number) for word, number in words.items()}
-    return names
-
-
 def _shown(m: MacroMemory, axis: int, value: float) -> float:
     """A position as the program sees it: inches, degrees."""
     if m.channel.axis_data[axis].rotary:
@@ -250,5 +240,5 @@ MILLING_VARIABLES = Registry(
     + _rows_work_offsets()
     + _rows_on_table()
     + _rows_tools(),
-    modal_names(),
+    modal_names("_BUF", "_ACT", "_INT"),
 )

@@ -343,7 +343,7 @@ def _motion(draft: Draft) -> Step | None:
         raise AlarmError("12080", text="ANG")
     if draft.mode["motion"] not in LINEAR and not _may_move(draft):
         return None
-    if draft.mode["motion"] in LINEAR and draft.has("PO"):
+    if draft.mode["motion"] in LINEAR and any("PO" in (w.address, w.modifier) for _, w in draft.open_words()):
         return splines.straight_to_ends(draft)
     return maker(draft)
 
@@ -377,6 +377,9 @@ def _words(draft: Draft) -> list[int]:
             draft.steps.append(words.make(draft, position, word))
             if word.address == "M" and word.index is None:
                 ends.append(position)
+    own_feed = None if {"frame", "block_motion"} & draft.codes.keys() else draft.take("FRC")
+    if own_feed is not None:
+        draft.steps.append(words.own_corner_feed(draft, own_feed))
     return ends
 
 

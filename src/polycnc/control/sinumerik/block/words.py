@@ -349,6 +349,20 @@ def modal_corner_feed(draft: Draft, position: int, _shape: WordShape) -> Step:
     return run
 
 
+def own_corner_feed(draft: Draft, position: int) -> Step:
+    """FRC beside no CHF, CHR or RND: the feed of a rounding by RNDM behind this block (Fundamentals)."""
+    factor, opens_line = moves.feed_factor(draft), draft.opens_line
+
+    def run(channel: SinumerikChannel, values: Values) -> None:
+        step = partial(stages.feed_once, channel, number(values, position) * factor)
+        if opens_line:
+            moves.OpenLine.of(channel).corners.append(step)
+        else:
+            step()
+
+    return run
+
+
 # ---- settings
 
 
@@ -494,6 +508,7 @@ WORDS: dict[str, Maker] = {
     "POLF": retraction.retraction_position,
     "SPP": punching.longest_segment,
     **dict.fromkeys(thread_ramps.RAMPS, thread_ramps.ramp),
+    "SF": thread_ramps.start_angle,
     **outside_feeds.WORDS,
     **fixed_stop.WORDS,
     **dict.fromkeys(_PERCENT, percentage),
@@ -519,7 +534,7 @@ ASKED = {"S": "S_CODE", "T": "T_CODE"}
 PASSES = "P"
 #: Words that only mean something together with others; alone they are a mistake of the block.
 COMPANIONS = frozenset(
-    "I J K I1 J1 K1 IP CR AR TURN AP RP RPL ANG SF FB FD FRC FP DISR DISCL FAD DISPR PO PW SD PL".split()  # noqa: SIM905 - a table
+    "I J K I1 J1 K1 IP CR AR TURN AP RP RPL ANG FB FD FRC FP DISR DISCL FAD DISPR PO PW SD PL".split()  # noqa: SIM905 - a table
 )
 
 

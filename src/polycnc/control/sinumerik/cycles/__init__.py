@@ -6,8 +6,10 @@
 
     drilling             CYCLE81 to CYCLE89, CYCLE840
     patterns             HOLES1, HOLES2, CYCLE801, CYCLE802
+    chamfers             VARI 5 of the milling cycles
     milling              POCKET1 to POCKET4, SLOT1, SLOT2, LONGHOLE, CYCLE899
-    surfaces             CYCLE61, CYCLE71, CYCLE72, CYCLE76, CYCLE77, CYCLE79, CYCLE90
+    surfaces             CYCLE61, CYCLE71, CYCLE72, CYCLE76, CYCLE77, CYCLE79
+    milled_threads       CYCLE70, CYCLE78, CYCLE90
     engraving            CYCLE60
     contours             CYCLE62 to CYCLE64
     turning              CYCLE93 to CYCLE99, CYCLE951

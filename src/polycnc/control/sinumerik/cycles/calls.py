@@ -59,7 +59,7 @@ class CycleProgram:
         self._moves: Moves | None = None
         self._acted = False
 
-    def step(self, index: int) -> Step | None:
+    def step(self, index: int, *, alone: bool = False) -> Step | None:  # noqa: ARG002 - each is alone
         """A block of the cycle."""
         return partial(self._run, index)
 

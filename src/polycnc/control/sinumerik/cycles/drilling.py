@@ -10,6 +10,7 @@ from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.cycles.levels import Levels, levels, sign
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
+from polycnc.control.sinumerik.feed.thread_ramps import START_ANGLE
 from polycnc.control.sinumerik.signals import sections
 from polycnc.cycles.drilling import deep_hole as deep
 from polycnc.cycles.drilling import holes
@@ -403,10 +404,7 @@ def rigid_tapping(moves: Moves, a: Arguments) -> None:
 
 def _start_angle(moves: Moves, position: float) -> float:
     """POSS; below 0 the start angle of threads of setting datum 42000."""
-    datum, data = "$SC_THREAD_START_ANGLE", moves.memory.data
-    if position >= 0.0:
-        return position
-    return data.number(datum) if data.is_set(datum) else 0.0
+    return position if position >= 0.0 else moves.memory.data.number(START_ANGLE)
 
 
 #: ENC of CYCLE840: with the encoder of the spindle, without dwell and with it; without encoder, with the programmed

@@ -7,6 +7,7 @@ from math import radians, sin
 from typing import TYPE_CHECKING
 
 from polycnc.channel.stack import LevelKind
+from polycnc.control.sinumerik.cycles.chamfers import CHAMFER, chamfer, is_chamfer
 from polycnc.control.sinumerik.cycles.levels import levels
 from polycnc.control.sinumerik.cycles.moves import require_tool
 from polycnc.control.sinumerik.errors import not_supported
@@ -32,7 +33,7 @@ if TYPE_CHECKING:
 USUAL_WIDTH = 0.8
 TURN = 360.0
 #: Units of VARI.
-COMPLETE, ROUGHING, FINISHING, EDGE, CHAMFER = 0, 1, 2, 4, 5
+COMPLETE, ROUGHING, FINISHING, EDGE = 0, 1, 2, 4
 
 
 def perform(moves: Moves, strokes: Iterable[MillStroke]) -> None:
@@ -59,6 +60,14 @@ def cutter(moves: Moves, *, deep: bool = False) -> float:
     if radius <= 0.0:
         raise AlarmError("61117")
     return radius
+
+
+def radius_of(moves: Moves, a: Arguments, name: str) -> float:
+    """Radius that follows the walls: the cutter's, or that of the cone that makes a chamfer."""
+    if is_chamfer(a, name):
+        require_tool(moves)
+        return chamfer(moves, a).radius
+    return cutter(moves)
 
 
 def feed_of(a: Arguments, name: str) -> float:
@@ -89,14 +98,11 @@ def variant(a: Arguments, name: str, allowed: tuple[int, ...], digits: int = 2) 
     """Units of VARI.
 
     Raises:
-        AlarmError: 61002 for one that the cycle does not have, or below zero; PC0001 for chamfering, and for digits
-            that are not known.
+        AlarmError: 61002 for one that the cycle does not have, or below zero; PC0001 for digits that are not known.
     """
     check_start_point(a)
     value = a.digit(name, 0)
-    if value == CHAMFER and a.has("_ZFS"):
-        raise not_supported(f"{a.cycle} {name}")
-    if value not in allowed or a.integer(name) < 0:
+    if (value not in allowed and not is_chamfer(a, name)) or a.integer(name) < 0:
         raise AlarmError("61002")
     if a.integer(name) >= 10**digits:
         raise not_supported(f"{a.cycle} {name}")
@@ -126,9 +132,14 @@ def milling_levels(moves: Moves, a: Arguments, base_allowance: float, infeed: st
     return found
 
 
+def levels_of_work(moves: Moves, a: Arguments, kind: int, base_allowance: float) -> Levels | None:
+    """Levels as `milling_levels`, or those of a chamfer."""
+    return chamfer(moves, a).levels if kind == CHAMFER else milling_levels(moves, a, base_allowance, "_MID")
+
+
 def reference_point(moves: Moves, a: Arguments) -> Point:
-    """PA, PO; where the cycle is modal and both are 0, the position that was reached."""
-    given = a["_PA"], a["_PO"]
+    """PA, PO (CPA, CPO); where the cycle is modal and both are 0, the position that was reached."""
+    given = (a["_PA"], a["_PO"]) if a.has("_PA") else (a["CPA"], a["CPO"])
     return moves.point if moves.channel.level.kind is LevelKind.MODAL and given == (0.0, 0.0) else given
 
 
@@ -168,7 +179,7 @@ def check_start_point(a: Arguments) -> None:
 
 def pocket3(moves: Moves, a: Arguments) -> None:
     """POCKET3: rectangular pocket about its middle or from a corner."""
-    radius = cutter(moves)
+    radius = radius_of(moves, a, "_VARI")
     length, width, corner = abs(a["_LENG"]), abs(a["_WID"]), abs(a["_CRAD"])
     if not length or not width:
         raise AlarmError("61118")
@@ -182,7 +193,7 @@ def pocket3(moves: Moves, a: Arguments) -> None:
 
 def pocket4(moves: Moves, a: Arguments) -> None:
     """POCKET4: circular pocket."""
-    radius, size = cutter(moves), abs(a["_PRAD"])
+    radius, size = radius_of(moves, a, "_VARI"), abs(a["_PRAD"])
     _pocket(moves, a, (2.0 * size, 2.0 * size, size), (abs(a["_AP1"]), abs(a["_AP1"])), radius)
 
 
@@ -192,11 +203,8 @@ def _pocket(
     kind = variant(a, "_VARI", (ROUGHING, FINISHING, EDGE))
     if a.digit("_GMODE", _PREMACHINED_PLACE) == WHOLE:
         core = (0.0, 0.0)
-    if kind == EDGE:
-        kind, base_allowance = FINISHING, 0.0
-    else:
-        base_allowance = abs(a["_FALD"])
-    found = milling_levels(moves, a, base_allowance, "_MID")
+    base_allowance = 0.0 if kind in (EDGE, CHAMFER) else abs(a["_FALD"])
+    found = levels_of_work(moves, a, kind, base_allowance)
     if found is None:
         return
     insertion = a.digit("_VARI", 1)
@@ -221,12 +229,12 @@ def _pocket(
         found.safe,
         found.retract,
         found.depth,
-        abs(a["_MID"]),
-        width_of_cut(a, radius),
+        0.0 if kind == CHAMFER else abs(a["_MID"]),
+        0.0 if kind == CHAMFER else width_of_cut(a, radius),
         feed_of(a, "_FFP1"),
         feed_of(a, "_FFD"),
         is_ccw(moves, a.integer("_CDIR"), inside=True),
-        allowance=abs(a["_FAL"]),
+        allowance=0.0 if kind == CHAMFER else abs(a["_FAL"]),
         base_allowance=base_allowance,
         insertion=way,
         insertion_size=helix,
@@ -235,7 +243,7 @@ def _pocket(
         core_width=core[1],
         core_depth=abs(a["_AD"]),
     )
-    _mill(moves, along(pocket), kind)
+    _mill(moves, along(pocket), kind if kind in (COMPLETE, ROUGHING) else FINISHING)
 
 
 def along(pocket: Pocket) -> Pocket:
@@ -287,7 +295,7 @@ def older_pocket(moves: Moves, a: Arguments) -> None:
     if 2.0 * corner > min(length, width) + NO_WAY:
         raise AlarmError("61113")
     rough = Pocket(
-        Place((a["CPA"], a["CPO"]), 0.0 if circular else a["STA1"]),
+        Place(reference_point(moves, a), 0.0 if circular else a["STA1"]),
         length / 2.0,
         width / 2.0,
         corner,
@@ -327,9 +335,9 @@ def _apart(a: Arguments, count: int) -> float:
 
 def _slotting(moves: Moves, a: Arguments, found: Levels, insertion: Insertion) -> slots.Slotting:
     """How the slots of a call are milled; 61105 for a cutter that does not fit the width."""
-    radius = cutter(moves)
+    radius, chamfers = radius_of(moves, a, "VARI"), is_chamfer(a, "VARI")
     width = abs(a["WID"])
-    if 2.0 * radius > width + NO_WAY or 2.0 * radius <= width / 2.0:
+    if 2.0 * radius > width + NO_WAY or (2.0 * radius <= width / 2.0 and not chamfers):
         raise AlarmError("61105")
     feed = feed_of(a, "FFP1")
     return slots.Slotting(
@@ -340,12 +348,12 @@ def _slotting(moves: Moves, a: Arguments, found: Levels, insertion: Insertion) -
         retract=found.retract,
         depth=found.depth,
         infeed=abs(a["MID"]),
-        finishing_infeed=abs(a["MIDF"]),
+        finishing_infeed=0.0 if chamfers else abs(a["MIDF"]),
         allowance=abs(a["FAL"]),
         base_allowance=abs(a["_FALD"]),
         feed=feed,
         depth_feed=feed_of(a, "FFD"),
-        finishing_feed=a["FFP2"] or feed,
+        finishing_feed=feed if chamfers else a["FFP2"] or feed,
         ccw=is_ccw(moves, a.integer("CDIR"), inside=True),
         insertion=insertion,
         steepest_deg=abs(a["_STA2"]),
@@ -357,7 +365,9 @@ def _mill_slot(moves: Moves, a: Arguments, slotting: slots.Slotting, shape: slot
     kind = variant(a, "VARI", (COMPLETE, ROUGHING, FINISHING))
     if kind in (COMPLETE, ROUGHING):
         perform(moves, slots.rough(slotting, shape))
-    if kind == FINISHING or (kind == COMPLETE and slotting.leaves_allowance):
+    if kind == CHAMFER:
+        perform(moves, slots.finish(slotting, shape))
+    elif kind == FINISHING or (kind == COMPLETE and slotting.leaves_allowance):
         perform_at_speed(moves, a["SSF"], slots.finish(slotting, shape))
     moves.rapid(w=slotting.retract)
     moves.end_block()
@@ -373,7 +383,7 @@ def slot1(moves: Moves, a: Arguments) -> None:
     insertion = INSERTIONS.get(a.digit("VARI", 1))
     if insertion is None:
         raise AlarmError("61002")
-    found = levels(moves, a)
+    found = chamfer(moves, a).levels if is_chamfer(a, "VARI") else levels(moves, a)
     if found is None:
         return
     slotting = _slotting(moves, a, found, insertion)
@@ -383,8 +393,9 @@ def slot1(moves: Moves, a: Arguments) -> None:
     length = abs(a["LENG"]) - abs(a["WID"])
     if length < 0.0:
         raise AlarmError("61105")
+    center = reference_point(moves, a)
     for angle in angles:
-        start = Place((a["CPA"], a["CPO"]), angle)(abs(a["RAD"]) + abs(a["WID"]) / 2.0, 0.0)
+        start = Place(center, angle)(abs(a["RAD"]) + abs(a["WID"]) / 2.0, 0.0)
         _mill_slot(moves, a, slotting, slots.Straight(Place(start, angle), length))
 
 
@@ -393,12 +404,12 @@ def slot2(moves: Moves, a: Arguments) -> None:
     require_tool(moves)
     if a.digit("VARI", 1) not in (0, 1):
         raise AlarmError("61002")
-    found = levels(moves, a)
+    found = chamfer(moves, a).levels if is_chamfer(a, "VARI") else levels(moves, a)
     if found is None:
         return
     slotting = _slotting(moves, a, found, Insertion.FEED)
     angles = _angles(a)
-    size, center = abs(a["RAD"]), (a["CPA"], a["CPO"])
+    size, center = abs(a["RAD"]), reference_point(moves, a)
     if size <= abs(a["WID"]) / 2.0:
         raise AlarmError("61105")
     if len(angles) > 1 and slots.angle_of(abs(a["WID"]), size) + abs(a["AFSL"]) > _apart(a, len(angles)):
@@ -426,8 +437,9 @@ def long_hole(moves: Moves, a: Arguments) -> None:
     if len(angles) > 1 and inner * sin(radians(_apart(a, len(angles)) / 2.0)) < radius:
         raise AlarmError("61104")
     feed, depth_feed = feed_of(a, "FFP1"), feed_of(a, "FFD")
+    center = reference_point(moves, a)
     for angle in angles:
-        place = Place((a["CPA"], a["CPO"]), angle)
+        place = Place(center, angle)
         ends = place(inner, 0.0), place(outer, 0.0)
         strokes = slots.to_and_fro(ends, moves.point, found, abs(a["MID"]), feed, depth_feed)
         perform(moves, strokes)
@@ -437,6 +449,7 @@ def long_hole(moves: Moves, a: Arguments) -> None:
 
 #: Units of VARI of CYCLE899 beside roughing, finishing and finishing of the walls; what is behind them: the technique.
 BASE, PREFINISHING, OPEN_CHAMFER = 3, 5, 6
+KINDS_OF_OPEN_SLOTS = (ROUGHING, FINISHING, BASE, EDGE, PREFINISHING, OPEN_CHAMFER)
 TROCHOIDAL, PLUNGING = 1, 2
 _TECHNIQUE_PLACES = (1, 2, 3)
 
@@ -446,21 +459,21 @@ def open_slot(moves: Moves, a: Arguments) -> None:
 
     Raises:
         AlarmError: As the other milling cycles; 61002 for VARI, 61105 for a tool that does not go in, 61118 for a slot
-            without length or width; PC0001 for chamfering and a mere start point.
+            without length or width; PC0001 for a mere start point.
     """
-    radius = cutter(moves)
     check_start_point(a)
     kind = a.digit("_VARI", 0)
-    if kind == OPEN_CHAMFER:
-        raise not_supported("CYCLE899 _VARI")
+    chamfers = kind == OPEN_CHAMFER
+    require_tool(moves)
+    radius = chamfer(moves, a).radius if chamfers else cutter(moves)
     technique = next((digit for place in _TECHNIQUE_PLACES if (digit := a.digit("_VARI", place))), TROCHOIDAL)
-    if kind not in (ROUGHING, FINISHING, BASE, EDGE, PREFINISHING) or technique not in (TROCHOIDAL, PLUNGING):
+    if kind not in KINDS_OF_OPEN_SLOTS or technique not in (TROCHOIDAL, PLUNGING):
         raise AlarmError("61002")
     length, width = abs(a["_LENG"]), abs(a["_WID"])
     if not length or not width:
         raise AlarmError("61118")
     base_allowance = abs(a["_FALD"]) if kind in (ROUGHING, PREFINISHING) else 0.0
-    found = milling_levels(moves, a, base_allowance, "_MID")
+    found = levels_of_work(moves, a, CHAMFER if chamfers else kind, base_allowance)
     if found is None:
         return
     slot = OpenSlot(
@@ -468,9 +481,9 @@ def open_slot(moves: Moves, a: Arguments) -> None:
         length,
         width,
         radius,
-        width_of_cut(a, radius),
-        allowance=0.0 if kind in (FINISHING, EDGE) else abs(a["_FAL"]),
-        clearance=abs(a["SDIS"]),
+        0.0 if chamfers else width_of_cut(a, radius),
+        allowance=0.0 if kind in (FINISHING, EDGE, OPEN_CHAMFER) else abs(a["_FAL"]),
+        clearance=abs(a["SDIS"]) + (abs(a["_FS"]) if chamfers else 0.0),
         ccw=is_ccw(moves, a.integer("_CDIR"), inside=True),
         feed=feed_of(a, "_FFP1"),
         safe=found.safe,
@@ -479,7 +492,7 @@ def open_slot(moves: Moves, a: Arguments) -> None:
     if slot.reach < -NO_WAY or slot.last < -NO_WAY:
         raise AlarmError("61105")
     below = [found.depth]
-    if kind != BASE:
+    if kind not in (BASE, OPEN_CHAMFER):
         total = abs(found.depth - found.reference) - base_allowance
         below = [found.reference + found.down * part for part in steps(total, abs(a["_MID"]))]
     if kind != ROUGHING:

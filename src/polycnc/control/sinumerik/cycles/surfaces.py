@@ -1,21 +1,20 @@
-"""Faces, contours, spigots, milled threads: CYCLE61, CYCLE71, CYCLE72, CYCLE76, CYCLE77, CYCLE79, CYCLE70, CYCLE90."""
+"""Faces, contours, spigots: CYCLE61, CYCLE71, CYCLE72, CYCLE76, CYCLE77, CYCLE79."""
 
 from __future__ import annotations
 
 from functools import partial
 from typing import TYPE_CHECKING
 
+from polycnc.control.sinumerik.cycles.chamfers import CHAMFER, chamfer
 from polycnc.control.sinumerik.cycles.contours.reading import read
-from polycnc.control.sinumerik.cycles.drilling import written_pitch
 from polycnc.control.sinumerik.cycles.levels import levels
 from polycnc.control.sinumerik.cycles.milling import (
     FINISHING,
     ROUGHING,
-    check_start_point,
     cutter,
     feed_of,
     is_ccw,
-    milling_levels,
+    levels_of_work,
     perform,
     place_of,
     reference_point,
@@ -23,11 +22,9 @@ from polycnc.control.sinumerik.cycles.milling import (
     width_of_cut,
 )
 from polycnc.control.sinumerik.cycles.moves import require_tool
-from polycnc.control.sinumerik.errors import not_supported
 from polycnc.cycles.count import checked
 from polycnc.cycles.milling import contour as path_milling
 from polycnc.cycles.milling import facing, spigots
-from polycnc.cycles.milling import thread as thread_milling
 from polycnc.cycles.milling.contour import Approach, ApproachShape, PathMilling
 from polycnc.cycles.milling.stroke import Place, steps
 from polycnc.cycles.turning.contour import parallel, turned_round
@@ -132,14 +129,14 @@ def path(moves: Moves, a: Arguments) -> None:
     radius = require_tool(moves, deep=True)
     if radius < 0.0:
         raise AlarmError("61112")
-    variant(a, "_VARI", (ROUGHING, FINISHING), digits=TURNED_ROUND + 1)
+    kind = variant(a, "_VARI", (ROUGHING, FINISHING), digits=TURNED_ROUND + 1)
     if a.digit("_VARI", 1) not in (0, 1) or a.digit("_VARI", 2) > STAYS:
         raise AlarmError("61002")
     side = SIDES.get(a.integer("_RL"))
-    if side is None:
+    if side is None or (kind == CHAMFER and not side):
         raise AlarmError("61114")
     ways = _approach(a, "_AS1", "_LP1", side), _approach(a, "_AS2", "_LP2", side)
-    found = milling_levels(moves, a, abs(a["_FALD"]), "_MID")
+    found = levels_of_work(moves, a, kind, abs(a["_FALD"]))
     if found is None:
         return
     feed, depth_feed = feed_of(a, "_FFP1"), feed_of(a, "_FFD")
@@ -161,14 +158,16 @@ def _mill_path(
     radius, kind = moves.memory.tools.radius, a.digit("_VARI", 0)
     if a.digit("_VARI", TURNED_ROUND) == 1:
         contour, side = turned_round(contour), -side
-    off = radius + (abs(a["_FAL"]) if kind == ROUGHING else 0.0)
+    off = chamfer(moves, a).radius if kind == CHAMFER else radius
+    off += abs(a["_FAL"]) if kind == ROUGHING else 0.0
     try:
         # Roughing leaves stock in a rounding that is too narrow for radius and allowance.
         tool = parallel(contour, side * off, leaves_fillets=kind == ROUGHING)
     except ValueError:
         raise AlarmError("61606") from None
     left = abs(a["_FALD"]) if kind == ROUGHING else 0.0
-    at = levels_below(found, abs(found.depth - found.reference) - left, a["_MID"])
+    infeed = 0.0 if kind == CHAMFER else a["_MID"]
+    at = levels_below(found, abs(found.depth - found.reference) - left, infeed)
     lifts = [_lift(found, level, a.digit("_VARI", 2), abs(a["SDIS"])) for level in at]
     work = PathMilling(tool, side, *ways, *feeds, lifts, found.safe, found.retract)
     perform(moves, path_milling.mill(work, at))
@@ -240,9 +239,12 @@ def _mill_spigot(
     depth_feed: str,
 ) -> None:
     """Mill round an outline; `depth_feed` names the parameter of the feed in depth."""
-    found = milling_levels(moves, a, abs(a["_FALD"]), "_MID")
+    found = levels_of_work(moves, a, kind, abs(a["_FALD"]))
     if found is None:
         return
+    chamfers = kind == CHAMFER
+    if chamfers:
+        radius = chamfer(moves, a).radius
     left, left_below = (abs(a["_FAL"]), abs(a["_FALD"])) if kind == ROUGHING else (0.0, 0.0)
     shape = spigots.Spigot(
         place,
@@ -257,8 +259,10 @@ def _mill_spigot(
         found.retract,
     )
     total = abs(found.depth - found.reference) - left_below
-    rounds = _rounds(a, radius, shape.blank - outline.reach - left) if a.has("_MIDA") else [0.0]
-    perform(moves, spigots.mill(shape, levels_below(found, total, a["_MID"]), rounds))
+    in_rounds = a.has("_MIDA") and not chamfers
+    rounds = _rounds(a, radius, shape.blank - outline.reach - left) if in_rounds else [0.0]
+    infeed = 0.0 if chamfers else a["_MID"]
+    perform(moves, spigots.mill(shape, levels_below(found, total, infeed), rounds))
 
 
 def _rounds(a: Arguments, radius: float, stock: float) -> list[float]:
@@ -266,100 +270,3 @@ def _rounds(a: Arguments, radius: float, stock: float) -> list[float]:
     if not a.plain("_MIDA") or stock <= NO_WAY:
         return [0.0]
     return [stock - part for part in steps(stock, width_of_cut(a, radius))]
-
-
-# ---- threads
-
-
-def thread(moves: Moves, a: Arguments) -> None:
-    """CYCLE90: internal (TYPTH 0) or external thread on a helix; CDIR 2 is G2, 3 is G3."""
-    radius = cutter(moves)
-    if a.integer("CDIR") not in (2, 3):
-        raise AlarmError("61109")
-    if a.integer("TYPTH") not in (0, 1):
-        raise AlarmError("61002")
-    if not a["PIT"] > 0.0:
-        raise AlarmError("61001")
-    inside = a.integer("TYPTH") == 0
-    size = abs(a["DIATH"]) / 2.0 - radius if inside else abs(a["KDIAM"]) / 2.0 + radius
-    if inside and 2.0 * radius >= abs(a["KDIAM"] or a["DIATH"]):
-        raise AlarmError("61105")
-    found = levels(moves, a)
-    if found is None:
-        return
-    milled = thread_milling.MilledThread(
-        Place((a["CPA"], a["CPO"])),
-        size,
-        a["PIT"],
-        found.reference,
-        found.depth,
-        ccw=a.integer("CDIR") == 3,
-        inside=inside,
-        clearance=radius + abs(a["SDIS"]),
-        feed=feed_of(a, "FFR"),
-        retract=found.retract,
-    )
-    perform(moves, thread_milling.mill(milled))
-
-
-#: Tens of VARI of CYCLE70: where the thread begins; hundreds: its hand.
-DOWNWARDS, UPWARDS = 1, 2
-RIGHT_HAND, LEFT_HAND = 0, 1
-#: No digit of VARI of CYCLE70 is known from here on.
-HIGHEST_VARI = 1000
-
-
-def thread_with_teeth(moves: Moves, a: Arguments) -> None:
-    """CYCLE70: internal or external thread in passes, with a cutter of one tooth or of several in a row.
-
-    Raises:
-        AlarmError: As the other milling cycles; 61001 without pitch or depth of thread, 61002 for VARI or TYPTH, 61010
-            for an allowance of more than the thread's depth, 61105 for a cutter that does not go into the core hole,
-            61601 for an external thread without core;
-            PC0001 for a pitch by module, a negative number of teeth and higher digits of VARI.
-    """
-    radius = cutter(moves)
-    check_start_point(a)
-    kind, way, hand = (a.digit("_VARI", place) for place in range(3))
-    teeth = a.integer("_NT")
-    if teeth < 0 or not 0 <= a.integer("_VARI") < HIGHEST_VARI:
-        raise not_supported("CYCLE70 _NT" if teeth < 0 else "CYCLE70 _VARI")
-    is_inside = a.integer("_TYPTH") == 0
-    if (
-        kind not in (ROUGHING, FINISHING)
-        or way not in (DOWNWARDS, UPWARDS)
-        or hand not in (RIGHT_HAND, LEFT_HAND)
-        or a.integer("_TYPTH") not in (0, 1)
-    ):
-        raise AlarmError("61002")
-    lead, deep = abs(written_pitch(a, "_PIT")), abs(a["_H1"])
-    if not lead or not deep:
-        raise AlarmError("61001")
-    if abs(a["_FAL"]) >= deep:
-        raise AlarmError("61010")
-    found = levels(moves, a)
-    if found is None:
-        return
-    outer = 0.5 * abs(a["_DIATH"])
-    if not is_inside and deep >= outer:
-        raise AlarmError("61601")
-    if is_inside and radius >= outer - deep:
-        raise AlarmError("61105")
-    cuts = steps(deep - abs(a["_FAL"]), abs(a["_MID"])) if kind == ROUGHING else [deep]
-    rises = way == UPWARDS
-    outwards = -found.down if rises else found.down
-    milled = thread_milling.ToothedThread(
-        Place(reference_point(moves, a), a["_NSP"]),
-        [outer - deep + cut - radius if is_inside else outer - cut + radius for cut in cuts],
-        lead,
-        max(teeth, 1),
-        found.reference,
-        found.depth,
-        rises,
-        ccw=(outwards > 0.0) is (hand == RIGHT_HAND),
-        beside=0.0 if is_inside else outer + 2.0 * radius + abs(a["SDIS"]),
-        feed=feed_of(a, "_FFR"),
-        safe=found.safe,
-        retract=found.retract,
-    )
-    perform(moves, thread_milling.mill_with_teeth(milled))

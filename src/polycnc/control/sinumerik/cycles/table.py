@@ -11,6 +11,7 @@ from polycnc.control.sinumerik.cycles import (
     drilling,
     engraving,
     high_speed_settings,
+    milled_threads,
     milling,
     patterns,
     surfaces,
@@ -123,7 +124,7 @@ CYCLES: dict[str, Cycle] = {
     "CYCLE64": Cycle(f"_PRG _VARI {_MILL} _F _DXY _UXY _UZ _CDIR _TR _DR _UMODE {_SL}", pockets.predrill),
     "CYCLE70": Cycle(
         f"{_MILL} _DIATH _H1 _FAL _PIT _NT _MID _FFR _TYPTH _PA _PO _NSP _VARI _PITA {_PITCHES} {_SL}",
-        surfaces.thread_with_teeth,
+        milled_threads.thread_with_teeth,
     ),
     "CYCLE71": Cycle(
         f"{_MILL} _PA _PO _LENG _WID _STA _MID _MIDA _FDP _FALD _FFP1 _VARI _FDP1", surfaces.face
@@ -141,11 +142,16 @@ CYCLES: dict[str, Cycle] = {
         f"{_HOLE} _PRAD _PA _PO _MID _FAL _FALD _FFP1 _FFD _CDIR _VARI _AP1 _FS _ZFS {_SL}",
         surfaces.spigot,
     ),
+    "CYCLE78": Cycle(
+        f"{_MILL} _ADPR _FDPR _LDPR _DIAM _PIT _PITA _DAM:number _MDEP _VARI _CDIR _GE _FFD _FRDP:feed _FFR _FFP2"
+        f" _FFA:number {_PITCHES} {_SL}",
+        milled_threads.drill_and_mill,
+    ),
     "CYCLE79": Cycle(
         f"{_MILL} _NUM _SWL _PA _PO _STA _RC _AP1 _MIDA _MID _FAL _FALD _FFP1 _CDIR _VARI _FS _ZFS {_SL}",
         surfaces.polygon,
     ),
-    "CYCLE90": Cycle(f"{_HOLE} DIATH KDIAM PIT FFR CDIR TYPTH CPA CPO", surfaces.thread),
+    "CYCLE90": Cycle(f"{_HOLE} DIATH KDIAM PIT FFR CDIR TYPTH CPA CPO", milled_threads.thread),
     "CYCLE899": Cycle(
         f"{_MILL} _LENG _WID _PA _PO _STA _MID _MIDA _FAL _FALD _FFP1 _CDIR _VARI {_SL} _UMODE _FS _ZFS",
         milling.open_slot,

@@ -197,6 +197,7 @@ DATA: dict[str, tuple[int, bool | float | str]] = {
     "$SN_JOG_SET_VELO": (41110, 0.0),
     "$SN_JOG_ROT_AX_SET_VELO": (41130, 0.0),
     "$SN_AXCT_SWWIDTH": (41700, 0),
+    "$SC_THREAD_START_ANGLE": (42000, 0.0),
     "$SC_THREAD_RAMP_DISP": (42010, -1.0),
     "$SC_DRY_RUN_FEED": (42100, 5000.0),
     "$SC_DRY_RUN_FEED_MODE": (42101, 0),

@@ -1,6 +1,7 @@
-"""DITS, DITE: paths on which a thread takes up speed and brakes (Fundamentals, G33).
+"""SF, DITS, DITE: where a thread begins on the circumference, and its paths to take up speed and to brake.
 
-They are setting data; the planner lets the axes take up speed as they can.
+They are setting data that words write (job planning 1.1.7), so they hold for the threads behind (16.1: SF is modal).
+The planner lets the axes take up speed as they can.
 """
 
 from __future__ import annotations
@@ -8,7 +9,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.block.positions import number
-from polycnc.control.sinumerik.tables import length_factor
+from polycnc.control.sinumerik.tables import TURN, length_factor
+from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.block.draft import Draft, Step, Values
@@ -18,6 +20,8 @@ if TYPE_CHECKING:
 #: The element of the setting datum that a word writes.
 RAMPS = {"DITS": 0, "DITE": 1}
 DATUM = "$SC_THREAD_RAMP_DISP"
+#: Start angle of threads, degrees.
+START_ANGLE = "$SC_THREAD_START_ANGLE"
 #: As fast as the axis can.
 BY_DYNAMICS = -1.0
 
@@ -30,5 +34,17 @@ def ramp(draft: Draft, position: int, shape: WordShape) -> Step:
         value = number(values, position)
         wanted = value * factor if value >= 0.0 else BY_DYNAMICS
         channel.memory.data.write(DATUM, (RAMPS[shape.address],), wanted)
+
+    return run
+
+
+def start_angle(_draft: Draft, position: int, _shape: WordShape) -> Step:
+    """SF: the start angle, modal, as SD42000; 16730 for one that is no part of a turn."""
+
+    def run(channel: SinumerikChannel, values: Values) -> None:
+        angle = number(values, position)
+        if not 0.0 <= angle < TURN:
+            raise AlarmError("16730")
+        channel.memory.data.write(START_ANGLE, (), angle)
 
     return run

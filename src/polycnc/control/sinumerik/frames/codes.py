@@ -39,7 +39,10 @@ if TYPE_CHECKING:
 
 
 def named(draft: Draft) -> list[tuple[str, int, float]]:
-    """The axis words of a frame function: frame axis, place, and factor to mm or degrees."""
+    """The axis words of a frame function: frame axis, place, and factor to mm or degrees; 12020 for AC or IC."""
+    for position, word in draft.open_words():
+        if word.modifier and word.address in draft.memory.columns:
+            raise WordAlarm("12020", position, text=word.modifier)
     geometry = draft.channel.coordinates.geometry
     found = []
     for term in draft.take_axes(path=False):

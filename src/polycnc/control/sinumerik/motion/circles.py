@@ -27,6 +27,7 @@ from polycnc.geometry.tolerances import NO_WAY
 from polycnc.language.bulk import Arc as ArcAsData
 from polycnc.language.bulk import declare
 from polycnc.language.sinumerik.names.values import Axis
+from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 from polycnc.toolpath.kinds import CCW_KINDS, arc_kind
@@ -92,7 +93,8 @@ class Arc(RoundACentre):
     @property
     def is_motion(self) -> bool:
         """Whether the block names an arc at all."""
-        return bool(self.terms or self.centre or self.angle is not None or any(self.polar))
+        alone = (self.radius, self.angle, self.turn)
+        return bool(self.terms or self.centre or any(self.polar) or any(word is not None for word in alone))
 
     def as_data(self) -> ArcAsData | None:
         """The arc as the scanner knows it: end point, and centre from the start or radius; None for any other."""
@@ -114,8 +116,9 @@ class Arc(RoundACentre):
         u, v = self.columns[:2]
         begin = (start[u], start[v])
         if any(self.polar):
-            center = self._pole(channel)
-            end[u], end[v] = self._polar_end(channel, values, begin, center)
+            pole = self._pole(channel)
+            center = self.programmed_centre(channel, values, begin) if self.centre else pole
+            end[u], end[v] = self._polar_end(channel, values, begin, pole)
         elif self.angle is not None:
             center = self._by_angle(channel, values, begin, end)
         elif self.radius is not None:
@@ -189,10 +192,15 @@ class Arc(RoundACentre):
 
 
 def circle(draft: Draft) -> Step | None:
-    """G2, G3: arc, full circle or helix in the plane."""
+    """G2, G3: arc, full circle or helix in the plane; 12080 for CR beside another word that makes the arc, too."""
     planned = Arc(draft)
     if not planned.is_motion:
         return None
+    others = planned.centre or planned.angle is not None or any(planned.polar)
+    if planned.radius is not None and others:
+        raise WordAlarm("12080", planned.radius, text="CR")
+    if any(planned.polar) and planned.angle is not None:
+        raise AlarmError("14280")
     told = planned.as_data()
     return planned.run if told is None else declare(partial(planned.run), told)
 

@@ -16,6 +16,7 @@ from polycnc.control.sinumerik.actions import axes as action_axes
 from polycnc.control.sinumerik.block import plain
 from polycnc.control.sinumerik.block.outside_feeds import take_block_feed
 from polycnc.control.sinumerik.block.positions import AxisTerm, Dimension, axis_term, number, target
+from polycnc.control.sinumerik.feed import thread_ramps
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.limits import working_area
 from polycnc.control.sinumerik.motion.last_move import LastMove
@@ -391,9 +392,8 @@ def lead_of(draft: Draft) -> Any:
 
 
 def thread(draft: Draft) -> Step | None:
-    """G33: thread with constant lead; SF is the start angle. G34, G35: F changes the lead per revolution."""
+    """G33: thread with constant lead; SD42000 (SF) is the start angle. G34, G35: F changes the lead per revolution."""
     lead = lead_of(draft)
-    start_angle = draft.take("SF")
     change = draft.take("F") if draft.mode["motion"] in ("G34", "G35") else None
     sign, factor = -1.0 if draft.mode["motion"] == "G35" else 1.0, length_factor(draft.mode)
     goal = goal_of(draft)
@@ -402,9 +402,7 @@ def thread(draft: Draft) -> Step | None:
 
     def run(channel: SinumerikChannel, values: Values) -> None:
         end = goal(channel, values)
-        angle = number(values, start_angle) if start_angle is not None else 0.0
-        if not 0.0 <= angle < tables.TURN:
-            raise AlarmError("16730")
+        angle = channel.memory.data.number(thread_ramps.START_ANGLE)
         parameters = [lead(channel, values, end), angle]
         if change is not None:
             parameters.append(sign * number(values, change) * factor)
@@ -465,8 +463,10 @@ def special(
 
 
 def dwell(draft: Draft) -> Step | None:
-    """G4: F seconds or S revolutions of the master spindle; the modal F and S stay."""
+    """G4: F seconds or S revolutions of the master spindle, not both (12080); the modal F and S stay."""
     seconds, revolutions = draft.take("F"), draft.take_shape("S")
+    if seconds is not None and revolutions is not None:
+        raise WordAlarm("12080", revolutions[0], text="S")
 
     def run(channel: SinumerikChannel, values: Values) -> None:
         wait = number(values, seconds) if seconds is not None else 0.0

@@ -128,10 +128,13 @@ def change_plane(channel: SinumerikChannel) -> None:
 
 
 def insert(channel: SinumerikChannel, shape: Shape, size: float, feed: float = nan) -> None:
-    """CHF, CHR, RND: a chamfer or rounding after the move of this block; alarm 16500 for a negative size."""
+    """CHF, CHR, RND: a chamfer or rounding after the move of this block; alarm 16500 for a negative size.
+
+    Of both in one block the rounding counts, in whichever order they stand (Fundamentals).
+    """
     if size < 0.0:
         raise AlarmError("16500")
-    if size > 0.0:
+    if size > 0.0 and (shape is Shape.ROUNDING or not corner(channel).rounds):
         corner(channel).insert(shape, size, feed)
 
 
@@ -147,6 +150,13 @@ def feed_all(channel: SinumerikChannel, feed: float) -> None:
     stage = channel.path.find(CornerStage)
     if stage is not None:
         stage.feed_all(feed)
+
+
+def feed_once(channel: SinumerikChannel, feed: float) -> None:
+    """FRC in a block without a shape of its own: the feed of its rounding by RNDM; nothing without one."""
+    stage = channel.path.find(CornerStage)
+    if stage is not None:
+        stage.feed_once(feed)
 
 
 # ---- cutter radius compensation

@@ -11,6 +11,7 @@ from math import atan2, degrees
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.deferred.records import dataclass
+from polycnc.geometry.vectors import dot
 from polycnc.machine.kinematics import Kinematics, unit
 from polycnc.messages import AlarmError
 from polycnc.transformation.kinematic.cylinder import Cylinder
@@ -39,6 +40,27 @@ WITH_WALLS, WALLS_BY_ARGUMENT = 513, 514
 SIDES = {1: 1.0, 2: -1.0}
 #: As many transformations as machine data can name.
 COUNT = 10
+#: Machine data of lengths and angles in a transformation, `_n` behind them: with a value they would move its joints.
+SHIFTS: dict[str, tuple[str, ...]] = {
+    "TRAORI": (
+        "$MC_TRAFO5_PART_OFFSET",
+        "$MC_TRAFO5_JOINT_OFFSET",
+        "$MC_TRAFO5_JOINT_OFFSET_PART",
+        "$MC_TRAFO5_BASE_TOOL",
+        "$MC_TRAFO5_NUTATOR_AX_ANGLE",
+        "$MC_TRAFO5_TOOL_ROT_AX_OFFSET",
+    ),
+    "TRANSMIT": ("$MC_TRANSMIT_BASE_TOOL", "$MC_TRANSMIT_ROT_AX_OFFSET"),
+    "TRACYL": ("$MC_TRACYL_BASE_TOOL", "$MC_TRACYL_ROT_AX_OFFSET"),
+    "TRAANG": ("$MC_TRAANG_BASE_TOOL",),
+}
+#: Machine data that turn the sense of a rotary axis round where they are 0.
+SENSES = {
+    "TRAORI": "$MC_TRAFO5_ROT_SIGN_IS_PLUS",
+    "TRANSMIT": "$MC_TRANSMIT_ROT_SIGN_IS_PLUS",
+    "TRACYL": "$MC_TRACYL_ROT_SIGN_IS_PLUS",
+}
+_PARALLEL = 1e-6
 _TURNS = 1e-9
 
 
@@ -116,6 +138,55 @@ def number_of(channel: SinumerikChannel, name: str, index: int, default: float) 
         if data.is_set(name, *indices):
             return data.number(name, *indices)
     return default
+
+
+# ---- what belongs to the machine file
+
+
+def check(channel: SinumerikChannel, found: DataSet) -> None:
+    """Machine data that describe another machine than its file are refused: its geometry is that of the file.
+
+    Raises:
+        AlarmError: PC0019 for an offset or a sense of rotation beside the chain of joints, and under TRAORI for
+            the direction or the number of an axis that is not the chain's.
+    """
+    data, n = channel.memory.data, order(channel, found)
+    for name in SHIFTS.get(found.kind, ()):
+        if any(data.is_set(f"{name}_{n}", *at) and data.number(f"{name}_{n}", *at) for at in _PLACES):
+            raise _another_machine(f"{name}_{n}")
+    sense = f"{SENSES.get(found.kind)}_{n}"
+    if any(data.is_set(sense, *at) and not data.number(sense, *at) for at in _PLACES):
+        raise _another_machine(sense)
+    if found.kind == "TRAORI":
+        _check_joints(channel, found)
+
+
+#: A datum without index, or any of its elements.
+_PLACES: tuple[tuple[int, ...], ...] = ((), (0,), (1,), (2,))
+
+
+def _check_joints(channel: SinumerikChannel, found: DataSet) -> None:
+    """Directions and numbers of the axes; the sense of a table's direction is not compared (the manual has none)."""
+    data, n = channel.memory.data, order(channel, found)
+    kinematics, axes = Kinematics.of(channel.machine), channel_names(channel)
+    joints = (*kinematics.tool, *kinematics.work)
+    for i in range(3):
+        name = f"$MC_TRAFO5_AXIS{i + 1}_{n}"
+        direction = vector(channel, name)
+        if direction is None or not any(direction):
+            continue
+        cosine = dot(unit(direction), unit(joints[i].direction)) if i < len(joints) else 0.0
+        if (cosine if i < len(kinematics.tool) else abs(cosine)) < 1.0 - _PARALLEL:
+            raise _another_machine(name)
+    columns = (*native(channel), *(axes.index(axis) for axis in in_order(kinematics) if axis in axes))
+    for i, column in enumerate(columns):
+        name = f"$MC_TRAFO_AXES_IN_{found.number or n}"
+        if data.is_set(name, i) and data.number(name, i) not in (0.0, column + 1.0):
+            raise _another_machine(name)
+
+
+def _another_machine(name: str) -> AlarmError:
+    return AlarmError("PC0019", text=name)
 
 
 # ---- orientation

@@ -123,6 +123,8 @@ def _linked(channel: SinumerikChannel, found: data_sets.DataSet, rest: list[floa
         links.append(data_sets.DataSet(kind, type_, each))
     if links[0].kind in ("", "TRACON") or links[1].kind != "TRAANG":
         raise AlarmError("14404", text="TRACON")
+    for link in links:
+        data_sets.check(channel, link)
     own = {"TRACYL": 1, "TRAANG": 1}.get(links[0].kind, 0)
     parameters = [*rest, *[None] * 2]
     first = _first_link(channel, links[0], parameters[0])
@@ -169,12 +171,14 @@ def _select(
     """Let a transformation act in place of the one that acted.
 
     Raises:
-        AlarmError: 14404 for a number that is no whole one, 14401 for a transformation that is not configured, and
-            what `_check_change` finds.
+        AlarmError: 14404 for a number that is no whole one, 14401 for a transformation that is not configured,
+            PC0019 for machine data beside the machine file, and what `_check_change` finds.
     """
     if number is not None and number != int(number):
         raise AlarmError("14404", text=kind)
-    made = build(data_sets.find(channel, kind, 1 if number is None else int(number)))
+    found = data_sets.find(channel, kind, 1 if number is None else int(number))
+    data_sets.check(channel, found)
+    made = build(found)
     _check_change(channel)
     _change(channel, kind, made)
 

@@ -155,8 +155,8 @@ def end_program(channel: WordAddressChannel, _words: Words) -> None:
     channel.end()
 
 
-def dwell(channel: WordAddressChannel, words: Words) -> None:
-    """G04 X or U (seconds; without a point least increments of time) or P (milliseconds)."""
+def dwell(channel: WordAddressChannel, words: Words, *, in_revolutions: bool = False) -> None:
+    """G04 X or U (seconds; without a point least increments of time) or P (milliseconds); or so many revolutions."""
     for word in words.plan.axis_words:
         if word.address not in "XU":
             raise words.fail("address", word.address)
@@ -164,13 +164,16 @@ def dwell(channel: WordAddressChannel, words: Words) -> None:
     if corners is not None:
         corners.dwell()
     milliseconds = words.integer("P")
-    if milliseconds is not None:
-        stand(channel, milliseconds / 1000.0)
+    if milliseconds is None:
+        value = next((_seconds(words, address) for address in ("X", "U") if address in words), None)
+    else:
+        value = milliseconds / 1000.0
+    if value is None:
         return
-    for address in ("X", "U"):
-        if address in words:
-            stand(channel, _seconds(words, address))
-            return
+    if in_revolutions:
+        channel.dwell(revolutions=value)
+    else:
+        stand(channel, value)
 
 
 @dataclass(slots=True)

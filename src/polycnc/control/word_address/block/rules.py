@@ -98,27 +98,28 @@ class Rule:
     after: Callable[[Builder, Plan], Step | None] | None = None
     last: Callable[[Builder, Plan], Step | None] | None = None
 
+    _asks_modes: bool = field(init=False, repr=False, compare=False)
+    _asks_all: bool = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        asks_modes = bool(self.modes or self.within or self.unless)
+        asks_words = bool(self.codes or self.groups or self.words or self.m_codes)
+        object.__setattr__(self, "_asks_modes", asks_modes)
+        object.__setattr__(self, "_asks_all", not (asks_modes or asks_words or self.where))
+
     def concerns(self, builder: Builder) -> bool:
         """Whether the rule is asked of a block."""
         if not self.in_cycles and builder.mode.codes.get(CYCLE, NO_CYCLE) != NO_CYCLE:
             return False
-        named = (
-            self.modes,
-            self.within,
-            self.unless,
-            self.codes,
-            self.groups,
-            self.words,
-            self.m_codes,
-            self.where,
-        )
-        if not any(named) or self._concerns_mode(builder) or self._concerns_words(builder):
+        if (
+            self._asks_all
+            or (self._asks_modes and self._concerns_mode(builder))
+            or self._concerns_words(builder)
+        ):
             return True
         return self.where is not None and self.where(builder)
 
     def _concerns_mode(self, builder: Builder) -> bool:
-        if not self.modes and not self.within and not self.unless:
-            return False
         before, after = builder.before.codes, builder.mode.codes
         if any(after.get(group) in chosen for group, chosen in self.within.items()):
             return True

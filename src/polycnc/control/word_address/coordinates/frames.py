@@ -120,15 +120,33 @@ def end_rotation(channel: WordAddressChannel, _words: Words) -> None:
 
 def scale(channel: WordAddressChannel, words: Words) -> None:
     """G51 X Y Z P or I J K: scaling about a point."""
+    control, before = channel.control, channel.memory.frames.scale
     channel.memory.frames.scale = IDENTITY
     _refresh(channel)
-    x, y, z = _point(channel, words, absolute=channel.control.SCALE_CENTER_IS_ABSOLUTE)
-    factors = channel.control.scale_factors(channel, words)
+    center = _point(channel, words, absolute=control.SCALE_CENTER_IS_ABSOLUTE)
+    factors = list(control.scale_factors(channel, words))
+    if control.SCALES_NAMED_AXES:
+        _leave_unnamed(channel, words, before, center, factors)
+    x, y, z = center
     channel.memory.frames.scale = about((x, y, z), scaling(*factors))
     _refresh(channel)
 
 
-def end_scale(channel: WordAddressChannel, _words: Words) -> None:
+def _leave_unnamed(
+    channel: WordAddressChannel, words: Words, before: Frame, center: list[float], factors: list[float]
+) -> None:
+    """Axes whose centre no G51 has named are not scaled; one that an earlier G51 has named keeps its centre."""
+    c = channel.coordinates
+    named = {c.geometry.index(axis) for axis, _, _ in words.axes() if axis in c.geometry}
+    for i in {0, 1, 2} - named:
+        own = before.m[i][i]
+        if own == 1.0:
+            factors[i] = 1.0
+        else:
+            center[i] = before.t[i] / (1.0 - own)
+
+
+def end_scale(channel: WordAddressChannel, _words: Words | None = None) -> None:
     """G50: scaling ends."""
     channel.memory.frames.scale = IDENTITY
     _refresh(channel)

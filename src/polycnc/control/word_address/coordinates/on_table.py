@@ -14,8 +14,6 @@ from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, Frame, translation
 from polycnc.memory.retained import WORKPIECE_ERRORS
-from polycnc.transformation.planes.misplaced import Misplaced
-from polycnc.transformation.planes.tilted import by_fixed_axes
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -78,6 +76,8 @@ def follow(channel: WordAddressChannel, angles: Angles | None = None) -> None:
 
     The machine stays.
     """
+    from polycnc.transformation.planes.misplaced import Misplaced
+
     state, zero = OnTable.of(channel), ZeroState.of(channel)
     here = dict(zip(channel.axes, channel.coordinates.machine, strict=True)) if angles is None else angles
     kinematics = channel.control.kinematics(channel)
@@ -98,6 +98,8 @@ def follow(channel: WordAddressChannel, angles: Angles | None = None) -> None:
 
 def _error(channel: WordAddressChannel, number: int) -> tuple[Frame, list[float]]:
     """The error of a number with the common one: shifts, turns about X, Y, Z in this order; where the table stood."""
+    from polycnc.transformation.planes.tilted import by_fixed_axes
+
     pairs = zip(values_of(channel, COMMON_ERROR), values_of(channel, number), strict=True)
     values = [common + own for common, own in pairs]
     if not any(values[LINEAR]) and not any(values[TURNS]):

@@ -269,6 +269,7 @@ def go_to_reference(channel: WordAddressChannel, words: Words, number: int) -> N
     with suspended(channel, axes):
         channel.straight(Kind.REF, c.from_machine(machine), nan)
     channel.control.leave_length(channel, axes, to_reference=True)
+    channel.control.reached_reference(channel)
     note_reference_return(channel, [channel.axes[axis] for axis in axes])
 
 
@@ -315,6 +316,7 @@ def check_reference(channel: WordAddressChannel, words: Words) -> None:
     for axis, _, _ in words.axes():
         if abs(machine[axis] - channel.control.reference_point(channel, axis, 1)) > REFERENCE_WINDOW_MM:
             raise words.fail("not_at_reference", "G27")
+    channel.control.reached_reference(channel)
 
 
 #: How close to the reference point an axis must stand to count as there.

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, Frame
-from polycnc.transformation.seated import Seated
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.family import WordAddressChannel
@@ -35,6 +34,8 @@ class TipState(State, lifetime=Lifetime.RESET):
     @property
     def frame(self) -> Frame:
         """How the work system is turned against the axes."""
+        from polycnc.transformation.seated import Seated
+
         return self.seated.frame if isinstance(self.seated, Seated) else IDENTITY
 
     def lies_at(self, frame: Frame, offsets: list[float]) -> bool:
@@ -44,6 +45,8 @@ class TipState(State, lifetime=Lifetime.RESET):
 
 def lead(channel: WordAddressChannel, active: ToolCentrePoint, frame: Frame, offsets: list[float]) -> None:
     """Let words name the tip, in a work system that is turned by a frame and shifted by offsets; the machine stays."""
+    from polycnc.transformation.seated import Seated
+
     state = TipState.of(channel)
     state.active = replace(active, zero=tuple(offsets))
     state.seated = state.active if frame.is_identity else Seated(state.active, frame)

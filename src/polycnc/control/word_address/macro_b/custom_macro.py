@@ -43,6 +43,7 @@ class CustomMacroControl(WordAddressControl):
         EXTENDED_WORK_SYSTEMS: How many G54.1 P systems there are.
         CALL_LEVELS: Levels of macros, of subprograms, and together (FANUC macro B reference §5.1).
         MACRO_KINDS: Kinds of levels that count as macros.
+        MODES_WITHOUT_JUMPS: Modes whose main program may hold no GOTO, WHILE and DO.
         PLANE_HELD_BY_ROTATION: Another plane within a rotation is refused where it is chosen.
         JOINING_HINT: What to do where AND, OR, XOR join conditions that may not be joined.
     """
@@ -64,6 +65,7 @@ class CustomMacroControl(WordAddressControl):
     MACRO_KINDS: ClassVar[frozenset[LevelKind]] = frozenset((
         LevelKind.MACRO, LevelKind.MODAL, LevelKind.G_MACRO, LevelKind.M_MACRO, LevelKind.EVERY_BLOCK,
     ))  # fmt: skip
+    MODES_WITHOUT_JUMPS: ClassVar[frozenset[str]] = frozenset()
     PLANE_HELD_BY_ROTATION: ClassVar[bool] = False
     parameter_class: ClassVar[type[MacroParameters[MacroAxisParameters]]]
 
@@ -198,8 +200,9 @@ class CustomMacroControl(WordAddressControl):
         self.begin(channel)
 
     def begin(self, channel: Channel) -> None:
-        """A main program begins: it has the local variables."""
+        """A main program begins: it has the local variables; in some modes no jumps and loops may stand in it."""
         channel.level.locals = channel.memory.locals
+        channel.level.code.may_jump = channel.setup.switches.mode not in self.MODES_WITHOUT_JUMPS
 
     # ---- calls ---------------------------------------------------------------------------------------
 

@@ -43,7 +43,7 @@ FURTHER = range(98000, 98500)
 class SystemRange:
     """System variables `first` to `last`. `read` and `write` get the offset from `first`; None refuses.
 
-    `name` is the system name of the range (`_ABSIO`), by which `[#_ABSIO[1]]` finds it.
+    `name` is the system name of the range (`_ABSIO`), by which `[#_ABSIO[1]]` finds it; `index` that of its first one.
     """
 
     first: int
@@ -51,6 +51,7 @@ class SystemRange:
     read: Read | None = None
     write: Write | None = None
     name: str = ""
+    index: int = 1
 
 
 @unchanging
@@ -250,17 +251,21 @@ class MacroMemory(Memory):
         return self.parameters.at(int(number), None if bit is None else int(bit), name) or 0.0
 
     def read_named(self, name: str, index: float | None) -> float | None:
-        """`[#NAME]`, `[#_ABSIO[n]]`: names of SETVN, then system names."""
+        """`[#NAME]`, `[#_ABSIO[n]]`: a variable by its name."""
+        return self.read(self.number_of(name, index))
+
+    def number_of(self, name: str, index: float | None) -> int:
+        """The number of the variable with a name: names of SETVN, then system names."""
         offset = 0 if index is None else self._index(index)
         if name in self.names:
-            return self.read(self.names[name] + offset)
+            return self.names[name] + offset
         found = self.registry.names.get(name)
         if found is None:
             raise self.fail("variable_name")
-        number = found.first + max(offset - 1, 0)
-        if number > found.last:
+        number = found.first + (0 if index is None else offset - found.index)
+        if not found.first <= number <= found.last:
             raise self.fail("variable_number")
-        return self.read(number)
+        return number
 
     def forget_locals(self) -> None:
         """The local variables are those of the main program, as they begin."""

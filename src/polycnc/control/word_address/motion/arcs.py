@@ -106,6 +106,13 @@ def is_stretched(frame: Frame, plane: tuple[int, int, int]) -> bool:
     return abs(first - second) > SAME_SCALE
 
 
+def scales_one_axis(frame: Frame, plane: tuple[int, int, int]) -> bool:
+    """Whether a frame stretches one axis of a plane and leaves the other as long as it is."""
+    return is_stretched(frame, plane) and any(
+        abs(scale - 1.0) <= SAME_SCALE for scale in scales(frame, plane)
+    )
+
+
 def emit_stretched(
     channel: WordAddressChannel,
     programmed: list[float],

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.compensation import Plane
 from polycnc.compensation.corner import CornerStage, CornerViolation, Shape
+from polycnc.compensation.plane import Plane
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.geometry.planes import PLANES
 

@@ -11,7 +11,6 @@ from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion import path
 from polycnc.deferred.records import dataclass
-from polycnc.geometry.nurbs import nurbs_chords
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
@@ -114,6 +113,8 @@ def check_complete(channel: WordAddressChannel) -> None:
 
 
 def _cut(channel: WordAddressChannel, curve: Curve) -> None:
+    from polycnc.geometry.nurbs import nurbs_chords
+
     order, poles = curve.order, curve.poles
     if not channel.feed > 0.0:
         raise channel.control.fail("no_feed")

@@ -11,7 +11,13 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words_as_data import targets_as_data, word_as_data
-from polycnc.control.word_address.motion.arcs import center_by_radius, emit_arc, emit_stretched, is_stretched
+from polycnc.control.word_address.motion.arcs import (
+    center_by_radius,
+    emit_arc,
+    emit_stretched,
+    is_stretched,
+    scales_one_axis,
+)
 from polycnc.geometry import arcs
 from polycnc.geometry.planes import PLANES
 from polycnc.language.bulk import Arc, Straight, declare
@@ -179,6 +185,8 @@ def _plan_arc(builder: Builder, plan: Plan, *, ccw: bool) -> Step | None:
         if center is None:
             channel.straight(Kind.FEED, c.to_position(programmed), feed, programmed)
         elif ends_beside or is_stretched(c.programming, plane):
+            if control.SCALES_NAMED_AXES and scales_one_axis(c.programming, plane):
+                raise control.fail("arc_end")
             emit_stretched(channel, programmed, plane, told_by, ccw=ccw, feed=feed)
         else:
             emit_arc(channel, programmed, center, plane, ccw=ccw, feed=feed)

@@ -6,17 +6,16 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
-from polycnc.compensation import CutterCompensation
 from polycnc.control.word_address.coordinates.frames import turns_plane
-from polycnc.control.word_address.tools.radius import RadiusState
+from polycnc.control.word_address.tools.radius import RadiusState, idle_or_active
 from polycnc.control.word_address.transformations import cylinder
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.planes import PLANES
-from polycnc.transformation.kinematic.parallel import ParallelAxes
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import MacroChannel, WordAddressChannel
+    from polycnc.transformation.kinematic.parallel import ParallelAxes
 
 
 @dataclass(slots=True)
@@ -28,6 +27,8 @@ class PlaneAxes(State, lifetime=Lifetime.POWER):
 
 def choose_axes(channel: WordAddressChannel, geometry: tuple[int, int, int]) -> None:
     """Let these axes be X, Y and Z of the plane."""
+    from polycnc.transformation.kinematic.parallel import ParallelAxes
+
     state = PlaneAxes.of(channel)
     channel.coordinates.geometry = geometry
     if geometry == channel.memory.basic_geometry:
@@ -40,7 +41,7 @@ def choose_axes(channel: WordAddressChannel, geometry: tuple[int, int, int]) -> 
 def select_plane(channel: MacroChannel, words: Words) -> None:
     """G17 to G19: another plane than that of an active radius compensation is an alarm."""
     code = channel.mode["plane"]
-    stage = channel.path.find(CutterCompensation)
+    stage = idle_or_active(channel)
     if (
         RadiusState.of(channel).side
         and stage is not None

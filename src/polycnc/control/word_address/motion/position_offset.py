@@ -39,7 +39,7 @@ def offset_move(channel: MillingChannel, words: Words) -> None:
         raise words.fail("address", code)
     number = words.integer("D") if "D" in words else None
     state.number = state.number if number is None else number
-    amount = TIMES[code] * channel.control.radius_value(channel, state.number)
+    amount = TIMES[code] * channel.control.offset_amount(channel, state.number)
     end = reach(channel, words.plan.axis_words, words.values)
     for word in words.plan.axis_words:
         way = end[word.axis] - c.programmed[word.axis]

@@ -8,7 +8,7 @@ from polycnc.control.word_address.tools import radius
 from polycnc.control.word_address.tools.radius import RadiusState, direction_of, place_of_block
 
 if TYPE_CHECKING:
-    from polycnc.compensation import CutterCompensation
+    from polycnc.compensation.cutter import CutterCompensation
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import WordAddressChannel
 

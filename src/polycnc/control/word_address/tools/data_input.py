@@ -8,6 +8,7 @@ from polycnc.control.word_address.coordinates.systems import refresh_zero
 from polycnc.control.word_address.macro_b import parameter_input
 from polycnc.control.word_address.memory import EXTERNAL
 from polycnc.control.word_address.tools.length import renew_length
+from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.block.words import Words
@@ -16,6 +17,8 @@ if TYPE_CHECKING:
 WORK_SYSTEMS = (EXTERNAL, "G54", "G55", "G56", "G57", "G58", "G59")
 #: L number of a tool offset to the field of the offset memory that it sets.
 TOOL_FIELDS = {1: "length_wear", 10: "length", 11: "length_wear", 12: "radius", 13: "radius_wear"}
+#: L number of groups of tools with their lives, which nothing here counts.
+TOOL_LIFE = 3
 #: Largest offset value, mm or inch (Hartford manual 3.3.2).
 LARGEST_OFFSET = {False: 999.999, True: 99.999}
 
@@ -27,6 +30,8 @@ def input_data(channel: MacroChannel, words: Words) -> None:
     if kind in parameter_input.LEVELS:
         parameter_input.begin(channel)
         return
+    if kind == TOOL_LIFE:
+        raise life_not_counted()
     if kind is not None and kind not in TOOL_FIELDS and kind not in (2, 20):
         raise words.fail("g10_format", "L")
     if number is None:
@@ -41,6 +46,11 @@ def input_data(channel: MacroChannel, words: Words) -> None:
         _set_work_offset(channel, words, f"G54.1 P{number}")
     else:
         _set_tool_offset(channel, words, number, TOOL_FIELDS[10 if kind is None else kind])
+
+
+def life_not_counted() -> AlarmError:
+    """G10 L3 registers tools by their life: known, but not executed."""
+    return AlarmError("PC0001", hint="hint.not-supported", address="L", code="G10 L3")
 
 
 def _set_work_offset(channel: MacroChannel, words: Words, name: str) -> None:

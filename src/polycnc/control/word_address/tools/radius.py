@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.path import Move
 from polycnc.channel.states.state import Lifetime, State
-from polycnc.compensation import CutterCompensation, Plane, Violation
+from polycnc.compensation.policy import Violation
 from polycnc.control.word_address.motion import corners
 from polycnc.control.word_address.motion.arcs import mirrors_plane
 from polycnc.deferred.records import dataclass
@@ -17,6 +17,7 @@ from polycnc.toolpath import Kind
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator, Mapping
 
+    from polycnc.compensation.cutter import CutterCompensation
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.block.words import Words
@@ -201,8 +202,17 @@ def on_display(channel: WordAddressChannel, first: float, second: float) -> Poin
 
 def active_compensation(channel: WordAddressChannel) -> CutterCompensation | None:
     """The stage of the path that compensates; None while none does."""
-    stage = channel.path.find(CutterCompensation)
+    stage = idle_or_active(channel)
     return stage if stage is not None and stage.active else None
+
+
+def idle_or_active(channel: WordAddressChannel) -> CutterCompensation | None:
+    """The stage of the path that compensates now or has done so; None where there is none."""
+    if channel.path.head is None:
+        return None
+    from polycnc.compensation.cutter import CutterCompensation  # for programs that compensate
+
+    return channel.path.find(CutterCompensation)
 
 
 def compensation_stage(channel: WordAddressChannel) -> CutterCompensation:
@@ -211,11 +221,14 @@ def compensation_stage(channel: WordAddressChannel) -> CutterCompensation:
     geometry = channel.coordinates.geometry
     if geometry[u] < 0 or geometry[v] < 0:
         raise channel.control.fail("plane")
-    stage = channel.path.find(CutterCompensation)
+    stage = idle_or_active(channel)
     if stage is not None and stage.active:
         return stage
     if stage is not None:
         stage.flush()
+    from polycnc.compensation.cutter import CutterCompensation
+    from polycnc.compensation.plane import Plane
+
     policy = channel.control.compensation_policy(channel)
     plane = Plane(u, v, w, geometry)
     corners.refuse_start_up(channel)

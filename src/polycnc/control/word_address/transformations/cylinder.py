@@ -14,13 +14,13 @@ from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.tools.radius import RadiusState, active_compensation
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.planes import PLANES
-from polycnc.transformation.kinematic.cylinder import Cylinder
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.block.numbers import Convert
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import MacroChannel, WordAddressChannel
+    from polycnc.transformation.kinematic.cylinder import Cylinder
 
 #: Modal group that holds `G7.1` while a cylinder is unrolled.
 GROUP = "cylinder"
@@ -47,6 +47,8 @@ class CylinderState(State, lifetime=Lifetime.RESET):
 
 def cylinder(channel: MacroChannel, words: Words) -> None:
     """G07.1 C r (G107): C is unrolled at the radius r; r = 0 ends the mode."""
+    from polycnc.transformation.kinematic.cylinder import Cylinder
+
     named = words.plan.axis_words
     if len(named) != 1 or not channel.axis_data[named[0].axis].rotary:
         raise words.fail("cylinder_axis", "G7.1")

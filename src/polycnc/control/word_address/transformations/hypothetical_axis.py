@@ -15,12 +15,12 @@ from polycnc.deferred.records import dataclass
 from polycnc.geometry import arcs
 from polycnc.toolpath import Kind
 from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS
-from polycnc.transformation.kinematic.standing import StandingAxes
 
 if TYPE_CHECKING:
     from polycnc.channel.moves.path import Move
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import WordAddressChannel
+    from polycnc.transformation.kinematic.standing import StandingAxes
 
 #: How far the chords of a sine curve may leave it, mm.
 CHORD_TOLERANCE_MM = 0.001
@@ -35,6 +35,8 @@ class HypotheticalState(State, lifetime=Lifetime.RESET):
 
 def switch(channel: WordAddressChannel, words: Words) -> None:
     """G07 Y0: the axis becomes hypothetical; G07 Y1: it moves again, and the path begins where it stands."""
+    from polycnc.transformation.kinematic.standing import StandingAxes
+
     named = {word.axis: words.typed(word.address) for word in words.plan.axis_words}
     if not named or any(value not in (0.0, 1.0) for value in named.values()):
         raise words.fail("hypothetical_format", "G7")

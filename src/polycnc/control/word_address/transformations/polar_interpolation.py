@@ -15,13 +15,13 @@ from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.cylinder import CylinderState
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.planes import PLANES
-from polycnc.transformation.kinematic.polar import PolarPlane
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.block.numbers import Convert
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import MacroChannel, WordAddressChannel
+    from polycnc.transformation.kinematic.polar import PolarPlane
 
 #: Modal group of G12.1 and G13.1.
 GROUP = "polar_interpolation"
@@ -54,6 +54,8 @@ class PolarState(State, lifetime=Lifetime.RESET):
 
 def start_polar(channel: MacroChannel, words: Words) -> None:
     """G12.1 (G112): the axes of 5460 and 5461 become a Cartesian plane; the tool stands at angle 0."""
+    from polycnc.transformation.kinematic.polar import PolarPlane
+
     memory, c = channel.memory, channel.coordinates
     number = memory.parameters.polar_linear_axis
     linear = c.geometry[0] if number is None else number - 1

@@ -28,20 +28,6 @@ from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, Frame, rotation, translation
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
-from polycnc.transformation.orientation import choice
-from polycnc.transformation.orientation.solutions import solutions_for
-from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
-from polycnc.transformation.planes.tilted import (
-    by_directions,
-    by_euler,
-    by_fixed_axes,
-    by_points,
-    by_projections,
-    square_on,
-    table_turn,
-    tool_carrier,
-)
-from polycnc.transformation.seated import Seated
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.block.words import Words
@@ -92,6 +78,8 @@ def tilt_by_tool(channel: WordAddressChannel, words: Words) -> None:
 
     X of the plane is square on the tool and on Z of the machine; R turns it about the tool.
     """
+    from polycnc.transformation.planes.tilted import square_on, table_turn
+
     _check_state(channel, words, "G68.3")
     c, kinematics = channel.coordinates, channel.control.kinematics(channel)
     given = {axis for axis, _, _ in words.axes()}
@@ -135,6 +123,8 @@ def check_compensation(channel: WordAddressChannel, words: Words, code: str) -> 
 
 def _told(channel: WordAddressChannel, words: Words) -> Frame | None:
     """The plane that a block tells, within the system it is told in; None before the last one of several."""
+    from polycnc.transformation.planes.tilted import by_euler, by_projections
+
     way = words.integer("P") if "P" in words else EULER
     if way in BLOCKS:
         return _told_in_several(channel, words, way)
@@ -160,6 +150,8 @@ def tilt(channel: WordAddressChannel, plane: Frame) -> None:
 
 def _told_in_several(channel: WordAddressChannel, words: Words, way: int) -> Frame | None:
     """One block of P2 (Q1 to Q3: origin, a point of X, a point on the side of Y) or P3 (Q1 origin and X, Q2 Z)."""
+    from polycnc.transformation.planes.tilted import by_directions, by_points
+
     state = TiltState.of(channel)
     number = words.integer("Q") if "Q" in words else 0
     told = state.told if number != 1 else []
@@ -181,6 +173,8 @@ def _told_in_several(channel: WordAddressChannel, words: Words, way: int) -> Fra
 
 def _roll_pitch_yaw(words: Words, angles: Vector) -> Frame:
     """I, J, K about the axes X, Y, Z of the work system, in the order that Q names."""
+    from polycnc.transformation.planes.tilted import by_fixed_axes
+
     order = words.integer("Q") if "Q" in words else 123
     if order not in ORDERS:
         raise words.fail("tilt_format", "Q")
@@ -209,6 +203,8 @@ def align_tool_about_tip(channel: WordAddressChannel, words: Words) -> None:
 
 
 def _align(channel: WordAddressChannel, words: Words, code: str, *, holds_tip: bool) -> None:
+    from polycnc.transformation.planes.tilted import table_turn
+
     _check_state(channel, words, code)
     c, plane = channel.coordinates, TiltState.of(channel).plane
     if plane is None:
@@ -248,6 +244,9 @@ def turn_about_tip(channel: WordAddressChannel, angles: Angles, arm: float, abov
         arm: From the tip along the tool to the nose, mm.
         above: From the tip along the tool to the point, mm.
     """
+    from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
+    from polycnc.transformation.seated import Seated
+
     c = channel.coordinates
     channel.flush()
     offsets = c.offsets.copy()
@@ -275,6 +274,9 @@ def _angles(
 
     The first axis is the one that carries the other.
     """
+    from polycnc.transformation.orientation import choice
+    from polycnc.transformation.orientation.solutions import solutions_for
+
     kinematics = channel.control.kinematics(channel)
     way = words.integer("P") if "P" in words else NEAREST
     if way not in SENSES:
@@ -291,6 +293,9 @@ def _angles(
 
 def nearest_angles(channel: WordAddressChannel, wanted: Vector, near: Angles) -> dict[str, float] | None:
     """The nearest positions of the rotary axes within their ranges that stand the tool along a direction."""
+    from polycnc.transformation.orientation import choice
+    from polycnc.transformation.orientation.solutions import solutions_for
+
     ranges = channel.control.rotary_ranges(channel)
     found = solutions_for(channel.control.kinematics(channel), wanted, near)
     placed = (choice.on_turns_within(solution, near, ranges) for solution in found)
@@ -325,6 +330,8 @@ def stand_along(channel: WordAddressChannel, angles: Angles | None) -> None:
 
     The display follows: an incremental word travels what was owed to it before, and no other direction of the length.
     """
+    from polycnc.transformation.planes.tilted import tool_carrier
+
     c, kinematics = channel.coordinates, channel.control.kinematics(channel)
     owed = c.pending.copy()
     ZeroState.of(channel).carried = (0.0, 0.0, 0.0) if angles is None else tool_carrier(kinematics, angles).t

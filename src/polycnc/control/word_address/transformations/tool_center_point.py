@@ -24,8 +24,6 @@ from polycnc.language.bulk import Straight, declare
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 from polycnc.transformation.orientation.standing import StandRecord, stand
-from polycnc.transformation.orientation.stood import stand_record
-from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -38,6 +36,8 @@ if TYPE_CHECKING:
 
 def start_following(channel: WordAddressChannel, words: Words) -> None:
     """G43.4, G43.5 H: from here on positions are those of the tip. Without motion in its block nothing moves."""
+    from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
+
     state = LengthState.of(channel)
     c = channel.coordinates
     kinematics = channel.control.kinematics(channel)
@@ -134,6 +134,8 @@ def record_of(channel: WordAddressChannel) -> Sequence[float]:
 
     It knows of one turn of each axis only, so it decides nothing where the control bounds them.
     """
+    from polycnc.transformation.orientation.stood import stand_record
+
     state = tip.TipState.of(channel)
     bounded = bool(channel.control.rotary_ranges(channel))
     return stand_record(None if bounded else state.active, frame=state.frame)

@@ -334,9 +334,13 @@ def modal_cycle(name: str, args: tuple[Any, ...], column: int) -> Callable[[Chan
 
 
 def call_modal(channel: Channel) -> None:
-    """A block with path motion has ended: run what MCALL has set, unless it is running."""
+    """A block with path motion has ended: run what MCALL has set, unless it is running, or a contour is only read."""
     modal = channel.memory.language.modal_call
-    if modal is not None and all(level.kind is not LevelKind.MODAL for level in channel.stack):
+    if (
+        modal is not None
+        and not channel.path.is_diverted
+        and all(level.kind is not LevelKind.MODAL for level in channel.stack)
+    ):
         modal(channel)
 
 

@@ -35,7 +35,8 @@ _RIGHTS = frozenset({"APR", "APW", "APRP", "APWP", "APRB", "APWB", "APX"})
 _INIT_TIMES = frozenset({"INIPO", "INIRE", "INICF", "PRLOC"})
 _STOPS = {"SYNR": "R", "SYNW": "W", "SYNRW": "RW"}
 _RANGES = frozenset({"NCK", "CHAN"})
-#: Names that a variable cannot have: they would change what every block means.
+#: Names that a variable cannot have: they would change what every block means. Names of functions it may have, as the
+#: manual's own examples (BLOCK in 1.2.3, MINVAL in 9.2.6).
 _RESERVED = keywords.STRUCTURE | keywords.OPERATORS | keywords.DEFINITIONS | _TYPES | {"TRUE", "FALSE"}
 
 
@@ -459,7 +460,7 @@ def define_macro(compiler: BlockCompiler) -> None:
     name = f"{token.letter}{token.value}" if token.kind == "word" else token.text
     if token.kind not in ("name", "word"):
         raise compiler.error(token)
-    if token.kind == "name" and (name in _RESERVED or name in keywords.CALLS or name in keywords.PARTS):
+    if token.kind == "name" and name in keywords.RESERVED:
         raise NcSyntaxError("12270", token.column, name)
     if name[0] == "G" and name[1:].isdecimal() and not compiler.program.is_definition_file:
         raise NcSyntaxError("12500", token.column, name)  # 1.26: for the whole control, in macro files alone

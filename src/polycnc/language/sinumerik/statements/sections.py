@@ -40,7 +40,7 @@ class Section:
         self._repeated_by = repeated_by
         self._last = -1
 
-    def step(self, index: int) -> Step | None:
+    def step(self, index: int, *, alone: bool = True) -> Step | None:  # noqa: ARG002 - each is alone
         """The step of a block; None when an end block has been run through."""
         if index == self._repeated_by or (self._last in self._ends and index == self._last + 1):
             self._last = -1
@@ -48,7 +48,7 @@ class Section:
             return None
         self._last = index
         self.is_through = False
-        return self.whole.single_step(index)
+        return self.whole.step(index, alone=True)
 
     def line(self, index: int) -> int:
         """The line of a step, from 1."""

@@ -14,7 +14,8 @@ from polycnc.channel.moves.path import Recorder
 from polycnc.channel.stack import LevelKind
 from polycnc.channel.states.snapshot import Snapshot
 from polycnc.channel.states.state import Lifetime, State
-from polycnc.compensation import CutterCompensation, Plane
+from polycnc.compensation.cutter import CutterCompensation
+from polycnc.compensation.plane import Plane
 from polycnc.control.fanuc.code_calls import PROGRAM_M
 from polycnc.control.fanuc.lathe.coordinates.systems import plane_axes
 from polycnc.control.fanuc.lathe.cycles.modal import FINISHING, GROUP, READING
@@ -231,7 +232,7 @@ class Section(WordAddressProgram):
         self.begin, self.end = begin, end
         self.steps = []
 
-    def step(self, index: int) -> BlockStep | None:
+    def step(self, index: int, *, alone: bool = False) -> BlockStep | None:  # noqa: ARG002 - each is alone
         """The step of a block; None behind the last one of the shape, an alarm where a jump has left it."""
         if index == self.end + 1:
             return None

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import nan
 from typing import TYPE_CHECKING
 
-from polycnc.compensation import CutterCompensation
+from polycnc.compensation.cutter import CutterCompensation
 from polycnc.control.fanuc.lathe.coordinates.systems import plane_axes
 from polycnc.control.fanuc.lathe.motion.threads import (
     OFF_THREAD,

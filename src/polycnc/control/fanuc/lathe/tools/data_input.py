@@ -10,7 +10,7 @@ from polycnc.control.fanuc.lathe.tools.offset_memory import OffsetMemory, y_offs
 from polycnc.control.fanuc.lathe.tools.offsets import MAX_OFFSETS, offset_changed, refresh
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.macro_b import parameter_input
-from polycnc.control.word_address.tools.data_input import WORK_SYSTEMS
+from polycnc.control.word_address.tools.data_input import TOOL_LIFE, WORK_SYSTEMS, life_not_counted
 
 if TYPE_CHECKING:
     from polycnc.control.fanuc.lathe.family import LatheChannel
@@ -36,6 +36,8 @@ def input_data(channel: LatheChannel, words: Words) -> None:
     if kind in parameter_input.LEVELS:
         parameter_input.begin(channel)
         return
+    if kind == TOOL_LIFE:
+        raise life_not_counted()
     if number is None or number < 0:
         raise words.fail("g10_number", "P" if "P" in words else "G10")
     if kind == 2:

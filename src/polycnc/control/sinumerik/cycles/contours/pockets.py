@@ -9,6 +9,7 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
 
+from polycnc.control.sinumerik.cycles.chamfers import CHAMFER, chamfer
 from polycnc.control.sinumerik.cycles.contours.reading import read_chosen
 from polycnc.control.sinumerik.cycles.milling import (
     FINISHING,
@@ -19,6 +20,7 @@ from polycnc.control.sinumerik.cycles.milling import (
     is_ccw,
     milling_levels,
     perform,
+    radius_of,
     width_of_cut,
 )
 from polycnc.control.sinumerik.cycles.moves import require_tool
@@ -38,7 +40,9 @@ if TYPE_CHECKING:
     from polycnc.cycles.turning.contour import Contour
 
 #: Units of VARI beside roughing.
-REST, BASE, EDGE, CHAMFER = FINISHING, 3, 4, 5
+REST, BASE, EDGE = FINISHING, 3, 4
+#: Those that follow the walls alone.
+ALONG_WALLS = (EDGE, CHAMFER)
 #: Tens of VARI: into what is predrilled, straight down, on a helix, to and fro.
 INSERTIONS = {0: Insertion.FEED, 1: Insertion.FEED, 2: Insertion.HELIX, 3: Insertion.OSCILLATION}
 #: Places of the digits of VARI: insertion, where the tool rises to, who chooses the start point.
@@ -65,13 +69,16 @@ def mill(moves: Moves, a: Arguments) -> None:
         AlarmError: As the other milling cycles; 61605 for contours that are open, cross, lie in each other or are too
             few, 61606 where they cannot be followed, 61105 for a cutter that goes in nowhere, 61108 for a helix or an
             oscillation without room, 61607 for a start point from which it cannot go on; PC0001 for residual material,
-            chamfers, a mere calculation, a start point of an oscillation or of edges.
+            a mere calculation, a start point of an oscillation or of edges.
     """
-    radius = cutter(moves)
+    radius = radius_of(moves, a, "_VARI")
+    if radius <= NO_WAY:
+        raise AlarmError("61117")
     kind = a.digit("_VARI", 0)
     _refuse(a, kind)
     base_allowance = abs(a["_UZ"]) if kind == ROUGHING else 0.0
-    found = milling_levels(moves, a, base_allowance, "_DZ")
+    chamfers = kind == CHAMFER
+    found = chamfer(moves, a).levels if chamfers else milling_levels(moves, a, base_allowance, "_DZ")
     if found is None:
         return
     insertion = INSERTIONS.get(a.digit("_VARI", _INSERTION_PLACE))
@@ -79,10 +86,11 @@ def mill(moves: Moves, a: Arguments) -> None:
         raise AlarmError("61002")
     feed = feed_of(a, "_F")
     # Down along the wall nothing is left; into the material the feed must be told.
-    into = kind != EDGE and insertion is Insertion.FEED
+    walls = kind in ALONG_WALLS
+    into = not walls and insertion is Insertion.FEED
     depth_feed = feed_of(a, "_FZ") if into else a["_FZ"] or feed
     helix, pitch, angle = abs(a["_ER"]), abs(a["_EP"]), abs(a["_EW"])
-    if kind != EDGE and (
+    if not walls and (
         (insertion is Insertion.HELIX and not (helix and pitch))
         or (insertion is Insertion.OSCILLATION and not 0.0 < angle < 90.0)
     ):
@@ -91,7 +99,7 @@ def mill(moves: Moves, a: Arguments) -> None:
         [],
         None,
         radius,
-        abs(a["_UXY"]) if kind == EDGE else width_of_cut(a, radius, "_DXY"),
+        (0.0 if chamfers else abs(a["_UXY"])) if walls else width_of_cut(a, radius, "_DXY"),
         is_ccw(moves, a.integer("_CDIR"), inside=True),
         feed,
         depth_feed,
@@ -99,7 +107,7 @@ def mill(moves: Moves, a: Arguments) -> None:
         found.safe,
         found.retract,
         abs(a["SDIS"]),
-        0.0 if kind == EDGE else abs(a["_UXY"]),
+        0.0 if walls else abs(a["_UXY"]),
         insertion,
         helix,
         pitch,
@@ -108,7 +116,7 @@ def mill(moves: Moves, a: Arguments) -> None:
     )
     total = _above_allowance(found, base_allowance)
     levels = [found.depth]
-    if kind != BASE:
+    if kind not in (BASE, CHAMFER):
         levels = [found.reference + found.down * below for below in steps(total, abs(a["_DZ"]))]
     read_chosen(moves, partial(_mill, moves, a, shape, levels))
 
@@ -129,7 +137,7 @@ def _refuse(a: Arguments, kind: int) -> None:
         raise AlarmError("61109")
     unknown = {
         "_TR": a.cycle == "CYCLE63" and bool(a.text("_TR").strip()),
-        "_VARI": kind in (REST, CHAMFER) or _start_is_unknown(a, kind),
+        "_VARI": kind == REST or _start_is_unknown(a, kind),
         "_GMODE": a.digit("_GMODE", _HUNDREDS) >= ONLY_START,
         "_DMODE": a.digit("_DMODE", _HUNDREDS) not in (*POCKETS, SPIGOT),
     }
@@ -142,7 +150,7 @@ def _start_is_unknown(a: Arguments, kind: int) -> bool:
     """Whether a call names a start point in a way that is not executed."""
     chooser = a.digit("_VARI", _START_PLACE)
     is_slope = INSERTIONS.get(a.digit("_VARI", _INSERTION_PLACE)) is Insertion.OSCILLATION
-    return chooser not in (BY_CYCLE, BY_CALL) or (chooser == BY_CALL and (kind == EDGE or is_slope))
+    return chooser not in (BY_CYCLE, BY_CALL) or (chooser == BY_CALL and (kind in ALONG_WALLS or is_slope))
 
 
 def _with_walls(a: Arguments, shape: ContourPocket, contours: list[Contour]) -> ContourPocket:
@@ -160,7 +168,7 @@ def _mill(
     moves: Moves, a: Arguments, shape: ContourPocket, levels: list[float], contours: list[Contour]
 ) -> None:
     """Mill what the contours enclose."""
-    work = contour_pocket.finish_edges if a.digit("_VARI", 0) == EDGE else contour_pocket.rough
+    work = contour_pocket.finish_edges if a.digit("_VARI", 0) in ALONG_WALLS else contour_pocket.rough
     try:
         strokes = list(work(_with_walls(a, shape, contours), levels))
     except RegionError as error:

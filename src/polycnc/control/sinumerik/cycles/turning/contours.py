@@ -74,8 +74,9 @@ def turn(moves: Moves, a: Arguments) -> None:
 
     Raises:
         AlarmError: 61000 without tool offset, 61002 for `_VARI`, 61003 without feed, 61101 for a retraction plane
-            inside of the stock, 61605 for contours that are too few, 61606 for what cannot be followed, 61610 for
-            roughing without depth of cut; PC0001 for what is not executed.
+            inside of the stock, 61605 for contours that are too few, 61606 for what cannot be followed, 61608 for a
+            tool that looks away from the work, 61610 for roughing without depth of cut; PC0001 for what is not
+            executed.
     """
     require_tool(moves)
     kind = a.digit("_VARI", KIND)
@@ -119,6 +120,7 @@ def _turn(work: Work, a: Arguments, direction: float, found: list[Contour]) -> N
     """Turn what the contours say, from the free corner of the blank and back to it."""
     turning = _of_call(work, a, direction, found)
     part, lift, stage = turning.part, turning.lift, a.digit("_VARI", STAGE)
+    work.require_point(0.0 if stage == FINISHING else direction)
     whole = outline.walled(
         outline.from_front(part, turning.front), part[-1].edge.end[0], turning.top, work.towards
     )

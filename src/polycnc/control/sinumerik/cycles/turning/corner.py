@@ -42,8 +42,9 @@ def corner(moves: Moves, a: Arguments) -> None:
 
     Raises:
         AlarmError: 61000 without tool offset, 61002 for VARI, 61003 without feed, 61606 where start and end leave
-            nothing between them or the corners do not fit, 61610 for roughing without depth of cut; PC0001 for slanted
-            corners, outer corners that differ and a `_LAGE` that start and end contradict.
+            nothing between them or the corners do not fit, 61608 for a tool that looks away from the work, 61610 for
+            roughing without depth of cut; PC0001 for slanted corners, outer corners that differ and a `_LAGE` that
+            start and end contradict.
     """
     require_tool(moves)
     direction, stage = a.digit("_VARI", 0), a.digit("_VARI", 1)
@@ -75,6 +76,7 @@ def corner(moves: Moves, a: Arguments) -> None:
     feed, lift = feed_of(a, "_FF1"), abs(a["_SDIS"]) or LIFT_MM
     across = direction == CORNER_ACROSS
     work = Work(moves, across=across, towards=signs[0] if across else signs[1])
+    work.require_point(0.0 if stage == CORNER_FINISHING else work.pair(*signs)[0])
     free = (start[0] - signs[0] * lift, start[1] - signs[1] * lift)
     work.perform(PlaneStroke(Kind.RAPID, work.pair(*free)), feed)
     if stage == CORNER_ROUGHING:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import dist
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.control.sinumerik.cycles.moves import require_tool
@@ -56,7 +57,8 @@ def groove(moves: Moves, a: Arguments) -> None:
 
     Raises:
         AlarmError: 61000 without tool offset, 61002 for VARI, 61602 for a tool without width or one that does not fit,
-            61603 for a groove without width or depth or whose corners do not fit; PC0001 for one on a slanted contour.
+            61603 for a groove without width or depth or whose corners do not fit, 61608 for an edge that looks
+            another way; PC0001 for one on a slanted contour.
     """
     require_tool(moves)
     if a.integer("VARI") not in GROOVES:
@@ -68,6 +70,7 @@ def groove(moves: Moves, a: Arguments) -> None:
     if not all(0.0 <= a[name] < UPRIGHT for name in ("ANG1", "ANG2")):
         raise AlarmError("61603")
     seat = SEATS[a.digit("VARI", 0)]
+    _require_edge(moves, seat)
     shape = Groove(
         abs(a["WIDG"]),
         abs(a["DIAG"]),
@@ -109,6 +112,15 @@ def _corner(a: Arguments, name: str) -> Corner:
     if size >= 0.0:
         return Corner(radius=size)
     return Corner(leg=-size) if a.integer("VARI") >= CHAMFERS_BY_LEG else Corner(length=-size)
+
+
+def _require_edge(moves: Moves, seat: Seat) -> None:
+    """61608 for an active edge with a nose that is not the tool's corner towards smaller positions, and the base."""
+    along, deep = stages.tip(moves.channel)
+    if seat.across:
+        along, deep = deep, along
+    if stages.radius(moves.channel) > _ROUNDING and dist((along, deep), (-1.0, seat.inwards)) > _ROUNDING:
+        raise AlarmError("61608")
 
 
 def _tool_width(moves: Moves, number: int, length: int) -> float:
@@ -173,8 +185,9 @@ def grooves(moves: Moves, a: Arguments) -> None:
 
     Raises:
         AlarmError: 61000 without tool offset, 61002 for `_VARI`, 61003 without feed, 61602 for a tool without width or
-            one that does not fit, 61603 for a groove without width or depth or whose corners do not fit; PC0001 for
-            one on a slanted contour, from its base, with chamfers, and for sizes that contradict each other.
+            one that does not fit, 61603 for a groove without width or depth or whose corners do not fit, 61608 for an
+            edge that looks another way; PC0001 for one on a slanted contour, from its base, with chamfers, and for
+            sizes that contradict each other.
     """
     require_tool(moves)
     number, stage = a.digit("_VARI", _SEAT), a.digit("_VARI", _STAGE)
@@ -183,6 +196,7 @@ def grooves(moves: Moves, a: Arguments) -> None:
     seat, feed = SEATS[number], abs(a["_FF1"])
     if not feed:
         raise AlarmError("61003")
+    _require_edge(moves, seat)
     shape = _of_mask(moves, a, seat, stage)
     _refuse(a, shape)
     way = _strokes(shape)

@@ -48,6 +48,7 @@ def _remove(work: Work, a: Arguments, kind: int, rounding: int, read_: Contour) 
     moves = work.moves
     home = moves.point
     contour = work.contour(read_)
+    work.require_point()
     stock: Contour | None = None
     if kind != FINISHING:
         stock = _rough(work, a, contour, follows=rounding != WITHOUT_ROUNDING)
@@ -69,6 +70,7 @@ def _rough(work: Work, a: Arguments, contour: Contour, *, follows: bool) -> Cont
         raise AlarmError("61610")
     if work.towards * (contour[0].edge.start[1] - contour[-1].edge.end[1]) < 0.0:
         contour = turned_round(contour)
+    work.require_point(onwards(contour))
     path = work.tool_path(contour, abs(a["FAL"]), roughs=True, rounds_begin=True)
     off_a, off_b = work.pair(abs(a["FALZ"]), abs(a["FALX"]))
     try:

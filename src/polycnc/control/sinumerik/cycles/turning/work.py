@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 #: Ways off the work where the call gives none.
 LIFT_MM = 1.0
+#: A point looks away where it does by more than this, in units of the nose radius: frames may turn it.
+_AWAY = 0.5
 #: By so much a direction of 45 degrees may miss it and still not be steep.
 _ROUNDING = 1e-9
 
@@ -53,6 +55,18 @@ class Work:
         radius = stages.radius(self.moves.channel)
         tip = self.pair(*stages.tip(self.moves.channel))
         return edge - direction * radius + radius * tip[0]
+
+    def require_point(self, direction: float = 0.0) -> None:
+        """61608 for a tool whose point looks away from the work: its nose would be reckoned with on the wrong side.
+
+        Args:
+            direction: In which the cuts run, 1 or -1; 0 for a tool that may be drawn along the contour.
+        """
+        tip = self.pair(*stages.tip(self.moves.channel))
+        if stages.radius(self.moves.channel) > NO_WAY and (
+            tip[1] * self.towards < -_AWAY or tip[0] * direction < -_AWAY
+        ):
+            raise AlarmError("61608")
 
     def tool_path(
         self, contour: Contour, allowance: float, *, roughs: bool = False, rounds_begin: bool = False

@@ -1,0 +1,109 @@
+"""What fields take: ranges, numbers as keys have them, inches; in every family, in both languages."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from polycnc.messages.catalogue import LANGUAGES
+from tests.panel.bench import Bench
+from tests.panel.screens.test_journeys import both, soft
+
+#: Controls with the machine's offset page, and how a program chooses inches.
+OFFSETS = {"fanuc-m": "offset", "fanuc-0i-tf": "geometry", "meldas-m": "offset", "syntec-mill": "offset"}
+MACHINES = {"fanuc-m": "hartford", "meldas-m": "hartford"}
+INCH = {"syntec-mill": "G70"}
+
+
+def bench_of(control: str, lang: str, **more: Any) -> Bench:
+    return Bench(control, lang, machine=MACHINES.get(control), **more)
+
+
+def field(bench: Bench) -> str:
+    """The field at the cursor."""
+    (cell,) = (cell for row in bench.window("table").rows for cell in row if cell.cursor)
+    return cell.text
+
+
+def in_inches(bench: Bench) -> None:
+    bench.panel.turn("mode", "mdi")
+    bench.control.mdi(INCH.get(bench.control.control.id, "G20"))
+    bench.control.run()
+
+
+@pytest.mark.parametrize(("control", "lang"), both(*OFFSETS))
+@pytest.mark.parametrize("typed", ["nan", "inf", "1e3", "1_0", "٣", "--5", ".", "1.2.3"])
+def test_a_field_takes_numbers_alone(control: str, lang: str, typed: str) -> None:
+    bench = bench_of(control, lang)
+    bench.screen.show(OFFSETS[control])
+    bench.typed(typed, "INPUT")
+    assert bench.message == bench.says(f"a number is wanted, not {typed}", f"需輸入數值，而非 {typed}")
+    assert field(bench) == "0.000"
+
+
+@pytest.mark.parametrize(("control", "lang"), both("fanuc-m", "meldas-m"))
+@pytest.mark.parametrize(
+    ("inch", "largest", "beyond"), [(False, "999.999", "1000."), (True, "99.9990", "99.9995")]
+)
+def test_an_offset_has_an_end(control: str, lang: str, inch: bool, largest: str, beyond: str) -> None:
+    bench = bench_of(control, lang)
+    if inch:
+        in_inches(bench)
+    bench.screen.show("offset")
+    bench.typed(f"-{largest}", "INPUT")
+    assert (bench.message, field(bench)) == ("", f"-{largest}")
+    bench.typed(beyond, "INPUT")
+    assert bench.message == bench.says("the value is out of range", "數值超出範圍")
+    assert field(bench) == f"-{largest}"
+
+
+@pytest.mark.parametrize(("control", "lang"), both("fanuc-m", "fanuc-0i-tf"))
+@pytest.mark.parametrize("typed", ["nan", "inf", "2.5", "", "-1", "1000", "99999999999999999999"])
+def test_a_number_that_is_not_there_is_not_found(control: str, lang: str, typed: str) -> None:
+    bench = bench_of(control, lang)
+    bench.keys("OFS/SET")
+    soft(bench, "(OPRT)")
+    bench.typed(typed)
+    soft(bench, "NO.SRH")
+    assert bench.message
+    assert bench.screen.cursor == (1, 0)
+
+
+@pytest.mark.parametrize(("control", "lang"), both(*OFFSETS))
+def test_relative_positions_are_inches_where_the_program_has_them(control: str, lang: str) -> None:
+    start = {"X": 50.8, "Z": -25.4}
+    bench = bench_of(control, lang, setup={"start": start})
+    assert bench.screen.positions(bench.control.snapshot, "relative")["X"] == 50.8
+    in_inches(bench)
+    shown = bench.screen.positions(bench.control.snapshot, "relative")
+    assert (shown["X"], shown["Z"]) == pytest.approx((2.0, -1.0))
+    assert bench.screen.position_text("X", "machine", 50.8) == "50.800"
+
+
+@pytest.mark.feature("fan.scr_counter", control="fanuc-0i-tf")
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_counter_input_and_a_preset_origin_count_inches(lang: str) -> None:
+    bench = bench_of("fanuc-0i-tf", lang, setup={"start": {"X": 50.8}})
+    in_inches(bench)
+    bench.keys("POS")
+    soft(bench, "REL", "(OPRT)")
+    bench.typed("U0.5")
+    soft(bench, "ORIGIN")
+    assert "U 0.5000" in bench.text
+    bench.keys("OFS/SET")
+    soft(bench, "GEOM", "(OPRT)")
+    bench.typed("X")
+    soft(bench, "INP.C.")
+    assert (bench.message, field(bench)) == ("", "0.5000")
+
+
+@pytest.mark.feature("fan.scr_second_geom", control="fanuc-0i-tf")
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_switch_keeps_the_number_at_the_cursor(lang: str) -> None:
+    bench = bench_of("fanuc-0i-tf", lang, setup={"parameters": {"3290#5": 1}})
+    bench.keys("OFS/SET")
+    soft(bench, "2ND GEOM", "(OPRT)")
+    bench.typed("9")
+    soft(bench, "NO.SRH", "SWITCH")
+    assert bench.screen.cursor == (9, 0)
