@@ -258,6 +258,9 @@ class Interpolator(Protocol):
         `name` says which of its shifts is meant.
         """
 
+    def without_overlay(self, name: str, column: int) -> float:
+        """Where a real axis would be now without one of its shifts, machine position."""
+
     def overlaid(self, name: str, column: int) -> float:
         """How far a shift of an axis has been asked to go, mm or degrees; 0 where there is none."""
 
