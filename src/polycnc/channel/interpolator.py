@@ -114,8 +114,8 @@ class Commanded(Protocol):
     def move_to(self, target: float, speed: float) -> None:
         """Go to a target, out of whatever it does."""
 
-    def run_on(self, direction: int, speed: float) -> None:
-        """Go on without end, 1 or -1; 0 brakes."""
+    def run_on(self, direction: int, speed: float, end: float | None = None) -> None:
+        """Go on, 1 or -1, without end or to this one; 0 brakes."""
 
     def preset(self, place: float) -> None:
         """It is called another position where it is, and goes on with the way that is left."""
@@ -257,6 +257,9 @@ class Interpolator(Protocol):
 
         `name` says which of its shifts is meant.
         """
+
+    def without_overlay(self, name: str, column: int) -> float:
+        """Where a real axis would be now without one of its shifts, machine position."""
 
     def overlaid(self, name: str, column: int) -> float:
         """How far a shift of an axis has been asked to go, mm or degrees; 0 where there is none."""

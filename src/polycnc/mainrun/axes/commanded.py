@@ -66,6 +66,7 @@ class CommandedAxis:
         self._target: float | None = None
         self._speed = 0.0
         self._led: tuple[tuple[Leading, Law], ...] = ()
+        self._is_endless = False
 
     # ---- a source of the axis ------------------------------------------------------------------------------
 
@@ -154,17 +155,23 @@ class CommandedAxis:
 
     def move_to(self, target: float, speed: float) -> None:
         """Go to a target, out of whatever it does; within the limits of its travel."""
+        self._is_endless = False
         if target == self._target and speed == self._speed:
             return
+        if self._lead is None and self._target is None and abs(target - self._place) <= NO_WAY:
+            return  # it stands there
         self._target, self._speed = min(max(target, self._low), self._high), speed
         self._go()
 
-    def run_on(self, direction: int, speed: float) -> None:
-        """Go on without end, 1 or -1; 0 brakes."""
+    def run_on(self, direction: int, speed: float, end: float | None = None) -> None:
+        """Go on, 1 or -1, without end or to this one; 0 brakes."""
         if direction == 0:
             self.stop()
             return
+        self._is_endless = True
         limit = self._high if direction > 0 else self._low
+        if end is not None:
+            limit = min(limit, end) if direction > 0 else max(limit, end)
         here = self.place(self._clock())
         target = limit if abs(limit) < inf else here + copysign(ENDLESS, direction)
         if self._target is not None and speed == self._speed and (self._target > here) == (target > here):
@@ -213,6 +220,15 @@ class CommandedAxis:
         """It rests at a place, where the path has it at `base`."""
         self._place, self.base = place, base
         self._lead = self._target = None
+
+    def finish(self) -> None:
+        """What it is about to do is done: it rests at its target, out of an endless motion where it is."""
+        if not self.is_turning and self._target is None:
+            return
+        here = self._place if self._lead is None else self._law.mean(self._clock(), self._ramp)
+        self._place = here if self._is_endless or self._target is None else self._target
+        self._lead = self._target = None
+        self.on_rest()
 
     def rebase(self) -> None:
         """It rests where it is, and the path has it there."""

@@ -164,6 +164,11 @@ class ChannelInterpolator:
         self._set_overrides()
         self.wake()
 
+    def finish_axes(self) -> None:
+        """The end of a program test: what axes are about to do beside the path is done."""
+        for axis in self._commanded.values():
+            axis.finish()
+
     def stop_axes(self) -> None:
         """An alarm stops motions: those of actions too."""
         for axis in self._commanded.values():
@@ -454,8 +459,8 @@ class ChannelInterpolator:
     def shift_by_hand(self, column: int, way: float, speed: float, pull: float) -> None:
         """The handwheel shifts an axis by a way more, from where it is no further than its travel allows."""
         found, axis = self._overlays.get((HANDWHEEL_OFFSET, column)), self._run.axes[column]
-        before, now = (found.target, found.at(self._clock.time)) if found is not None else (0.0, 0.0)
-        bare = axis.setpoint(self._clock.time) - now
+        before = found.target if found is not None else 0.0
+        bare = self.without_overlay(HANDWHEEL_OFFSET, column)
         low, high = min(axis.data.limit_minus - bare, before), max(axis.data.limit_plus - bare, before)
         self.overlay(HANDWHEEL_OFFSET, column, min(max(before + way, low), high), speed, pull)
 
@@ -467,6 +472,11 @@ class ChannelInterpolator:
             low, high = channel.limits[column]
             room = (low - min(each.target, 0.0), high - max(each.target, 0.0))
             channel.limits = (*channel.limits[:column], room, *channel.limits[column + 1 :])
+
+    def without_overlay(self, name: str, column: int) -> float:
+        """Where a real axis would be now without one of its shifts, machine position."""
+        found, time = self._overlays.get((name, column)), self._clock.time
+        return self._run.axes[column].setpoint(time) - (found.at(time) if found is not None else 0.0)
 
     def overlaid(self, name: str, column: int) -> float:
         """How far a shift of an axis has been asked to go, mm or degrees; 0 where there is none."""

@@ -268,6 +268,7 @@ class Operation:
         self.switches.lock(run)
         run.channel.is_tested = False
         self.set_rates()
+        run.interpolator.finish_axes()
         run.take_in_hand(test.here)
 
     def give_up(self) -> None:

@@ -175,6 +175,7 @@ class SynchronisedActions(State, lifetime=Lifetime.POWER):
                 self._try(action, modal)
         for action in tuple(self.of_block) if in_program else ():
             self._try(action, modal)
+        self._look_at_ends()
         self.looks += 1
         if run.influence != before or run.changed:
             run.changed = True
@@ -182,6 +183,17 @@ class SynchronisedActions(State, lifetime=Lifetime.POWER):
         if run.releases:
             run.releases = False
             clocked.release()
+
+    def _look_at_ends(self) -> None:
+        """An axis that MOV has led to the end of its travel ends the program with an alarm."""
+        run = self.run
+        for column, action in tuple(run.endless.items()):
+            if run.axis_moves(column):
+                continue
+            del run.endless[column]
+            error = action_axes.at_end(run.channel, column, run.clocked.machine(column))
+            if error is not None:
+                self._fail(action, error)
 
     def _try(self, action: Action, modal: Mapping[str, str]) -> None:
         """Look at one action, with the modal functions of the block; an alarm ends it, and the program."""
@@ -252,6 +264,8 @@ class SynchronisedActions(State, lifetime=Lifetime.POWER):
         """The program has ended: only static actions go on; a reset breaks off what they do."""
         self._ending = False
         self.waiting, self.of_block = [], []
+        if reset:
+            self.run.endless.clear()
         for number in [number for number, action in self.modal.items() if not action.is_static]:
             self._drop(self.modal.pop(number))
         for action in self.modal.values() if reset else ():

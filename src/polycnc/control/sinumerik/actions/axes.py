@@ -23,7 +23,7 @@ from polycnc.messages import AlarmError
 from polycnc.toolpath.events import Deed
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
 
     from polycnc.control.sinumerik.block.arguments import Arguments
     from polycnc.control.sinumerik.family import SinumerikChannel
@@ -72,20 +72,43 @@ def expect(channel: SinumerikChannel, columns: Iterable[int]) -> None:
         channel.modes.forget_plans()  # they do not say which axes a block moves
 
 
-def check_target(channel: SinumerikChannel, column: int, target: float) -> None:
-    """Refuse a target beyond a software limit switch (20070), or beyond a working area by setting data (20071).
+def _limits(channel: SinumerikChannel, column: int) -> Iterator[tuple[str, int, float]]:
+    """Software limit switches and working areas by setting data: alarm, side (1, -1) and machine position.
 
     WALIMON and WALIMOF of the program mean nothing here (10.4.17).
     """
     data, name, axis = channel.memory.data, channel.axes[column], channel.axis_data[column]
     for side, sign, travel in (("MINUS", -1, axis.limit_minus), ("PLUS", 1, axis.limit_plus)):
         switch = f"$MA_POS_LIMIT_{side}"
-        limit = data.number(switch, name) if data.is_set(switch, name) else travel
+        yield "20070", sign, data.number(switch, name) if data.is_set(switch, name) else travel
+        if data.number(f"$SA_WORKAREA_{side}_ENABLE", name):
+            yield "20071", sign, data.number(f"$SA_WORKAREA_LIMIT_{side}", name)
+
+
+def _beyond(channel: SinumerikChannel, column: int, code: str, sign: int) -> AlarmError:
+    return AlarmError(code, axis=channel.axes[column], side="+" if sign > 0 else "-")
+
+
+def check_target(channel: SinumerikChannel, column: int, target: float) -> None:
+    """Refuse a target beyond a software limit switch (20070), or beyond a working area by setting data (20071)."""
+    for code, sign, limit in _limits(channel, column):
         if sign * (target - limit) > NO_WAY:
-            raise AlarmError("20070", axis=name, side="+" if sign > 0 else "-")
-        area = data.number(f"$SA_WORKAREA_LIMIT_{side}", name)
-        if data.number(f"$SA_WORKAREA_{side}_ENABLE", name) and sign * (target - area) > NO_WAY:
-            raise AlarmError("20071", axis=name, side="+" if sign > 0 else "-")
+            raise _beyond(channel, column, code, sign)
+
+
+def end_of_travel(channel: SinumerikChannel, column: int, direction: int) -> float:
+    """How far an axis can go in a direction, machine position; inf or -inf for one without an end."""
+    return direction * min(
+        direction * limit for _, sign, limit in _limits(channel, column) if sign == direction
+    )
+
+
+def at_end(channel: SinumerikChannel, column: int, place: float) -> AlarmError | None:
+    """The alarm of an axis that stands at an end of its travel (20070, 20071); None elsewhere."""
+    for code, sign, limit in _limits(channel, column):
+        if sign * (place - limit) >= -NO_WAY:
+            return _beyond(channel, column, code, sign)
+    return None
 
 
 def speed_of(channel: SinumerikChannel, column: int) -> float:

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from polycnc.channel.interpolator import HANDWHEEL_OFFSET
 from polycnc.channel.states.state import Lifetime, State, lasting
 from polycnc.control.sinumerik import tables
+from polycnc.control.sinumerik.actions import axes as action_axes
 from polycnc.control.sinumerik.block import arguments
 from polycnc.deferred.records import dataclass
 from polycnc.language.sinumerik.names.values import Axis, Type
@@ -131,8 +132,11 @@ def _write(channel: SinumerikChannel, indices: Indices, value: float) -> None:
     if data.integer("$MA_AA_OFF_MODE", name) & _INTEGRAL:
         value += overlays.get(column, 0.0)
     limit = _limit(channel, column)
-    overlays[column] = value = min(max(value, -limit), limit)
+    value = min(max(value, -limit), limit)
     clocked = channel.actual.clocked
+    if clocked is not None and value:
+        action_axes.check_target(channel, column, clocked.without_overlay(NAME, column) + value)
+    overlays[column] = value
     if clocked is not None:
         clocked.overlay(NAME, column, value, *share_of(channel, column))
 

@@ -10,6 +10,7 @@ from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.actions import axes as action_axes
 from polycnc.control.sinumerik.actions.axes import ActionAxes
 from polycnc.deferred.records import dataclass
+from polycnc.geometry.tolerances import NO_WAY
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -43,6 +44,7 @@ class Running:
         action: The action that is looked at.
         targets: Where axes shall go when its effects are through, by column; `directions` those without end, `speeds`
             axes with a new feed.
+        endless: Actions whose MOV moves an axis, by its column.
         coordinate: Locks, unlocks and resets actions: word and numbers.
     """
 
@@ -60,6 +62,7 @@ class Running:
         self.targets: dict[int, float] = {}
         self.directions: dict[int, int] = {}
         self.speeds: set[int] = set()
+        self.endless: dict[int, Action] = {}
 
     @property
     def clocked(self) -> Interpolator:
@@ -107,7 +110,9 @@ class Running:
         for column, target in self.targets.items():
             clocked.commanded(column).move_to(target, action_axes.speed_of(self.channel, column))
         for column, direction in self.directions.items():
-            clocked.commanded(column).run_on(direction, action_axes.speed_of(self.channel, column))
+            self._run_on(column, direction)
+        for column in self.targets:
+            self.endless.pop(column, None)
         self.action.endless -= self.targets.keys()
         self.action.endless |= {column for column, direction in self.directions.items() if direction}
         for column in (*self.targets, *self.directions):
@@ -118,6 +123,18 @@ class Running:
         self.targets.clear()
         self.directions.clear()
         self.speeds.clear()
+
+    def _run_on(self, column: int, direction: int) -> None:
+        """MOV: an axis goes on to the end of its travel, if it has one; 0 brakes it."""
+        self.endless.pop(column, None)
+        end = None
+        if direction:
+            self.endless[column] = self.action
+            end = action_axes.end_of_travel(self.channel, column, direction)
+            if direction * (end - self.clocked.machine(column)) <= NO_WAY:
+                direction = 0
+        speed = action_axes.speed_of(self.channel, column)
+        self.clocked.commanded(column).run_on(direction, speed, end)
 
     def axis_moves(self, column: int) -> bool:
         """Whether a commanded axis is under way."""

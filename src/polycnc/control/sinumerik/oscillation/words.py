@@ -112,6 +112,8 @@ def switch(draft: Draft, position: int, shape: WordShape) -> Step:
         value = number(values, position)
         if value not in (0.0, 1.0):
             raise WordAlarm("12560", position, text="OS")
+        if value:
+            _check_travel(channel, column)
         keep_speed = _begin(channel, column)
         oscillations = Oscillations.of(channel)
 
@@ -122,6 +124,16 @@ def switch(draft: Draft, position: int, shape: WordShape) -> Step:
         channel.event(Deed("OS", None, do, is_silent=False))
 
     return run
+
+
+def _check_travel(channel: SinumerikChannel, column: int) -> None:
+    """Both reversal points lie within the travel of the axis, and within its working area by setting data."""
+    if channel.memory.axes[column].modulo:
+        return
+    place = list(channel.coordinates.position)
+    for name in strokes.REVERSAL:
+        place[column] = _ahead(channel, name, column)
+        action_axes.check_target(channel, column, channel.coordinates.to_machine(place)[column])
 
 
 def take_feed(channel: SinumerikChannel, column: int) -> None:
