@@ -25,6 +25,7 @@ help:
 # One stamp for each set of extras: installed again when pyproject.toml or what is compiled has changed.
 $(VENV)/.installed-%: pyproject.toml $(KERNELS)
 	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+	@echo "polycnc is installed into $(VENV); its kernels are compiled, which takes some minutes"
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.$(if $(filter-out plain,$*),[$*])'
 	$(BIN)/python -m compileall -q src/polycnc  # an editable installation leaves that to the first run
 	touch $@

@@ -34,7 +34,7 @@ REAL = 1.0 + 1e-3
 EVEN = 0.05
 #: Part by which a squared speed may be off that of a joint.
 EVEN_JOINT = 1e-5
-ARC_KINDS = frozenset((Kind.CW, Kind.CCW, Kind.HELIX_CW, Kind.HELIX_CCW))
+ARC_KINDS = frozenset((Kind.CW, Kind.CCW)) | HELIX_KINDS
 
 
 class Cause(StrEnum):

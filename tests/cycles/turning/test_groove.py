@@ -2,10 +2,11 @@ from __future__ import annotations
 
 from itertools import pairwise
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from polycnc.cycles.turning.groove import Corner, Groove, Side, strokes
+from polycnc.cycles.turning.groove import Corner, Groove, GrooveError, Side, strokes
 from polycnc.geometry import arcs
 
 SIZES = st.floats(0.1, 20.0)
@@ -95,3 +96,19 @@ def test_plunges_from_the_middle_outwards_never_cut_at_rapid(
             cut.append((w1, t1))
         at = stroke.end
     assert max(t for _, t in cut) >= depth - 1e-9
+
+
+def test_sides_meet_where_the_wider_corner_of_the_base_ends() -> None:
+    """The tool has 0.5 of play; a corner of 0.6 takes 0.4 of it for a nose of 0.2, the middle lies at 0.25."""
+    wide, sharp = Side(base=Corner(radius=0.6)), Side()
+    for sides, meeting in (((wide, sharp), 0.4), ((sharp, wide), 0.1)):
+        groove = Groove(3.5, 2.0, 3.0, sides=sides, nose_radius=0.2)
+        assert groove.meeting == pytest.approx((meeting, 0.5 - meeting))
+        ends = [stroke.end for stroke in strokes(groove) if stroke.end is not None and not stroke.is_rapid]
+        assert ends[-1] == pytest.approx((meeting, 2.0))
+
+
+def test_corners_that_leave_the_tool_no_play_do_not_fit() -> None:
+    wide = Side(base=Corner(radius=0.5))
+    with pytest.raises(GrooveError):
+        list(strokes(Groove(3.5, 2.0, 3.0, sides=(wide, wide), nose_radius=0.2)))

@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 
 from polycnc.messages.catalogue import LANGUAGES
+from polycnc.panel.screens.tables import Table
 from tests.panel.bench import Bench
 from tests.panel.screens.test_journeys import both, soft
 
@@ -107,3 +108,52 @@ def test_switch_keeps_the_number_at_the_cursor(lang: str) -> None:
     bench.typed("9")
     soft(bench, "NO.SRH", "SWITCH")
     assert bench.screen.cursor == (9, 0)
+
+
+#: Pages whose fields are typed in for what they do, not for what they keep; or are shown alone.
+NOT_KEPT = {"work-shift", "chuck", "tailstock", "conditions-default"}
+ALL = {**MACHINES, "fanuc-0i-tf": "lathe-yab", "sinumerik-840d": None, "syntec-mill": None}
+
+
+@pytest.mark.parametrize("control", ALL)
+def test_every_field_of_a_table_keeps_what_is_typed(control: str) -> None:
+    further = {"3290#5": 1, "5044": 4, "5045": 5} if control == "fanuc-0i-tf" else {}
+    setup = {"tools": {1: {"length": 50.0}}, "parameters": further}
+    bench = Bench(control, "en", machine=ALL[control], setup=setup)
+    written = 0
+    for page in sorted(bench.screen.family.pages.keys() - NOT_KEPT):
+        bench.screen.show(page)
+        if (table := bench.screen.table) is None:
+            continue
+        for place in ((table.first, column) for column in range(len(table.columns))):
+            bench.screen.place(*place)
+            bench.typed("1", "INPUT")
+            kept = Table(bench.control, table).value(table.columns[place[1]], place[0])
+            assert (bench.message, kept in (1, "1")) == ("", True), (page, place)
+            written += 1
+    assert written > 5
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_work_offsets_and_radii_of_syntec_are_typed_in_and_act(lang: str) -> None:
+    program = "O1\nG55 G0 X0 Y0\nG41 D2 G1 X10. F600\nY40.\nG40 X0\nM30\n"
+    bench = bench_of("syntec-mill", lang, program=program)
+    bench.keys("OFF/SET")
+    soft(bench, "Work offset")
+    bench.keys("DOWN", "DOWN")
+    bench.typed("12.5", "INPUT")
+    bench.typed("0.5")
+    soft(bench, "+Input")
+    assert (bench.message, field(bench)) == ("", "13.000")
+    soft(bench, "Tool set")
+    bench.typed("2")
+    soft(bench, "Search")
+    bench.keys("RIGHT", "RIGHT")
+    bench.typed("4.", "INPUT")
+    bench.keys("RIGHT")
+    bench.typed("-0.25", "INPUT")
+    assert (bench.message, field(bench)) == ("", "-0.250")
+    bench.press("START")
+    while bench.control.positions.machine["Y"] < 20.0:
+        bench.passes(0.1)
+    assert bench.control.positions.machine["X"] == pytest.approx(13.0 + 10.0 - 3.75)

@@ -176,6 +176,17 @@ def test_what_is_no_message_is_refused(desk: Desk, message: str) -> None:
     assert json.loads(answer(desk, message)).keys() == {"refused"}
 
 
+@pytest.mark.parametrize("number", ["NaN", "Infinity", "-Infinity", "1e999"])
+def test_numbers_without_end_are_refused(desk: Desk, number: str) -> None:
+    wanted = f'{{"do": "write_variable", "with": {{"name": "#11001", "value": {number}}}}}'
+    assert "refused" in json.loads(answer(desk, wanted))
+    signal = f'{{"do": "signal", "with": {{"name": "DOOR_OPEN", "value": {number}}}}}'
+    assert "refused" in json.loads(answer(desk, signal))
+    for command in (desk.control.write_variable, desk.control.write_parameter):
+        with pytest.raises(UserError):
+            command("#500" if command == desk.control.write_variable else "1320", float(number))
+
+
 def test_a_fault_and_a_signal_come_over_the_wire(desk: Desk) -> None:
     assert asked(desk, "fault", name="air") == {"ok": None}
     assert desk.control.signals["AIR_LOW"] == 1.0

@@ -66,16 +66,23 @@ class SyntecBuilder(Builder):
         return super()._row(code)
 
     def _macro_program(self, code: str) -> Program | None:
-        whole, point, fraction = code[1:].partition(".")
-        if point:
-            return self.channel.store.find_name(f"G{int(whole):03d}{int(fraction or 0):03d}")
-        if not FIRST_MACRO <= int(whole) <= LAST_MACRO:
-            return None
-        return self.channel.store.find_name(f"G{int(whole):04d}")
+        return macro_program(self.channel, code)
+
+    @property
+    def repeated_macro(self) -> str:
+        """The code whose macro blocks without a code of motion call again, for it has written itself to #1000."""
+        code = self.mode["motion"]
+        if code in self.footing.planners or self.mode["cycle"] != "G80" or not self.moves_by_words():
+            return ""
+        return code
 
     def replacement(self, plan: Plan) -> Step | None:
         """As everywhere; a block whose registered codes are plain has been asked already."""
-        return None if self.plain else super().replacement(plan)
+        if not self.plain:
+            return super().replacement(plan)
+        if self.repeated_macro:
+            raise self.control.unknown_code(self.repeated_macro)
+        return None
 
     def code_program(self, name: str) -> Program:
         """The program of a registered code."""
@@ -115,4 +122,15 @@ class SyntecBuilder(Builder):
 def may_call_by_g(builder: Builder) -> bool:
     """Whether a G code of the block, or the motion code that holds in it, may call a macro."""
     assert isinstance(builder, SyntecBuilder)  # the control makes no other
-    return bool(builder.g_macros) or any(builder.channel.memory.parameters.g_macros)
+    repeats = builder.mode["motion"] not in builder.footing.planners
+    return bool(builder.g_macros) or repeats or any(builder.channel.memory.parameters.g_macros)
+
+
+def macro_program(channel: SyntecChannel, code: str) -> Program | None:
+    """The program that a G code of the user calls (G200 to G999, G123.4); None where there is no such file."""
+    whole, point, fraction = code[1:].partition(".")
+    if point:
+        return channel.store.find_name(f"G{int(whole):03d}{int(fraction or 0):03d}")
+    if not FIRST_MACRO <= int(whole) <= LAST_MACRO:
+        return None
+    return channel.store.find_name(f"G{int(whole):04d}")

@@ -121,10 +121,21 @@ class Groove:
         """Width at the rim."""
         return sum(self.feet) + self.width
 
-    @property
-    def middle(self) -> float:
-        """Where the tool stands on the middle of the base, in w."""
-        return self.feet[0] + 0.5 * (self.width - self.tool_width)
+    @cached_property
+    def meeting(self) -> tuple[float, float]:
+        """From the foot of each wall to where its edge stands when the other side goes on: at the middle of the base.
+
+        Where the corner of a side takes more of the base than that, it is the end of that corner.
+
+        Raises:
+            GrooveError: The tool does not fit between the corners.
+        """
+        play = self.width - self.tool_width
+        first, second = (max(_taken(side) - self.nose_radius, 0.0) for side in self.sides)
+        if first + second > max(play, 0.0) + _WHOLE:
+            raise GrooveError("corner")
+        place = max(min(0.5 * play, play - second), first)
+        return place, play - place
 
     @property
     def is_plain(self) -> bool:
@@ -133,16 +144,16 @@ class Groove:
 
     @cached_property
     def contours(self) -> tuple[Contour, Contour]:
-        """Each side in its own (u, t), from its rim to where the tool stands on the middle of the base.
+        """Each side in its own (u, t), from its rim to where the tool stands when it meets the other one on the base.
 
         Raises:
             GrooveError: The corners do not fit.
         """
-        first, second = (self._contour(side, foot) for side, foot in zip(self.sides, self.feet, strict=True))
+        first, second = map(self._contour, self.sides, self.feet, self.meeting)
         return first, second
 
-    def _contour(self, side: Side, foot: float) -> Contour:
-        reach = max(0.5 * (self.width - self.tool_width) + self.nose_radius, NO_WAY * 10.0)
+    def _contour(self, side: Side, foot: float, meeting: float) -> Contour:
+        reach = max(meeting + self.nose_radius, NO_WAY * 10.0)
         far = self.width + self.depth
         rim = offset.line((-far, 0.0), (0.0, 0.0))
         wall = offset.line((0.0, 0.0), (foot, self.depth))
@@ -162,6 +173,12 @@ class Groove:
                 # The edge is crossed where its u is this one.
                 return crossings(swapped([piece])[0].edge, u)[0][0]
         return depth
+
+
+def _taken(side: Side) -> float:
+    """What the corner at the base takes of the base."""
+    turn = radians(90.0 - side.angle_deg)
+    return max(side.base.radius * tan(0.5 * turn), side.base.leg, 0.5 * side.base.length / cos(0.5 * turn))
 
 
 def with_corner(before: list[Piece], piece: Piece, corner: Corner) -> list[Piece]:

@@ -76,8 +76,8 @@ class WordAlarm(AlarmError):  # noqa: N818 - an alarm is what it is called on th
 
 #: How often an address may stand in a block; all others once for each index (Fundamentals 2.2).
 _MOST = {"M": 5, "H": 3}
-#: Addresses that position the axis of their index: it stands once in a block, by whichever of them or its own name.
-_POSITIONING = frozenset(("POS", "POSA", "POSP"))
+#: Addresses that lead the axis of their index somewhere: it stands once in a block, by one of them or its own name.
+_POSITIONING = frozenset(("POS", "POSA", "POSP", "PO"))
 
 
 def block_of(codes: tuple[str, ...], words: tuple[WordShape, ...]) -> Block:

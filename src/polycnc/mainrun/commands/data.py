@@ -6,6 +6,7 @@ What is confirmed lasts: each command ends with a `commit` of the retained memor
 from __future__ import annotations
 
 from contextlib import suppress
+from math import isfinite
 from typing import TYPE_CHECKING
 
 from polycnc.control.parameters import known_parameters
@@ -28,8 +29,19 @@ if TYPE_CHECKING:
     from polycnc.memory.retained import RetainedStore
     from polycnc.program import Program
 
+
 #: The signal of the key switch that protects what is stored.
 PROTECTED = "EDIT_PROTECT"
+
+
+def _check_finite(name: str, value: object) -> None:
+    """What no program could write is no value: a length without end would be one.
+
+    Raises:
+        CommandRefused: It is infinite or not a number.
+    """
+    if isinstance(value, float) and not isfinite(value):
+        raise CommandRefused("setup.no-variable", name=name)
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,6 +81,7 @@ class DataCommands:
     def write_variable(self, name: str, value: object, channel: int) -> None:
         """Give a variable, an offset or a datum another value."""
         self._check_protection()
+        _check_finite(name, value)
         run = self._operation.runs.named(channel)
         try:
             run.channel.control.write_variable(run.channel, name, value)
@@ -118,6 +131,7 @@ class DataCommands:
         """Give a parameter another value."""
         self._permission.ask(Command.LOAD)
         self._check_protection()
+        _check_finite(number, value)
         plain = number.split("#", maxsplit=1)[0]
         if not number.startswith("$"):
             try:

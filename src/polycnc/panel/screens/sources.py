@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, TypeAlias
 from polycnc.control.fanuc.lathe.tools import screens as lathe
 from polycnc.control.fanuc.lathe.tools.screens import RADIUS, TIP, Page
 from polycnc.control.syntec.coordinates import turns
+from polycnc.control.syntec.coordinates.length import set_tool_datum, tool_datum
 from polycnc.control.syntec.coordinates.systems import WORK_SYSTEMS
 from polycnc.control.syntec.motion import conditions
 from polycnc.control.word_address.tools.data_input import LARGEST_OFFSET
@@ -229,6 +230,20 @@ class Barrier(Source):
         control.change(partial(lathe.set_barrier_here, page=self._page, symbol=self._symbols[row - 1]))
 
 
+class ToolData(Source):
+    """Tools of SYNTEC: length and radius with their wear; programs write them by G10 L10 to L13 (2.14)."""
+
+    def read(self, control: VirtualControl, column: Column, row: int) -> object:
+        """A field of a tool."""
+        return tool_datum(control.channel, row, column.variable)
+
+    def write(
+        self, control: VirtualControl, column: Column, row: int, value: float | str, latched: Latched
+    ) -> None:
+        """A field of a tool."""
+        control.change(partial(set_tool_datum, number=row, field=column.variable, value=float(value)))
+
+
 class WorkTurn(Source):
     """Coordinate rotation page of SYNTEC (2.39.2): rows are work systems, G54 P1 to P100; columns X, Y, Z."""
 
@@ -279,5 +294,6 @@ SOURCES: dict[str, Source] = {
     "tailstock": Barrier("tailstock"),
     "settable": SettableFrames(),
     "work-turn": WorkTurn(),
+    "tool-data": ToolData(),
     "conditions": ConditionSets(),
 }

@@ -99,6 +99,10 @@ def _check(given: Mapping[str, Any]) -> None:
         wanted = ARGUMENTS[name]
         if not isinstance(value, wanted) or (isinstance(value, bool) and bool not in wanted):
             raise TypeError(name)
+        if isinstance(value, float) and not isfinite(
+            value
+        ):  # Python reads NaN and Infinity, which JSON has not
+            raise ValueError(name)
 
 
 def _called(action: Callable[..., object], given: Mapping[str, Any]) -> object:

@@ -57,6 +57,24 @@ def test_a_path_needs_a_side() -> None:
     assert alarms(call, MILL) == ["61114"]
 
 
+def test_the_tool_is_not_scaled() -> None:
+    assert alarms(POCKET.format(1, 3, 100), MILL, "SCALE X2 Y2") == ["61011"]
+
+
+def test_a_turned_and_mirrored_slot_is_chamfered_where_it_lies() -> None:
+    slot = "SLOT1(20,0,2,-6,,1,40,12,0,0,20,0,0,100,500,4,3,0,5,0,0,0,0,0,0,0,1,3,0,0,100)"
+    lines = ("G17 G94", "T1 D1 M6", "S1000 M3", "TRANS X10", "AROT Z90", "AMIRROR Y0", slot)
+    rows = [
+        row["machine"] for row in run(*lines, tools={1: MILL}).rows if row["type"] in ("feed", "cw", "ccw")
+    ]
+    # (26, -3.5) to (54, 3.5) of the slot: mirrored across, turned to Y, shifted along X.
+    assert [(round(row["X"], 6), round(row["Y"], 6)) for row in rows[1:4]] == [
+        (6.5, 26),
+        (6.5, 54),
+        (13.5, 54),
+    ]
+
+
 def test_the_deeper_the_tip_the_farther_it_keeps_from_the_wall() -> None:
     for tip in (1.0, 2.0, 5.0):
         lines = ("G17 G94", "T1 D1 M6", "S1000 M3", POCKET.format(1, tip, 100))

@@ -50,6 +50,9 @@ def test_wrong_values(changes: dict[int, object], alarm: str) -> None:
     assert alarms(changes) == [alarm]
 
 
-@pytest.mark.parametrize(("before", "alarm"), [("M5", "61102"), ("D0", "61000"), ("G95 F0.1", "PC0001")])
+@pytest.mark.parametrize(
+    ("before", "alarm"),
+    [("M5", "61102"), ("D0", "61000"), ("G95 F0.1", "PC0001"), ("SCALE X2 Y2", "61011"), ("G41", "61815")],
+)
 def test_wrong_surroundings(before: str, alarm: str) -> None:
     assert alarms({}, before) == [alarm]

@@ -206,7 +206,7 @@ def circle(draft: Draft) -> Step | None:
 
 
 def centre_words(draft: Draft, letters: str) -> list[tuple[int, int, str]]:
-    """I, J, K (or IP[axis]): geometry axis, place and modifier of each."""
+    """I, J, K (or IP[axis]): geometry axis, place and modifier of each; 12010 for an axis that has both."""
     found = []
     for index, letter in enumerate(letters):
         taken = draft.take_shape(letter, "AC", "IC")
@@ -218,7 +218,10 @@ def centre_words(draft: Draft, letters: str) -> list[tuple[int, int, str]]:
         geometry = draft.channel.coordinates.geometry
         if column not in geometry:
             raise AlarmError("12050", axis=str(axis))
-        found.append((geometry.index(column), taken[0], taken[1].modifier))
+        index = geometry.index(column)
+        if any(index == each for each, _, _ in found):
+            raise WordAlarm("12010", taken[0], text="IP")
+        found.append((index, taken[0], taken[1].modifier))
     return found
 
 

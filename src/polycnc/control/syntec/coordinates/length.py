@@ -7,7 +7,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.control.word_address.memory import ToolOffsets
 from polycnc.control.word_address.tools import length
+from polycnc.geometry.units import INCH_MM
 
 if TYPE_CHECKING:
     from polycnc.control.syntec.family import SyntecChannel
@@ -24,3 +26,20 @@ def cancel_length(channel: SyntecChannel, words: Words) -> None:
     """G49."""
     channel.flush()
     length.cancel_length(channel, words)
+
+
+# ---- the page of tool data ---------------------------------------------------------------------------------
+
+
+def tool_datum(channel: SyntecChannel, number: int, field: str) -> float:
+    """A field of a tool (`length`, `length_wear`, `radius`, `radius_wear`), in the unit of the program."""
+    tool = ToolOffsets.of(channel).numbers.get(number)
+    millimetres: float = getattr(tool, field) if tool is not None else 0.0
+    return millimetres / INCH_MM if channel.memory.is_inch else millimetres
+
+
+def set_tool_datum(channel: SyntecChannel, number: int, field: str, value: float) -> None:
+    """Another value, in the unit of the program; an active compensation takes it with its next move, as by G10."""
+    millimetres = value * INCH_MM if channel.memory.is_inch else value
+    setattr(channel.memory.offset_number(number), field, millimetres)
+    length.renew_length(channel)

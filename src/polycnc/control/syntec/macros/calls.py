@@ -13,7 +13,7 @@ from polycnc.channel.stack import LevelKind
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.machine_words import refuse
 from polycnc.control.syntec.axis_groups import groups
-from polycnc.control.syntec.builder import CALLS, SyntecBuilder, may_call_by_g
+from polycnc.control.syntec.builder import CALLS, SyntecBuilder, macro_program, may_call_by_g
 from polycnc.control.syntec.macros import interrupts
 from polycnc.control.syntec.macros.variables import INDEXED_LETTERS, Locals
 from polycnc.control.word_address.block.rules import Rule
@@ -200,7 +200,15 @@ def _code_macro(builder: SyntecBuilder) -> CodeMacro | None:
     if builder.g_macros:
         code, program = builder.g_macros[-1]
         return CodeMacro(program, LevelKind.MACRO, frozenset("L"), word=code)
+    if code := builder.repeated_macro:
+        return CodeMacro(_repeated(builder, code), LevelKind.MACRO, frozenset("L"), word=code)
     return _registered_g(builder) or _registered_m(builder) or _registered_t(builder)
+
+
+def _repeated(builder: SyntecBuilder, code: str) -> Program:
+    """The program of the code in #1000 (macro language reference, section 5)."""
+    program = macro_program(builder.channel, code)
+    return builder.code_program(code) if program is None else program
 
 
 def _registered_g(builder: SyntecBuilder) -> CodeMacro | None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import isnan
 from typing import TYPE_CHECKING, cast
 
+from polycnc.control.syntec.builder import macro_program
 from polycnc.control.syntec.coordinates.systems import WORK_SYSTEMS
 from polycnc.control.syntec.coordinates.turns import PostureState, TurnState, renew_preset_frame
 from polycnc.control.syntec.macros.machine_parameters import read_long
@@ -64,9 +65,10 @@ def _interpolation(memory: SyntecMemory, _offset: int) -> Value:
 
 
 def _set_interpolation(memory: SyntecMemory, _offset: int, value: Value) -> None:
+    """A code of motion, or that of a macro: the blocks behind it that name no code of motion call it again."""
     channel = memory.channel
     code = f"G{number(value):g}"
-    if code not in ("G0", "G1", "G2", "G3", "G33"):
+    if code not in ("G0", "G1", "G2", "G3", "G33") and macro_program(channel, code) is None:
         raise AlarmError("PC0001", hint="hint.not-supported", code=f"#1000 := {code[1:]}")
     channel.mode = channel.mode.with_codes([("motion", code), ("cycle", "G80")])
 

@@ -406,7 +406,7 @@ class Builder:
             if rule.motion is not None and (step := rule.motion(self, plan)) is not None:
                 break
         else:
-            planner = self.footing.planners[self.mode["motion"]]
+            planner = self.footing.planners.get(self.mode["motion"])
             step = planner(self, plan) if planner is not None else None
         for rule in self.acting:
             if rule.wrap is not None:
