@@ -90,10 +90,9 @@ class LedAxes(State, lifetime=Lifetime.RESET):
         CurveTables.of(self.channel).use(table.number)
         gap = self._gap(following, leading, table)
         self.led[following] = Led(leading, table, gap)
+        self.channel.on_clock().watch(self)  # the end of the program lets go of the table
         if at_once or self._is_near(following, gap):
             self._synchronise(following)
-        else:
-            self.channel.on_clock().watch(self)
 
     def let_go(self, following: int) -> None:
         """No table leads an axis any more, or none that it waits for."""
