@@ -9,6 +9,7 @@ from polycnc.messages import UserError, text
 from polycnc.messages.catalogue import language, listed
 
 if TYPE_CHECKING:
+    from polycnc.mainrun.commands.states import Command, Mode, State
     from polycnc.messages import Alarm, Catalogue
 
 _Name = TypeVar("_Name", bound=StrEnum)
@@ -16,6 +17,25 @@ _Name = TypeVar("_Name", bound=StrEnum)
 
 class CommandRefused(UserError):  # noqa: N818 - a refusal is an answer, not an error of the control
     """A command is not possible now, or what it names does not exist. Nothing has happened."""
+
+
+class OutOfPlace(CommandRefused):
+    """The control does not take a command in this mode and state.
+
+    Args:
+        command: What was asked for.
+        mode: What the mode switch says.
+        state: What the control is doing.
+    """
+
+    def __init__(self, command: Command, mode: Mode, state: State) -> None:
+        super().__init__("mainrun.refused", command=command, mode=mode, state=state)
+        self._command, self._mode, self._state = command, mode, state
+
+    def text(self, lang: str | None = None) -> str:
+        """The refusal with the names that an operator has for the three."""
+        command, mode = text(f"command.{self._command}", lang), text(f"mode.{self._mode}", lang)
+        return text(self.message, lang, command=command, mode=mode, state=text(f"state.{self._state}", lang))
 
 
 class SearchStopped(CommandRefused):

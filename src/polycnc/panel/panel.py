@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING
 from polycnc.control.sinumerik.data.access import turn_key_switch
 from polycnc.mainrun import CommandRefused, State
 from polycnc.mainrun.commands.states import Command
+from polycnc.mainrun.errors import OutOfPlace
 from polycnc.messages import AlarmError, text
 from polycnc.messages.catalogue import listed
 from polycnc.panel.description import RETURNED, Key, Lamp, describe, is_returned
@@ -146,7 +147,7 @@ class Panel:
         command = _ASKED.get(key.command)
         if command is not None and not self.control.allows(command):
             control = self.control
-            return CommandRefused("mainrun.refused", command=command, mode=control.mode, state=control.state)
+            return OutOfPlace(command, control.mode, control.state)
         return None
 
     def _press_key(self, key: Key, together: set[str]) -> None:

@@ -91,7 +91,11 @@ def test_parameter_write_is_set_on_the_setting_page(control: str, lang: str) -> 
     bench.keys("CAN")
     bench.typed("1", "INPUT")
     assert bench.message == ""
-    (row,) = (row for row in bench.window("switches").rows if row[0].text == "PARAMETER WRITE")
+    (row,) = (
+        row
+        for row in bench.window("switches").rows
+        if row[0].text == bench.says("PARAMETER WRITE", "參數寫入")
+    )
     assert (row[1].text, row[1].cursor) == ("1", True)
     bench.keys("SYSTEM")
     bench.screen.place(3, 0)
@@ -319,7 +323,7 @@ def test_the_handwheel_shifts_an_axis_beside_the_program(lang: str) -> None:
     assert bench.message, "neither DRF nor the mode of the handwheel"
     bench.keys(*["DOWN"] * 9, "SELECT")
     assert bench.control.switches.drf
-    (row,) = (row for row in bench.window("switches").rows if row[0].text == "DRF")
+    (row,) = (row for row in bench.window("switches").rows if row[0].text.endswith("(DRF)"))
     assert row[1].text == "1"
     bench.press("START")
     bench.passes(0.5)

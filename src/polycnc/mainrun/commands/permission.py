@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.mainrun.commands.states import is_allowed
-from polycnc.mainrun.errors import CommandRefused, MachineRefused
+from polycnc.mainrun.errors import MachineRefused, OutOfPlace
 
 if TYPE_CHECKING:
     from polycnc.mainrun.commands.states import Command
@@ -36,7 +36,7 @@ class Permission:
         """
         mode, state = self._status.mode, self._status.state
         if not is_allowed(command, mode, state):
-            raise CommandRefused("mainrun.refused", command=command, mode=mode, state=state)
+            raise OutOfPlace(command, mode, state)
 
     def ask_machine(self, *words: str) -> None:
         """Ask the machine's controller for something; it answers with an alarm or a message where it refuses.

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from polycnc.control.alarm_text import catalogue_of
 from polycnc.mainrun.commands.search import ProgramTest, SearchMode, Wanted, at_line, search
 from polycnc.mainrun.commands.states import Command, Mode, State
-from polycnc.mainrun.errors import CommandRefused, SearchStopped
+from polycnc.mainrun.errors import CommandRefused, OutOfPlace, SearchStopped
 from polycnc.mainrun.execution.operation import AT_END
 from polycnc.mainrun.signals.machine_states import axis_names
 
@@ -227,9 +227,7 @@ class ProgramCommands:
         """Give the program up."""
         status = self._status
         if status.is_locked:
-            raise CommandRefused(
-                "mainrun.refused", command=Command.RESET, mode=status.mode, state=status.state
-            )
+            raise OutOfPlace(Command.RESET, status.mode, status.state)
         self._operation.brake(State.BRAKING)
 
     # ---- power, modes, keys --------------------------------------------------------------------------------

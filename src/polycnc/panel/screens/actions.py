@@ -15,7 +15,7 @@ from polycnc.panel.keyed import number_of, whole_number_of
 from polycnc.panel.screens import forms
 from polycnc.panel.screens.programs import EDITING
 from polycnc.panel.screens.sources import SOURCES
-from polycnc.panel.screens.state import Operation
+from polycnc.panel.screens.state import PARAMETER_WRITE, Operation
 from polycnc.panel.screens.tables import Table
 from polycnc.panel.screens.transfer import Transfer, begin_transfer
 
@@ -80,7 +80,7 @@ def set_value(screen: ScreenState) -> None:
 
 
 def _switch_at(screen: ScreenState) -> str:
-    switches = list(screen.panel_switches.values())
+    switches = screen.panel_switches
     return switches[min(screen.cursor[0], len(switches) - 1)]
 
 
@@ -88,7 +88,7 @@ def set_switch(screen: ScreenState) -> None:
     """INPUT on the setting page: PARAMETER WRITE by 1 or 0; the other rows are switches of the machine panel."""
     name = _switch_at(screen)
     value = _number(screen)
-    if name:
+    if name != PARAMETER_WRITE:
         raise CommandRefused("screen.no-field")
     if value not in (0.0, 1.0):
         raise CommandRefused("screen.value", value=f"{value:g}")
@@ -98,10 +98,10 @@ def set_switch(screen: ScreenState) -> None:
 def turn_switch(screen: ScreenState) -> None:
     """SELECT on the page of program control: the switch at the cursor turns over (SINUMERIK)."""
     name = _switch_at(screen)
-    if name:
-        screen.control.set_switches(**{name: not screen.switch(name)})
-    else:
+    if name == PARAMETER_WRITE:
         write_enable(screen)
+    else:
+        screen.control.set_switches(**{name: not screen.switch(name)})
 
 
 def add_value(screen: ScreenState) -> None:

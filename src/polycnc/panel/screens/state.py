@@ -36,11 +36,8 @@ RELATIVE = {"X": "U", "Y": "V", "Z": "W", "A": "A", "B": "B", "C": "H"}
 
 #: Parameters that anybody may write (SINUMERIK's setting data).
 SETTING = "setting-data"
-#: What the setting page has: names and panel switches, the last one whether parameters may be written.
-PANEL_SWITCHES = {
-    "SINGLE BLOCK": "single_block", "OPTIONAL STOP": "optional_stop", "BLOCK SKIP": "block_skip", "DRY RUN": "dry_run",
-    "MACHINE LOCK": "machine_lock", "PARAMETER WRITE": "",
-}  # fmt: skip
+#: The row of the setting page that is no switch of the machine panel: whether parameters may be written.
+PARAMETER_WRITE = "parameter_write"
 
 
 class Operation(ABC):
@@ -224,13 +221,15 @@ class ScreenState:
             self.control.signals[key.signal] = float(wanted)
 
     @property
-    def panel_switches(self) -> Mapping[str, str]:
-        """The rows of the setting page: names and panel switches; SINUMERIK has DRF."""
-        return {**PANEL_SWITCHES, "DRF": "drf"} if self.family.layout == "operate" else PANEL_SWITCHES
+    def panel_switches(self) -> Sequence[str]:
+        """The rows of the page of switches, by the names of panel switches; none on other pages."""
+        return next((list(each.words) for each in self.page.windows if each.kind == "switches"), ())
 
     def switch(self, name: str) -> bool:
-        """A panel switch by its name; without one, whether parameters may be written."""
-        return bool(getattr(self.control.switches, name)) if name else self.writes_parameters
+        """A panel switch by its name, or whether parameters may be written."""
+        return (
+            self.writes_parameters if name == PARAMETER_WRITE else bool(getattr(self.control.switches, name))
+        )
 
     @property
     def maintained(self) -> dict[str, float]:

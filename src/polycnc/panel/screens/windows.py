@@ -307,8 +307,11 @@ def _switches(at: Asked) -> Rows:
     switches = at.screen.panel_switches
     row = at.screen.place(max(0, min(at.screen.cursor[0], len(switches) - 1)), 0)
     return tuple(
-        (Cell(name, "label"), Cell(str(int(at.screen.switch(switch))), "value", cursor=i == row))
-        for i, (name, switch) in enumerate(switches.items())
+        (
+            Cell(in_language(at.spec.words[name], at.lang), "label"),
+            Cell(str(int(at.screen.switch(name))), "value", cursor=i == row),
+        )
+        for i, name in enumerate(switches)
     )
 
 
