@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from itertools import pairwise
+from math import radians
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
 
 from polycnc.motion import Settings
+from polycnc.motion.demand import looks_along
 from polycnc.motion.kernels.columns import PieceRecord, piece_width
+from polycnc.motion.kernels.demands import MOST_LOOKS
 from polycnc.motion.planner import Planner
 from polycnc.motion.sampling.run import Run
 from polycnc.toolpath import Context, Kind
@@ -103,7 +106,7 @@ def test_axes_keep_their_velocity_all_round_a_circle() -> None:
             assert np.abs(velocity[:, i]).max() <= axes.machine.axis[axis].max_feed * SLACK, (name, axis)
 
 
-@pytest.mark.parametrize("turn", [90.0, 360.0, 720.0])
+@pytest.mark.parametrize("turn", [90.0, 360.0, 720.0, 21600.0])
 def test_with_limited_jerk_axes_keep_their_velocity_while_the_work_turns_round(turn: float) -> None:
     for name, axes in machines().items():
         points = [[150.0, 0.0, 0.0, 0.0, 45.0], [690.0, 841.0, 0.0, 20.0, 45.0 + turn]]
@@ -113,6 +116,17 @@ def test_with_limited_jerk_axes_keep_their_velocity_while_the_work_turns_round(t
         _, velocity, _ = real_motion(run, context, times, axes.machine)
         for i, axis in enumerate(axes.tip.axes):
             assert np.abs(velocity[:, i]).max() <= axes.machine.axis[axis].max_feed * SLACK, (name, axis)
+
+
+def test_a_row_of_millions_of_turns_is_looked_at_in_so_many_places_at_most() -> None:
+    turn = 360.0 * 2.0**24
+    for name, axes in machines().items():
+        path = TipPath(
+            name, axes, [[150.0, 0.0, 0.0, 0.0, 45.0], [690.0, 841.0, 0.0, 20.0, 45.0 + turn]], 1000.0
+        )
+        fastest = max(axes.machine.axis[axis].max_feed for axis in axes.tip.axes)
+        assert planned(path) > turn / fastest  # as long as it takes, and told at once
+    assert looks_along(radians(turn)) == MOST_LOOKS
 
 
 def run_of(path: TipPath, context: Context, settings: Settings = BRISK) -> Run:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.motion.compiled import share_rows
 from polycnc.motion.kernels.columns import AT_END, AT_START
-from polycnc.motion.kernels.demands import BEND, LOOK_DEG, LOOKS, NOTHING, TURN, TWIST, UNEVEN
+from polycnc.motion.kernels.demands import BEND, LOOK_DEG, LOOKS, MOST_LOOKS, NOTHING, TURN, TWIST, UNEVEN
 from polycnc.transformation.orientation.linkage import room_for
 
 if TYPE_CHECKING:
@@ -77,12 +77,12 @@ class Demand(NamedTuple):
 
 def looks_along(angle: float, least: int = LOOKS) -> int:
     """In how many parts a row is looked at that turns by an angle, radians."""
-    return max(least, ceil(angle / LOOK))
+    return max(least, ceil(min(angle / LOOK, MOST_LOOKS)))
 
 
 def between(demand: Demand, angle: float) -> Demand:
     """The most that is asked on both sides of a place, half an angle far: as the path turns, so does what is asked."""
-    nearer = cos(0.5 * angle)
+    nearer = cos(0.5 * min(angle, LOOK))
     bend, pull, jerk, turn = (value / nearer for value in demand[1:5])
     return Demand(demand.top * nearer, bend, pull, jerk, turn, demand.along)
 

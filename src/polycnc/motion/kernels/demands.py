@@ -30,6 +30,8 @@ NOTHING = 1e-9
 #: Places at which a row is looked at first, fewer where it turns by less than so many degrees; a change of the demand
 #: by more than UNEVEN is worth shares. Within so many degrees there is a place.
 LOOKS, FEW_LOOKS, LITTLE_DEG, UNEVEN, LOOK_DEG = 4, 1, 0.5, 1.3, 15.0
+#: A row of more than fifty turns has no more places than this. Being prime, it puts them at ever other angles.
+MOST_LOOKS = 1201
 #: Rows without a way to speak of are looked at one by one, mm.
 SHORT = 1e-9
 
@@ -111,7 +113,7 @@ def even_row(
     """
     top, bend, pull, jerk, turn = inf, 0.0, NOTHING, 0.0, 0.0
     least, most = inf, 0.0
-    looks = FEW_LOOKS if turned < LITTLE_DEG else max(LOOKS, ceil(turned / LOOK_DEG))
+    looks = FEW_LOOKS if turned < LITTLE_DEG else max(LOOKS, ceil(min(turned / LOOK_DEG, MOST_LOOKS)))
     for k in range(looks + 1):
         way = length * k / looks
         set_turns(linkage, n, room, unit, way)
@@ -122,7 +124,7 @@ def even_row(
         least, most = min(least, size), max(most, size)
         top, bend, pull = min(top, own_top), max(bend, own_bend), max(pull, own_pull)
         jerk, turn = max(jerk, own_jerk), max(turn, own_turn)
-    nearer = cos(0.5 * turned * RADIAN / looks)
+    nearer = cos(0.5 * min(turned / looks, LOOK_DEG) * RADIAN)
     top, bend, pull, jerk, turn = top * nearer, bend / nearer, pull / nearer, jerk / nearer, turn / nearer
     top, ease = within(top, bend, pull, jerk, turn, length, along_of(limits, n, unit))
     return not most >= UNEVEN * least, top, ease
