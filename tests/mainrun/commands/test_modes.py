@@ -27,7 +27,7 @@ def test_a_command_out_of_place_is_refused_in_both_languages() -> None:
     with pytest.raises(CommandRefused) as refused:
         virtual.jog("X", 1)
     assert "jog" in refused.value.text("en")
-    assert "jog" in refused.value.text("zh-TW")
+    assert "寸動" in refused.value.text("zh-TW")
     assert refused.value.text("en") != refused.value.text("zh-TW")
 
 
