@@ -59,6 +59,25 @@ def test_an_offset_has_an_end(control: str, lang: str, inch: bool, largest: str,
     assert field(bench) == f"-{largest}"
 
 
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_numbered_fields_of_meldas_stand_in_the_key_in_line(lang: str) -> None:
+    bench = bench_of("meldas-m", lang)
+    bench.keys("TOOL/PARAM")
+    assert bench.view.entry == "#(1)  DATA()"
+    bench.typed("12", "RIGHT")
+    assert (bench.message, bench.view.entry) == ("", "#(12)  DATA()")
+    bench.typed("-1.5")
+    assert bench.view.entry == "#(12)  DATA(-1.5)"
+    bench.keys("INPUT")
+    assert (bench.message, field(bench)) == ("", "-1.500")
+    bench.typed("9999", "RIGHT")
+    assert bench.message
+    assert bench.view.entry == "#(12)  DATA(9999)"
+    bench.keys("CAN", "CAN", "CAN", "CAN", "MONITOR")
+    bench.typed("X1")
+    assert bench.view.entry == "A>X1_"
+
+
 @pytest.mark.parametrize(("control", "lang"), both("fanuc-m", "fanuc-0i-tf"))
 @pytest.mark.parametrize("typed", ["nan", "inf", "2.5", "", "-1", "1000", "99999999999999999999"])
 def test_a_number_that_is_not_there_is_not_found(control: str, lang: str, typed: str) -> None:

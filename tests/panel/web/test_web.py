@@ -35,7 +35,7 @@ def test_what_a_control_shows_is_never_markup() -> None:
     nasty = "<script>x</script>"
     window = Window("program", nasty, ((Cell(nasty, "code"),),))
     view = View(
-        "p", nasty, nasty, (window,), (), buffer=nasty, message=nasty, status=(Cell(nasty),), alarm=nasty
+        "p", nasty, nasty, (window,), (), entry=nasty, message=nasty, status=(Cell(nasty),), alarm=nasty
     )
     assert "<script" not in of_view(view)
     assert of_view(view).count("&lt;script") == 8

@@ -224,6 +224,8 @@ class Family:
         message_line: Messages have a line of their own, beside that of alarms.
         next_page: What stands on the key of further chapters, on displays with keys at the side.
         clock: The status line has the time of day and the path.
+        entry: How the key-in line is written where fields are numbered, of the number `n` at the cursor and what is
+            `typed`; empty for as elsewhere.
     """
 
     start: str
@@ -252,13 +254,14 @@ class Family:
     next_key: str = ""
     root: str = ""
     more_keys: tuple[str, ...] = ()
+    entry: str = ""
 
 
 #: What a family says in its files as it is kept.
 _PLAIN = (
     "modes", "states", "layout", "data_mode", "modal_by_column", "modal_digits", "axis_parameters", "sequence",
     "measures", "periods", "works", "message_line", "next_page", "clock", "next_key",
-    "root",
+    "root", "entry",
 )  # fmt: skip
 
 

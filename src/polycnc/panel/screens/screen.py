@@ -112,8 +112,24 @@ class Screen(ScreenState):
             ACTIONS["search-program"](self)
         elif key in ("UP", "DOWN") and self.buffer and self._reads_program:
             self.find(self.buffer, _MOVES[key][0])
+        elif key == "RIGHT" and self._numbered and self.buffer.isdecimal():
+            ACTIONS["search-number"](self)
         else:
             self.move(*_MOVES[key])
+
+    @property
+    def _numbered(self) -> str:
+        """The number of the field at the cursor, where the key-in line tells it; there → leads to one that is typed."""
+        if not self.family.entry:
+            return ""
+        if self.shows("parameters"):
+            return self.parameters[self.cursor[0]][1].number if self.parameters else ""
+        return str(self.cursor[0]) if self.table is not None else ""
+
+    @property
+    def _entry(self) -> str:
+        numbered = self._numbered
+        return self.family.entry.format(n=numbered, typed=self.buffer) if numbered else f"A>{self.buffer}_"
 
     @property
     def _reads_program(self) -> bool:
@@ -261,6 +277,7 @@ class Screen(ScreenState):
             if self.has_side
             else (),
             buffer=self.buffer,
+            entry=self._entry,
             message=self.refusal.text(lang) if self.refusal is not None else "",
             status=self._status(snapshot, lang),
             alarm=self._alarm(snapshot, lang),

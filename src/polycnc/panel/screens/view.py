@@ -56,6 +56,7 @@ class View:
         soft_keys: The keys below the screen.
         side_keys: The keys at its right side; empty where the control has none.
         buffer: What has been keyed in.
+        entry: The key-in line, as the control writes it.
         message: What the control says of the last key, or empty.
         status: What the status line shows, in order.
         alarm: The alarm or message line, or empty.
@@ -70,6 +71,7 @@ class View:
     soft_keys: tuple[SoftKeyView, ...]
     side_keys: tuple[SoftKeyView, ...] = ()
     buffer: str = ""
+    entry: str = ""
     message: str = ""
     status: tuple[Cell, ...] = field(default=())
     alarm: str = ""

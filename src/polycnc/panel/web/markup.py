@@ -25,7 +25,7 @@ def of_view(view: View, *, empty: bool = False) -> str:
     return (
         f'<div class="title"><span>{escape(view.title)}</span><span>{escape(running)}</span></div>{alarm}{note}'
         f'<div class="windows">{windows}</div>'
-        f'<div class="buffer"><span>A&gt;{escape(view.buffer)}_</span>{message}</div>'
+        f'<div class="buffer"><span>{escape(view.entry)}</span>{message}</div>'
         f'<div class="status">{status}</div>'
     )
 
