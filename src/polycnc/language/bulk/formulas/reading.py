@@ -229,8 +229,10 @@ def _spelt(name: str) -> int:
     return number
 
 
-SPELT_SIN, SPELT_COS, SPELT_TAN, SPELT_ABS, SPELT_POT, SPELT_SQRT, SPELT_ROUND, SPELT_TRUNC = map(
-    _spelt, ("SIN", "COS", "TAN", "ABS", "POT", "SQRT", "ROUND", "TRUNC")
+#: The functions of one argument in brackets: how each is spelt, and its token.
+FUNCTIONS: tuple[tuple[int, int], ...] = tuple(
+    (_spelt(name), getattr(Token, name))
+    for name in ("SIN", "COS", "TAN", "ABS", "SQRT", "POT", "ROUND", "TRUNC")
 )
 #: Letters of the longest of them.
 MOST_LETTERS = 5
@@ -243,20 +245,7 @@ def read_function(text: Bytes, place: int) -> tuple[int, int]:
         spelt = spelt * 32 + int(text[place + letters]) - LETTER_A + 1
         letters += 1
     token = NO_TOKEN
-    if spelt == SPELT_SIN:
-        token = Token.SIN
-    elif spelt == SPELT_COS:
-        token = Token.COS
-    elif spelt == SPELT_TAN:
-        token = Token.TAN
-    elif spelt == SPELT_ABS:
-        token = Token.ABS
-    elif spelt == SPELT_SQRT:
-        token = Token.SQRT
-    elif spelt == SPELT_POT:
-        token = Token.POT
-    elif spelt == SPELT_ROUND:
-        token = Token.ROUND
-    elif spelt == SPELT_TRUNC:
-        token = Token.TRUNC
+    for name, function in FUNCTIONS:
+        if spelt == name:
+            token = function
     return (token if text[place + letters] == OPEN_ROUND else NO_TOKEN), letters
