@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, reject, settings
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
 from polycnc.cycles.turning.groove import Corner, Groove, GrooveError, GrooveStroke, Side, strokes
 from polycnc.geometry import arcs
@@ -168,16 +169,17 @@ class Stock:
             assert np.all(front <= bounds[first:last] + (2e-2 if self.groove.nose_radius else 1e-5))
             np.maximum(self.rest[first:last], front, out=self.rest[first:last])
 
-    def _rounding(self, x: np.ndarray) -> np.ndarray:
+    def _rounding(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
         """How far the tool's noses lie back from its front."""
         radius = self.groove.nose_radius
         beside = np.maximum(radius - np.minimum(x, self.groove.tool_width - x), 0.0)
-        return radius - np.sqrt(radius * radius - beside * beside)
+        back: NDArray[np.float64] = radius - np.sqrt(radius * radius - beside * beside)
+        return back
 
-    def reachable(self) -> np.ndarray:
+    def reachable(self) -> NDArray[np.float64]:
         """The deepest a tool may stand anywhere over each place."""
         width = self.groove.tool_width
-        deepest = self.groove.slope * self.places
+        deepest: NDArray[np.float64] = self.groove.slope * self.places
         for w in self.places[(self.places >= 0.0) & (self.places <= self.groove.top - width)]:
             under = (self.places > w) & (self.places < w + width)
             deepest[under] = np.maximum(deepest[under], self.finished[under].min())
