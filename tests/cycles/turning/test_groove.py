@@ -3,15 +3,18 @@ from __future__ import annotations
 from dataclasses import replace
 from itertools import pairwise
 from math import radians, tan
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
 from hypothesis import given, reject, settings
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 
 from polycnc.cycles.turning.groove import Corner, Groove, GrooveError, GrooveStroke, Side, strokes
 from polycnc.geometry import arcs
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 SIZES = st.floats(0.1, 20.0)
 
