@@ -249,7 +249,7 @@ def _rough(work: Work, a: Arguments, turning: Turning) -> Contour:
     off_a, off_b = (0.0, 0.0) if is_even else work.pair(abs(a["_UZ"]), abs(a["_UX"]))
     even = abs(a["_U"]) if is_even else 0.0
     front, top = work.front(turning.front, direction), work.touching(turning.top)
-    path = work.tool_path(turning.part, even, roughs=True, rounds_begin=True)
+    path = work.tool_path(turning.part, even, roughs=True, rounds_begin=True, rounds_end=True)
     try:
         path = with_stock(path, (-direction * off_a, -work.towards * off_b), work.towards)
     except ValueError:
