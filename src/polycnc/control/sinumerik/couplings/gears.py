@@ -19,7 +19,7 @@ from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.positions import ModuloRange
 from polycnc.control.sinumerik.couplings import switching
 from polycnc.control.sinumerik.couplings.approach import approach
-from polycnc.control.sinumerik.couplings.links import Couplings, Kind, Link
+from polycnc.control.sinumerik.couplings.links import Couplings, Kind, Link, places
 from polycnc.control.sinumerik.couplings.spindle_pairs import turns
 from polycnc.control.sinumerik.curve_tables import definition as curve_definition
 from polycnc.control.sinumerik.curve_tables.memory import table_of
@@ -273,7 +273,7 @@ def _engage(
     channel: SinumerikChannel, following: int, wheels: Sequence[Wheel], place: float | None = None
 ) -> None:
     """The gear is on; `place` is the synchronous place of the following axis, by default where it is."""
-    machine = channel.coordinates.machine
+    machine = places(channel)
     gear = Gears.of(channel).defined[following]
     if any(wheel.leading < 0 for wheel in wheels):
         _engage_beside(channel, following, wheels)
@@ -304,7 +304,7 @@ def _synchronise(
     for wheel in wheels:
         if wheel.leading < 0 and (turns(channel, -wheel.leading) or not wheel.denominator):
             raise not_supported(f"{name} {name_of(channel, wheel.leading)}: M3, M4")
-    here = channel.coordinates.machine
+    here = places(channel)
     wanted = _place(channel, following, place)
     target = _target(channel, following, wanted, wheels, how)
     approach(channel, following, target - here[following])
@@ -315,7 +315,7 @@ def _target(
     channel: SinumerikChannel, following: int, place: float, wheels: Sequence[Wheel], how: str
 ) -> float:
     """Where the following axis belongs now: of all places that are in step, the one that the approach asks for."""
-    machine, axes, data = channel.coordinates.machine, channel.memory.axes, channel.memory.data
+    machine, axes, data = places(channel), channel.memory.axes, channel.memory.data
     target, pitches = place, []
     for wheel in wheels:
         assert wheel.synchronous is not None
