@@ -44,7 +44,8 @@ def check(seed: int) -> None:
         virtual.step(CYCLE)
         places.append(list(virtual.positions.real.values()))
     assert virtual.alarms == (), text
-    assert virtual.read_variable("R2") == pytest.approx(factor * virtual.read_variable("R1"), abs=1e-3), text
+    leading, slide = (float(str(virtual.read_variable(name))) for name in ("R1", "R2"))
+    assert slide == pytest.approx(factor * leading, abs=1e-3), text
     steps = np.diff(places, axis=0)
     for i, axis in enumerate(virtual.machine.channel_axes(1)):
         data = virtual.machine.axis[axis]
