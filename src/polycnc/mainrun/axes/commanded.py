@@ -139,7 +139,7 @@ class CommandedAxis:
 
     @property
     def is_turning(self) -> bool:
-        """Whether it moves now."""
+        """Whether it moves by itself now, beside what leads it."""
         return self._lead is not None
 
     @property

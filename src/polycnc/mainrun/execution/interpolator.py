@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from polycnc.mainrun.execution.clock import Clock
     from polycnc.mainrun.execution.execution import Execution
     from polycnc.mainrun.execution.machinery import Machinery
-    from polycnc.mainrun.preparation.items import Block, Row
+    from polycnc.mainrun.preparation.items import Block, Rates, Row
     from polycnc.mainrun.reading.snapshot import SpindleState
     from polycnc.messages import AlarmError
     from polycnc.toolpath import Context, Event
@@ -41,6 +41,7 @@ class Led(Protocol):
     execution: Execution
     machinery: Machinery
     axes: ChannelAxes
+    rates: Rates
 
     @property
     def path(self) -> list[float]:
@@ -393,7 +394,11 @@ class ChannelInterpolator:
         return tuple(self._led.get(column, ()))
 
     def follow(
-        self, column: int, laws: Sequence[CouplingLaw], spindles: Mapping[int, float] | None = None
+        self,
+        column: int,
+        laws: Sequence[CouplingLaw],
+        spindles: Mapping[int, float] | None = None,
+        speed: Callable[[int, float], float] | None = None,
     ) -> None:
         """These lead an axis beside the path from now on, none lets it stay where it is.
 
@@ -405,7 +410,7 @@ class ChannelInterpolator:
         self._led = {each: of for each, of in every.items() if of}
         leading: list[tuple[Leading, CouplingLaw]] = [(self._run.axes[law.leading], law) for law in laws]
         if spindles is not None:
-            leading += self._turning.led_by(column, spindles)
+            leading += self._turning.led_by(column, spindles, speed)
         self.commanded(column).follow(leading, smoothly=spindles is not None)
         self.wake()
 
