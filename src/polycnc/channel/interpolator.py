@@ -234,16 +234,19 @@ class Interpolator(Protocol):
         laws: Sequence[Law],
         spindles: Mapping[int, float] | None = None,
         speed: Callable[[int, float], float] | None = None,
+        *,
+        catches_up: bool = True,
     ) -> None:
-        """These lead an axis beside the path from now on, none lets it stay where it is.
+        """These lead an axis beside the path from now on, none lets it brake.
 
         Args:
             column: The axis.
             laws: By which other axes lead it.
-            spindles: Of a gear: degrees that it turns for one of each leading spindle, by number. The axis then
-                catches up with them, and brakes where nothing is left to lead it.
+            spindles: Of a gear: degrees that it turns for one of each leading spindle, by number.
             speed: What a spindle turns with, by its number and at an override, rpm, positive for M3: asked for those
                 that are none of the block in execution.
+            catches_up: The axis, which accelerates to the speed at which it is led, makes up for the way that it is
+                behind meanwhile.
 
         Raises:
             CircularCouplingError: An axis would lead itself.

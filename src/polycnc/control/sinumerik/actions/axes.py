@@ -98,9 +98,17 @@ def _beyond(channel: SinumerikChannel, column: int, code: str, sign: int) -> Ala
 
 def check_target(channel: SinumerikChannel, column: int, target: float) -> None:
     """Refuse a target beyond a software limit switch (20070), or beyond a working area by setting data (20071)."""
+    error = beyond(channel, column, target)
+    if error is not None:
+        raise error
+
+
+def beyond(channel: SinumerikChannel, column: int, place: float) -> AlarmError | None:
+    """The alarm of an axis that would pass an end of its travel (20070, 20071); None within it."""
     for code, sign, limit in _limits(channel, column):
-        if sign * (target - limit) > NO_WAY:
-            raise _beyond(channel, column, code, sign)
+        if sign * (place - limit) > NO_WAY:
+            return _beyond(channel, column, code, sign)
+    return None
 
 
 def end_of_travel(channel: SinumerikChannel, column: int, direction: int) -> float:
