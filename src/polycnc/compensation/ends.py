@@ -34,7 +34,7 @@ def end_before(step: Step, following: Step, wall: Point | None) -> Corner | None
         end = following.edge.departing if direction is None else offset.ray(edge.end, direction).arriving
         return _arc_end(step, end)
     if following.role is not Role.CONTOUR:
-        return vectors.leave(edge, following.edge, distance, policy, wall)
+        return vectors.leave(edge, following.edge, distance, following.policy, wall)
     if step.role is Role.START:
         return vectors.approach(edge, following.edge, distance, policy)
     if following.holds or following.starts_square:

@@ -24,6 +24,14 @@ class Approach(Enum):
     CORNER = "corner"
     #: As `CORNER`, for the line that touches the tool circle about the corner (SINUMERIK KONT).
     TANGENT = "tangent"
+    #: Square on the contour, on a polynomial that has the tangent of the contour's parallel there (SINUMERIK KONTT).
+    BENT = "bent"
+    #: As `BENT`, with its curvature too (SINUMERIK KONTC).
+    CURVED = "curved"
+
+
+#: Approaches on a polynomial.
+BENDS = (Approach.BENT, Approach.CURVED)
 
 
 class Violation(Enum):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import field
 from enum import Enum
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.deferred.records import dataclass
 from polycnc.geometry import arcs, offset
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from polycnc.channel.moves.path import Item, Move
     from polycnc.compensation.policy import Policy
     from polycnc.geometry.arcs import Point
+    from polycnc.geometry.frames import Vector
     from polycnc.geometry.offset import Corner, Edge
 
 NO_VECTOR: Point = (0.0, 0.0)
@@ -33,6 +34,18 @@ class Role(Enum):
 
 #: Radii of one circle differ by no more than rounding, mm.
 _SAME_RADIUS_MM = 1e-6
+
+
+class Contact(NamedTuple):
+    """How the path of the tool goes on at the end of the contour, seen from the free point's side.
+
+    Attributes:
+        outwards: Unit tangent in the plane's order (u, v, w), away from the contour.
+        curvature: Second derivative of the path by its length there, 1/mm; None where only the tangent counts.
+    """
+
+    outwards: Vector
+    curvature: Vector | None
 
 
 @dataclass(slots=True)
@@ -58,6 +71,7 @@ class Step:
         is_chord: The chord of an arc that the tool does not fit into takes its place.
         altered: A detour round an interference changed it.
         corner_arc: The block of G39 after it, and the direction on which the arc ends square.
+        contact: How the contour goes on where a start-up or cancel block meets it on a polynomial (KONTT, KONTC).
         after: What came after it, in order: held items, and steps that a detour has left out.
     """
 
@@ -79,6 +93,7 @@ class Step:
     is_chord: bool = False
     altered: bool = False
     corner_arc: tuple[Move, Point | None] | None = None
+    contact: Contact | None = None
     after: list[Item | Step] = field(default_factory=list)
 
     def lead_to(self, following: Step) -> None:
