@@ -21,9 +21,9 @@ from polycnc.control.sinumerik.tools.edges import (
     WEAR_PARAMETERS,
     Edge,
 )
-from polycnc.control.sinumerik.tools.lengths import Rules, along_axes
+from polycnc.control.sinumerik.tools.lengths import AGAINST_TOOL, OF_MACHINE, Rules, along_axes
 from polycnc.control.sinumerik.tools.management.environments import ORDER, Environments, field_of
-from polycnc.control.sinumerik.tools.management.systems import MACHINE, SYSTEMS, seen_from
+from polycnc.control.sinumerik.tools.management.systems import BASIC, MACHINE, SYSTEMS, seen_from
 from polycnc.control.sinumerik.tools.selection import rules_of
 from polycnc.geometry.frames import IDENTITY
 
@@ -162,8 +162,16 @@ def length_along(
     carrier = tools.carrier or IDENTITY
     holder = carrier.t if whole or HOLDER in parts else (0.0, 0.0, 0.0)
     turned = carrier.direct(*found.turning)
-    x, y, z = (sum(values) for values in zip(turned, found.fixed, holder, strict=True))
-    return seen_from(channel, system, "GETTCOR").direct(x, y, z)
+    is_apart = rules.system in AGAINST_TOOL
+    with_tool = (0.0, 0.0, 0.0) if is_apart else found.fixed
+    x, y, z = (sum(values) for values in zip(turned, with_tool, holder, strict=True))
+    seen = seen_from(channel, system, "GETTCOR")
+    length = seen.direct(x, y, z)
+    if is_apart and any(found.fixed):
+        own = seen_from(channel, MACHINE if rules.system == OF_MACHINE else BASIC, "GETTCOR")
+        x, y, z = (a + b for a, b in zip(length, (seen @ own.inverse()).direct(*found.fixed), strict=True))
+        return (x, y, z)
+    return length
 
 
 FUNCTIONS: dict[str, Callable[[SinumerikChannel, Arguments], int]] = {"GETTCOR": length_of}
