@@ -97,6 +97,7 @@ class FanucMilling(MillingControl):
         return replace(
             HARTFORD,
             approach=Approach.CORNER if parameters.SUP else Approach.SQUARE,
+            bare_cancel_is_square=True,
             shifts_without_motion=parameters.SUV,
             read_blocks=min(max(parameters.read_blocks, 3), 8),
             least_move_mm=parameters.least_corner_move,
