@@ -217,9 +217,7 @@ def test_without_tip_control_a_block_ends_as_far_beside_the_same_point_of_the_wo
     machine = machine_file(kind, tmp_path_factory.mktemp("machine"))
     names, work = "XYZAC" if kind == "table" else "XYZBC", laid(points)
     turned = [table_at(kind, *point[3:]) for point in work]
-    axes = [
-        np.array([*(m @ point[:3] + t), *point[3:]]) for (m, t), point in zip(turned, work, strict=True)
-    ]
+    axes = [np.array([*(m @ point[:3] + t), *point[3:]]) for (m, t), point in zip(turned, work, strict=True)]
     setup = {"tools": {1: {"length": 50, "radius": 4.0}}, "parameters": {"1013#1": 1, "5003#0": sup}}
     led = run(text_of("G43.4", f"{code[:3]}.2", work, names), setup=setup, machine=machine)
     unled = run(text_of("G43", code, axes, names), setup=setup, machine=machine)
