@@ -124,12 +124,12 @@ Point = tuple[float, float, float, float, float]
 
 
 def laid(points: list[Point]) -> list[np.ndarray]:
-    """Points of the work one behind the other, with rotary positions."""
+    """Points of the work one behind the other, with rotary positions; the last one is where G40 leads to."""
     place, found = np.zeros(3), [np.zeros(5)]
     for dx, dy, dz, first, second in points:
         place = place + np.array([dx, dy, dz])
         found.append(np.round(np.array([*place, first, second]), 3))
-    return found
+    return [*found, np.array([-300.0, -300.0, 0.0, *found[-1][3:]])]
 
 
 def machine_file(kind: str, folder: Path) -> str:
@@ -156,8 +156,9 @@ def text_of(length: str, code: str, points: list[np.ndarray], names: str) -> str
     blocks = [f"G90 {length} H1"]
     for number, point in enumerate(points):
         words = " ".join(f"{name}{value:.4f}" for name, value in zip(names, point, strict=True))
-        blocks.append(f"{('G00', f'{code} D1 G01 F900')[number]} {words}" if number < 2 else words)
-    return "\n".join([*blocks, "G40 X-300. Y-300.", "M30", ""])
+        before = {0: "G00", 1: f"{code} D1 G01 F900", len(points) - 1: "G40"}.get(number, "")
+        blocks.append(f"{before} {words}")
+    return "\n".join([*blocks, "M30", ""])
 
 
 def off_parallels(kind: str, channel: Channel, points: list[np.ndarray], radius: float) -> list[float]:
@@ -165,7 +166,7 @@ def off_parallels(kind: str, channel: Channel, points: list[np.ndarray], radius:
     found, before, passed = [], np.zeros(5), set()
     for row in moves(channel):
         number, end = row.line - 2, np.array(row.end)
-        if 2 <= number < len(points) and row.line not in passed:
+        if 2 <= number < len(points) - 1 and row.line not in passed:
             way = points[number][:3] - points[number - 1][:3]
             for part in (0.5, 1.0):
                 place = (before + part * (end - before)).tolist()
@@ -222,7 +223,36 @@ def test_without_tip_control_a_block_ends_as_far_beside_the_same_point_of_the_wo
     led = run(text_of("G43.4", f"{code[:3]}.2", work, names), setup=setup, machine=machine)
     unled = run(text_of("G43", code, axes, names), setup=setup, machine=machine)
     on_work, on_axes = shifts(led, work), shifts(unled, axes)
-    for number in sorted(set(on_work) & set(on_axes) - {0}):
-        pairs = zip(on_work[number], on_axes[number], strict=False)
-        for wanted, found in pairs:
+    for number in range(1, len(work) if not codes(led) else 0):
+        for wanted, found in zip(on_work[number], on_axes[number], strict=True):
             assert turned[number][0].T @ found == pytest.approx(wanted, abs=3e-3)
+
+
+ANGLE = st.integers(-25, 25).map(float)
+
+
+@settings(max_examples=6, deadline=None)
+@given(
+    kind=st.sampled_from(("table", "mixed")),
+    start=st.tuples(ANGLE, ANGLE),
+    end=st.tuples(ANGLE, ANGLE),
+    own_block=st.booleans(),
+)
+def test_tip_control_takes_the_work_system_along_as_it_lies_when_it_begins(
+    kind: str,
+    start: tuple[float, float],
+    end: tuple[float, float],
+    own_block: bool,
+    tmp_path_factory: pytest.TempPathFactory,
+) -> None:
+    machine = machine_file(kind, tmp_path_factory.mktemp("machine"))
+    first, second = "AC" if kind == "table" else "BC"
+    turned = f"{first}{start[0]} {second}{start[1]}"
+    begin = f"G90 G43.4 H1 G00 {turned}" if own_block else f"G90 G00 {turned}\nG43.4 H1"
+    text = f"{begin}\nX12. Y-7. Z20. {first}{end[0]} {second}{end[1]}\nM30\n"
+    setup = {"tools": {1: {"length": 50}}, "work_offsets": {"G54": {"X": 5, "Y": 6, "Z": 7}}}
+    channel = run(text, setup=setup, machine=machine)
+    assert codes(channel) == []
+    tip, _ = seen(kind, np.array(channel.coordinates.machine), 50.0)
+    m, t = table_at(kind, *start)
+    assert tip == pytest.approx(m.T @ (np.array([17.0, -1.0, 27.0]) - t), abs=1e-6)

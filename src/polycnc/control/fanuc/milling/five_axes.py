@@ -53,8 +53,13 @@ SHARP_DEG = 90.0
 
 
 def start_following(channel: WordAddressChannel, words: Words) -> None:
-    """G43.4, G43.5 H: words name the tip on the table; PC0001 where 19696#5 WKP has them in a system that stands."""
+    """G43.4, G43.5 H: words name the tip on the table.
+
+    PC0001 where 19696#5 WKP has them in a system that stands; G43.5 does not go with that (FANUC A-79348E, page 20).
+    """
     if _parameters(channel).WKP:
+        if channel.mode["length"] == "G43.5":
+            raise words.fail("tip_direction", "G43.5")
         raise not_yet("19696#5")
     tool_center_point.start_following(channel, words)
 
