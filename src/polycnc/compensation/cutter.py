@@ -94,6 +94,7 @@ class CutterCompensation(Stage):
         self._forced: Point | None = None
         self._holds = False
         self._starts_square = False
+        self._is_bare = False
         self.suspended = False
 
     # ---- what a control commands ---------------------------------------------------------------------------
@@ -247,6 +248,7 @@ class CutterCompensation(Stage):
         if place is not None and (self.policy.shifts_without_motion or self._forced is not None):
             point = self.plane.point(place.end)
             self._take(place, offset.Edge(point, point, NO_VECTOR, NO_VECTOR))
+        self._is_bare = self._role is Role.CANCEL and self.policy.bare_cancel_is_square
         self._in_order(END_OF_BLOCK)
         self._read += 1
         while self._window and self._read - self._window[0].read >= self._window[0].waits_for:
@@ -280,6 +282,7 @@ class CutterCompensation(Stage):
         step.suspended = self.suspended and self._role is Role.CONTOUR
         step.forced, step.holds = self._forced, self._holds or step.suspended
         step.starts_square = self._starts_square
+        step.is_bare = self._is_bare
         self._forced, self._holds, self._starts_square = None, False, False
         step.edge = self._checked(step)
         if step.role is Role.CONTOUR and not self._window and step.policy.approaches_behind_stops:
@@ -425,4 +428,4 @@ class CutterCompensation(Stage):
         self._rows.drop_vector()
         self._interference.forget()
         self._wall = self._place = None
-        self._forced, self._holds, self._starts_square = None, False, False
+        self._forced, self._holds, self._starts_square, self._is_bare = None, False, False, False

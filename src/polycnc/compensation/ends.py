@@ -33,6 +33,8 @@ def end_before(step: Step, following: Step, wall: Point | None) -> Corner | None
         direction = step.corner_arc[1]
         end = following.edge.departing if direction is None else offset.ray(edge.end, direction).arriving
         return _arc_end(step, end)
+    if following.is_bare and wall is None:
+        return vectors.square(edge.arriving, distance)
     if following.role is not Role.CONTOUR:
         return vectors.leave(edge, following.edge, distance, following.policy, wall)
     if step.role is Role.START:

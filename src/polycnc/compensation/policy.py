@@ -68,6 +68,8 @@ class Policy:
         leaves_out_arcs: An inner arc too small for the tool is left out where the blocks beside it meet (SINUMERIK);
             else, and where they do not, its chord takes its place.
         dares: A dangerous way round an interference is taken without an alarm (19607#6).
+        bare_cancel_is_square: A G40 without motion makes the block in front end square, whatever `approach` says of
+            the move that leads back behind it (FANUC types A and B, 5.4.4).
         approaches_behind_stops: Where nothing was known of the next move when one had to be executed, a straight
             block of its own leads to square on the next one (SINUMERIK, `$AC_BLOCKTYPEINFO` 4001); else that one
             begins where the tool stands, square on the one in front.
@@ -86,4 +88,5 @@ class Policy:
     avoids: bool = False
     leaves_out_arcs: bool = False
     dares: bool = False
+    bare_cancel_is_square: bool = False
     approaches_behind_stops: bool = False

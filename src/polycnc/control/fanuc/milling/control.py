@@ -9,7 +9,7 @@ from polycnc.compensation.policy import Approach, Policy
 from polycnc.control.fanuc.acceleration import accelerated
 from polycnc.control.fanuc.alarm_codes import ALARMS
 from polycnc.control.fanuc.code_calls import registered_codes
-from polycnc.control.fanuc.milling import five_axes
+from polycnc.control.fanuc.milling import five_axes, leading_edge
 from polycnc.control.fanuc.milling.codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
 from polycnc.control.fanuc.milling.cycles import MILLING_DRILLING
 from polycnc.control.fanuc.milling.parameters import FanucMillingParameters
@@ -59,6 +59,7 @@ class FanucMilling(MillingControl):
     drilling: ClassVar[Drilling] = MILLING_DRILLING
     rules: ClassVar[tuple[Rule, ...]] = (
         five_axes.RULE,
+        leading_edge.RULE,
         *MillingControl.rules,
         look_ahead.TRAVEL_RULE,
         interruption.RULE,
@@ -97,6 +98,7 @@ class FanucMilling(MillingControl):
         return replace(
             HARTFORD,
             approach=Approach.CORNER if parameters.SUP else Approach.SQUARE,
+            bare_cancel_is_square=True,
             shifts_without_motion=parameters.SUV,
             read_blocks=min(max(parameters.read_blocks, 3), 8),
             least_move_mm=parameters.least_corner_move,
