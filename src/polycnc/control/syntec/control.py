@@ -363,7 +363,7 @@ class SyntecMill(WordAddressControl):
     def compensation_policy(self, channel: SyntecChannel) -> Policy:
         """Radius compensation; Pr3819 = 1 checks for overcut."""
         checked = channel.memory.parameters.overcut_check == 1
-        return Policy(checks_direction=checked)
+        return Policy(checks_direction=checked, sign_is_side=False)
 
     # ---- reports -----------------------------------------------------------------------------------------
 
