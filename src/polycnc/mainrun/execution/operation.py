@@ -294,8 +294,7 @@ class Operation:
             run.stand_at(position)
             self.prepare(run)
         if test is not None and missed and not self.status.is_locked:
-            refusal = CommandRefused("mainrun.search", target=test.target)
-            self.runs[test.channel].machinery.messages.append(str(refusal))
+            self.runs[test.channel].machinery.messages.append(str(test.wanted.missed(test.target)))
         self.starts_up = False
         if not self.status.is_locked:
             self.status.show_alarms(())
