@@ -59,6 +59,8 @@ class FanucAxisParameters(MacroAxisParameters):
 class FanucParameters(MacroParameters[A_co]):
     """The parameters of the control."""
 
+    #: 0#2: unit at power-on, metric (0) or inch (1).
+    INI = Bit(0, 2, delivered=False)
     #: 1013#0: least input increment 0.01 mm.
     ISA = Bit(1013, 0, delivered=False)
     #: 1013#1: least input increment 0.0001 mm.
@@ -85,6 +87,10 @@ class FanucParameters(MacroParameters[A_co]):
     cutting_bell_time = Number(1772, delivered=None)
     #: 3401#0: words without a point are least increments (0) or millimetres, inches, seconds (1).
     DPI = Bit(3401, 0, delivered=False)
+    #: 3402#0: G01 at power-on.
+    start_g01 = Bit(3402, 0, delivered=False)
+    #: 3402#3: G91 at power-on (lathe: systems B, C).
+    start_g91 = Bit(3402, 3, delivered=False)
     #: 3403#5: an arc without R and centre is a line (0) or the alarm PS0022 (1).
     CIR = Bit(3403, 5, delivered=False)
     #: 3404#6: a program without M02, M30 or M99 at its end is the alarm PS5010 (0), or it ends with a reset
@@ -141,6 +147,10 @@ class FanucParameters(MacroParameters[A_co]):
     PRT = Bit(6001, 1, delivered=False)
     #: 6001#5: T calls O9000 (1).
     TCS = Bit(6001, 5, delivered=False)
+    #: 6001#6: the RESET key empties #100 to #199 (0) or leaves them (1).
+    CCV = Bit(6001, 6, delivered=False)
+    #: 6001#7: a reset empties #1 to #33 (0) or leaves them (1).
+    CLV = Bit(6001, 7, delivered=False)
     #: 6003#2: an interruption macro waits for the end of the block (1).
     MIN = Bit(6003, 2, delivered=False)
     #: 6003#5: the interruption program has local variables of its own, as a macro (0), or those of the

@@ -62,6 +62,8 @@ class MillingControl(CustomMacroControl):
         "mirror_off": frames.end_mirror_by_m,
     }
     repeated_codes: ClassVar[Mapping[str, Condition]] = repeated_codes.MILLING
+    #: G20 and G21 are what they were before the power went off (manual, list of G codes, note 4).
+    KEPT_AT_RESET: ClassVar[frozenset[str]] = frozenset({"unit", "stroke"})
     CORNER_POLICY: ClassVar[CornerPolicy] = CornerPolicy(dwell_between=True)
     CURVE_BEGINS_AT_TOOL: ClassVar[bool] = True
     rules: ClassVar[tuple[Rule, ...]] = (

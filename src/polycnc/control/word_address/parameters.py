@@ -63,6 +63,8 @@ class MacroParameters(ControlParameters[A_co]):
     SBM: Parameter[bool] = Constant(False)
     SBV: Parameter[bool] = Constant(False)
     PRT: Parameter[bool] = Constant(False)
+    CCV: Parameter[bool] = Constant(True)
+    CLV: Parameter[bool] = Constant(False)
     MIN: Parameter[bool] = Constant(False)
     MSB: Parameter[bool] = Constant(False)
     MUS: Parameter[bool | None] = Constant(None)

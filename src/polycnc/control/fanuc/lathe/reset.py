@@ -69,7 +69,7 @@ def _end_states(channel: LatheChannel, *, clears: bool) -> None:
         channel.mode = channel.mode.with_code(balance.GROUP, "G69")
     drills = channel.mode["cycle"] != "G80"
     kept = ((CycleState, ClampState) if drills else ()) + (() if clears else (ZeroState, TurningFrames))
-    end_of(channel, Lifetime.RESET, kept)
+    end_of(channel, Lifetime.RESET, (*kept, *memory.kept_at_reset))
     memory.forget_locals()
     # G41 or G42 that stays modal waits for the next offset number (II.5.4.1).
     radius = RadiusState.of(channel)
