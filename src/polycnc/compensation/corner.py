@@ -68,6 +68,7 @@ class CornerPolicy:
         waits_at_shape: The blocks between the two moves come in front of the shape, the tool standing where it begins;
             else behind it. What the block of the second move does first is behind it always.
         start_up_between: Radius compensation may start up between the two moves.
+        threads_follow: The second move may be a thread; else it is refused as a rapid is.
     """
 
     dwell_between: bool = False
@@ -76,6 +77,7 @@ class CornerPolicy:
     least_turn_deg: float = degrees(1e-6)
     waits_at_shape: bool = False
     start_up_between: bool = False
+    threads_follow: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -291,7 +293,8 @@ class CornerStage(Stage):
         """Cut both moves, pass on the first and the inserted row; gives the second as cut."""
         a, b = self.plane.edge(held.move), self.plane.edge(move)
         request = held.request
-        if Kind.RAPID in (held.move.kind, move.kind):
+        is_thread = move.kind is Kind.THREAD and not self.policy.threads_follow
+        if is_thread or Kind.RAPID in (held.move.kind, move.kind):
             if not request.modal:
                 self._violate(CornerViolation.RAPID, held.move.line)
         elif a is not None and b is not None and abs(offset.turn(a, b)) > radians(self.policy.least_turn_deg):

@@ -146,7 +146,7 @@ class WordAddressControl:
     INCH_CODE: ClassVar[str] = "G20"
     #: Modal groups that a reset leaves as they are.
     KEPT_AT_RESET: ClassVar[frozenset[str]] = frozenset({"stroke"})
-    CORNER_POLICY: ClassVar[CornerPolicy] = CornerPolicy()
+    CORNER_POLICY: ClassVar[CornerPolicy] = CornerPolicy(threads_follow=False)
     ENDED_ANYWHERE: ClassVar[frozenset[str]] = frozenset()
     LOOPS: ClassVar[tuple[int, int]] = (3, 3)
     POINT_IN_WHOLE_NUMBERS: ClassVar[DecimalPoint] = DecimalPoint.READ_OVER
