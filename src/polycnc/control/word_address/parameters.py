@@ -42,6 +42,7 @@ class MacroParameters(ControlParameters[A_co]):
     """The parameters of a control with custom macro B."""
 
     # ---- numbers, arcs, zones --------------------------------------------------------------------------------
+    IPR: Parameter[bool] = Constant(False)
     ISA: Parameter[bool] = Constant(False)
     ISC: Parameter[bool] = Constant(False)
     DPI: Parameter[bool] = Constant(False)
@@ -59,6 +60,7 @@ class MacroParameters(ControlParameters[A_co]):
 
     # ---- macros and programs ---------------------------------------------------------------------------------
     EOR: Parameter[bool] = Constant(False)
+    SKF: Parameter[bool] = Constant(True)
     G67: Parameter[bool] = Constant(True)
     SBM: Parameter[bool] = Constant(False)
     SBV: Parameter[bool] = Constant(False)

@@ -341,6 +341,7 @@ class Operation:
         in_dry_run = tests or (switches.panel.dry_run and self.program_mode is not Mode.TAPE)
         switches.set_rates(
             feed_is_100=tests or bool(self.signals[FEED_IS_100]),
+            rapid_held=settings.rapid_held,
             dry_run=settings.dry_run if in_dry_run else None,
         )
         self.runs.revise()

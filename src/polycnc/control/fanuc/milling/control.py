@@ -173,6 +173,7 @@ class FanucMilling(MillingControl):
             returns_to_path=parameters.MIT,
             dry_run=dry_run(parameters),
             slowest_rapid=parameters.rapid_f0 / 60.0,
+            rapid_held=parameters.RF0,
         )
 
     def make_memory(self, channel: Channel) -> MacroMemory:
