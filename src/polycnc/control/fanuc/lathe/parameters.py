@@ -141,8 +141,22 @@ class LatheParameters(FanucParameters["LatheAxisParameters"]):
     DDP = Bit(3405, 5, delivered=False)
     #: 3406#1: a reset keeps the codes of group 01.
     C01 = Bit(3406, 1, delivered=False)
+    #: 3406#2: a reset keeps the codes of group 02.
+    C02 = Bit(3406, 2, delivered=False)
+    #: 3406#3: a reset keeps the codes of group 03.
+    C03 = Bit(3406, 3, delivered=False)
+    #: 3406#5: a reset keeps the codes of group 05.
+    C05 = Bit(3406, 5, delivered=False)
     #: 3407#2: a reset keeps the codes of group 10.
     C10 = Bit(3407, 2, delivered=False)
+    #: 3407#3: a reset keeps the codes of group 11.
+    C11 = Bit(3407, 3, delivered=False)
+    #: 3407#6: a reset keeps the codes of group 14.
+    C14 = Bit(3407, 6, delivered=False)
+    #: 3407#7: a reset keeps the codes of group 15.
+    C15 = Bit(3407, 7, delivered=False)
+    #: 3408#0: a reset keeps the codes of group 16.
+    C16 = Bit(3408, 0, delivered=False)
     #: 3453#0: chamfer and corner R by I, K, R (0) or drawing dimensions (1).
     CRD = Bit(3453, 0, delivered=False)
     #: 3458#7: Signs of chamfers and radii of drawing dimensions are read over.
