@@ -149,14 +149,15 @@ class CutterCompensation(Stage):
     def change_radius(self, radius: float, tip: Point | None = None) -> None:
         """Another radius within compensation: it holds at the end of the next block and grows along it.
 
-        FANUC 0i-TF Plus 5.2.4 and 5.3, SYNTEC 2.27.5: a block's end vector is that of the block's own radius.
+        FANUC 0i-TF Plus 5.2.4 and 5.3, SYNTEC 2.27.5: a block's end vector is that of the block's own radius. Beside
+        another side (`change_side`), and by the policy where its sign changes, it holds from the start of that block.
         """
         self._radius = radius
         if tip is not None:
             self._tip = tip
 
     def change_side(self, side: int) -> None:
-        """The other side within compensation, with the radius as it is."""
+        """The other side within compensation."""
         self._side = side
 
     def forced_vector(self, direction: Point) -> None:
@@ -279,6 +280,7 @@ class CutterCompensation(Stage):
         """Put a plane move into the window; it closes the corner in front of it."""
         distance, shift = self._side * self._radius, self._shift()
         step = Step(move, edge, edge, self._role, distance, shift, self.policy, self._read, self._rows.vector)
+        step.side = self._side
         step.suspended = self.suspended and self._role is Role.CONTOUR
         step.forced, step.holds = self._forced, self._holds or step.suspended
         step.starts_square = self._starts_square

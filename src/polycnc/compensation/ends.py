@@ -41,7 +41,7 @@ def end_before(step: Step, following: Step, wall: Point | None) -> Corner | None
         return vectors.approach(edge, following.edge, distance, policy)
     if following.holds or following.starts_square:
         return vectors.square(edge.arriving, distance)
-    if following.distance * distance < 0.0:
+    if following.distance * distance < 0.0 and (policy.sign_is_side or following.side != step.side):
         return vectors.change_of_side(edge, following.edge, distance, following.distance)
     return offset.corner(edge, following.edge, distance, policy.outer)
 

@@ -62,6 +62,7 @@ class Step:
         policy: The control's behaviour when the block was read.
         read: Number of the block.
         first: Vector at its start.
+        side: The side that was commanded, 1 left.
         corner: Vectors at its end, once known.
         forced: Direction on which the vector at its end stands square (I, J, K in the block).
         holds: It keeps the vector of its start (G38).
@@ -85,6 +86,7 @@ class Step:
     policy: Policy
     read: int
     first: Point = NO_VECTOR
+    side: int = 1
     corner: Corner | None = None
     forced: Point | None = None
     holds: bool = False
