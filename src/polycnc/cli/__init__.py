@@ -20,6 +20,8 @@ __all__ = ["main"]
 #: Behind so many new objects Python looks for circles of them. What is loaded and compiled stays to the end, so that
 #: it would find nothing, many times before the first block.
 _NEW_OBJECTS = 200_000
+#: How many threads NumPy starts to multiply matrices with. No command does that, and each takes its time to wait.
+_MATRIX_THREADS = "OPENBLAS_NUM_THREADS"
 
 
 def main(arguments: Sequence[str] | None = None) -> NoReturn:
@@ -31,6 +33,7 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
     gc.set_threshold(_NEW_OBJECTS)
     leaving = _Leaving()
     if arguments is None:
+        os.environ.setdefault(_MATRIX_THREADS, "1")
         atexit.register(leaving.end)  # as the first, so that it is called last
     try:
         from polycnc.cli.app import main as run
