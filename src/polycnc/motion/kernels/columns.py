@@ -389,6 +389,8 @@ class State(NamedTuple):
         turn: What q' changes by at the joint at hand.
         bow: With limited jerk: what q' has changed by at the last joint of two lines, or two chords of a spline, over
             their mean length; zero from rest, and where the one follows the other.
+        bowed: With limited jerk: what q' changes by at the joint at hand, over the mean length of its rows.
+        asked: With limited jerk: what jerk the joint at hand asks for, in a row of joints.
         room: For what `linkage` works out.
     """
 
@@ -409,6 +411,8 @@ class State(NamedTuple):
     bent_before: Floats
     turn: Floats
     bow: Floats
+    bowed: Floats
+    asked: Floats
     room: Floats
 
 
@@ -419,7 +423,7 @@ def new_state(n: int, start: Sequence[float] = ()) -> State:
     position = zeros(n)
     position[: len(start)] = array("d", start)
     shares = zeros(SHARES), zeros(SHARES), zeros(SHARES)
-    vectors = [*(zeros(n) for _ in range(8)), zeros(room_for(n))]
+    vectors = [*(zeros(n) for _ in range(10)), zeros(room_for(n))]
     return State(*records, zeros(9), *shares, position, *vectors)
 
 
@@ -445,11 +449,21 @@ SMOOTH_COS = 0.8
 MAIN_RUN = -1.0
 #: Two ends of an arc nearer than this (mm) make it a full circle.
 SAME_POINT_MM = 1e-7
+#: One number is above another for certain, whatever was rounded, if it is above so many times that.
+SURELY = 1.000001
 
 
 def square(value: float) -> float:
     """A product: a power of two is one in machine code, but in Python may be off it by the last bit."""
     return value * value
+
+
+def lowered(bound: float, part: float, asked: float) -> float:
+    """`min(bound, part / asked)`, none of them negative; a quotient that is certain to be larger is not worked out.
+
+    At most joints few of the limits bind, and a division takes as long as ten products.
+    """
+    return min(bound, part / asked) if part < SURELY * bound * asked else bound
 
 
 def piece_width(n: int) -> int:
