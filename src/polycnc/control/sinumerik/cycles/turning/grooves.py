@@ -70,11 +70,11 @@ def groove(moves: Moves, a: Arguments) -> None:
     if not all(0.0 <= a[name] < UPRIGHT for name in ("ANG1", "ANG2")):
         raise AlarmError("61603")
     seat = SEATS[a.digit("VARI", 0)]
-    _require_edge(moves, seat)
+    require_edge(moves, across=seat.across, inwards=seat.inwards)
     shape = Groove(
         abs(a["WIDG"]),
         abs(a["DIAG"]),
-        _tool_width(moves, a.integer("_DN"), _ALONG_X if seat.across else _ALONG_Z),
+        tool_width(moves, a.integer("_DN"), _ALONG_X if seat.across else _ALONG_Z),
         base_allowance=abs(a["FAL1"]),
         flank_allowance=abs(a["FAL2"]),
         infeed=abs(a["IDEP"]),
@@ -122,16 +122,16 @@ def _corner(a: Arguments, name: str) -> Corner:
     return Corner(leg=-size) if a.integer("VARI") >= CHAMFERS_BY_LEG else Corner(length=-size)
 
 
-def _require_edge(moves: Moves, seat: Seat) -> None:
+def require_edge(moves: Moves, *, across: bool, inwards: float) -> None:
     """61608 for an active edge with a nose that is not the tool's corner towards smaller positions, and the base."""
     along, deep = stages.tip(moves.channel)
-    if seat.across:
+    if across:
         along, deep = deep, along
-    if stages.radius(moves.channel) > _ROUNDING and dist((along, deep), (-1.0, seat.inwards)) > _ROUNDING:
+    if stages.radius(moves.channel) > _ROUNDING and dist((along, deep), (-1.0, inwards)) > _ROUNDING:
         raise AlarmError("61608")
 
 
-def _tool_width(moves: Moves, number: int, length: int) -> float:
+def tool_width(moves: Moves, number: int, length: int) -> float:
     """From the active edge to the second one along Z or X; 61602 where there is none."""
     tools = moves.memory.tools
     first, second = tools.edge, tools.edges.get(number or tools.edge_number + 1)
@@ -212,7 +212,7 @@ def grooves(moves: Moves, a: Arguments) -> None:
     seat, feed = SEATS[number], abs(a["_FF1"])
     if not feed:
         raise AlarmError("61003")
-    _require_edge(moves, seat)
+    require_edge(moves, across=seat.across, inwards=seat.inwards)
     shape = _of_mask(moves, a, seat, stage)
     way = _strokes(shape)
     _refuse(a, shape, seat)
@@ -244,7 +244,7 @@ def _of_mask(moves: Moves, a: Arguments, seat: Seat, stage: int) -> Groove:
     return Groove(
         abs(a["_WIDG"]),
         depth,
-        _tool_width(moves, a.integer("_DN"), _ALONG_X if seat.across else _ALONG_Z),
+        tool_width(moves, a.integer("_DN"), _ALONG_X if seat.across else _ALONG_Z),
         base_allowance=abs(even or a[deep]) if roughs else 0.0,
         flank_allowance=abs(even or a[aside]) if roughs else 0.0,
         infeed=abs(a["_IDEP1"]),
