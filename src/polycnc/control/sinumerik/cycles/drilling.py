@@ -282,7 +282,9 @@ def rigid_tapping(moves: Moves, a: Arguments) -> None:
     """CYCLE84: tapping with the spindle in position control, in one go or in steps."""
     lead = pitch(a)
     _check_technology(a)
-    variant = a.digit("_VARI", 0)
+    variant = a.integer("_VARI")
+    if variant >= 10:
+        raise not_supported("CYCLE84 _VARI")
     if variant not in (0, 1, 2):
         raise AlarmError("61002")
     found = levels(moves, a)
