@@ -70,6 +70,7 @@ class CornerPolicy:
         start_up_between: Radius compensation may start up between the two moves.
         at_rapids: Rapids have corners as other moves have, and a shape may be one.
         belongs_to_next: Feed, or rapid, of a shape are those of the second move; else of the first.
+        threads_follow: The second move may be a thread; else it is refused as a rapid is.
     """
 
     dwell_between: bool = False
@@ -80,6 +81,7 @@ class CornerPolicy:
     start_up_between: bool = False
     at_rapids: bool = False
     belongs_to_next: bool = False
+    threads_follow: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -296,7 +298,9 @@ class CornerStage(Stage):
         """Cut both moves, pass on the first and the inserted row; gives the second as cut."""
         a, b = self.plane.edge(held.move), self.plane.edge(move)
         request = held.request
-        if Kind.RAPID in (held.move.kind, move.kind) and not self.policy.at_rapids:
+        is_thread = move.kind is Kind.THREAD and not self.policy.threads_follow
+        is_rapid = Kind.RAPID in (held.move.kind, move.kind) and not self.policy.at_rapids
+        if is_thread or is_rapid:
             if not request.modal:
                 self._violate(CornerViolation.RAPID, held.move.line)
         elif a is not None and b is not None and abs(offset.turn(a, b)) > radians(self.policy.least_turn_deg):

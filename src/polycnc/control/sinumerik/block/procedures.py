@@ -137,9 +137,6 @@ def set_master_spindle(channel: SinumerikChannel, args: Arguments) -> None:
     number = arguments.spindle(args[0]) if args else None
     number = spindles.default_master if number is None else number
     spindles.get(number)
-    for spindle in spindles.all.values():
-        if spindle.number != number:
-            spindle.refuse_leading("SETMS")
     before = master_holder.master_of(channel)
     spindles.master = number
     channel.context_changed()

@@ -14,7 +14,6 @@ from polycnc.channel.moves.path import Rank, Stage
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.plan import ExactStop
-from polycnc.control.sinumerik.block.positions import diameter_function
 from polycnc.control.sinumerik.contours import tables
 from polycnc.control.sinumerik.contours.elements import Element, Side, is_full_circle
 from polycnc.control.sinumerik.errors import not_supported
@@ -60,11 +59,10 @@ _NEAR_MM = AWAY_MM / 10.0
 
 
 class Surroundings(NamedTuple):
-    """What a contour may not change: plane, unit, diameters, frame, transformation, geometry axes, compensation."""
+    """What a contour may not change: plane, unit, frame, transformation, geometry axes, compensation."""
 
     plane: str
     unit: str
-    diameter: str
     frame: object
     transformation: object
     geometry: tuple[int, ...]
@@ -77,7 +75,6 @@ class Surroundings(NamedTuple):
         return cls(
             mode["plane"],
             mode["unit"],
-            mode["diameter"],
             (channel.memory.frames.total(), coordinates.zero),
             coordinates.transformation,
             tuple(coordinates.geometry),
@@ -227,7 +224,7 @@ def _begin(channel: SinumerikChannel, name: str, args: Arguments) -> None:
 
     Raises:
         AlarmError: 10932 where a contour is being read already, 10931 with a radius compensation, 14144 under PTP
-            (6.9.1), PC0001 with diameters in the plane.
+            (6.9.1).
     """
     if Readings.of(channel).open:
         raise AlarmError("10932")
@@ -236,9 +233,6 @@ def _begin(channel: SinumerikChannel, name: str, args: Arguments) -> None:
     if channel.mode["compensation"] != "G40":
         raise AlarmError("10931", text=channel.mode["compensation"])
     columns = _plane_columns(channel)
-    transverse = channel.memory.transverse
-    if transverse in columns and diameter_function(channel.mode, transverse, transverse) != "DIAMOF":
-        raise not_supported(f"{name} DIAMON")
     reading = reading_from_here(channel, keeps_modes=False)
     reading.arcs_need_centre = name != "CONTDCON"
     surroundings = Surroundings.of(channel)

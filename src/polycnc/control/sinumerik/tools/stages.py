@@ -2,15 +2,17 @@
 
 A stage stands in the channel's path only while it has something to do: what commands it puts it there, and behind
 every block `Path.relax` takes out those that are through. Source: Fundamentals (CHF, CHR, RND,
-RNDM, G40 to G42, NORM, KONT, G450, G451).
+RNDM, G40 to G42, NORM, KONT, KONTT, KONTC, G450, G451).
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from math import nan
 from typing import TYPE_CHECKING
 
+from polycnc.channel.moves.knots import knot_context
 from polycnc.compensation.corner import CornerPolicy, CornerStage, CornerViolation, Shape
 from polycnc.compensation.cutter import CutterCompensation
 from polycnc.compensation.plane import Plane
@@ -42,11 +44,13 @@ _G450 = Policy(
 )  # fmt: skip
 #: MD20210 = 100 degrees.
 _G451 = replace(_G450, outer=Outer(100.0, Joint.ARC, extend_as_circles=True))
+_APPROACHES = {
+    "NORM": Approach.SQUARE, "KONT": Approach.TANGENT, "KONTT": Approach.BENT, "KONTC": Approach.CURVED
+}  # fmt: skip
 POLICIES = {
-    ("NORM", "G450"): _G450,
-    ("NORM", "G451"): _G451,
-    ("KONT", "G450"): replace(_G450, approach=Approach.TANGENT),
-    ("KONT", "G451"): replace(_G451, approach=Approach.TANGENT),
+    (code, corner): replace(rules, approach=approach)
+    for code, approach in _APPROACHES.items()
+    for corner, rules in (("G450", _G450), ("G451", _G451))
 }
 VIOLATIONS = {
     Violation.ARC_START: "10753",
@@ -72,7 +76,9 @@ def cutter(channel: SinumerikChannel) -> CutterCompensation:
     change_plane(channel)
     stage = channel.path.find(CutterCompensation)
     if stage is None:
-        stage = channel.path.put(CutterCompensation(plane(channel), _G450, VIOLATIONS))
+        stage = channel.path.put(
+            CutterCompensation(plane(channel), _G450, VIOLATIONS, partial(knot_context, channel))
+        )
         suspend(channel)
     return stage
 

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.block.positions import Dimension, number
+from polycnc.control.sinumerik.couplings.links import Couplings, bare
+from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tools import stages
 from polycnc.control.sinumerik.tools.smooth_stage import APPROACHES, RETRACTIONS
 from polycnc.control.sinumerik.transformations import data_sets, seat
@@ -17,6 +19,7 @@ from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError
 from polycnc.transformation.kinematic.polar import PolarPlane
 from polycnc.transformation.orientation.choice import is_within
+from polycnc.transformation.seated import Seated
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.block.draft import Draft, Step, Values
@@ -101,14 +104,17 @@ def go(channel: SinumerikChannel, kind: Kind, end: list[float], feed: float) -> 
     """Go to a point of the work with all axes at once, straight for each of them; its row holds their positions."""
     coordinates, state = channel.coordinates, PointToPoint.of(channel)
     transformation = coordinates.transformation
-    assert transformation is not None
+    assert isinstance(transformation, Seated)
+    leading = {law.leading for laws in Couplings.of(channel).laws().values() for law in laws}
+    if leading & seat.transformed(channel):
+        raise not_supported("PTP: TRAILON LEADON EGON")
     if stages.active_cutter(channel) is not None:
         raise AlarmError("14144")
     machine = _configured(channel, transformation, end)
     channel.flush()
     geometry, width = coordinates.geometry, len(channel.axes)
     coordinates.transform(None, data_sets.native(channel), (IDENTITY, [0.0] * width))
-    state.shown_by = transformation
+    state.shown_by = bare(transformation)
     channel.context_changed()
     try:
         channel.straight(kind, machine, feed)

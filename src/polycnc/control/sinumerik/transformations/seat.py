@@ -110,10 +110,16 @@ def stand(channel: SinumerikChannel, total: NcFrame, *, travelled: bool = False)
         travelled: The next incremental word of an axis travels a change of frames or tool as well; under a
             transformation none does (6.10).
     """
+    coupled = bool(links.Couplings.of(channel).links)
+    before = links.places(channel) if coupled else []
+    _take_seat(channel, total, travelled=travelled)
+    if coupled and links.keep_ways(channel, before):
+        _take_seat(channel, total, travelled=travelled)
+
+
+def _take_seat(channel: SinumerikChannel, total: NcFrame, *, travelled: bool) -> None:
     coordinates, state = channel.coordinates, Transformations.of(channel)
     if state.build is None and state.columns is not None:
-        if links.seated(channel, total.frame, _offsets(channel, total)) is not None:
-            raise not_supported("GEOAX")  # while axes follow others
         _stand_regrouped(channel, state.columns, total, travelled=travelled)
         return
     if state.build is None:
@@ -123,7 +129,9 @@ def stand(channel: SinumerikChannel, total: NcFrame, *, travelled: bool = False)
         coupled = links.take_seat(channel, links.seated(channel, *zero))
         if coupled is not None:
             if coupled is not coordinates.transformation:
+                state.seated = None
                 _sit(channel, coupled)
+                _name_axes(channel, frozenset())
             return
         if coordinates.transformation is not None:
             state.seated = None
@@ -136,6 +144,7 @@ def stand(channel: SinumerikChannel, total: NcFrame, *, travelled: bool = False)
         channel.context_changed()
         return
     seated = _seated(channel, state.build, total)
+    links.take_seat(channel, seated)
     if seated == state.seated:
         return
     state.seated = seated
@@ -158,6 +167,7 @@ def _stand_regrouped(
     """Frames and tool act on the geometry axes of GEOAX."""
     coordinates, state = channel.coordinates, Transformations.of(channel)
     seated = _regrouped(channel, columns, total)
+    links.take_seat(channel, seated)
     if seated == state.seated:
         return
     state.seated = seated
@@ -174,7 +184,8 @@ def _stand_regrouped(
 def _regrouped(channel: SinumerikChannel, columns: Geometry, total: NcFrame) -> Seated:
     offsets = _offsets(channel, total, columns)
     frame = IDENTITY if total.frame.is_identity else total.frame
-    return Seated(ParallelAxes(columns), frame, (), tuple(offsets) if any(offsets) else ())
+    made = Seated(ParallelAxes(columns), frame, (), tuple(offsets) if any(offsets) else ())
+    return links.beside(channel, made)
 
 
 def is_in_place(channel: SinumerikChannel, total: NcFrame) -> bool:
@@ -229,12 +240,13 @@ def _seated(channel: SinumerikChannel, build: Build, total: NcFrame) -> Seated:
             shifts[column] += length
     _add_to_axes(channel, inner, offsets, behind)
     frame = total.frame
-    return Seated(
+    made = Seated(
         inner,
         IDENTITY if frame.is_identity else frame,
         tuple(shifts) if any(shifts) else (),
         tuple(offsets) if any(offsets) else (),
     )
+    return links.beside(channel, made)
 
 
 def _add_to_axes(channel: SinumerikChannel, inner: Any, offsets: list[float], lengths: Vector) -> None:
