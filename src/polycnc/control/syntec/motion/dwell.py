@@ -54,6 +54,8 @@ def dwell(channel: SyntecChannel, words: Words) -> None:
 def _seconds(words: Words) -> float:
     milliseconds = words.typed("P")
     if milliseconds is not None:
+        if "X" in words:
+            raise words.fail("argument", "X")
         return int(milliseconds) / 1000.0
     value = words.typed("X")
     if value is None:
