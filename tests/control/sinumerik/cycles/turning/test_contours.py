@@ -113,3 +113,28 @@ def test_finishing_leaves_the_contour(
     edge, found = Edge(radius), ways(side, result)
     assert gouge(contour, edge, found) <= 1e-3
     assert cut_all(stock_of(contour), edge, found) <= GRID
+
+
+@settings(max_examples=5)
+@given(PARTS, SIDES, NOSES, ALLOWANCES, st.sampled_from((1.5, 4.0)), st.sampled_from(("010", "210")))
+def test_cuts_parallel_to_the_contour_keep_to_it(
+    parts: list[tuple[int, int]], side: Side, radius: float, allowance: Point, depth: float, rest: str
+) -> None:
+    contour = contour_of(parts)
+    digits = call(side, rest=rest, d=depth, allowance=allowance)
+    kind = side.vari(1, rest)
+    result = turn(side, contour, radius, digits.replace(kind, f"{kind[:-1]}3"))
+    if codes(result):
+        return
+    edge, found = Edge(radius), ways(side, result, step=0.2)
+    assert gouge(contour, edge, found, allowance) <= 1e-3
+    assert cut_all(stock_of(contour), edge, found) <= GRID
+
+
+def test_reliefs_are_bridged_or_cut() -> None:
+    contour = [(0.0, 15.0), (-4.0, 15.0), (-8.0, 10.0), (-12.0, 10.0), (-12.0, 20.0)]
+    for rest, left in (("010", 0.0), ("110", 0.0), ("210", 5.0)):
+        stock = stock_of(contour)
+        cut_all(stock, Edge(0.2), ways(OUTSIDE, turn(OUTSIDE, contour, 0.2, call(OUTSIDE, rest=rest))))
+        middle = stock.heights[stock.places.index(min(stock.places, key=lambda a: abs(a + 9.5)))]
+        assert middle == pytest.approx(10.0 + left, abs=0.01)
