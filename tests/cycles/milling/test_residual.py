@@ -26,8 +26,8 @@ KEYHOLE = polygon(
 LARGE, SMALL = 5.0, 2.0
 
 
-def small(*contours: Loop, **more: object) -> ContourPocket:
-    return pocket(*contours, radius=SMALL, **more)
+def small(*contours: Loop) -> ContourPocket:
+    return pocket(*contours, radius=SMALL)
 
 
 def ways(strokes: list[MillStroke], level: float) -> list[list[offset.Edge]]:

@@ -27,6 +27,7 @@ from polycnc.control.sinumerik.motion.contour_reading import (
     without_away,
 )
 from polycnc.control.sinumerik.tables import feed_type, length_factor
+from polycnc.control.sinumerik.transformations import seat
 from polycnc.deferred.records import dataclass
 from polycnc.geometry import offset
 from polycnc.geometry.planes import PLANES
@@ -222,10 +223,13 @@ def _begin(channel: SinumerikChannel, name: str, args: Arguments) -> None:
     """From here on moves are recorded.
 
     Raises:
-        AlarmError: 10932 where a contour is being read already, 10931 with a radius compensation.
+        AlarmError: 10932 where a contour is being read already, 10931 with a radius compensation, 14144 under PTP
+            (6.9.1).
     """
     if Readings.of(channel).open:
         raise AlarmError("10932")
+    if channel.mode[seat.GROUP] and channel.mode["point_to_point"] == "PTP":
+        raise AlarmError("14144")
     if channel.mode["compensation"] != "G40":
         raise AlarmError("10931", text=channel.mode["compensation"])
     columns = _plane_columns(channel)
