@@ -40,12 +40,10 @@ def ways(strokes: list[MillStroke], level: float) -> list[list[offset.Edge]]:
             w = stroke.w
             found.append([])
         elif stroke.kind is not Kind.RAPID and w == level and end != at:
-            is_arc = stroke.center is not None
-            found[-1].append(
-                offset.arc(at, end, stroke.center, stroke.kind is Kind.CCW)
-                if is_arc
-                else offset.line(at, end)
-            )
+            if stroke.center is None:
+                found[-1].append(offset.line(at, end))
+            else:
+                found[-1].append(offset.arc(at, end, stroke.center, stroke.kind is Kind.CCW))
         at = end
     return [way for way in found if way]
 
