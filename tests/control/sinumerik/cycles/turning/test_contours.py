@@ -138,3 +138,49 @@ def test_reliefs_are_bridged_or_cut() -> None:
         cut_all(stock, Edge(0.2), ways(OUTSIDE, turn(OUTSIDE, contour, 0.2, call(OUTSIDE, rest=rest))))
         middle = stock.heights[stock.places.index(min(stock.places, key=lambda a: abs(a + 9.5)))]
         assert middle == pytest.approx(10.0 + left, abs=0.01)
+
+
+def twice(side: Side, contour: list[Point], first: str, second: str, radius: float = 0.4) -> Any:
+    """A call that notes what it leaves, and one for what that was."""
+    noted = call(side, rest=first).replace('"R","",""', '"R","","REST"')
+    residual = (
+        call(side, rest=second).replace('"R","",""', '"R","rest",""').replace(",12,1100000", ",112,1100000")
+    )
+    z, x = side.place((20.0, 40.0))
+    away = f"G0 X{2 * x} Z{z}"
+    return turn(side, contour, radius, f'{noted}\n{away}\nCYCLE62("",2,"AA","BB")\n{residual}')
+
+
+@settings(max_examples=6)
+@given(PARTS, SIDES)
+def test_residual_material_is_cut_out_of_what_was_left(parts: list[tuple[int, int]], side: Side) -> None:
+    contour = contour_of(parts)
+    result = twice(side, contour, "210", "110")
+    if codes(result):
+        return
+    found = ways(side, result)
+    assert gouge(contour, Edge(0.4), found) <= 1e-3
+    assert cut_all(stock_of(contour), Edge(0.4), found) <= GRID
+
+
+@pytest.mark.parametrize("side", [OUTSIDE, INSIDE, FACE])
+def test_residual_material_is_nothing_but_the_reliefs(side: Side) -> None:
+    contour = [(0.0, 15.0), (-4.0, 15.0), (-8.0, 10.0), (-14.0, 10.0), (-14.0, 20.0)]
+    result = twice(side, contour, "210", "110")
+    assert codes(result) == []
+    stock = stock_of(contour)
+    assert cut_all(stock, Edge(0.4), ways(side, result)) <= GRID
+    middle = stock.heights[min(range(len(stock.places)), key=lambda k: abs(stock.places[k] + 11.0))]
+    assert middle == pytest.approx(10.0, abs=0.01)
+    once = turn(side, contour, 0.4, call(side, rest="210"))
+    cuts = [row for row in result.rows if row.get("type") == "feed"]
+    before = [row for row in once.rows if row.get("type") == "feed"]
+    depths = [side.point((row["to"]["Z"], row["to"]["X"] / 2.0))[1] for row in cuts[len(before) :]]
+    # All that is cut again lies below the summit, but for the ways out of it.
+    assert min(depths) == pytest.approx(10.0)
+    assert sum(depth > 17.1 for depth in depths) == 0
+
+
+def test_nothing_was_left_under_that_name() -> None:
+    lost = call(OUTSIDE).replace('"R","",""', '"R","GONE",""')
+    assert [code for code, _ in codes(turn(OUTSIDE, contour_of([(5, 0), (2, 3)]), 0.4, lost))] == ["14011"]

@@ -54,8 +54,6 @@ ALONG_CONTOUR, WITHOUT_ROUNDING = 1, 2
 WITH_U1 = 3
 #: Length 1 of a turning tool lies along X, length 2 along Z.
 _ALONG_X, _ALONG_Z = 0, 1
-#: Stock lies no higher than this where a blank has none, mm.
-_NOTHING = -1e6
 #: Higher than a level by this is above it, mm.
 _HAIR = 1e-5
 
@@ -148,6 +146,7 @@ def _all(
         if groove.stage != ROUGHING:
             perform(work, cuts.follow(groove.finishing(away)), dict.fromkeys(Use, finishing))
     work.perform(PlaneStroke(Kind.RAPID, begin), 0.0)
+    blanks.note_left(work, a, turning, tool.width)
 
 
 def height(work: Work, b: float) -> float:
@@ -209,11 +208,13 @@ class _Groove:
     def _outline(self, contour: Contour) -> Profile:
         """Where the tool's point meets a blank that is no cylinder."""
         try:
-            found = profile(upright(contour, self.work.towards), _NOTHING)
+            found = profile(upright(contour, self.work.towards), blanks.NOTHING)
         except ValueError:
             raise AlarmError("61606") from None
         met = of_tool(found, self.tool.radius, self.tool.width)
-        return Profile(envelope([*cropped(met, *self.places).curves, *level(_NOTHING, *self.places).curves]))
+        return Profile(
+            envelope([*cropped(met, *self.places).curves, *level(blanks.NOTHING, *self.places).curves])
+        )
 
     def _limited(self, part: Profile) -> Profile:
         """The contour with walls and a base where the limits of the call are.

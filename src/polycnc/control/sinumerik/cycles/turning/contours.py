@@ -23,9 +23,11 @@ from polycnc.control.sinumerik.cycles.turning.blanks import (
 )
 from polycnc.control.sinumerik.cycles.turning.work import Work, finish, onwards
 from polycnc.control.sinumerik.errors import not_supported
+from polycnc.control.sinumerik.tools import stages
+from polycnc.cycles.plunging.profile import dilated, profile, upright
 from polycnc.cycles.turning import outline
 from polycnc.cycles.turning.allowance import with_stock
-from polycnc.cycles.turning.contour import Contour
+from polycnc.cycles.turning.contour import Contour, shifted, turned_round
 from polycnc.cycles.turning.stock_removal import Removal, blank, remove
 from polycnc.cycles.turning.stroke import PlaneStroke
 from polycnc.messages import AlarmError
@@ -48,9 +50,9 @@ WITHOUT_ROUNDING, LAST_ROUNDING = 2, 3
 WITHOUT_RELIEFS = 2
 #: Digits of _AMODE: infeed parallel to the contour by _DX and _DZ, cuts at the edges, allowance U1.
 BY_AXES_OF_INFEED, AT_EDGES, WITH_U1 = 0, 2, 3
-#: Digits of _GMODE: what is done; of _DMODE: technology, residual material.
+#: Digits of _GMODE: what is done; of _DMODE: technology.
 ONLY_START = 2
-TECHNOLOGY, RESIDUAL = 1, 2
+TECHNOLOGY = 1
 STOCK_REMOVAL, GROOVING, PLUNGE_TURNING = 1, 2, 3
 #: Older calls have none: they remove stock.
 TECHNOLOGIES = (0, STOCK_REMOVAL, GROOVING, PLUNGE_TURNING)
@@ -91,7 +93,6 @@ def _refuse(a: Arguments, kind: int) -> None:
     """What is not executed, by the parameter that asks for it."""
     technology = a.digit("_DMODE", TECHNOLOGY)
     unknown = {
-        "_CON": bool(a.text("_CON").strip()),
         "_VARI": (kind == PARALLEL and technology in (GROOVING, PLUNGE_TURNING))
         or a.digit("_VARI", RELIEFS) > WITHOUT_RELIEFS
         or a.digit("_VARI", ALLOWANCE) > ALONG_CONTOUR
@@ -100,7 +101,7 @@ def _refuse(a: Arguments, kind: int) -> None:
         "_DI": bool(a["_DI"]),
         "_U1": technology in (GROOVING, PLUNGE_TURNING) and _more_or_less(a) < 0.0,
         "_GMODE": a.digit("_GMODE", 2) >= ONLY_START or a.integer("_GMODE") >= 10 ** (HAS_LIMITS + 1),
-        "_DMODE": technology not in TECHNOLOGIES or a.digit("_DMODE", RESIDUAL) != 0,
+        "_DMODE": technology not in TECHNOLOGIES or a.digit("_DMODE", blanks.RESIDUAL) > 1,
         "_AMODE": a.integer("_AMODE") >= 10 ** (ZD_RELATIVE + 1),
         "_XDA": kind == ACROSS and technology in (GROOVING, PLUNGE_TURNING) and a["_XDA"] != a["_XDB"],
         "_PK": a.integer("_PK") > 1,
@@ -135,6 +136,7 @@ def _turn(work: Work, a: Arguments, direction: float, found: list[Contour]) -> N
         left = None
     work.clear(path, home, lift, stock=left)
     work.perform(PlaneStroke(Kind.RAPID, home), 0.0)
+    blanks.note_left(work, a, turning)
 
 
 def _more_or_less(a: Arguments) -> float:
@@ -174,10 +176,22 @@ def _rough(work: Work, a: Arguments, turning: Turning) -> Contour:
 
 
 def _outline_of_nose(work: Work, turning: Turning) -> Contour | None:
-    """Where the tool's point is when its nose touches the blank; None for a cylinder, and where it fits nowhere."""
+    """Where the tool's point is when its nose touches the blank; None for a cylinder, or a blank that runs back."""
     if turning.stock is None:
         return None
     try:
         return work.tool_path(turning.stock, 0.0, rounds_begin=True)
     except AlarmError:
+        return _over_roundings(work, turning.stock)
+
+
+def _over_roundings(work: Work, stock: Contour) -> Contour | None:
+    """As `_outline_of_nose` where the nose does not come into every corner of the blank."""
+    radius = stages.radius(work.moves.channel)
+    tip = work.pair(*stages.tip(work.moves.channel))
+    try:
+        met = dilated(profile(upright(stock, work.towards), blanks.NOTHING), radius)
+    except ValueError:
         return None
+    found = shifted(upright(met.between(met.begin, met.end), work.towards), radius * tip[0], radius * tip[1])
+    return found if onwards(found) == onwards(stock) else turned_round(found)

@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.cycles.milling import feed_of
+from polycnc.control.sinumerik.cycles.turning.blanks import NOTHING
 from polycnc.control.sinumerik.cycles.turning.contour_grooves import height, perform
 from polycnc.control.sinumerik.cycles.turning.work import onwards
 from polycnc.cycles.plunging import cuts
@@ -23,8 +24,6 @@ if TYPE_CHECKING:
 
 #: Digit of _AMODE: the infeed is told by _DX and _DZ, not by _D.
 BY_AXES = 0
-#: Stock lies no higher than this where a blank has none, mm.
-_NOTHING = -1e6
 
 
 def rough(work: Work, a: Arguments, turning: Turning, path: Contour, blank: Contour | None) -> None:
@@ -46,8 +45,8 @@ def rough(work: Work, a: Arguments, turning: Turning, path: Contour, blank: Cont
         floor = profile(upright(path, work.towards), top, open_at=-direction)
         stock = level(top, floor.begin, floor.end)
         if blank is not None:
-            outline = profile(upright(blank, work.towards), _NOTHING)
-            curves = [*outline.curves, *level(_NOTHING, floor.begin, floor.end).curves]
+            outline = profile(upright(blank, work.towards), NOTHING)
+            curves = [*outline.curves, *level(NOTHING, floor.begin, floor.end).curves]
             stock = Profile(envelope(curves))
     except ValueError:
         raise AlarmError("61606") from None

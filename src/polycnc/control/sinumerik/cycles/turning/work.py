@@ -29,12 +29,19 @@ _ROUNDING = 1e-9
 
 
 class Work:
-    """Which way the cuts of a call run: lengthwise (a is Z, b the radius) or across (a is the radius, b is Z)."""
+    """Which way the cuts of a call run: lengthwise (a is Z, b the radius) or across (a is the radius, b is Z).
+
+    Attributes:
+        moves: Of the cycle.
+        across, towards: Kind of the cuts, and direction of infeed, 1 or -1.
+        cuts: The ways that have been cut, of the tool's point.
+    """
 
     def __init__(self, moves: Moves, *, across: bool, towards: float) -> None:
         self.moves = moves
         self.across = across
         self.towards = towards
+        self.cuts: list[Edge] = []
 
     def contour(self, read_: Contour) -> Contour:
         """A contour of the plane in the coordinates of the cuts."""
@@ -145,6 +152,11 @@ class Work:
 
     def perform(self, stroke: PlaneStroke, feed: float) -> None:
         """Make a stroke, which is a block."""
+        start = self.pair(*self.moves.point)
+        if stroke.center is not None:
+            self.cuts.append(offset.arc(start, stroke.end, stroke.center, stroke.kind is Kind.CCW))
+        elif stroke.kind is not Kind.RAPID:
+            self.cuts.append(offset.line(start, stroke.end))
         made = swapped_stroke(stroke) if self.across else stroke
         if made.kind is Kind.RAPID:
             self.moves.rapid(*made.end)
