@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.tools import stages
 from polycnc.cycles.turning.contour import Contour, Piece, parallel, shifted, swapped, swapped_stroke
+from polycnc.cycles.turning.outline import farthest
 from polycnc.cycles.turning.stock_removal import is_clear, way_clear, way_over
 from polycnc.cycles.turning.stroke import PlaneStroke
 from polycnc.geometry import offset
@@ -180,6 +181,8 @@ def finish(
     """Along a path of the tool once, from beside its begin to beside its end; `stock` is what roughing has left."""
     start, end = path[0].edge.start, path[-1].edge.end
     before = _beside(start, path[0].edge.departing, onwards_, work.towards, lift)
+    if _is_closed(path, work.towards):
+        before = (start[0], farthest(path, 1, -work.towards) - work.towards * lift)
     after = _beside(end, path[-1].edge.arriving, onwards_, work.towards, lift)
     work.clear(path, before, lift, stock=stock)
     for stroke in (
@@ -190,6 +193,12 @@ def finish(
     ):
         # A rapid in the contour cuts as well: the cycle has feeds of its own.
         work.perform(stroke if stroke.end == before else _at_feed(stroke), feed)
+
+
+def _is_closed(path: Contour, towards: float) -> bool:
+    """Whether a path begins at its closed end, below a summit: behind it stock stands as high as that."""
+    begin, end = path[0].edge.start[1], path[-1].edge.end[1]
+    return towards * (begin - end) < -NO_WAY and towards * (begin - farthest(path, 1, -towards)) > NO_WAY
 
 
 def _beside(point: Point, direction: Point, onwards_: float, towards: float, lift: float) -> Point:
