@@ -21,7 +21,7 @@ from polycnc.control.sinumerik.cycles.turning.blanks import (
     ZD_RELATIVE,
     Turning,
 )
-from polycnc.control.sinumerik.cycles.turning.work import Work, finish, onwards
+from polycnc.control.sinumerik.cycles.turning.work import Work, finish, in_steps, onwards
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tools import stages
 from polycnc.cycles.plunging.profile import dilated, profile, upright
@@ -56,6 +56,8 @@ TECHNOLOGY = 1
 STOCK_REMOVAL, GROOVING, PLUNGE_TURNING = 1, 2, 3
 #: Older calls have none: they remove stock.
 TECHNOLOGIES = (0, STOCK_REMOVAL, GROOVING, PLUNGE_TURNING)
+#: So long a cut stands still where the chip breaks: one revolution.
+BREAK = -1.0
 _HAIR = 1e-6
 
 
@@ -98,7 +100,7 @@ def _refuse(a: Arguments, kind: int) -> None:
         or a.digit("_VARI", ALLOWANCE) > ALONG_CONTOUR
         or a.digit("_VARI", ROUNDING) > LAST_ROUNDING,
         "_BL": a.integer("_BL") not in (CYLINDER, SWOLLEN, CONTOUR),
-        "_DI": bool(a["_DI"]),
+        "_DI": bool(a["_DI"]) and (kind == PARALLEL or technology in (GROOVING, PLUNGE_TURNING)),
         "_U1": technology in (GROOVING, PLUNGE_TURNING) and _more_or_less(a) < 0.0,
         "_GMODE": a.digit("_GMODE", 2) >= ONLY_START or a.integer("_GMODE") >= 10 ** (HAS_LIMITS + 1),
         "_DMODE": technology not in TECHNOLOGIES or a.digit("_DMODE", blanks.RESIDUAL) > 1,
@@ -171,6 +173,9 @@ def _rough(work: Work, a: Arguments, turning: Turning) -> Contour:
             work.perform(PlaneStroke(Kind.RAPID, (cut.stroke.end[0], home[1])), 0.0)
         if cut.stroke.center is None and cut.stroke.kind is Kind.FEED:
             work.require_clear(path, cut.stroke.end)
+        if cut.is_straight and a["_DI"] > 0.0:
+            in_steps(work, cut.stroke, straight, a["_DI"], BREAK)
+            continue
         work.perform(cut.stroke, relief if cut.is_relief else straight)
     return path if follows else blank(path, work.towards, top)
 

@@ -7,6 +7,7 @@ from math import copysign
 from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.tools import stages
+from polycnc.cycles.count import parts
 from polycnc.cycles.turning.contour import Contour, Piece, parallel, shifted, swapped, swapped_stroke
 from polycnc.cycles.turning.outline import farthest
 from polycnc.cycles.turning.stock_removal import is_clear, way_clear, way_over
@@ -173,6 +174,31 @@ def onwards(contour: Contour) -> float:
     if abs(contour[-1].edge.end[0] - contour[0].edge.start[0]) <= NO_WAY:
         raise AlarmError("61605")
     return copysign(1.0, contour[-1].edge.end[0] - contour[0].edge.start[0])
+
+
+def in_steps(work: Work, stroke: PlaneStroke, feed: float, step: float, dwell: float) -> None:
+    """A cut that stands still after every step of it, so that the chip breaks.
+
+    Args:
+        work: The cuts.
+        stroke: A straight one, along them.
+        feed: Of it.
+        step: Way from stop to stop, mm.
+        dwell: Seconds above 0, revolutions below.
+    """
+    begin = work.pair(*work.moves.point)[0]
+    way = stroke.end[0] - begin
+    for part in steps_of(abs(way), step):
+        work.perform(replace(stroke, end=(begin + copysign(part, way), stroke.end[1])), feed)
+        if part < abs(way):
+            work.moves.dwell(dwell)
+            work.moves.end_block()
+
+
+def steps_of(total: float, step: float) -> list[float]:
+    """Ends of equal steps along a way, the last one shorter."""
+    count = max(0, parts(total, step, 1e-9) - 1)
+    return [step * k for k in range(1, count + 1)] + [total]
 
 
 def finish(
