@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from tests.control.sinumerik.cycles.turning.material import (
     FACE,
     INSIDE,
+    NOWHERE,
     OUTSIDE,
     Edge,
     Point,
@@ -18,6 +19,7 @@ from tests.control.sinumerik.cycles.turning.material import (
     Stock,
     cut_all,
     gouge,
+    height,
     turn,
     ways,
 )
@@ -184,3 +186,25 @@ def test_residual_material_is_nothing_but_the_reliefs(side: Side) -> None:
 def test_nothing_was_left_under_that_name() -> None:
     lost = call(OUTSIDE).replace('"R","",""', '"R","GONE",""')
     assert [code for code, _ in codes(turn(OUTSIDE, contour_of([(5, 0), (2, 3)]), 0.4, lost))] == ["14011"]
+
+
+@pytest.mark.parametrize("side", [OUTSIDE, INSIDE, FACE])
+@pytest.mark.parametrize("kind", ["as it is", "parallel"])
+def test_a_blank_that_is_an_allowance_is_entered_in_front_of_it(side: Side, kind: str) -> None:
+    contour = [(0.0, 15.0), (-8.0, 15.0), (-16.0, 20.0), (-20.0, 20.0)]
+    _, xd = side.amounts(0.0, 2.0)
+    zd, _ = side.amounts(0.0, 2.0)
+    cylinder = call(side, d=1.5)
+    vari = side.vari(1)
+    start = cylinder.index(",0,1,")
+    made = f"{cylinder[:start]},0,2,{xd},{zd},,,,,2,2,,,0,1,,0,12,1100000,1,0,0.1)"
+    if kind == "parallel":
+        made = made.replace(vari, f"{vari[:-1]}3")
+    result = turn(side, contour, 0.8, made)
+    assert codes(result) == []
+    stock = stock_of(contour)
+    stock.heights = [(height(contour, a) or NOWHERE) + 2.0 for a in stock.places]
+    found = ways(side, result)
+    assert gouge(contour, Edge(0.8), found) <= 1e-3
+    assert cut_all(stock, Edge(0.8), found) <= GRID
+    assert stock.left(contour[:-1]) <= 0.1

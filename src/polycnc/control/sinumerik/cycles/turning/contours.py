@@ -161,7 +161,8 @@ def _rough(work: Work, a: Arguments, turning: Turning) -> Contour:
     wall = work.front(turning.part[-1].edge.end[0], direction)
     path = outline.walled(outline.from_front(path, front), wall, top, work.towards)
     if a.digit("_VARI", KIND) == PARALLEL:
-        parallel_cuts.rough(work, a, turning, path, _outline_of_nose(work, turning))
+        met = None if turning.stock is None else _over_roundings(work, turning.stock)
+        parallel_cuts.rough(work, a, turning, path, met)
         return path
     follows = a.digit("_VARI", ROUNDING) != WITHOUT_ROUNDING
     at_edges = a.digit("_AMODE", AT_EDGES) == 1
@@ -191,7 +192,7 @@ def _outline_of_nose(work: Work, turning: Turning) -> Contour | None:
 
 
 def _over_roundings(work: Work, stock: Contour) -> Contour | None:
-    """As `_outline_of_nose` where the nose does not come into every corner of the blank."""
+    """As `_outline_of_nose`, round both ends of the blank, and where the nose does not come into all its corners."""
     radius = stages.radius(work.moves.channel)
     tip = work.pair(*stages.tip(work.moves.channel))
     try:
