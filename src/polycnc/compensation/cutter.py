@@ -94,6 +94,7 @@ class CutterCompensation(Stage):
         self._forced: Point | None = None
         self._holds = False
         self._starts_square = False
+        self._is_bare = False
         self.suspended = False
 
     # ---- what a control commands ---------------------------------------------------------------------------
@@ -148,14 +149,15 @@ class CutterCompensation(Stage):
     def change_radius(self, radius: float, tip: Point | None = None) -> None:
         """Another radius within compensation: it holds at the end of the next block and grows along it.
 
-        FANUC 0i-TF Plus 5.2.4 and 5.3, SYNTEC 2.27.5: a block's end vector is that of the block's own radius.
+        FANUC 0i-TF Plus 5.2.4 and 5.3, SYNTEC 2.27.5: a block's end vector is that of the block's own radius. Beside
+        another side (`change_side`), and by the policy where its sign changes, it holds from the start of that block.
         """
         self._radius = radius
         if tip is not None:
             self._tip = tip
 
     def change_side(self, side: int) -> None:
-        """The other side within compensation, with the radius as it is."""
+        """The other side within compensation."""
         self._side = side
 
     def forced_vector(self, direction: Point) -> None:
@@ -247,6 +249,7 @@ class CutterCompensation(Stage):
         if place is not None and (self.policy.shifts_without_motion or self._forced is not None):
             point = self.plane.point(place.end)
             self._take(place, offset.Edge(point, point, NO_VECTOR, NO_VECTOR))
+        self._is_bare = self._role is Role.CANCEL and self.policy.bare_cancel_is_square
         self._in_order(END_OF_BLOCK)
         self._read += 1
         while self._window and self._read - self._window[0].read >= self._window[0].waits_for:
@@ -277,9 +280,11 @@ class CutterCompensation(Stage):
         """Put a plane move into the window; it closes the corner in front of it."""
         distance, shift = self._side * self._radius, self._shift()
         step = Step(move, edge, edge, self._role, distance, shift, self.policy, self._read, self._rows.vector)
+        step.side = self._side
         step.suspended = self.suspended and self._role is Role.CONTOUR
         step.forced, step.holds = self._forced, self._holds or step.suspended
         step.starts_square = self._starts_square
+        step.is_bare = self._is_bare
         self._forced, self._holds, self._starts_square = None, False, False
         step.edge = self._checked(step)
         if step.role is Role.CONTOUR and not self._window and step.policy.approaches_behind_stops:
@@ -425,4 +430,4 @@ class CutterCompensation(Stage):
         self._rows.drop_vector()
         self._interference.forget()
         self._wall = self._place = None
-        self._forced, self._holds, self._starts_square = None, False, False
+        self._forced, self._holds, self._starts_square, self._is_bare = None, False, False, False

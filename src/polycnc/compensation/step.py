@@ -62,11 +62,13 @@ class Step:
         policy: The control's behaviour when the block was read.
         read: Number of the block.
         first: Vector at its start.
+        side: The side that was commanded, 1 left.
         corner: Vectors at its end, once known.
         forced: Direction on which the vector at its end stands square (I, J, K in the block).
         holds: It keeps the vector of its start (G38).
         suspended: It belongs to a stretch that keeps one vector (CUTCONON); arcs are moved by it as they are.
         starts_square: The block in front ends square on itself.
+        is_bare: It leads back behind a cancel block without motion (`Policy.bare_cancel_is_square`).
         straight: Its vectors were left out, so it is a straight move.
         is_chord: The chord of an arc that the tool does not fit into takes its place.
         altered: A detour round an interference changed it.
@@ -84,11 +86,13 @@ class Step:
     policy: Policy
     read: int
     first: Point = NO_VECTOR
+    side: int = 1
     corner: Corner | None = None
     forced: Point | None = None
     holds: bool = False
     suspended: bool = False
     starts_square: bool = False
+    is_bare: bool = False
     straight: bool = False
     is_chord: bool = False
     altered: bool = False

@@ -61,9 +61,10 @@ VIOLATIONS = {
     Violation.AVOIDANCE_INTERFERES: "10751",
 }
 #: As delivered: MD20200 = 1. Too large a size is reduced.
-CORNERS = CornerPolicy(idle_blocks=1, shrinks=True)
+CORNERS = CornerPolicy(idle_blocks=1, shrinks=True, at_rapids=True)
 CORNER_VIOLATIONS = {CornerViolation.TOO_MANY_BLOCKS: "10880"}
-#: Bit of MD20201: what stands between the two moves of a corner comes behind the chamfer or rounding.
+#: Bit of MD20201: what stands between the two moves of a corner comes behind the chamfer or rounding, which has the
+#: feed of the second move; without it that of the first. FRC and FRCM do not count at rapid (Fundamentals).
 BEHIND_SHAPE = 1
 #: Stages that work in one plane.
 PlaneStage = SplineStage | SmoothApproach | CornerStage | CutterCompensation
@@ -98,9 +99,9 @@ def corner(channel: SinumerikChannel) -> CornerStage:
 def _corners(channel: SinumerikChannel) -> CornerPolicy:
     """Too large a size is reduced; MD20200 says how many blocks without a way in the plane may stand between."""
     data = channel.memory.data
-    behind = data.integer("$MC_CHFRND_MODE_MASK") & BEHIND_SHAPE
+    behind = bool(data.integer("$MC_CHFRND_MODE_MASK") & BEHIND_SHAPE)
     idle = data.integer("$MC_CHFRND_MAXNUM_DUMMY_BLOCKS")
-    return replace(CORNERS, idle_blocks=idle, waits_at_shape=not behind)
+    return replace(CORNERS, idle_blocks=idle, waits_at_shape=not behind, belongs_to_next=behind)
 
 
 def approach(channel: SinumerikChannel) -> SmoothApproach:
@@ -187,7 +188,15 @@ def _settle_corner(channel: SinumerikChannel, what: str = "G40 G41 G42") -> None
 
 
 def end_blocks(channel: SinumerikChannel) -> None:
-    """Preprocessing stops: the blocks in front end. PC0001 between the two moves of a chamfer or rounding."""
+    """Preprocessing stops: the blocks in front end.
+
+    Raises:
+        AlarmError: PC0001 between the two moves of a chamfer or rounding, 10746 where a smooth approach still waits for
+            its contour.
+    """
+    waiting = channel.path.find(SmoothApproach)
+    if waiting is not None and waiting.active:
+        raise AlarmError("10746")
     _settle_corner(channel, "STOPRE $A POS")
     channel.flush()
 

@@ -9,6 +9,7 @@ from polycnc.control.sinumerik.block.positions import Dimension, number
 from polycnc.control.sinumerik.couplings.links import Couplings, bare
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tools import stages
+from polycnc.control.sinumerik.tools.smooth_stage import APPROACHES, RETRACTIONS
 from polycnc.control.sinumerik.transformations import data_sets, seat
 from polycnc.control.sinumerik.transformations.orientation import is_point_to_point
 from polycnc.control.sinumerik.transformations.posture import Orienting, Posture
@@ -50,8 +51,8 @@ def plan(draft: Draft) -> None:
     """Take STAT and TU; a straight block under PTP goes with the axes.
 
     Raises:
-        AlarmError: 14140 for STAT and TU without a transformation, 14144 for PTP under radius compensation, for arcs
-            and for positioning axes of the transformation.
+        AlarmError: 14140 for STAT and TU without a transformation, 14144 for PTP under radius compensation, for arcs,
+            smooth approach and retraction, and for positioning axes of the transformation.
     """
     words = [(address, draft.take(address)) for address in ("STAT", "TU")]
     given = [(address, place) for address, place in words if place is not None]
@@ -61,7 +62,8 @@ def plan(draft: Draft) -> None:
         draft.steps.append(_noted(dict(given)))
     if not draft.mode[seat.GROUP]:
         return
-    if draft.mode["point_to_point"] == "PTP" and draft.mode["compensation"] != "G40":
+    is_smooth = draft.codes.get("block_motion") in (*APPROACHES, *RETRACTIONS)
+    if draft.mode["point_to_point"] == "PTP" and (is_smooth or draft.mode["compensation"] != "G40"):
         raise AlarmError("14144")
     moves = draft.lead is not None or bool(draft.axis_terms())
     if draft.mode["point_to_point"] == "PTP" and moves and draft.mode["motion"] not in ("G0", "G1"):
@@ -116,6 +118,7 @@ def go(channel: SinumerikChannel, kind: Kind, end: list[float], feed: float) -> 
     channel.context_changed()
     try:
         channel.straight(kind, machine, feed)
+        channel.flush()  # no chamfer or rounding leads from here to a block that goes by the tip (6.9.1)
     finally:
         coordinates.transformation, coordinates.geometry = transformation, geometry
         state.shown_by = None
