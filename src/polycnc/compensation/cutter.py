@@ -367,9 +367,8 @@ class CutterCompensation(Stage):
         rule, programmed = lead.policy.approach, lead.move.origin == PROGRAMMED  # a smooth approach is none
         straight = programmed and lead.edge.center is None and met.edge.length > NO_WAY
         if (starts or leaves) and rule in BENDS and straight:
-            from polycnc.compensation.bent_leads import contact  # for those that ask for it
-
-            lead.contact = contact(met, self.plane, at_start=starts, curved=rule is Approach.CURVED)
+            column = self.plane.columns[self.plane.w]
+            lead.contact = met.contact_at(column, at_start=starts, curved=rule is Approach.CURVED)
 
     def _leave_out_arcs(self, following: Step) -> None:
         """Inner arcs too small for the tool go where the blocks in front of them and behind them meet."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import copysign, hypot, inf
+from math import ceil, copysign, hypot, inf, sqrt
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves import origins
@@ -20,7 +20,11 @@ if TYPE_CHECKING:
     from polycnc.compensation.plane import Plane
     from polycnc.compensation.step import Contact, Step
     from polycnc.geometry.arcs import Point
+    from polycnc.geometry.frames import Vector
     from polycnc.geometry.offset import Corner
+
+#: Chords of a lead that meets the contour on a polynomial keep within this of it.
+CHORD_TOLERANCE_MM = 0.001
 
 
 class RowWriter:
@@ -118,8 +122,6 @@ class RowWriter:
 
     def _bend(self, row: Move, contact: Contact, *, leaves: bool) -> None:
         """The row as chords of the polynomial that meets the contour where the row ends or, as it `leaves`, begins."""
-        from polycnc.compensation.bent_leads import course  # for those that ask for it
-
         plane, u, v = self.plane, row.start, row.end
         in_order = (plane.u, plane.v, plane.w)
         (a, b, c), (d, e, f) = (
@@ -167,3 +169,38 @@ def _straight(move: Move, start: list[float], end: list[float]) -> Move:
     """A straight row between two positions, otherwise as a move."""
     kind = Kind.RAPID if move.kind is Kind.RAPID else Kind.FEED
     return replace(move, kind=kind, start=start, end=end, center=None, turns=0.0, parameters=(), turning=None)
+
+
+def course(free: Vector, touching: Vector, at: Contact) -> list[tuple[float, Vector]]:
+    """Points of a lead from the contour to its free point (KONTT, KONTC), with their shares `s`, but for the first.
+
+    With `s` from 0 at the contour to 1 at the free point they lie on `c + L·t·s + L²/2·k·s² + r·sⁿ`: `t` is the tangent
+    of the tool's path, `k` its curvature vector (KONTT leaves the term out, and n is 2 for 3), `L` the distance of both
+    ends, and `r` what is left to the free point, where nothing is asked of the direction.
+
+    Args:
+        free: Where nothing is asked of the curve, in the plane's order, mm.
+        touching: Where it meets the path beside the contour, mm.
+        at: How it meets that.
+    """
+    way = [b - a for a, b in zip(touching, free, strict=True)]
+    size = hypot(*way)
+    first = [size * each for each in at.outwards]
+    second = [0.5 * size * size * each for each in at.curvature or (0.0, 0.0, 0.0)]
+    rest = [a - b - c for a, b, c in zip(way, first, second, strict=True)]
+    highest = 2 if at.curvature is None else 3
+    # The second derivative is linear, so it is greatest at an end.
+    greatest = max(
+        hypot(*(2.0 * b + (2.0 if highest == 2 else 6.0 * s) * c for b, c in zip(second, rest, strict=True)))
+        for s in (0.0, 1.0)
+    )
+    count = max(ceil(sqrt(greatest / (8.0 * CHORD_TOLERANCE_MM))), 1)
+
+    def place(s: float) -> Vector:
+        x, y, z = (
+            a + b * s + c * s * s + d * s**highest
+            for a, b, c, d in zip(touching, first, second, rest, strict=True)
+        )
+        return x, y, z
+
+    return [(k / count, place(k / count)) for k in range(1, count)] + [(1.0, free)]

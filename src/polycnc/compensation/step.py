@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import field
 from enum import Enum
 from itertools import pairwise
+from math import hypot
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.deferred.records import dataclass
@@ -145,6 +146,37 @@ class Step:
         one, two = (arcs.plus(self.edge.end, self.corner.vectors[k]) for k in (0, -1))
         row = _row(one, two, self.edge.end, self.distance < 0.0)
         return None if row.center is None else row
+
+    def contact_at(self, column: int, *, at_start: bool, curved: bool) -> Contact:
+        """How the tool's path goes on at an end of a block of the contour, for a lead that meets it on a polynomial.
+
+        Args:
+            column: Of the axis square on the plane; -1 for none.
+            at_start: An approach leads to its start, a retraction from its end.
+            curved: The curvature counts as well.
+        """
+        edge, scale = self.edge, self._parallel_by_contour
+        u, v = edge.departing if at_start else edge.arriving
+        climb = self.move.end[column] - self.move.start[column] if column >= 0 else 0.0
+        rise = climb / (edge.length * scale) if scale > 0.0 else 0.0
+        level = 1.0 / hypot(1.0, rise)
+        sense = -level if at_start else level
+        outwards = (sense * u, sense * v, sense * rise)
+        if not curved or edge.center is None or scale <= 0.0:
+            return Contact(outwards, (0.0, 0.0, 0.0) if curved else None)
+        du, dv = arcs.minus(edge.center, edge.start if at_start else edge.end)
+        strength = level * level / ((du * du + dv * dv) * scale)
+        return Contact(outwards, (du * strength, dv * strength, 0.0))
+
+    @property
+    def _parallel_by_contour(self) -> float:
+        """Radius of the tool's arc by that of the contour's; 1 for a line, 0 for an arc that becomes a point."""
+        edge = self.edge
+        if edge.center is None or self.suspended:
+            return 1.0
+        radius = arcs.radius_of(edge.center, edge.start)
+        led = offset.offset_radius(radius, self.distance, edge.ccw)
+        return led / radius if led > NO_WAY else 0.0
 
     def way(self) -> list[Edge]:
         """The lines and arcs of the tool from the start of the step to the last of its vectors."""

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from polycnc.transformation.contract import Geometry, Transformation
+    from polycnc.transformation.couplings.coupled import Coupled
     from polycnc.transformation.numbers import N
     from polycnc.transformation.pole import Pole
 
@@ -42,8 +43,8 @@ class Seated:
     frame: Frame = IDENTITY
     shifts: tuple[float, ...] = ()
     offsets: tuple[float, ...] = ()
-    led: Transformation | None = None
-    driven: Transformation | None = None
+    led: Coupled | None = None
+    driven: Coupled | None = None
 
     @property
     def geometry(self) -> Geometry:
@@ -100,6 +101,26 @@ class Seated:
     def solutions(self, work: Sequence[float]) -> list[list[float]]:
         """All positions of the machine's axes at a point."""
         return [self._drive(_added(found, self.offsets)) for found in self.inner.solutions(self.basic(work))]
+
+    @property
+    def is_coupled(self) -> bool:
+        """Whether axes follow others."""
+        return self.led is not None or self.driven is not None
+
+    def carried(self, axes: Sequence[float], column: int, way: float) -> list[float]:
+        """Where the machine's axes are when one of them is moved by a way, and takes along those that follow it."""
+        own = list(axes) if self.driven is None else self.driven.to_work(axes)
+        moved = own.copy()
+        moved[column] += way
+        if self.led is not None:
+            before, after = (
+                self.led.to_work(self.inner.to_work(_taken(each, self.offsets))) for each in (own, moved)
+            )
+            for each in self.led.following:
+                if each.column != column:
+                    after[each.column] = before[each.column]
+            moved = _added(self.inner.to_machine(self.led.to_machine(after)), self.offsets)
+        return self._drive(moved)
 
     def _shifted(self, work: Sequence[N]) -> list[N]:
         """The point of the basic system without what others lead."""

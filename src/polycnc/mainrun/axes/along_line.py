@@ -1,4 +1,4 @@
-"""Linear axes by hand that go together along a line: an axis of the work, or of the tool.
+"""Axes by hand that go together along a line: an axis of the work, or of the tool, or with one that they follow.
 
 With frames that turn, or behind a transformation, such a line is none of the machine's axes (SINUMERIK job planning
 6.2.7: geometry axes in the work or the tool coordinate system). One axis leads and the others follow in proportion.

@@ -14,6 +14,7 @@ from polycnc.mainrun.axes.hand import ENDLESS
 from polycnc.mainrun.commands.states import PROGRAM_MODES, Command
 from polycnc.mainrun.errors import CommandRefused
 from polycnc.messages.catalogue import listed
+from polycnc.transformation.seated import Seated
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -206,22 +207,22 @@ class HandCommands:
         return next((each for each in (IN_TOOL_SYSTEM, IN_WORK_SYSTEM) if self._signals[each]), "")
 
     def _line(self, run: ChannelRun, axis: int, here: list[float]) -> AlongLine | None:
-        """What leads the axes along an axis of the work or the tool; None where the axis goes by itself."""
+        """What leads axes along an axis of the work or the tool, or with one that they follow; None for one alone."""
         system, geometry = self._system, run.display.geometry
-        if not system or axis not in geometry:
+        in_system = bool(system) and axis in geometry
+        followed = [] if in_system else _with_followers(run, here, axis)
+        if not in_system and not followed:
             return None
         led = run.axes.led
         if any(each.hand.moves for each in run.axes):
             if isinstance(led, AlongLine) and led.turns and led.column == axis:
                 return led
             raise CommandRefused("mainrun.moving")
-        direction: Vector = (
-            float(axis == geometry[0]),
-            float(axis == geometry[1]),
-            float(axis == geometry[2]),
-        )
-        find = _along_tool if system == IN_TOOL_SYSTEM else _along_work
-        line = AlongLine(tuple(run.axes), _with_partners(run, find(run, here, direction)), here, axis)
+        if in_system:
+            x, y, z = (float(axis == each) for each in geometry)
+            find = _along_tool if system == IN_TOOL_SYSTEM else _along_work
+            followed = _with_partners(run, find(run, here, (x, y, z)))
+        line = AlongLine(tuple(run.axes), followed, here, axis)
         words = [word for i in line.moved for word in _move_words(run, i)]
         self._permission.ask_machine(*dict.fromkeys(words))
         line.lead(self._clock.time)
@@ -317,6 +318,23 @@ def _with_partners(run: ChannelRun, ways: list[float]) -> list[float]:
             for other in run.channel.control.moved_together(run.channel, column):
                 ways[other] = way
     return ways
+
+
+def _with_followers(run: ChannelRun, here: Sequence[float], axis: int) -> list[float]:
+    """How far each axis goes for a millimetre of one that leads others; empty where none but its partners goes with it.
+
+    Refused where they do not go evenly: curve tables lead no axis by hand.
+    """
+    seated = run.execution.context.transformation
+    if not isinstance(seated, Seated) or not seated.is_coupled:
+        return []
+    ways, there = (
+        [b - a for a, b in zip(here, seated.carried(here, axis, way), strict=True)] for way in (1.0, TRIAL_MM)
+    )
+    if any(abs(far - TRIAL_MM * way) > STRAIGHT_MM for way, far in zip(ways, there, strict=True)):
+        raise CommandRefused("mainrun.no-line")
+    moved = {column for column, way in enumerate(ways) if abs(way) > NO_WAY}
+    return ways if moved - set(run.channel.control.moved_together(run.channel, axis)) else []
 
 
 def _hands(run: ChannelRun, axis: int) -> list[tuple[int, Hand]]:

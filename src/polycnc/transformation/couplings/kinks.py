@@ -88,4 +88,4 @@ def _couplings(transformation: Transformation | None) -> list[tuple[Coupled, Pla
     if not isinstance(transformation, Seated):
         return []
     sides = ((transformation.led, transformation.basic), (transformation.driven, transformation.to_machine))
-    return [(coupled, placed) for coupled, placed in sides if isinstance(coupled, Coupled)]
+    return [(coupled, placed) for coupled, placed in sides if coupled is not None]

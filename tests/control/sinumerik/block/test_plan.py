@@ -41,7 +41,7 @@ def test_words_act_before_the_motion_and_stops_after_it() -> None:
         ("TCARR=1", "14150"),
         ("SCPARA[X]=7", "12560"),
         ("DL=7", "12560"),
-        ("G4 X3", "PC0001"),
+        ("G4 X3", "12080"),
         ("G111 AP=30", "14270"),
         ("G111 AP=30 RP=-2", "14250"),
         ("G0 AP=400 RP=5", "14210"),

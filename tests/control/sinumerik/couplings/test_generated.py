@@ -20,12 +20,22 @@ def test_an_axis_waits_until_its_place_comes_to_it() -> None:
     assert [result.variables[f"R{n}"] for n in (1, 2, 3)] == pytest.approx([10.0, 15.0, 2.0])
 
 
+def test_actions_lead_an_axis_by_what_is_written_and_let_it_go() -> None:
+    result = run(
+        *TABLE, "WHEN TRUE DO LEADON(V,X,1,1)", "$AA_LEAD_SP[X]=30", "G4 F1", "R1=$AA_IM[V] R2=$AA_COUP_ACT[V]",
+        "WHEN TRUE DO LEADOF(V,X)", "G4 F0.1", "$AA_LEAD_SP[X]=90", "G4 F1", "R3=$AA_IM[V]", "G1 V7 F600",
+        "R4=$AA_IM[V]", machine=MACHINE,
+    )  # fmt: skip
+    assert codes(result) == []
+    assert [result.variables[f"R{n}"] for n in range(1, 5)] == pytest.approx([15.0, 16.0, 15.0, 7.0])
+
+
 @pytest.mark.parametrize(
     ("code", "lines"),
     [
         ("PC0001", (ON, "G1 V5 F100")),
         ("16797", ("CTABDEF(V,X,2,0)", "G1 X0 V0 F1", "X9 V9", "CTABEND", ON, "LEADON(V,X,2)")),
-        ("PC0001", ("WHEN TRUE DO LEADON(V,X,1)", "G4 F1")),
+        ("PC0001", ("WHEN TRUE DO LEADON(V,X,1)", "G4 F1", "G1 V5 F100")),
         ("10940", (ON, "CTABDEF(V,X,1,0)")),
     ],
 )

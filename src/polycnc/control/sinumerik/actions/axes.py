@@ -127,10 +127,11 @@ def at_end(channel: SinumerikChannel, column: int, place: float) -> AlarmError |
 
 
 def speed_of(channel: SinumerikChannel, column: int) -> float:
-    """Speed of a commanded axis: FDA of the block, FA, else MD32060."""
+    """Speed of a commanded axis: FDA of the block, FA, else MD32060, by OVRA."""
     feeds = PathFeed.of(channel)
     own = feeds.of_block.get(column) or ActionAxes.of(channel).speeds.get(column) or feeds.of_axes.get(column)
-    return own or channel.memory.data.number("$MA_POS_AX_VELO", channel.axes[column]) / tables.MINUTE
+    own = own or channel.memory.data.number("$MA_POS_AX_VELO", channel.axes[column]) / tables.MINUTE
+    return own * feeds.overrides.get(column, 1.0)
 
 
 def may_be_away(channel: SinumerikChannel, columns: Iterable[int]) -> bool:

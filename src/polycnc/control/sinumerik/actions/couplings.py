@@ -15,6 +15,7 @@ from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.actions import axes as action_axes
 from polycnc.control.sinumerik.actions.axes import ActionAxes
 from polycnc.control.sinumerik.block import arguments
+from polycnc.control.sinumerik.couplings import generated
 from polycnc.control.sinumerik.couplings.links import Couplings
 from polycnc.control.sinumerik.curve_tables.memory import CurveTables, table_of
 from polycnc.control.sinumerik.errors import not_supported
@@ -48,8 +49,6 @@ def _pair(run: Running, name: str, args: Arguments, least: int, most: int) -> tu
     following, leading = (arguments.column(run.channel, axis) for axis in args[:2])
     if following == leading:
         raise AlarmError("16785", axis=run.channel.axes[following])
-    if name == "LEADON" and run.channel.memory.data.integer("$SA_LEAD_TYPE", run.channel.axes[leading]) == 2:
-        raise not_supported("DO LEADON: $SA_LEAD_TYPE=2")
     if Couplings.of(run.channel).links:
         raise not_supported(f"DO {name}: TRAILON LEADON EGON")
     return following, leading
@@ -224,12 +223,29 @@ def lead(run: Running, args: Arguments) -> None:
     following, leading = _pair(run, "LEADON", args, 3, 4)
     table = table_of(run.channel, arguments.whole(args[2]))
     overwrites = len(args) > 3 and args[3] is not None and bool(arguments.whole(args[3]))
+    if generated.is_generated(run.channel, leading):
+        _lead_by_value(run, following, leading, table, overwrites=overwrites)
+        return
     axes = LedAxes.of(run.channel)
     led = axes.led.get(following)
     if led is not None and (not overwrites or (led.leading == leading and led.table is table)):
         return
     axes.guard(run, following)  # and the end of the program lets go of the table
     axes.begin(following, leading, table, at_once=overwrites)
+    run.changed = True
+
+
+def _lead_by_value(
+    run: Running, following: int, leading: int, table: CurveTable, *, overwrites: bool
+) -> None:
+    """LEADON of an axis whose master value programs and actions write (`$SA_LEAD_TYPE` 2)."""
+    follower = generated.MasterValues.of(run.channel).led.get(following)
+    same = follower is not None and (follower.leading, follower.table) == (leading, table)
+    if same or (follower is not None and not overwrites):
+        return
+    generated.lead_now(run.channel, following, leading, table, at_once=overwrites)
+    ActionAxes.of(run.channel).states[following] = action_axes.COMMANDED
+    in_force.refresh(run.channel)
     run.changed = True
 
 
@@ -242,6 +258,11 @@ def _end(kind: type, name: str) -> Callable[[Running, Arguments], None]:
         following, *leading = (arguments.column(run.channel, axis) for axis in args if axis is not None)
         axes = LedAxes.of(run.channel)
         led = axes.led.get(following)
+        follower = generated.MasterValues.of(run.channel).led.get(following)
+        if kind is ByCurve and follower is not None and (not leading or follower.leading in leading):
+            generated.leave_now(run.channel, following)
+            run.changed = True
+            return
         if kind is ByCurve and led is not None and (not leading or led.leading in leading):
             axes.let_go(following)
         laws = run.clocked.led_by(following)

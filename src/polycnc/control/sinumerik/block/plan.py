@@ -174,7 +174,8 @@ def _check_open_words(draft: Draft) -> None:
             continue
         seat.check_named(draft.channel, word.address)
         beside_m = any(each.address == "M" for each in draft.block.words)
-        raise words.misplaced(word, position, beside_m=beside_m)
+        is_axis = word.address in draft.channel.memory.columns
+        raise words.misplaced(word, position, beside_m=beside_m, is_axis=is_axis)
 
 
 def _has_function(codes: dict[str, str]) -> bool:

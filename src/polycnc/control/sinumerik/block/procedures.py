@@ -69,9 +69,20 @@ MOST_ARGUMENTS = {
 }
 
 
+#: Procedures that stand behind DO alone (job planning 10.4).
+OF_ACTIONS = frozenset(("RDISABLE", "STOPREOF", "DELDTG", "LOCK", "UNLOCK", "RESET", "FTOC", "SYNFCT"))
+
+
 def run(channel: SinumerikChannel, name: str, args: Arguments) -> None:
-    """Run a procedure; PC0001 for one that is not executed, 14020 for more arguments than it takes."""
+    """Run a procedure.
+
+    Raises:
+        AlarmError: PC0001 for one that is not executed, 12080 for one of actions alone, 14020 for more arguments than
+            it takes.
+    """
     procedure = PROCEDURES.get(name)
+    if name in OF_ACTIONS:
+        raise AlarmError("12080", text=name, hint="hint.of-actions")
     if procedure is None:
         raise not_supported(name)
     if len(args) > MOST_ARGUMENTS.get(name, len(args)):

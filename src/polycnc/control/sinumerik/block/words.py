@@ -384,7 +384,9 @@ def rounding_distance(draft: Draft, position: int, shape: WordShape) -> Step:
 
 
 #: Per cent of VELOLIM and JERKLIM (job planning 8.7).
-LIMITS_OF_PERCENT = {"VELOLIM": (1.0, 100.0), "JERKLIM": (1.0, 200.0)}
+LIMITS_OF_PERCENT = {
+    "VELOLIM": (1.0, 100.0), "JERKLIM": (1.0, 200.0), "VELOLIMA": (1.0, 100.0), "JERKLIMA": (1.0, 200.0)
+}  # fmt: skip
 #: Per cent of the path as a whole.
 OF_PATH = frozenset(("OVR", "OVRRAP"))
 
@@ -405,9 +407,20 @@ def percentage(_draft: Draft, position: int, shape: WordShape) -> Step:
         if not (least <= value <= most and value > 0.0):
             raise WordAlarm("12560", position, text=shape.address)
         Overrides.of(channel).percent[shape.address, name] = value
+        if shape.address == "OVRA" and isinstance(shape.index, Axis):
+            _override(channel, shape.index, value / 100.0)
         channel.context_changed()
 
     return run
+
+
+def _override(channel: SinumerikChannel, index: Axis, factor: float) -> None:
+    """OVRA: of a spindle, or of an axis where it is positioned."""
+    spindle = named_spindle(index)
+    if spindle is not None:
+        channel.memory.spindles.get(spindle).override = factor
+    else:
+        PathFeed.of(channel).overrides[channel.memory.column(index.name)] = factor
 
 
 def cutting_rate(draft: Draft, position: int, _shape: WordShape) -> Step:
@@ -552,11 +565,11 @@ def make(draft: Draft, position: int, shape: WordShape) -> Step:
     return asking(step, (word,), plc_of(draft.channel)) if word is not None else step
 
 
-def misplaced(shape: WordShape, position: int, *, beside_m: bool) -> AlarmError:
+def misplaced(shape: WordShape, position: int, *, beside_m: bool, is_axis: bool) -> AlarmError:
     """The alarm for a word that nothing in its block takes; `beside_m`: an M function stands there."""
     if shape.address == PASSES:
         hint = "hint.words-of-m" if beside_m else ""
         return WordAlarm("12080", position, text=shape.address, hint=hint)
-    if shape.address in COMPANIONS:
+    if shape.address in COMPANIONS or is_axis:
         return WordAlarm("12080", position, text=shape.address)
     return not_supported(shape.address)

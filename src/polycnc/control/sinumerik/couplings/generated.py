@@ -76,14 +76,34 @@ def lead(channel: SinumerikChannel, following: int, leading: int, table: CurveTa
     """LEADON: an axis follows a generated value from here on."""
     channel.on_clock()
     action_axes.expect(channel, (following,))
-    ActionAxes.of(channel).geared.add(following)
-    CurveTables.of(channel).use(table.number)
-    MasterValues.of(channel).led[following] = Follower(leading, table)
+    _take(channel, following, Follower(leading, table))
 
     def begin() -> None:
         _send(channel, following)
 
     channel.event(Deed("LEADON", None, begin, is_silent=False))
+
+
+def lead_now(
+    channel: SinumerikChannel, following: int, leading: int, table: CurveTable, *, at_once: bool
+) -> None:
+    """LEADON of an action: from this moment on, without a wait for its place where it is to go there `at_once`."""
+    if following in MasterValues.of(channel).led:
+        let_go(channel, following)
+    _take(channel, following, Follower(leading, table, follows=at_once))
+    _send(channel, following)
+
+
+def leave_now(channel: SinumerikChannel, following: int) -> None:
+    """LEADOF of an action: the axis brakes."""
+    let_go(channel, following)
+    channel.on_clock().commanded(following).stop()
+
+
+def _take(channel: SinumerikChannel, following: int, follower: Follower) -> None:
+    ActionAxes.of(channel).geared.add(following)
+    CurveTables.of(channel).use(follower.table.number)
+    MasterValues.of(channel).led[following] = follower
 
 
 def leave(channel: SinumerikChannel, following: int) -> None:

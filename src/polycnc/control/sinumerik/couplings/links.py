@@ -155,7 +155,7 @@ def beside(channel: SinumerikChannel, made: Seated) -> Seated:
 def take_seat(channel: SinumerikChannel, made: Seated | None) -> Seated | None:
     """The couplings that act from now on; gives the same object as before where nothing has changed."""
     state = Couplings.of(channel)
-    if made is not None and made.led is None and made.driven is None:
+    if made is not None and not made.is_coupled:
         made = None
     if made != state.seated:
         state.seated, state.shown_by = made, None

@@ -13,6 +13,7 @@ from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik import gcodes, tables
 from polycnc.control.sinumerik.actions.overlay import left_to_path
 from polycnc.control.sinumerik.couplings.gears import Gears
+from polycnc.control.sinumerik.couplings.links import Couplings
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.tables import MINUTE
 from polycnc.deferred.records import dataclass
@@ -50,7 +51,7 @@ class Overrides(State, lifetime=Lifetime.RESET):
 def pace(channel: SinumerikChannel, side: int) -> Pace | None:
     """The pace that holds now; `side` is that of the radius compensation. None where F says everything."""
     overrides = Overrides.of(channel)
-    left, left_pull = left_to_path(channel)
+    left, left_pull = _left_to_following(channel, *left_to_path(channel))
     own = Pace(
         feed=overrides.percent.get(("OVR", ""), 100.0) / 100.0 * _revolutions(channel),
         rapid=overrides.percent.get(("OVRRAP", ""), 100.0) / 100.0,
@@ -67,6 +68,22 @@ def pace(channel: SinumerikChannel, side: int) -> Pace | None:
         left_pull=left_pull,
     )
     return own if own != NOTHING else None
+
+
+def _left_to_following(
+    channel: SinumerikChannel, left: tuple[float, ...], pull: tuple[float, ...]
+) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """What is left of real axes, with VELOLIMA and ACCLIMA of those that follow others."""
+    following, count = Couplings.of(channel).links, len(channel.axes)
+    speeds, pulls = (_factors(channel, address) if following else () for address in ("VELOLIMA", "ACCLIMA"))
+    if not speeds and not pulls:
+        return left, pull
+    top, own = list(left or (inf,) * count), list(pull or (1.0,) * count)
+    for column in following:
+        if speeds and channel.axis_data[column].rapid:
+            top[column] = min(top[column], channel.axis_data[column].rapid * speeds[column])
+        own[column] *= pulls[column] if pulls else 1.0
+    return tuple(top), tuple(own)
 
 
 def _revolutions(channel: SinumerikChannel) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import field
 from math import nan
 from typing import NamedTuple
 
@@ -29,6 +30,7 @@ class PathFeed(State, lifetime=Lifetime.RESET):
         of_corners: FRCM in internal units, NaN for the path feed.
         of_axes: Feeds of positioning axes (FA), mm/s or degrees/s, by column.
         of_block: The same for the running block alone (FDA).
+        overrides: OVRA of positioning axes, 1 for 100 %, by column.
     """
 
     mode: FeedMode = FeedMode.PER_MINUTE
@@ -38,3 +40,4 @@ class PathFeed(State, lifetime=Lifetime.RESET):
     of_corners: float = lasting(Lifetime.POWER, nan)
     of_axes: dict[int, float] = lasting(Lifetime.POWER, factory=dict)
     of_block: dict[int, float] = lasting(Lifetime.BLOCK, factory=dict)
+    overrides: dict[int, float] = field(default_factory=dict)

@@ -91,9 +91,9 @@ def highest(memory: Memory, spindle: Spindle, feed: str) -> float:
 
 
 def turning_speed(memory: Memory, spindle: Spindle, feed: str) -> float:
-    """What a spindle turns with: its programmed speed within the limits; 0 stays 0."""
-    lowest = memory.data.number(LOWEST, f"S{spindle.number}")
-    return min(max(spindle.speed, lowest), highest(memory, spindle, feed)) if spindle.speed > 0.0 else 0.0
+    """What a spindle turns with: its programmed speed by OVRA, within the limits; 0 stays 0."""
+    lowest, speed = memory.data.number(LOWEST, f"S{spindle.number}"), spindle.speed * spindle.override
+    return min(max(speed, lowest), highest(memory, spindle, feed)) if speed > 0.0 else 0.0
 
 
 def is_in_force(channel: SinumerikChannel, surface_speed: bool, code: str) -> bool:

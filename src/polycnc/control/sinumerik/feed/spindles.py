@@ -34,6 +34,7 @@ class Spindle:
         positioning: Speed of positioning that FA has told, degrees/s; 0 for that of the machine data.
         most: While it leads axes (EGON), which follow what it turns by M3 and M4: the highest speed, rpm, at which they
             can; infinite while it leads none.
+        override: OVRA, 1 for 100 %.
         has_wheel_speed: S is the speed of the grinding wheel's circumference, m/s (GWPSON).
     """
 
@@ -45,6 +46,7 @@ class Spindle:
     controlled: bool = False
     positioning: float = 0.0
     has_wheel_speed: bool = False
+    override: float = 1.0
     most: float = inf
 
     def refuse_leading(self, code: str) -> None:
@@ -80,6 +82,8 @@ class Spindles(State, lifetime=Lifetime.POWER):
         """A reset stops the spindles, but for those that MD35040 keeps turning."""
         super().end(channel, lifetime)
         if lifetime is Lifetime.RESET:
+            for spindle in self.all.values():
+                spindle.override = 1.0
             data = MachineData.of(channel)
             self.stop(kept=[n for n in self.all if data.integer("$MA_SPIND_ACTIVE_AFTER_RESET", f"S{n}")])
 

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from polycnc.compensation.bent_leads import CHORD_TOLERANCE_MM, course
 from polycnc.compensation.policy import BENDS, Approach
+from polycnc.compensation.rows import CHORD_TOLERANCE_MM, course
 from polycnc.compensation.step import Contact
 from polycnc.toolpath import Kind
 from tests.compensation import policies
