@@ -9,7 +9,7 @@ from polycnc.compensation.policy import Approach, Policy
 from polycnc.control.fanuc.acceleration import accelerated
 from polycnc.control.fanuc.alarm_codes import ALARMS
 from polycnc.control.fanuc.code_calls import registered_codes
-from polycnc.control.fanuc.milling import five_axes, leading_edge, standing_system
+from polycnc.control.fanuc.milling import five_axes, leading_edge, leaning, standing_system
 from polycnc.control.fanuc.milling.codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
 from polycnc.control.fanuc.milling.cycles import MILLING_DRILLING
 from polycnc.control.fanuc.milling.parameters import FanucMillingParameters
@@ -65,6 +65,7 @@ class FanucMilling(MillingControl):
         five_axes.RULE,
         leading_edge.RULE,
         standing_system.RULE,
+        leaning.RULE,
         *MillingControl.rules,
         look_ahead.TRAVEL_RULE,
         interruption.RULE,

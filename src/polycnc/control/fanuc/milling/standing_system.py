@@ -12,6 +12,7 @@ from dataclasses import replace
 from math import nan
 from typing import TYPE_CHECKING
 
+from polycnc.control.fanuc.milling import leaning
 from polycnc.control.fanuc.milling.five_axes import not_yet
 from polycnc.control.fanuc.milling.parameters import FanucMillingParameters
 from polycnc.control.word_address.block.rules import Rule
@@ -47,6 +48,7 @@ def start_following(channel: WordAddressChannel, words: Words) -> None:
     if stands and (OnTable.of(channel).acts or words.axes()):
         raise not_yet("G43.4: 19696#5")
     tool_center_point.start_following(channel, words)
+    leaning.begin(channel, words)
     channel.mode = channel.mode.with_code(SYSTEM, "work" if stands else "")
     channel.context_changed()
 
@@ -54,6 +56,7 @@ def start_following(channel: WordAddressChannel, words: Words) -> None:
 def end_following(channel: WordAddressChannel) -> None:
     """G49 or another length code: the axes are named themselves again; nothing moves."""
     tool_center_point.end_following(channel)
+    leaning.end(channel)
     channel.mode = channel.mode.with_code(SYSTEM, "")
 
 
