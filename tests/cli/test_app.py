@@ -208,3 +208,37 @@ def test_a_mistake_of_polycnc_is_one_line_and_no_alarm(
     monkeypatch.setenv("POLYCNC_TRACEBACK", "1")
     with pytest.raises(ZeroDivisionError):
         console("run", "a.nc")
+
+
+LEAVING = """
+import atexit, sys, threading
+sys.argv[1:] = {words!r}
+threading.Thread(target=lambda: (threading.main_thread().join(), print("thread"))).start()
+from polycnc.cli import app, main
+before = app.main
+def late(words):
+    atexit.register(print, "function")
+    before(words)
+app.main = late
+main()
+"""
+
+
+@pytest.mark.parametrize(("words", "status"), [(["--version"], 0), ([], 2)])
+def test_a_process_ends_with_its_status_behind_threads_and_what_waits_for_its_end(
+    tmp_path: Path, words: list[str], status: int
+) -> None:
+    command = [sys.executable, "-c", LEAVING.format(words=words)]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=30, check=False)
+    assert done.returncode == status
+    assert done.stdout.splitlines()[-2:] == ["thread", "function"]
+    assert done.stderr == ""
+
+
+def test_a_mistake_that_shows_its_way_ends_the_process_as_python_does(tmp_path: Path) -> None:
+    code = "from polycnc.cli import app, main\ndef fails(words): raise ValueError('here')\napp.main = fails\nmain()"
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, timeout=30, check=False
+    )
+    assert done.returncode == 1
+    assert done.stderr.splitlines()[-1] == "ValueError: here"

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import atexit
 import gc
+import os
+import sys
 from typing import TYPE_CHECKING, NoReturn
 
 if TYPE_CHECKING:
@@ -18,17 +20,45 @@ __all__ = ["main"]
 #: Behind so many new objects Python looks for circles of them. What is loaded and compiled stays to the end, so that
 #: it would find nothing, many times before the first block.
 _NEW_OBJECTS = 200_000
+#: How many threads NumPy starts to multiply matrices with. No command does that, and each takes its time to wait.
+_MATRIX_THREADS = "OPENBLAS_NUM_THREADS"
 
 
 def main(arguments: Sequence[str] | None = None) -> NoReturn:
-    """Run the command line and leave the process with its exit status (`polycnc.cli.app.main`).
+    """Run the command line and leave with its exit status (`polycnc.cli.app.main`).
 
-    Whoever interrupts it while its parts are still being loaded gets the same answer as later.
+    Without arguments of its own it is that of the process, which ends with it. Whoever interrupts it while its parts
+    are still being loaded gets the same answer as later.
     """
     gc.set_threshold(_NEW_OBJECTS)
-    atexit.register(gc.freeze)  # what is left goes with the process
+    leaving = _Leaving()
+    if arguments is None:
+        os.environ.setdefault(_MATRIX_THREADS, "1")
+        atexit.register(leaving.end)  # as the first, so that it is called last
     try:
         from polycnc.cli.app import main as run
+
+        run(arguments)
     except KeyboardInterrupt:
-        raise SystemExit(130) from None
-    run(arguments)
+        leaving.status = 130
+    except SystemExit as left:
+        if isinstance(left.code, int):
+            leaving.status = left.code
+        raise
+    raise SystemExit(leaving.status)
+
+
+class _Leaving:
+    """Ends the process when everything has been closed: to free its objects one by one would take a tenth of a run."""
+
+    status: int | None = None
+
+    def end(self) -> None:
+        """Leave all memory to the system, unless something has gone wrong that Python has to tell."""
+        try:
+            sys.stdout.flush()
+            sys.stderr.flush()
+        except (OSError, ValueError):
+            return
+        if self.status is not None:
+            os._exit(self.status)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from typing import TYPE_CHECKING
 
 from polycnc.messages import text
@@ -27,6 +26,8 @@ def lines_of(diagnostic: Diagnostic) -> list[str]:
 
 def as_json(found: Sequence[Diagnostic]) -> str:
     """A list of objects with `file`, `line`, `column`, `code`, `message` and what else a finding has."""
+    import json
+
     entries = [
         {
             "file": d.place.file,

@@ -43,6 +43,7 @@ def _dataclass(cls: type, *, frozen: bool, slots: bool, eq: bool) -> type:
         _add(cls, "__getstate__", _state)
         _add(cls, "__setstate__", _put_state)
     is_hashed = cls.__dict__.get("__hash__") is not None
+    cls.__doc__ = cls.__doc__ or cls.__name__  # else the library would write down its signature
     cls = dataclasses.dataclass(init=False, repr=False, eq=False, slots=slots)(cls)
     if slots:
         _lead_super(cls)

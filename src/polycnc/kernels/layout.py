@@ -9,7 +9,7 @@ import ctypes
 import inspect
 from collections.abc import MutableSequence
 from enum import Enum, auto
-from functools import partial
+from functools import cache, partial
 from typing import TYPE_CHECKING, Annotated, NamedTuple, TypeVar, cast, get_args, get_type_hints
 
 if TYPE_CHECKING:
@@ -131,13 +131,19 @@ def _argument(hint: object) -> Argument:
     if isinstance(hint, type) and issubclass(hint, ctypes.Structure):
         return Argument(Kind.RECORD, type=hint)
     if isinstance(hint, type) and issubclass(hint, tuple):
-        parts = get_type_hints(hint, include_extras=True).values()
-        return Argument(Kind.GROUP, type=hint, parts=tuple(_argument(part) for part in parts))
+        return _group(hint)
     code = get_args(hint)[-1] if get_args(hint) else None
     if not isinstance(code, str):
         msg = f"a kernel cannot take {hint}"
         raise TypeError(msg)
     return Argument(Kind.ARRAY, code=code)
+
+
+@cache
+def _group(hint: type) -> Argument:
+    """A named tuple; many kernels take the same one."""
+    parts = get_type_hints(hint, include_extras=True).values()
+    return Argument(Kind.GROUP, type=hint, parts=tuple(_argument(part) for part in parts))
 
 
 def flat(parts: tuple[Argument, ...]) -> Iterator[Argument]:

@@ -46,6 +46,7 @@ class Library:
         self.modules, self.kernels, self.inline = modules, kernels, inline
         self.digest_name = f"digest_of_{name}"
         self._file = file
+        self._callers: dict[Callable[..., object], Callable[..., int]] = {}
 
     @cached_property
     def lack(self) -> native.Lack | None:
@@ -60,14 +61,12 @@ class Library:
 
         Its arrays are `array.array`; they must not grow while it runs.
         """
-        return cast("_F | None", self._callers.get(kernel.__name__))
-
-    @cached_property
-    def _callers(self) -> dict[str, Callable[..., int]]:
         code = native.load(self._file)
-        if code is None or self.lack is not None:
-            return {}
-        return {kernel.__name__: _caller(code, kernel) for kernel in self.kernels}
+        if code is None or self.lack is not None or kernel not in self.kernels:
+            return None
+        if kernel not in self._callers:
+            self._callers[kernel] = _caller(code, kernel)
+        return cast("_F", self._callers[kernel])
 
     def _digest_in(self, code: ctypes.CDLL) -> bytes:
         """The digest of the sources of machine code; nothing where it was made before there was this library."""

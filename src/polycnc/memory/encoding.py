@@ -14,7 +14,6 @@ lower layers have their names at the end of this module.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from enum import Enum
@@ -63,6 +62,8 @@ def encode(value: object) -> str:
     Raises:
         TypeError: A class in it has no name; see `encoded`.
     """
+    import json
+
     return json.dumps(_plain(value), ensure_ascii=False, separators=(",", ":"), allow_nan=False)
 
 
@@ -72,6 +73,8 @@ def decode(line: str) -> Any:
     Raises:
         ValueError: It is none, or holds a class that this version does not know.
     """
+    import json
+
     return _value(json.loads(line))
 
 

@@ -298,7 +298,7 @@ class Planner:
             if self._state.run.pieces < before and 2 * self._state.run.pieces <= room:
                 return
             self._room = 2 * room
-        self._pieces.frombytes(bytes(8 * self._width * room))
+        self._pieces *= 2  # whatever is in the new half: a piece is written before it is read
 
     def _look_ahead(self, end: int | None = None) -> None:
         """Find the speeds of all pieces that nothing still to come can change, and drop those pieces.

@@ -231,43 +231,52 @@ def _batch(display: Display, chunk: Chunk, schema: pa.Schema) -> pa.RecordBatch:
         numbers[f"machine_{axis.lower()}"] = shown.machine[:, i]
     numbers |= {name.lower(): values for name, values in display.arcs(shown).items()}
     sparse = _sparse(display, chunk, kinds, types, numbers)
-    sparse["tool"] = _tools(display, shown.columns.context, sparse.get("tool"))
     names = {
+        "tool": _tools(display, shown.columns.context, sparse.pop("tool", None)),
         "type": _named(kinds, types),
         "program": _named(shown.columns.program.astype(np.int32), display.toolpath.programs),
         "unit": _named(shown.inch.astype(np.int32), ("mm", "inch"), shown.columns.kind == Kind.EVENT),
     }
 
+    nothing: dict[pa.DataType, pa.Array] = {}
+
     def column(field: pa.Field) -> pa.Array:
-        if field.name in names:
-            return names[field.name]
-        values = sparse.get(field.name, numbers.get(field.name))
-        if values is None:
-            return pa.nulls(len(chunk), field.type)
-        return pa.array(values, type=field.type, from_pandas=True)
+        named, values = names.get(field.name), sparse.get(field.name, numbers.get(field.name))
+        if named is not None:
+            return named
+        if values is not None:
+            return pa.array(values, type=field.type, from_pandas=True)
+        if field.type not in nothing:
+            nothing[field.type] = pa.nulls(len(chunk), field.type)
+        return nothing[field.type]
 
     return pa.record_batch([column(field) for field in schema], schema=schema)
 
 
 def _tools(
     display: Display, contexts: NDArray[np.uint32], called: NDArray[np.object_] | None
-) -> NDArray[np.object_]:
+) -> pa.Array | None:
     """The tool in the spindle of every row, by number or name; null for none. Where a row calls one, that one."""
     import numpy as np
 
-    inside = [
+    names = [
         context.tool_name or (str(context.tool) if context.tool else None)
         for context in display.toolpath.contexts
     ]
-    tools = np.array([*inside, None], object)[contexts]
+    numbers = contexts.astype(np.int32)
     if called is not None:
-        tools = np.where(called == None, tools, called)  # noqa: E711 - element by element
-    return tools
+        for row in np.flatnonzero(called != None).tolist():  # noqa: E711 - element by element
+            numbers[row] = len(names)
+            names.append(called[row])
+    if not any(names):
+        return None
+    is_null = np.array([name is None for name in names])[numbers]
+    return _named(numbers, [name or "" for name in names], is_null).dictionary_decode()
 
 
 def _named(
     numbers: NDArray[np.int32], names: Sequence[str], is_null: NDArray[np.bool_] | None = None
-) -> pa.Array:
+) -> pa.DictionaryArray:
     """A column of names from their numbers."""
     import pyarrow as pa
 

@@ -221,7 +221,8 @@ class Display:
             machine[rows] = _machine_columns(end[rows], context, self.layout.geometry) * scale.machine
             feed[rows] *= np.where(kind[rows] == Kind.THREAD, scale.length, scale.feed)
             inch[rows] = context.inch
-        work, machine, feed = (np.rint(values * STEPS) / STEPS + 0.0 for values in (work, machine, feed))
+        for values in (work, machine, feed):
+            _round(values)
         for rows, i in turning:
             work[rows, i] = np.rint(work[rows, i] % _FULL_TURN * STEPS) / STEPS
         is_event: NDArray[np.bool_] = kind == Kind.EVENT
@@ -369,6 +370,16 @@ def _diameters(axes: int, count: int) -> list[float]:
 def _shown(value: float) -> float:
     """A value without rounding noise and without -0.0, to the same bits as `Display.columns`."""
     return round(value * STEPS) / STEPS
+
+
+def _round(values: NDArray[np.float64]) -> None:
+    """`_shown` for many values, in their place: `np.rint(values * STEPS) / STEPS + 0.0`."""
+    import numpy as np
+
+    np.multiply(values, STEPS, out=values)
+    np.rint(values, out=values)
+    np.divide(values, STEPS, out=values)
+    np.add(values, 0.0, out=values)
 
 
 def _machine_columns(

@@ -64,7 +64,6 @@ def run(
     """Run a program once, as the control would."""
     from polycnc.cli.report import Happenings, as_text
     from polycnc.messages.files import refuse_inputs
-    from polycnc.toolpath.usage import Usage
 
     if trace is not None and trace.suffix.lower() not in TRACES:
         return fail(text("run.suffix", file=trace, known=listed(TRACES)), 2)
@@ -83,9 +82,7 @@ def run(
     session = opening.session(source, keep=False, timed=not no_time, memory=memory)
     happenings = Happenings(session.result.display)
     session.consumers.append(happenings.take)
-    usage = None if no_time else Usage(session.result.display)
-    if usage is not None:
-        session.consumers.append(usage.take)
+    usage = None if no_time else _usage_of(session)
     with ExitStack() as files:
         files.callback(session.channel.retained.close)
         if print_to is not None:
@@ -114,16 +111,31 @@ def _say_more(account: TimeAccount | None, result: Result, session: Session) -> 
     if account is not None:
         show(explained(account.parts, result.plan.times, account.hidden_s))
     tell_unheeded(session.channel.control, session.channel.setup.parameters)
-    _say_if_slow(len(result.toolpath))
+    if len(result.toolpath) >= _FELT_ROWS:
+        _say_if_slow(planned=result.timed)
 
 
-def _say_if_slow(rows: int) -> None:
+def _say_if_slow(*, planned: bool) -> None:
     """A note behind a long run where this installation has no compiled kernels, and nobody has chosen so."""
     from polycnc.kernels.native import Lack
-    from polycnc.motion.compiled import LIBRARY
+    from polycnc.language.bulk.compiled import LIBRARY
 
-    if rows >= _FELT_ROWS and LIBRARY.lack in (Lack.MISSING, Lack.STALE):
-        note(f"polycnc: {text(f'run.kernels.{LIBRARY.lack.name.lower()}')}")
+    lack = LIBRARY.lack
+    if planned and lack is None:
+        from polycnc.motion.compiled import LIBRARY as PLANNING
+
+        lack = PLANNING.lack
+    if lack in (Lack.MISSING, Lack.STALE):
+        note(f"polycnc: {text(f'run.kernels.{lack.name.lower()}')}")
+
+
+def _usage_of(session: Session) -> Usage:
+    """What a run will have used when it has ended."""
+    from polycnc.toolpath.usage import Usage
+
+    usage = Usage(session.result.display)
+    session.consumers.append(usage.take)
+    return usage
 
 
 def _whole(files: ExitStack, path: Path, mode: str) -> IO[Any]:

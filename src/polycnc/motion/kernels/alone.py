@@ -17,7 +17,7 @@ from __future__ import annotations
 from math import inf, sqrt
 
 from polycnc.kernels.layout import Floats
-from polycnc.motion.kernels.columns import PLACES, Limits, PieceRecord, State, piece_width
+from polycnc.motion.kernels.columns import PLACES, SURELY, Limits, PieceRecord, State, piece_width
 
 #: Turns smaller than this count as none; most pieces of a straight run, for they wait in the buffer for its end.
 NO_TURN, LONGEST_RUN = 1e-9, 4096
@@ -135,6 +135,12 @@ def pays_to_rest(
     top, corner = min(wanted, state.run.wanted), sqrt(corner2)
     if corner >= top:
         return False  # nobody is slower for the corner
+    if (
+        corner * window >= max(state.run.length, length)
+        and is_slower_alone(n, limits, state.tangent, state.run.length, corner)
+        and is_slower_alone(n, limits, state.unit, length, corner)
+    ):
+        return False
     for side in range(2):
         direction = state.tangent if side == 0 else state.unit
         way = state.run.length if side == 0 else length
@@ -153,6 +159,19 @@ def pays_to_rest(
         else:
             passing += window + rest_to_rest(way - held, corner, top, SHARED * pull)
     return resting < passing * (1.0 + SLOWED * min(1.0, BY_THIRDS * (1.0 - corner / top)))
+
+
+def is_slower_alone(n: int, limits: Limits, direction: Floats, way: float, corner: float) -> bool:
+    """Whether a line of which a corner holds all would be slower from rest to rest for certain.
+
+    Averaged over T, with no more acceleration than j·T, it takes `T + 2·√(L/jT)` at least, which is never less than
+    3·∛(L/j). With the jerk of one axis alone it would take less time still.
+    """
+    passing, slower = (1.0 + SLOWED) * way, False
+    cube, least = SURELY * passing * passing * passing, 27.0 * way * corner * corner * corner
+    for i in range(n):
+        slower = slower or cube * limits.jerk[i] < least * abs(direction[i])
+    return slower
 
 
 def rest_to_rest(way: float, slow: float, top: float, pull: float) -> float:

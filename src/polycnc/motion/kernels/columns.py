@@ -65,6 +65,7 @@ class PathLimits(Structure):
         path_feed: Highest speed of a cut.
         arc_pull: Highest acceleration across the path on an arc that is planned ahead.
         arc_least: Speed below which neither that nor what axes may accelerate on arcs slows one.
+        bend_least: Speed below which what axes may accelerate from line to line slows none.
         block_s: How long a cut lasts at least, because the control processes no more blocks a second (0: any).
         feed_along_arc: Whether the feed of an arc is that along the arc, other axes beside it (1).
         arc_by_radius: Whether inverse time counts the radius of an arc, not its length (1).
@@ -74,6 +75,7 @@ class PathLimits(Structure):
     path_feed: float
     arc_pull: float
     arc_least: float
+    bend_least: float
     block_s: float
     feed_along_arc: float
     arc_by_radius: float
@@ -89,6 +91,7 @@ class Limits(NamedTuple):
         jump: Highest step of the velocity at a corner.
         step: That which the control's parameters allow at a corner of two cuts that are planned ahead.
         arc: Highest acceleration that they allow on an arc that is planned ahead.
+        bend: The same where a line of such a cut goes over into the next one.
         rotary: 1 for a rotary axis.
         jerk: Highest jerk.
         geometry: The columns of X, Y, Z, -1 for a missing one.
@@ -103,6 +106,7 @@ class Limits(NamedTuple):
     jump: Floats
     step: Floats
     arc: Floats
+    bend: Floats
     rotary: Floats
     jerk: Floats
     geometry: Ints
@@ -385,6 +389,8 @@ class State(NamedTuple):
         turn: What q' changes by at the joint at hand.
         bow: With limited jerk: what q' has changed by at the last joint of two lines, or two chords of a spline, over
             their mean length; zero from rest, and where the one follows the other.
+        bowed: With limited jerk: what q' changes by at the joint at hand, over the mean length of its rows.
+        asked: With limited jerk: what jerk the joint at hand asks for, in a row of joints.
         room: For what `linkage` works out.
     """
 
@@ -405,6 +411,8 @@ class State(NamedTuple):
     bent_before: Floats
     turn: Floats
     bow: Floats
+    bowed: Floats
+    asked: Floats
     room: Floats
 
 
@@ -415,7 +423,7 @@ def new_state(n: int, start: Sequence[float] = ()) -> State:
     position = zeros(n)
     position[: len(start)] = array("d", start)
     shares = zeros(SHARES), zeros(SHARES), zeros(SHARES)
-    vectors = [*(zeros(n) for _ in range(8)), zeros(room_for(n))]
+    vectors = [*(zeros(n) for _ in range(10)), zeros(room_for(n))]
     return State(*records, zeros(9), *shares, position, *vectors)
 
 
@@ -441,11 +449,21 @@ SMOOTH_COS = 0.8
 MAIN_RUN = -1.0
 #: Two ends of an arc nearer than this (mm) make it a full circle.
 SAME_POINT_MM = 1e-7
+#: One number is above another for certain, whatever was rounded, if it is above so many times that.
+SURELY = 1.000001
 
 
 def square(value: float) -> float:
     """A product: a power of two is one in machine code, but in Python may be off it by the last bit."""
     return value * value
+
+
+def lowered(bound: float, part: float, asked: float) -> float:
+    """`min(bound, part / asked)`, none of them negative; a quotient that is certain to be larger is not worked out.
+
+    At most joints few of the limits bind, and a division takes as long as ten products.
+    """
+    return min(bound, part / asked) if part < SURELY * bound * asked else bound
 
 
 def piece_width(n: int) -> int:

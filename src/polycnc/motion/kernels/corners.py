@@ -6,7 +6,15 @@ from math import inf, sqrt
 
 from polycnc.kernels.layout import Floats
 from polycnc.motion.kernels.alone import pays_to_rest
-from polycnc.motion.kernels.columns import SMOOTH_COS, SPLINE, ContextRecord, Limits, State, square
+from polycnc.motion.kernels.columns import (
+    SMOOTH_COS,
+    SPLINE,
+    SURELY,
+    ContextRecord,
+    Limits,
+    State,
+    square,
+)
 from polycnc.motion.kernels.feeds import is_rapid
 from polycnc.motion.kernels.jerk import corner_hold2, forget_bow, window_s
 from polycnc.motion.kernels.rounding import bend_corner
@@ -65,12 +73,12 @@ def join(
         own2 = bend_corner(contexts, record, n, limits, state, shorter)
     elif tolerance > 0.0:
         rounding = contexts[record + ContextRecord.ROUNDING]
-        own2 = rounded2(tolerance, rounding, turns, n, limits, state, shorter)
+        own2 = rounded2(tolerance, rounding, turns, n, limits, state, shorter, cap2)
     else:
         own2 = jump2(turns, n, limits, state, shorter)
     if not turns:
         own2 = min(own2, turned2(angle, distance, n, limits, state, shorter))
-    cap2 = min(cap2, own2, stepped2(contexts, record, n, limits, state))
+    cap2 = min(cap2, own2, stepped2(contexts, record, n, limits, state, shorter))
     if ramp > 0.0:
         cap2 = corner_hold2(contexts, record, n, limits, state, length, cap2)
         if wanted > 0.0 and pays_to_rest(n, limits, state, length, cap2, wanted):
@@ -104,15 +112,18 @@ def goes_on_smoothly(n: int, limits: Limits, state: State, weight: float) -> boo
     return cosine_of_turn(n, limits, state, weight) > SMOOTH_COS
 
 
-def stepped2(contexts: Floats, record: int, n: int, limits: Limits, state: State) -> float:
-    """Largest x at a corner of two cuts at which the velocity of no axis steps by more than parameters allow."""
-    x2 = inf
+def stepped2(contexts: Floats, record: int, n: int, limits: Limits, state: State, shorter: float) -> float:
+    """Largest x at a corner of two cuts at which the velocity of no axis steps by more than parameters allow.
+
+    Spread over the time that the shorter of the two lines takes, the step is an acceleration, which they bound too.
+    """
+    x2, least2 = inf, square(limits.path.bend_least)
     if is_rapid(state) or contexts[record + ContextRecord.AHEAD] == 0.0:
         return x2
     for i in range(n):
         step = abs(state.unit[i] - state.tangent[i])
         if step > SAME_DIRECTION:
-            x2 = min(x2, square(limits.step[i] / step))
+            x2 = min(x2, square(limits.step[i] / step), max(limits.bend[i] * shorter / step, least2))
     return x2
 
 
@@ -160,8 +171,9 @@ def rounded2(
     limits: Limits,
     state: State,
     shorter: float,
+    cap2: float,
 ) -> float:
-    """Largest x at a corner that is rounded within a contour tolerance and a distance from the corner.
+    """Largest x up to `cap2` at a corner that is rounded within a contour tolerance and a distance from the corner.
 
     The corner is taken as if by the arc that touches both lines and comes within the tolerance of their
     corner ("junction deviation", S. K. Jeon, "Improving Grbl: Cornering Algorithm", 2011), with no more than
@@ -179,17 +191,19 @@ def rounded2(
         slower = min(before, after)
         radius = min(tolerance * cos_b * (1.0 + cos_b) / (sin_b * sin_b), touch * slower * cos_b / sin_b)
         touch = min(touch, radius * sin_b / (cos_b * slower))
-    x2, faster = inf, max(before, after)
+    x2, faster = cap2, max(before, after)
     for i in range(n):
+        pull = state.joint.ease * limits.acceleration[i]
         if limits.rotary[i] != 0.0:
             step = abs(unit[i] - tangent[i])
             if turns and step > SAME_DIRECTION:
-                x2 = min(x2, state.joint.ease * limits.acceleration[i] * 2.0 * touch / step)
-        elif radius < inf:
+                x2 = min(x2, pull * 2.0 * touch / step)
+        elif (
+            radius < inf and pull * radius < SURELY * x2 * faster * faster
+        ):  # else no share of it is too large
             a, b = tangent[i] / before, unit[i] / after
             share = largest_share(0.5 * (b - a) / sin_b, 0.5 * (b + a) / cos_b, sin_b, cos_b)
             if share > 0.0:
-                pull = state.joint.ease * limits.acceleration[i]
                 x2 = min(x2, pull * radius / (share * faster * faster))
     return x2
 

@@ -16,7 +16,15 @@ from __future__ import annotations
 from math import inf, sqrt
 
 from polycnc.kernels.layout import Floats
-from polycnc.motion.kernels.columns import SPLINE, ContextRecord, Limits, State, square
+from polycnc.motion.kernels.columns import (
+    SPLINE,
+    SURELY,
+    ContextRecord,
+    Limits,
+    State,
+    lowered,
+    square,
+)
 
 #: Parts of the acceleration beside a joint in a row: along the path, across it.
 ALONG, ACROSS = 0.7, 0.3
@@ -39,8 +47,6 @@ ROW = 0.85
 DEVIATION_CORNER, DEVIATION_CURVE = 0.5, 0.5
 #: Turns smaller than this count as none.
 NO_TURN = 1e-9
-#: One number is above another for certain, whatever was rounded, if it is above so many times that.
-SURELY = 1.000001
 
 
 def window_s(ramp: float, blend: float) -> float:
@@ -66,7 +72,7 @@ def line_pull(contexts: Floats, record: int, n: int, limits: Limits, state: Stat
         share = abs(state.unit[i])
         if share > 0.0:
             own = axis_pull(contexts[record + ContextRecord.RAMP_S], limits, i)
-            pull = min(pull, own / share if alone else own / max(share, 1.0))
+            pull = lowered(pull, own, share if alone else max(share, 1.0))
     return pull
 
 
@@ -94,7 +100,7 @@ def corner_hold2(
         cap2 = min(cap2, left * left)
     lone = 0.0
     if not is_spline:
-        lone = lone_speed(contexts, record, n, limits, state, length, sqrt(cap2), bow)
+        lone = lone_speed(contexts, record, n, limits, state, length, cap2, bow)
     lone_pull, state.joint.pull = state.joint.pull, pull
     x2 = row_hold2(contexts, record, n, limits, state, length, cap2, bow, is_spline or bow > NO_TURN)
     run.lone = run.gap = 0.0
@@ -111,9 +117,18 @@ def forget_bow(n: int, state: State) -> None:
 
 
 def lone_speed(
-    contexts: Floats, record: int, n: int, limits: Limits, state: State, length: float, cap: float, bow: float
+    contexts: Floats,
+    record: int,
+    n: int,
+    limits: Limits,
+    state: State,
+    length: float,
+    cap2: float,
+    bow: float,
 ) -> float:
-    """Largest speed up to `cap` at the joint at hand if the average sees no other one with it; sets `joint.pull`.
+    """Largest speed, its square up to `cap2`, at the joint at hand if the average sees no other one with it.
+
+    Sets `joint.pull`.
 
     It sees none on τ before and behind the joint, nor one that is seen with that: the next joint must be so far away
     that both can be passed so. The jerk of a corner is `Δq'·v/τ²`, that of a step of curvature `Δq''·v²/τ`, that of the
@@ -121,12 +136,14 @@ def lone_speed(
     """
     ramp, blend = contexts[record + ContextRecord.RAMP_S], contexts[record + ContextRecord.BLEND_S]
     unit, tangent, bend, before = state.unit, state.tangent, state.bend, state.bent_before
-    turn2 = 0.0
+    turn2, away = 0.0, state.run.gap / blend - state.run.passed
+    if away <= 0.0:
+        return 0.0
     for i in range(n):
         if limits.rotary[i] == 0.0:
             turn2 += square(unit[i] - tangent[i])
     turn = sqrt(turn2)
-    v = min(cap, 0.5 * length / blend, state.run.gap / blend - state.run.passed)
+    v = min(sqrt(cap2), 0.5 * length / blend, away)
     if turn > NO_TURN:
         v = min(v, contexts[record + ContextRecord.ROUNDING] / blend)
     deviates = (v * turn / 6.0 + v * v * bow * blend / 12.0) * blend
@@ -164,40 +181,61 @@ def row_hold2(
     of that is as it was at the joint before needs no jerk: `JERK_LINES` is for what changes. `arc` is the curvature of
     arcs beside it, `curved` that one of the rows is a curve.
     """
-    unit, tangent, bow = state.unit, state.tangent, state.bow
+    unit, tangent, bow, bowed = state.unit, state.tangent, state.bow, state.bowed
     blend, tolerance = contexts[record + ContextRecord.BLEND_S], contexts[record + ContextRecord.TOLERANCE]
     x2 = cap2 if not curved else min(cap2, curve_joint2(blend, tolerance, n, limits, state, arc))
     shorter, mean, turn, changes = min(length, state.run.length), 0.5 * (length + state.run.length), 0.0, 0.0
     for i in range(n):
         step = unit[i] - tangent[i]
+        bowed[i] = step / mean
         if limits.rotary[i] == 0.0:
-            turn, changes = turn + step * step, changes + square(step / mean - bow[i])
+            turn, changes = turn + step * step, changes + square(bowed[i] - bow[i])
     turn, changes = sqrt(turn), sqrt(changes)
     for i in range(n):
         a, j = state.joint.ease * limits.acceleration[i], state.joint.ease * limits.jerk[i]
         part = ROW if (unit[i] - tangent[i]) * bow[i] < 0.0 else JERK_CORNER
-        step, most, change = row_step(state, i, mean), most_bow(state, i, mean), changes
-        if limits.rotary[i] != 0.0:
-            change = abs((unit[i] - tangent[i]) / mean - bow[i])
-        if most * mean > NO_TURN:
-            most2 = max(JERK_LINES * j * blend / most, step_top2(j, blend, change, mean, JERK_LINES, x2))
-            x2 = min(x2, max(most2, shorter * shorter / (blend * blend)))
-        if step > NO_TURN:
-            jump, near = part * j * blend * blend / step, ROW_ACROSS * a * blend * blend / step
-            x2 = min(x2, jump * jump, near * min(near, shorter / MOST_TENTS) / (blend * blend))
+        change = abs(bowed[i] - bow[i]) if limits.rotary[i] != 0.0 else changes
+        x2 = lines_hold2(j, blend, most_bow(state, i), change, shorter, mean, x2)
+        x2 = step_hold2(a, part * j, blend, row_step(state, i, mean), shorter, x2)
     if turn > NO_TURN:
         rounding = contexts[record + ContextRecord.ROUNDING] / blend
         part = DEVIATION_CORNER if curved else ARC_DEVIATION
         x2 = min(x2, row_deviation2(part * tolerance / turn, shorter, blend), rounding * rounding)
     v, slow = sqrt(x2), 1.0
+    ask_jerk(n, state, shorter, mean, blend, v)
     for i in range(n):
-        asks = row_jerk(state, i, shorter, mean, blend, v)
-        slow = min(slow, ROW * state.joint.ease * limits.jerk[i] / max(asks, 1e-300))
-    v *= slow
+        slow = lowered(slow, ROW * state.joint.ease * limits.jerk[i], max(state.asked[i], 1e-300))
+    if slow < 1.0:
+        v *= slow
+        ask_jerk(n, state, shorter, mean, blend, v)
     row_pull(contexts, record, n, limits, state, shorter, mean, v, arc, curved)
     for i in range(n):
-        bow[i] = (unit[i] - tangent[i]) / mean
+        bow[i] = bowed[i]
     return v * v
+
+
+def lines_hold2(
+    j: float, blend: float, most: float, change: float, shorter: float, mean: float, x2: float
+) -> float:
+    """Largest x up to `x2` by the q'' of an axis that a row of short lines makes; `change` is what changes of it."""
+    if most * mean <= NO_TURN:
+        return x2
+    if JERK_LINES * j * blend > SURELY * x2 * most or shorter * shorter > SURELY * x2 * blend * blend:
+        return x2
+    most2 = max(JERK_LINES * j * blend / most, step_top2(j, blend, change, mean, JERK_LINES, x2))
+    return min(x2, max(most2, shorter * shorter / (blend * blend)))
+
+
+def step_hold2(a: float, j: float, blend: float, step: float, shorter: float, x2: float) -> float:
+    """Largest x up to `x2` by what an axis's q' changes by at a joint of a row; `j` is the jerk for that."""
+    if step <= NO_TURN:
+        return x2
+    jump, near, asked = j * blend * blend, ROW_ACROSS * a * blend * blend, SURELY * x2 * step
+    holds = jump * jump > asked * step and near * near > asked * step * blend * blend
+    if holds and near * shorter > MOST_TENTS * asked * blend * blend:
+        return x2
+    jump, near = jump / step, near / step
+    return min(x2, jump * jump, near * min(near, shorter / MOST_TENTS) / (blend * blend))
 
 
 def curve_joint2(blend: float, tolerance: float, n: int, limits: Limits, state: State, arc: float) -> float:
@@ -230,26 +268,28 @@ def row_step(state: State, i: int, mean: float) -> float:
     return abs(step - before) if step * before < 0.0 else abs(step)
 
 
-def most_bow(state: State, i: int, mean: float) -> float:
+def most_bow(state: State, i: int) -> float:
     """The largest q'' of an axis that the lines around the joint at hand make, or change of it."""
-    bowed, bow = (state.unit[i] - state.tangent[i]) / mean, state.bow[i]
+    bowed, bow = state.bowed[i], state.bow[i]
     return max(abs(bowed), abs(bow), abs(bowed - bow))
 
 
-def row_jerk(state: State, i: int, shorter: float, mean: float, blend: float, v: float) -> float:
-    """Jerk of an axis at a joint in a row that is passed at v: by the turn itself, and by what changes of q''.
+def ask_jerk(n: int, state: State, shorter: float, mean: float, blend: float, v: float) -> None:
+    """Set `asked`, the jerk of each axis at a joint in a row passed at v: by the turn itself, by what changes of q''.
 
     Where the average sees no more than one joint before and one behind a place, those are all. Elsewhere it may see one
     more on the side of the shorter line.
     """
-    change = abs((state.unit[i] - state.tangent[i]) / mean - state.bow[i])
-    begins: float = v * v * most_bow(state, i, mean) / blend
-    turns: float = v * row_step(state, i, mean) / (blend * blend)
-    if v * blend <= shorter:
-        return turns
-    longer = 2.0 * mean - shorter
-    more = min(1.0, UNEVEN * v * blend * (1.0 / shorter - 1.0 / longer))
-    return turns * (1.0 + more) + min(begins, step_jerk(v, blend, change, mean))
+    is_one, more, seen = v * blend <= shorter, 0.0, 0.0
+    if not is_one:
+        more = min(1.0, UNEVEN * v * blend * (1.0 / shorter - 1.0 / (2.0 * mean - shorter)))
+        seen = tents(v, blend, mean)
+    for i in range(n):
+        turns = v * row_step(state, i, mean) / (blend * blend)
+        if not is_one:
+            begins = v * v * most_bow(state, i) / blend
+            turns = turns * (1.0 + more) + min(begins, v * v * abs(state.bowed[i] - state.bow[i]) * seen)
+        state.asked[i] = turns
 
 
 def row_deviation2(part: float, shorter: float, blend: float) -> float:
@@ -279,26 +319,26 @@ def row_pull(
     Beside a curve, where all of the row turns to one side, to the parts that are left whatever a joint needs.
     """
     ramp, blend = contexts[record + ContextRecord.RAMP_S], contexts[record + ContextRecord.BLEND_S]
-    parts, left, turns, seen = inf, inf, False, tents(v, blend, shorter)
+    parts, left, turns, seen = inf, state.joint.pull, False, tents(v, blend, shorter)
     for i in range(n):
         a, j = state.joint.ease * limits.acceleration[i], state.joint.ease * limits.jerk[i]
-        step, bow = row_step(state, i, mean), most_bow(state, i, mean)
-        way, bowed = max(abs(state.unit[i]), abs(state.tangent[i])), (state.unit[i] - state.tangent[i]) / mean
+        step, bow, bowed = row_step(state, i, mean), most_bow(state, i), state.bowed[i]
+        way = max(abs(state.unit[i]), abs(state.tangent[i]))
         turns = turns or bowed * state.bow[i] < 0.0
         if way == 0.0 and bow == 0.0 and state.bend[i] == 0.0 and state.bent_before[i] == 0.0:
             continue  # an axis that stands needs nothing
-        parts = min(parts, ALONG * state.joint.ease * axis_pull(ramp, limits, i))
-        if step > NO_TURN:
-            parts = min(parts, JERK_TURN * j * blend / step)
-            if step_jerk(v, blend, abs(bowed - state.bow[i]), mean) < v * v * bow / blend:
-                parts = min(parts, JERK_BOTH * j / max(3.0 * v * bow, 1e-300))
-        if arc > NO_TURN:
-            parts = min(parts, JERK_BOTH * j / max(3.0 * v * arc, 1e-300))
+        if curved:
+            parts = min(parts, ALONG * state.joint.ease * axis_pull(ramp, limits, i))
+            if step > NO_TURN:
+                parts = min(parts, JERK_TURN * j * blend / step)
+                if step_jerk(v, blend, abs(bowed - state.bow[i]), mean) < v * v * bow / blend:
+                    parts = min(parts, JERK_BOTH * j / max(3.0 * v * bow, 1e-300))
+            if arc > NO_TURN:
+                parts = min(parts, JERK_BOTH * j / max(3.0 * v * arc, 1e-300))
         if way > 0.0:
-            free = LONE * j - row_jerk(state, i, shorter, mean, blend, v)
-            left = min(
-                left, free / (2.0 * way / ramp + step * seen + 2.0 * bow * v), (a - v * step * seen) / way
-            )
+            asked = 2.0 * way / ramp + step * seen + 2.0 * bow * v
+            left = lowered(left, LONE * j - state.asked[i], asked)
+            left = lowered(left, a - v * step * seen, way)
     state.joint.pull = min(state.joint.pull, left if turns or not curved else parts)
 
 

@@ -30,6 +30,7 @@ from polycnc.motion.kernels.columns import (
     PieceRecord,
     Rows,
     State,
+    lowered,
     piece_width,
 )
 from polycnc.motion.kernels.corners import goes_on_smoothly, join
@@ -386,15 +387,15 @@ def line_limits(
     faster = contexts[record + ContextRecord.RAPID_SHARE] if is_rapid(state) else 1.0
     top = state.row.top if is_rapid(state) else min(limits.path.path_feed, state.row.top)
     top = min(top, block_top(length, limits, state))
-    pull = inf
+    pull, soft = inf, contexts[record + ContextRecord.RAMP_S] > 0.0
     for i in range(n):
         unit[i] = delta[i] / length
         state.bend[i] = 0.0
         share = abs(unit[i])
         if share > 0.0:
-            top = min(top, faster * tops[i] / share)
-            pull = min(pull, limits.acceleration[i] / share)
-    if contexts[record + ContextRecord.RAMP_S] > 0.0:
+            top = lowered(top, faster * tops[i], share)
+            pull = pull if soft else lowered(pull, limits.acceleration[i], share)
+    if soft:
         alone = is_rapid(state) and limits.path.rapid_stops != 0.0
         pull = line_pull(contexts, record, n, limits, state, alone or state.row.kind == TAP)
     elif contexts[record + ContextRecord.DRIVE_SPEED] < 1.0:

@@ -74,6 +74,19 @@ class FanucMilling(MillingControl):
     MODES_WITHOUT_JUMPS: ClassVar[frozenset[str]] = MODES_WITHOUT_JUMPS
     POINT_IN_WHOLE_NUMBERS: ClassVar[DecimalPoint] = DecimalPoint.REFUSED
 
+    def start_codes(self, channel: Channel) -> dict[str, str]:
+        """Codes of power-on: 3402#0 to #3, and the unit by 0#2 INI."""
+        parameters, codes = _given(channel), super().start_codes(channel)
+        if parameters.start_g01:
+            codes["motion"] = "G1"
+        if parameters.start_g18 or parameters.start_g19:
+            codes["plane"] = "G18" if parameters.start_g18 else "G19"
+        if parameters.start_g91:
+            codes["distance"] = "G91"
+        if parameters.INI:
+            codes["unit"] = "G20"
+        return codes
+
     def code_calls(self, channel: Channel) -> CodeCalls:
         """Codes registered by 6050 to 6089 and 6001#5."""
         return registered_codes(_given(channel))
@@ -168,6 +181,7 @@ class FanucMilling(MillingControl):
             returns_to_path=parameters.MIT,
             dry_run=dry_run(parameters),
             slowest_rapid=parameters.rapid_f0 / 60.0,
+            rapid_held=parameters.RF0,
         )
 
     def make_memory(self, channel: Channel) -> MacroMemory:

@@ -21,6 +21,10 @@ class FanucMillingParameters(FanucParameters["FanucMillingAxisParameters"]):
 
     axis_class = FanucMillingAxisParameters
 
+    #: 3402#1: G18 at power-on.
+    start_g18 = Bit(3402, 1, delivered=False)
+    #: 3402#2: G19 at power-on.
+    start_g19 = Bit(3402, 2, delivered=False)
     #: 3404#7: of several M codes in a block the last acts (0) or up to three act (1).
     M3B = Bit(3404, 7, delivered=False)
     #: 3451#2: a decimal point in S is PS0007 (0) or allowed (1).
