@@ -5,7 +5,6 @@
 `bent_leads` is the way to a contour and from it without a corner.
 `interference` finds vectors that have changed places, `avoidance` leads round them. `corner` is the stage of
 chamfers and roundings; `plane` is what both share. `tips` has the imaginary tips of turning tools. `runs` takes many
-lines of a contour at once. `spatial` is radius compensation across a tool that tilts, `spatial_axes` the
-same where nothing leads the axes, `spatial_arcs` where parallels meet there, `spatial_rules` how
-controls differ, `limiting_surface` floors beside walls.
+lines of a contour at once. `spatial` is radius compensation across a tool that tilts, `spatial_arcs` where parallels
+meet there, `spatial_rules` how controls differ, `limiting_surface` floors beside walls.
 """
