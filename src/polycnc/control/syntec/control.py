@@ -15,7 +15,7 @@ from polycnc.control.syntec.axis_groups import borrowing, groups, names
 from polycnc.control.syntec.builder import SyntecBuilder
 from polycnc.control.syntec.codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
 from polycnc.control.syntec.coordinates import systems
-from polycnc.control.syntec.five_axes import mechanism, normal_direction, tilted, tip_control
+from polycnc.control.syntec.five_axes import mechanism, normal_direction, posture, tilted, tip_control
 from polycnc.control.syntec.five_axes import spatial as spatial_radius
 from polycnc.control.syntec.macros import calls, interrupts, single_block
 from polycnc.control.syntec.macros.variables import USER, SpaceState, locals_of
@@ -127,6 +127,7 @@ class SyntecMill(WordAddressControl):
         corners.RULE,
         line_by_angle.RULE,
         tip_control.COMPANY_RULE,
+        posture.RULE,
         tip_control.RULE,
         drilling_cycles.RULE,
         cycles.OVERLAP_RULE,
