@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
 #: Smaller files are read as a whole.
-LONG_FILE_BYTES = 8 * 1024 * 1024
+LONG_FILE_BYTES = 1024 * 1024
 #: Bytes of a page, and of what is read at once while the file is looked through.
 PAGE_BYTES, READ_BYTES = 256 * 1024, 1024 * 1024
 #: Pages of a file that are kept at hand.
