@@ -225,7 +225,7 @@ def test_discard_forgets_the_held_move() -> None:
 
 
 def test_policies_are_data() -> None:
-    assert replace(FANUC_CORNERS, idle_blocks=1, shrinks=True) == SINUMERIK_CORNERS
+    assert replace(FANUC_CORNERS, idle_blocks=1, shrinks=True, at_rapids=True) == SINUMERIK_CORNERS
 
 
 def test_a_corner_is_that_of_the_machine_where_the_zero_is_moved_in_front_of_it() -> None:

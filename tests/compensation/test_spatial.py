@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING
 import pytest
 
 from polycnc.channel.moves.path import Move, Recorder
-from polycnc.compensation.spatial import (
+from polycnc.compensation.spatial import SpatialStage
+from polycnc.compensation.spatial_rules import (
     ARC_FIRST,
     INTERSECTION_FIRST,
     TURNS_ALONG,
     TURNS_BEFORE,
     Corners,
     Rules,
-    SpatialStage,
 )
 from polycnc.messages import AlarmError
 from polycnc.toolpath.kinds import Kind

@@ -29,7 +29,7 @@ def test_the_side_is_seen_from_the_holder() -> None:
 @pytest.mark.parametrize("tool", [UP, DOWN])
 def test_an_arc_and_a_line_meet_as_far_from_both(tool: tuple[float, float, float]) -> None:
     left = 5.0 if tool is UP else -5.0  # the same side in space
-    shift = meeting(ARC, BACK, tool, left, GEOMETRY)
+    shift = meeting(ARC, BACK, tool, (left, left), GEOMETRY)
     assert shift is not None
     assert dot(shift, tool) == pytest.approx(0.0)
     x, y = 50.0 + shift[0], 20.0 + shift[1]
@@ -40,4 +40,4 @@ def test_an_arc_and_a_line_meet_as_far_from_both(tool: tuple[float, float, float
 def test_parallels_that_miss_each_other_have_no_point() -> None:
     line = Move(Kind.FEED, [0.0, 0.0, 5.0], [30.0, 0.0, 5.0])
     away = Move(Kind.CCW, [30.0, 0.0, 5.0], [40.0, 0.0, 5.0], center=(35.0, 0.0, 5.0))
-    assert meeting(line, away, UP, 5.0, GEOMETRY) is None
+    assert meeting(line, away, UP, (5.0, 5.0), GEOMETRY) is None

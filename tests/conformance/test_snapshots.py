@@ -34,6 +34,7 @@ CASES = [
 SOME = [(case, name, path) for case, name, path in CASES if not case.operate][::EVERY]
 #: States by the names of their classes, each with a case that changes it, such that it is changed between two blocks.
 CHANGED_BY = {
+    "Holders": "sin-tools-of-two-holders",
     "ChosenSet": "syntec-conditions",
     "OperatorScreen": "sin-seform",
     "ArcState": "syntec-move-full-circle",

@@ -13,6 +13,7 @@ from polycnc.session import open_session
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from pathlib import Path
 
     from polycnc.channel.waits import Wait
     from polycnc.session import Result
@@ -89,3 +90,23 @@ def test_a_program_in_time_has_the_rows_that_it_has_without_a_clock(
     assert list(timed.rows) == list(plain.rows)
     assert timed.final == plain.final
     assert [alarm.code for alarm in timed.alarms] == [alarm.code for alarm in plain.alarms]
+
+
+@pytest.mark.parametrize(
+    ("refused", "code"), [("M89", "1501"), ("G1 X30.", "1501"), ("G4 X2.\nG1 Z-15.", "1502")]
+)
+def test_what_the_machine_refuses_in_time_ends_the_program(tmp_path: Path, refused: str, code: str) -> None:
+    (tmp_path / "ours.toml").write_text(
+        '[[rule]]\nwhen = "M60"\noutput = "OPEN"\nlatch = "on"\n'
+        '[[rule]]\nwhen = "OPEN"\nafter_s = 1.5\noutput = "LATE"\n'
+        '[[alarm]]\ncode = "1501"\nwhen = "(M89 | MOVE_X) & OPEN"\ntext = "The door is open"\n'
+        '[[alarm]]\ncode = "1502"\nwhen = "LATE"\ntext = "The door is open still"\n',
+        encoding="utf-8",
+    )
+    machine = tmp_path / "mine.toml"
+    machine.write_text('base = "lathe-xza"\nname = "Mine"\nrules = "ours.toml"\n', encoding="utf-8")
+    program = f"G98 F6000\nG81.1 A20. Q-10. R5.\nG1 Z-10.\nM60\n{refused}\nG1 Z-20.\nM30\n"
+    result = polycnc.run(program, control="fanuc-0i-tf", machine=machine)
+    assert [(alarm.code, alarm.line) for alarm in result.alarms] == [(code, 5)]
+    assert [result.final["machine"][axis] for axis in "XZ"] == [0.0, -10.0]
+    assert max(row.line for row in result.toolpath.rows()) == 5

@@ -81,6 +81,66 @@ def random_paths(count: int, seed: int) -> list[TipPath]:
     return paths
 
 
+class TipArc(NamedTuple):
+    """An arc or a helix of the tip from rest to rest, while the rotary axes turn evenly, and its feed."""
+
+    name: str
+    axes: FiveAxes
+    center: list[float]
+    radius: float
+    angles: tuple[float, float]
+    lift: float
+    turns: list[tuple[float, float]]
+    feed: float
+
+    def at(self, shares: Numbers) -> Numbers:
+        """Points of the path at shares of it, (k, 5)."""
+        angle = self.angles[0] + (self.angles[1] - self.angles[0]) * shares
+        x, y, z = self.center
+        tip = [x + self.radius * np.cos(angle), y + self.radius * np.sin(angle), z + self.lift * shares]
+        return np.stack([*tip, *(a + (b - a) * shares for a, b in self.turns)], axis=1)
+
+    @property
+    def length(self) -> float:
+        """As the feed counts it, mm."""
+        around = self.radius * (self.angles[1] - self.angles[0])
+        return float(np.linalg.norm([around, self.lift, *(b - a for a, b in self.turns)]))
+
+
+def random_arcs(count: int, seed: int) -> list[TipArc]:
+    """Arcs of all sizes, along which the rotary axes stand still or turn, slow and faster than the axes can go."""
+    random, kinds, arcs = Random(seed), list(machines().items()), []
+    for number in range(count):
+        name, axes = kinds[number % len(kinds)]
+        turn, begin = random.choice([0.0, 5.0, 30.0, 90.0]), random.uniform(0.0, 6.28)
+        radius = random.choice([2.0, 20.0, 150.0]) * random.uniform(0.5, 1.5)
+        arcs.append(
+            TipArc(
+                f"{number} {name}",
+                axes,
+                [random.uniform(-50.0, 50.0) for _ in range(3)],
+                radius,
+                (begin, begin + random.uniform(0.2, 6.28)),
+                random.choice([0.0, 0.0, random.uniform(-20.0, 20.0)]),
+                [(random.uniform(-turn, turn), random.uniform(-turn, turn)) for _ in range(2)],
+                random.choice([20.0, 100.0, 1000.0]),
+            )
+        )
+    return arcs
+
+
+def least_time_of_arc(arc: TipArc) -> float:
+    """Seconds that the axes of the machine need at least."""
+    shares = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, PLACES + 1))
+    before, here, after = (
+        np.stack(arc.axes.tip.to_machine(list(arc.at(shares + late).T)), axis=1)
+        for late in (-STEP, 0.0, STEP)
+    )
+    step = STEP * arc.length
+    first, second = (after - before) / (2.0 * step), (after - 2.0 * here + before) / step**2
+    return _quickest(arc.axes, first, second, np.diff(shares) * arc.length, arc.feed)
+
+
 def least_time(path: TipPath) -> float:
     """Seconds that the axes of the machine need at least."""
     return sum(
@@ -99,18 +159,22 @@ def derivatives(tip: Transformation, start: Numbers, end: Numbers, length: float
 
 
 def _row_time(path: TipPath, start: Numbers, end: Numbers) -> float:
-    from scipy.optimize import linprog
-    from scipy.sparse import coo_matrix, vstack
-
-    machine = path.axes.machine
     length = float(np.linalg.norm(end - start))
     shares = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, PLACES + 1))
     first, second = derivatives(path.axes.tip, start, end, length, shares)
-    tops = np.array([machine.axis[name].max_feed for name in path.axes.tip.axes])
-    pulls = np.array([machine.axis[name].acceleration for name in path.axes.tip.axes])
-    cap2 = np.minimum(np.min((tops / np.maximum(np.abs(first), 1e-12)) ** 2, axis=1), path.feed**2)
+    return _quickest(path.axes, first, second, np.diff(shares) * length, path.feed)
+
+
+def _quickest(axes: FiveAxes, first: Numbers, second: Numbers, step: Numbers, feed: float) -> float:
+    """Seconds from rest to rest, with derivatives of the real axes, (k, n), at places `step` apart."""
+    from scipy.optimize import linprog
+    from scipy.sparse import coo_matrix, vstack
+
+    tops = np.array([axes.machine.axis[name].max_feed for name in axes.tip.axes])
+    pulls = np.array([axes.machine.axis[name].acceleration for name in axes.tip.axes])
+    cap2 = np.minimum(np.min((tops / np.maximum(np.abs(first), 1e-12)) ** 2, axis=1), feed**2)
     cap2[0] = cap2[-1] = 0.0
-    step, here = np.diff(shares) * length, np.arange(PLACES)
+    here = np.arange(PLACES)
     rows = []
     for end_of in (0, 1):
         for i in range(len(pulls)):

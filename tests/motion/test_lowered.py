@@ -50,7 +50,7 @@ def test_a_line_that_is_slower_alone_for_certain_is(
 ) -> None:
     direction, rest = zeros(1), zeros(1)
     direction[0], rest[0] = 1.0, jerk
-    limits = Limits(rest, rest, rest, rest, rest, rest, rest, rest, [0, -1, -1], PathLimits(), zeros(0))
+    limits = Limits(rest, rest, rest, rest, rest, rest, rest, rest, rest, [0, -1, -1], PathLimits(), zeros(0))
     ramp = best_ramp(way, top, pull, jerk)
     own = alone_pull(ramp, pull, jerk)
     alone = ramp + rest_to_rest(way, 0.0, alone_top(way, top, own, ramp), own)

@@ -22,11 +22,11 @@ from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
 from tests.motion.paths import Build, mill
 
 MACHINE = mill(acceleration=1000.0, top=500.0)
-#: Velocity of rapids and cuts, acceleration, jump, that of parameters, acceleration on arcs, rotary or not, jerk: three
-#: linear axes.
+#: Velocity of rapids and cuts, acceleration, jump, that of parameters, acceleration on arcs, from line to line, rotary
+#: or not, jerk: three linear axes.
 LIMITS = Limits(
-    [500.0] * 3, [250.0] * 3, [1000.0] * 3, [1.0] * 3, [inf] * 3, [inf] * 3, [0.0] * 3, [50000.0] * 3,
-    [0, 1, 2], PathLimits(), [],
+    [500.0] * 3, [250.0] * 3, [1000.0] * 3, [1.0] * 3, [inf] * 3, [inf] * 3, [inf] * 3,
+    [0.0] * 3, [50000.0] * 3,    [0, 1, 2], PathLimits(), [],
 )  # fmt: skip
 SETTINGS = Settings(acceleration=AccelerationMode.CONSTANT, rapid_stops=False)
 WEIGHTS = [1.0, 1.0, 1.0]

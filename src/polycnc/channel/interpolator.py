@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple, Protocol
 from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from polycnc.messages import AlarmError
     from polycnc.toolpath import Event
@@ -106,6 +106,10 @@ class Commanded(Protocol):
     @property
     def moves(self) -> bool:
         """Whether it is under way, or waits at an override of 0."""
+
+    @property
+    def is_turning(self) -> bool:
+        """Whether it moves by itself now, beside what leads it."""
 
     @property
     def left(self) -> float:
@@ -224,14 +228,25 @@ class Interpolator(Protocol):
     def led_by(self, column: int) -> tuple[Law, ...]:
         """What leads an axis beside the path."""
 
-    def follow(self, column: int, laws: Sequence[Law], spindles: Mapping[int, float] | None = None) -> None:
-        """These lead an axis beside the path from now on, none lets it stay where it is.
+    def follow(
+        self,
+        column: int,
+        laws: Sequence[Law],
+        spindles: Mapping[int, float] | None = None,
+        speed: Callable[[int, float], float] | None = None,
+        *,
+        catches_up: bool = True,
+    ) -> None:
+        """These lead an axis beside the path from now on, none lets it brake.
 
         Args:
             column: The axis.
             laws: By which other axes lead it.
-            spindles: Of a gear: degrees that it turns for one of each leading spindle, by number. The axis then
-                catches up with them, and brakes where nothing is left to lead it.
+            spindles: Of a gear: degrees that it turns for one of each leading spindle, by number.
+            speed: What a spindle turns with, by its number and at an override, rpm, positive for M3: asked for those
+                that are none of the block in execution.
+            catches_up: The axis, which accelerates to the speed at which it is led, makes up for the way that it is
+                behind meanwhile.
 
         Raises:
             CircularCouplingError: An axis would lead itself.

@@ -1,9 +1,11 @@
 """Tool compensation as stages of the path: cutter and nose radius, and corners that are chamfered or rounded.
 
 `cutter` is the one engine for all controls (`CutterCompensation`): it holds a window of steps (`step`) until
-`ends` and `vectors` tell where each ends; `rows` writes them. `policy` says how controls differ.
+`ends` and `vectors` tell where each ends; `rows` writes them. `policy` says how controls differ,
+`bent_leads` is the way to a contour and from it without a corner.
 `interference` finds vectors that have changed places, `avoidance` leads round them. `corner` is the stage of
 chamfers and roundings; `plane` is what both share. `tips` has the imaginary tips of turning tools. `runs` takes many
-lines of a contour at once. `spatial` is radius compensation across a tool that tilts, `spatial_arcs` what it knows of
-arcs, `limiting_surface` of floors beside walls.
+lines of a contour at once. `spatial` is radius compensation across a tool that tilts, `spatial_axes` the
+same where nothing leads the axes, `spatial_arcs` where parallels meet there, `spatial_rules` how
+controls differ, `limiting_surface` floors beside walls.
 """

@@ -68,6 +68,9 @@ class CornerPolicy:
         waits_at_shape: The blocks between the two moves come in front of the shape, the tool standing where it begins;
             else behind it. What the block of the second move does first is behind it always.
         start_up_between: Radius compensation may start up between the two moves.
+        at_rapids: Rapids have corners as other moves have, and a shape may be one.
+        belongs_to_next: Feed, or rapid, of a shape are those of the second move; else of the first.
+        threads_follow: The second move may be a thread; else it is refused as a rapid is.
     """
 
     dwell_between: bool = False
@@ -76,6 +79,9 @@ class CornerPolicy:
     least_turn_deg: float = degrees(1e-6)
     waits_at_shape: bool = False
     start_up_between: bool = False
+    at_rapids: bool = False
+    belongs_to_next: bool = False
+    threads_follow: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -187,7 +193,8 @@ class CornerStage(Stage):
                 move = self.plane.moved(near, (-seam[0], -seam[1]))
             else:
                 move = self._join(held, move)
-        request = wanted or (None if move.kind is Kind.RAPID else self._rounding())
+        is_left = move.kind is Kind.RAPID and not self.policy.at_rapids
+        request = wanted or (None if is_left else self._rounding())
         if request is None:
             self._pass(move)
         else:
@@ -291,7 +298,9 @@ class CornerStage(Stage):
         """Cut both moves, pass on the first and the inserted row; gives the second as cut."""
         a, b = self.plane.edge(held.move), self.plane.edge(move)
         request = held.request
-        if Kind.RAPID in (held.move.kind, move.kind):
+        is_thread = move.kind is Kind.THREAD and not self.policy.threads_follow
+        is_rapid = Kind.RAPID in (held.move.kind, move.kind) and not self.policy.at_rapids
+        if is_thread or is_rapid:
             if not request.modal:
                 self._violate(CornerViolation.RAPID, held.move.line)
         elif a is not None and b is not None and abs(offset.turn(a, b)) > radians(self.policy.least_turn_deg):
@@ -319,9 +328,12 @@ class CornerStage(Stage):
             level = move.start if self.policy.waits_at_shape else first.end
             leaving, entering = plane.at(level, cuts.leaving), plane.at(level, cuts.entering)
             turned = first.turning, move.turning
+        like = move if self.policy.belongs_to_next else first
+        is_rapid = like.kind is Kind.RAPID
         inserted = replace(
-            first, kind=Kind.FEED, start=leaving, end=entering, center=None, turns=0.0, parameters=(), turning=None,
-            feed=first.feed if isnan(held.request.feed) else held.request.feed, origin=origins.CORNER_LINE,
+            first, kind=Kind.RAPID if is_rapid else Kind.FEED, start=leaving, end=entering, center=None, turns=0.0,
+            parameters=(), turning=None, origin=origins.CORNER_LINE,
+            feed=like.feed if is_rapid or isnan(held.request.feed) else held.request.feed,
         )  # fmt: skip
         if cuts.center is not None:
             inserted.kind = plane.arc_kind(ccw, leaving, entering)

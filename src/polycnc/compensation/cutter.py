@@ -34,15 +34,16 @@ from polycnc.channel.moves.path import END_OF_BLOCK, Item, Move, PlacedEvent, Ra
 from polycnc.compensation import vectors
 from polycnc.compensation.ends import blind_end, end_before, square_ends, starts_blind
 from polycnc.compensation.interference import InterferenceCheck, Objections
-from polycnc.compensation.policy import Violation
+from polycnc.compensation.policy import BENDS, Approach, Violation
 from polycnc.compensation.rows import RowWriter
 from polycnc.compensation.step import NO_VECTOR, Role, Step
 from polycnc.geometry import arcs, offset
 from polycnc.geometry.offset import Corner
 from polycnc.geometry.tolerances import NO_WAY, ROUNDED_MM, SAME_POINT_MM
+from polycnc.toolpath.context import PROGRAMMED
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from polycnc.channel.moves.path import Run
     from polycnc.compensation.plane import Plane
@@ -58,6 +59,7 @@ class CutterCompensation(Stage):
         policy: The control's behaviour; may be replaced between blocks.
         violations: The control's alarm code for each violation that it checks; one without a code is let
             pass.
+        within: Gives the context of a chord that another one of the same motion follows, for that of the motion.
 
     Attributes:
         suspended: Contour blocks keep the vector that stands square at the end of the last compensated one
@@ -67,10 +69,16 @@ class CutterCompensation(Stage):
     rank = Rank.COMPENSATION
     takes_runs = True
 
-    def __init__(self, plane: Plane, policy: Policy, violations: Mapping[Violation, str]) -> None:
+    def __init__(
+        self,
+        plane: Plane,
+        policy: Policy,
+        violations: Mapping[Violation, str],
+        within: Callable[[int], int] = int,
+    ) -> None:
         self.plane = plane
         self.policy = policy
-        self._rows = RowWriter(plane, self)
+        self._rows = RowWriter(plane, self, within)
         self._violations = Objections(violations)
         self._role = Role.PLAIN
         self._side = 1
@@ -86,6 +94,7 @@ class CutterCompensation(Stage):
         self._forced: Point | None = None
         self._holds = False
         self._starts_square = False
+        self._is_bare = False
         self.suspended = False
 
     # ---- what a control commands ---------------------------------------------------------------------------
@@ -140,14 +149,15 @@ class CutterCompensation(Stage):
     def change_radius(self, radius: float, tip: Point | None = None) -> None:
         """Another radius within compensation: it holds at the end of the next block and grows along it.
 
-        FANUC 0i-TF Plus 5.2.4 and 5.3, SYNTEC 2.27.5: a block's end vector is that of the block's own radius.
+        FANUC 0i-TF Plus 5.2.4 and 5.3, SYNTEC 2.27.5: a block's end vector is that of the block's own radius. Beside
+        another side (`change_side`), and by the policy where its sign changes, it holds from the start of that block.
         """
         self._radius = radius
         if tip is not None:
             self._tip = tip
 
     def change_side(self, side: int) -> None:
-        """The other side within compensation, with the radius as it is."""
+        """The other side within compensation."""
         self._side = side
 
     def forced_vector(self, direction: Point) -> None:
@@ -239,6 +249,7 @@ class CutterCompensation(Stage):
         if place is not None and (self.policy.shifts_without_motion or self._forced is not None):
             point = self.plane.point(place.end)
             self._take(place, offset.Edge(point, point, NO_VECTOR, NO_VECTOR))
+        self._is_bare = self._role is Role.CANCEL and self.policy.bare_cancel_is_square
         self._in_order(END_OF_BLOCK)
         self._read += 1
         while self._window and self._read - self._window[0].read >= self._window[0].waits_for:
@@ -269,9 +280,11 @@ class CutterCompensation(Stage):
         """Put a plane move into the window; it closes the corner in front of it."""
         distance, shift = self._side * self._radius, self._shift()
         step = Step(move, edge, edge, self._role, distance, shift, self.policy, self._read, self._rows.vector)
+        step.side = self._side
         step.suspended = self.suspended and self._role is Role.CONTOUR
         step.forced, step.holds = self._forced, self._holds or step.suspended
         step.starts_square = self._starts_square
+        step.is_bare = self._is_bare
         self._forced, self._holds, self._starts_square = None, False, False
         step.edge = self._checked(step)
         if step.role is Role.CONTOUR and not self._window and step.policy.approaches_behind_stops:
@@ -341,9 +354,22 @@ class CutterCompensation(Stage):
             if step.corner_arc is None:
                 corner = vectors.without_small_moves(corner, following.edge, step.policy.least_move_mm)
             step.corner = corner
+            self._bend(step, following)
             if step.role is Role.CONTOUR and step.forced is None and not step.holds:
                 self._interference.check(step)
         self._window[-1].lead_to(following)
+
+    def _bend(self, step: Step, following: Step) -> None:
+        """A start-up or cancel block that meets the contour on a polynomial takes its direction from it."""
+        starts = step.role is Role.START and following.role is Role.CONTOUR
+        leaves = step.role is Role.CONTOUR and following.role is Role.CANCEL
+        lead, met = (step, following) if starts else (following, step)
+        rule, programmed = lead.policy.approach, lead.move.origin == PROGRAMMED  # a smooth approach is none
+        straight = programmed and lead.edge.center is None and met.edge.length > NO_WAY
+        if (starts or leaves) and rule in BENDS and straight:
+            from polycnc.compensation.bent_leads import contact  # for those that ask for it
+
+            lead.contact = contact(met, self.plane, at_start=starts, curved=rule is Approach.CURVED)
 
     def _leave_out_arcs(self, following: Step) -> None:
         """Inner arcs too small for the tool go where the blocks in front of them and behind them meet."""
@@ -404,4 +430,4 @@ class CutterCompensation(Stage):
         self._rows.drop_vector()
         self._interference.forget()
         self._wall = self._place = None
-        self._forced, self._holds, self._starts_square = None, False, False
+        self._forced, self._holds, self._starts_square, self._is_bare = None, False, False, False

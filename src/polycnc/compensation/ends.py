@@ -33,13 +33,15 @@ def end_before(step: Step, following: Step, wall: Point | None) -> Corner | None
         direction = step.corner_arc[1]
         end = following.edge.departing if direction is None else offset.ray(edge.end, direction).arriving
         return _arc_end(step, end)
+    if following.is_bare and wall is None:
+        return vectors.square(edge.arriving, distance)
     if following.role is not Role.CONTOUR:
-        return vectors.leave(edge, following.edge, distance, policy, wall)
+        return vectors.leave(edge, following.edge, distance, following.policy, wall)
     if step.role is Role.START:
         return vectors.approach(edge, following.edge, distance, policy)
     if following.holds or following.starts_square:
         return vectors.square(edge.arriving, distance)
-    if following.distance * distance < 0.0:
+    if following.distance * distance < 0.0 and (policy.sign_is_side or following.side != step.side):
         return vectors.change_of_side(edge, following.edge, distance, following.distance)
     return offset.corner(edge, following.edge, distance, policy.outer)
 

@@ -24,6 +24,14 @@ class Approach(Enum):
     CORNER = "corner"
     #: As `CORNER`, for the line that touches the tool circle about the corner (SINUMERIK KONT).
     TANGENT = "tangent"
+    #: Square on the contour, on a polynomial that has the tangent of the contour's parallel there (SINUMERIK KONTT).
+    BENT = "bent"
+    #: As `BENT`, with its curvature too (SINUMERIK KONTC).
+    CURVED = "curved"
+
+
+#: Approaches on a polynomial.
+BENDS = (Approach.BENT, Approach.CURVED)
 
 
 class Violation(Enum):
@@ -53,6 +61,8 @@ class Policy:
         read_blocks: N, the blocks read until the first of them is executed, itself included.
         start_blocks: The same from a start-up block on; None for as many.
         recommand_is_square: G41 or G42 written again on the same side makes the block in front end square.
+        sign_is_side: A radius of the other sign within compensation changes the side where its block begins (FANUC);
+            else it holds from the end of its block, as every new radius does (SYNTEC).
         checks_direction: Interference is where a compensated line or arc runs against the programmed (5008).
         checks_arcs: The same for arcs alone.
         avoids: Interference is led round where possible, past any of the blocks read (FANUC 19607#5, 5.4.6.3);
@@ -60,6 +70,8 @@ class Policy:
         leaves_out_arcs: An inner arc too small for the tool is left out where the blocks beside it meet (SINUMERIK);
             else, and where they do not, its chord takes its place.
         dares: A dangerous way round an interference is taken without an alarm (19607#6).
+        bare_cancel_is_square: A G40 without motion makes the block in front end square, whatever `approach` says of
+            the move that leads back behind it (FANUC types A and B, 5.4.4).
         approaches_behind_stops: Where nothing was known of the next move when one had to be executed, a straight
             block of its own leads to square on the next one (SINUMERIK, `$AC_BLOCKTYPEINFO` 4001); else that one
             begins where the tool stands, square on the one in front.
@@ -73,9 +85,11 @@ class Policy:
     read_blocks: int = 3
     start_blocks: int | None = None
     recommand_is_square: bool = False
+    sign_is_side: bool = True
     checks_direction: bool = True
     checks_arcs: bool = True
     avoids: bool = False
     leaves_out_arcs: bool = False
     dares: bool = False
+    bare_cancel_is_square: bool = False
     approaches_behind_stops: bool = False

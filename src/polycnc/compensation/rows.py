@@ -7,16 +7,18 @@ from math import copysign, hypot, inf
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves import origins
-from polycnc.compensation.step import NO_VECTOR
+from polycnc.compensation.step import NO_VECTOR, Role
 from polycnc.geometry import arcs, offset
 from polycnc.geometry.offset import Joint
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.toolpath.kinds import Kind
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from polycnc.channel.moves.path import Move, Stage
     from polycnc.compensation.plane import Plane
-    from polycnc.compensation.step import Step
+    from polycnc.compensation.step import Contact, Step
     from polycnc.geometry.arcs import Point
     from polycnc.geometry.offset import Corner
 
@@ -27,15 +29,17 @@ class RowWriter:
     Args:
         plane: The plane of compensation.
         stage: The stage whose next one gets the rows.
+        within: Gives the context of a chord that another one of the same motion follows, for that of the motion.
 
     Attributes:
         vector: The vector at the end of the last compensated move.
         displacement: How far the tool stands beside the programmed point: the vector, and the tip's shift with it.
     """
 
-    def __init__(self, plane: Plane, stage: Stage) -> None:
+    def __init__(self, plane: Plane, stage: Stage, within: Callable[[int], int] = int) -> None:
         self.plane = plane
         self._stage = stage
+        self._within = within
         self.vector = NO_VECTOR
         self.displacement = NO_VECTOR
 
@@ -101,7 +105,9 @@ class RowWriter:
             else:
                 along = arcs.plus(step.shift, step.first) if step.suspended else step.shift
                 row = replace(row, center=plane.moved_center(move, along))
-        if row.center is not None or way > NO_WAY or plane.moves_elsewhere(move):
+        if step.contact is not None and way > NO_WAY:
+            self._bend(row, step.contact, leaves=step.role is Role.CANCEL)
+        elif row.center is not None or way > NO_WAY or plane.moves_elsewhere(move):
             self._stage.after.move(row)
         if len(corner.vectors) > 1:
             template = (step.corner_arc[0] if step.corner_arc else move).between(row.end, row.end)
@@ -109,6 +115,31 @@ class RowWriter:
                 template = self._join(template, step, corner.joint, vector)
         self.vector = corner.vectors[-1]
         self.displacement = arcs.plus(self.vector, step.shift)
+
+    def _bend(self, row: Move, contact: Contact, *, leaves: bool) -> None:
+        """The row as chords of the polynomial that meets the contour where the row ends or, as it `leaves`, begins."""
+        from polycnc.compensation.bent_leads import course  # for those that ask for it
+
+        plane, u, v = self.plane, row.start, row.end
+        in_order = (plane.u, plane.v, plane.w)
+        (a, b, c), (d, e, f) = (
+            [p[i] if (i := plane.columns[axis]) >= 0 else 0.0 for axis in in_order] for p in (u, v)
+        )
+        free, touching = ((d, e, f), (a, b, c)) if leaves else ((a, b, c), (d, e, f))
+        points = [(0.0, touching), *course(free, touching, contact)]
+        if not leaves:
+            points = [(1.0 - share, point) for share, point in reversed(points)]
+        kind = Kind.RAPID if row.kind is Kind.RAPID else Kind.SPLINE
+        context = self._within(row.context) if len(points) > 2 else row.context
+        before = row.start
+        for share, point in points[1:-1]:
+            place = [first + (last - first) * share for first, last in zip(u, v, strict=True)]
+            for axis, value in zip(in_order, point, strict=True):
+                if plane.columns[axis] >= 0:
+                    place[plane.columns[axis]] = value
+            self._stage.after.move(replace(row, kind=kind, start=before, end=place, context=context))
+            before = place
+        self._stage.after.move(replace(row, kind=kind, start=before))
 
     def _join(self, template: Move, step: Step, joint: Joint, vector: Point) -> Move:
         """One row from the place of the last one to the next vector."""

@@ -11,12 +11,13 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import partial
 from itertools import pairwise
-from math import acos, degrees, sin, sqrt
+from math import acos, ceil, degrees, sqrt
 from typing import TYPE_CHECKING, Protocol
 
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move, PlacedEvent, Rank, Stage
-from polycnc.compensation.spatial_arcs import is_across, meeting, turns_left
+from polycnc.compensation.spatial_arcs import Rest, between, crossing, is_across, meeting, turns_left
+from polycnc.compensation.spatial_rules import TURNS_ALONG, TURNS_BEFORE, TURNS_NOT
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.arcs import parts_for_chord_error
 from polycnc.geometry.vectors import cross, dot, minus, times
@@ -26,12 +27,11 @@ from polycnc.toolpath.kinds import Kind
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
+    from polycnc.compensation.spatial_rules import Corners, Rules
     from polycnc.geometry.frames import Vector
 
 PARALLEL = 1e-6
-INTERSECTION, INTERSECTION_FIRST, ARC_FIRST = 0, 1, 2
-#: The tool turns at a corner: not at all, before the arc about it, or along with it.
-TURNS_NOT, TURNS_BEFORE, TURNS_ALONG = 0, 1, 2
+NOWHERE: Vector = (0.0, 0.0, 0.0)
 #: Chords of an arc along which the tool turns may be this far off it, mm.
 CHORD_ERROR_MM = 0.001
 
@@ -43,61 +43,12 @@ class Directions(Protocol):
         """Direction along the tool at a position of the path, of length 1."""
 
 
-@dataclass(frozen=True, slots=True)
-class Corners:
-    """How outer corners are passed, and the corner angles of the work at which the way changes (degrees).
-
-    Attributes:
-        way: What is done first.
-        least_intersection_deg: Sharper corners get an arc where intersections come first.
-        most_arc_deg: Wider corners get an intersection where arcs come first.
-        cut_off: In place of an arc both parallels go on by the radius, and a line joins them (FANUC).
-    """
-
-    way: int = INTERSECTION
-    least_intersection_deg: float = 0.0
-    most_arc_deg: float = 180.0
-    cut_off: bool = False
-
-    def is_round(self, angle_deg: float) -> bool:
-        """Whether a corner of the work with this angle gets an arc, or the line that stands for it."""
-        if self.way == INTERSECTION_FIRST:
-            return angle_deg < self.least_intersection_deg
-        return self.way == ARC_FIRST and angle_deg <= self.most_arc_deg
-
-
-@dataclass(frozen=True, slots=True)
-class Rules:
-    """How controls differ.
-
-    Attributes:
-        no_corner: Alarm where two blocks have no corner.
-        changes: Alarm where a turn of the tool makes an inner corner an outer one; empty where none does.
-        idle: Alarm for too many blocks that cannot be computed, and how many may be; empty for no limit.
-        most_idle: That number.
-        square_start: The first block leads square onto the second one.
-        corner_ends: At outer corners the first and the last block count as compensated ones instead (FANUC type B).
-        turns: When the tool turns at an outer corner.
-        no_room: Alarm for an inner arc that is smaller than the tool; empty where none may come.
-        reverses: Alarm for a straight block that the tool would go backwards; empty where nobody checks that.
-    """
-
-    no_corner: str
-    changes: str = ""
-    idle: str = ""
-    most_idle: int = 0
-    square_start: bool = False
-    corner_ends: bool = False
-    turns: int = TURNS_NOT
-    no_room: str = ""
-    reverses: str = ""
-
-
 @dataclass(slots=True)
 class _Held:
     """A block whose end waits for the next one: its move, the normal at its end, the tool there, its direction.
 
-    What it has of the stage holds for the corner at its end: how corners are passed, the depth, and what a floor adds.
+    What it has of the stage holds for the corner at its end: how corners are passed, the depth, what a floor adds, and
+    the side.
     """
 
     move: Move
@@ -109,6 +60,7 @@ class _Held:
     rules: Rules
     depth: float
     deeper: float
+    side: int
 
 
 class SpatialStage(Stage):
@@ -149,10 +101,10 @@ class SpatialStage(Stage):
         self._depth = 0.0
         self._geometry = geometry
         self._posture = posture
-        self.radius = radius
+        self.radius = self._next_radius = radius
         self._starts = rules.square_start
         self._held: _Held | None = None
-        self._shift: Vector = (0.0, 0.0, 0.0)
+        self._shift: Vector = NOWHERE
         self._at: list[float] | None = None
         self._idle = 0
         self._queue: list[Move | PlacedEvent] = []
@@ -189,6 +141,8 @@ class SpatialStage(Stage):
         elif is_across(move, tool) and _near(tool, self._posture.tool_at(move.start)):
             path = MovePath(move, self._geometry)
             self._take(move, tool, path.direction(0.0), path.direction(1.0), self.corners)
+        elif self.rules.slanted:
+            raise AlarmError(self.rules.slanted, line=move.line)
         else:
             self._in_chords(move)
 
@@ -218,10 +172,26 @@ class SpatialStage(Stage):
         self._idle = 0
         deeper = self._deeper(normal, tool, arriving)
         self._join(departing, move, deeper)
+        self.radius = self._next_radius
+        self._hold(move, normal, tool, arriving, corners, deeper)
+
+    def _hold(
+        self, move: Move, normal: Vector, tool: Vector, tangent: Vector, corners: Corners, deeper: float = 0.0
+    ) -> None:
+        """Let a block wait for the next one."""
         self._held = _Held(
-            move, normal, tool, arriving, self._starts, corners, self.rules, self.depth, deeper
+            move, normal, tool, tangent, self._starts, corners, self.rules, self.depth, deeper, self.side
         )
         self._starts = False
+
+    def shift_at(self, place: Move) -> None:
+        """A block without motion starts up: the tool goes beside the next one there (FANUC type C)."""
+        self._hold(place, NOWHERE, self._posture.tool_at(place.end), NOWHERE, self.corners)
+
+    def return_at(self, place: Move) -> None:
+        """A block without motion ends the compensation: the tool goes back to the path there (FANUC type C)."""
+        self._release()
+        self._emit(place, NOWHERE)
 
     def _deeper(self, normal: Vector, tool: Vector, tangent: Vector) -> float:  # noqa: ARG002 - for floors
         """How far down the tool a floor beside the wall calls for at the end of the move that comes, mm."""
@@ -251,9 +221,16 @@ class SpatialStage(Stage):
         first, second = held.normal, self._normal(turned, tangent)
         if second is None:
             raise AlarmError(held.rules.no_corner, line=held.move.line)
+        changed = held.side != self.side
+        if changed and held.starts:
+            second = times(second, -1.0)
         outer = self._is_outer(held, second, turned, tangent)
         if held.starts and not (held.rules.corner_ends and outer):
             self._emit(held.move, self._beside(second, turned))
+            self._run_queue()
+            return
+        if changed:
+            self._emit_turning(held.move, held.tangent, self._crossing(held, following, second, tangent))
             self._run_queue()
             return
         cosine = min(1.0, dot(first, second))
@@ -276,11 +253,40 @@ class SpatialStage(Stage):
 
     def _meeting(self, held: _Held, following: Move) -> Vector:
         """The vector from a corner to where the parallels meet of which one at least is an arc."""
-        found = meeting(held.move, following, held.tool, self.side * self.radius, self._geometry)
+        distance = self.side * self.radius
+        found = meeting(held.move, following, held.tool, (distance, distance), self._geometry)
         if found is None:
             raise AlarmError(held.rules.no_corner, line=held.move.line)
         x, y, z = (a - self._depth * b for a, b in zip(found, held.tool, strict=True))
         return (x, y, z)
+
+    def _crossing(self, held: _Held, following: Move, second: Vector, tangent: Vector) -> Vector:
+        """At a change of side: to where the parallels meet within reach of a block, else square on the next one.
+
+        FANUC 0i-TF Plus 5.4.3, looked at along the tool.
+        """
+        one, two = times(held.normal, self.radius), times(second, self._next_radius)
+        if held.move.is_arc or following.is_arc:
+            distances = (held.side * self.radius, self.side * self._next_radius)
+            found = meeting(held.move, following, held.tool, distances, self._geometry)
+        else:
+            found = crossing(one, two)
+        if found is not None:
+            back = self._part_of(held.move, held.tool, held.tangent, times(found, -1.0))
+            ahead = self._part_of(following, held.tool, tangent, found)
+            found = found if 0.0 <= back <= 1.0 or 0.0 <= ahead <= 1.0 else None
+        x, y, z = (u - self._depth * v for u, v in zip(found or two, held.tool, strict=True))
+        return (x, y, z)
+
+    def _part_of(self, move: Move, tool: Vector, tangent: Vector, way: Vector) -> float:
+        """How much of a move a way across the tool is as long as, counted along a direction."""
+        flat = minus(tangent, times(tool, dot(tangent, tool)))
+        length = MovePath(move, self._geometry).length if move.is_arc else self._length(move)
+        return dot(way, flat) / max(length * dot(flat, flat), PARALLEL)
+
+    def _length(self, move: Move) -> float:
+        way = minus(self._point(move.end), self._point(move.start))
+        return sqrt(dot(way, way))
 
     def _tool_behind(self, held: _Held) -> Vector:
         """The tool as the moves that wait behind a block leave it."""
@@ -296,6 +302,8 @@ class SpatialStage(Stage):
             before = dot(unturned, held.tangent) * self.radius
             if min(outer, before) < -PARALLEL and max(outer, before) > PARALLEL:
                 raise AlarmError(held.rules.changes, line=held.move.line)
+        if held.rules.rounds_ends and dot(held.normal, second) < PARALLEL - 1.0 and held.side == self.side:
+            return True
         return outer > PARALLEL
 
     def _round(self, held: _Held, second: Vector, turned: Vector) -> None:
@@ -363,7 +371,7 @@ class SpatialStage(Stage):
             for k in range(1, count + 1):
                 part = k / count
                 place = [a + part * (b - a) for a, b in zip(item.start, item.end, strict=True)]
-                normal = _between(held.normal, second, sweep, done + share * part)
+                normal = between(held.normal, second, sweep, done + share * part)
                 chord = replace(item, kind=Kind.SPLINE, end=place)
                 if k < count:
                     chord.context = self._within(item.context)
@@ -399,21 +407,25 @@ class SpatialStage(Stage):
         before, path = self._shift, MovePath(move, self._geometry)
         tools = self._posture.tool_at(move.start), self._posture.tool_at(move.end)
         first, last = (self._normal(tool, tangent) for tool in tools)
-        count = 1 if self._at is None or move.is_arc else self._chords(path, tangent)
-        if first is None or last is None or count == 1:
+        straight = self._at is None or move.is_arc or not self.rules.follows_turns
+        if first is None or last is None or straight:
             self._emit(move, shift)
             return
-        start, end = self._beside(first, tools[0]), self._beside(last, tools[1])
+        rests = [
+            Rest.of(minus(at, self._beside(normal, tool)), tangent, tool)
+            for at, normal, tool in ((before, first, tools[0]), (shift, last, tools[1]))
+        ]
+        count = self._chords(path, tangent, *rests)
+        if count == 1:
+            self._emit(move, shift)
+            return
         for k in range(1, count + 1):
             part, place = k / count, path.at(k / count)
             tool = self._posture.tool_at(place)
             normal = self._normal(tool, tangent) or last
             # What corners ask for at both ends fades along the block.
-            rests = (
-                (1.0 - part) * (a - b) + part * (c - d)
-                for a, b, c, d in zip(before, start, shift, end, strict=True)
-            )
-            x, y, z = (a + b for a, b in zip(self._beside(normal, tool), rests, strict=True))
+            rest = rests[0].fading(rests[1], part).at(tangent, tool)
+            x, y, z = (a + b for a, b in zip(self._beside(normal, tool), rest, strict=True))
             piece = path.between((k - 1) / count, part)
             if k < count:
                 piece.kind, piece.context = Kind.SPLINE, self._within(move.context)
@@ -426,17 +438,22 @@ class SpatialStage(Stage):
         if dot(led, minus(self._point(move.end), self._point(move.start))) < 0.0:
             raise AlarmError(self.rules.reverses, line=move.line)
 
-    def _chords(self, path: MovePath, tangent: Vector) -> int:
+    def _chords(self, path: MovePath, tangent: Vector, first: Rest, last: Rest) -> int:
         """In how many chords the tip goes round where the tool, and what is square on it, turn along a move."""
         turning = path.move.turning
         parts = (0.0, 1.0) if turning is None else (0.0, *turning.shares)
         tools = [self._posture.tool_at(path.at(part)) for part in parts]
         normals = [self._normal(tool, tangent) or tool for tool in tools]
         counts = (
-            parts_for_chord_error(max(abs(reach), PARALLEL), _turned(directions), CHORD_ERROR_MM)
-            for reach, directions in ((self.radius, normals), (self._depth, tools))
+            parts_for_chord_error(max(abs(reach), PARALLEL), _turned(directions), CHORD_ERROR_MM / 2.0)
+            for reach, directions in (
+                (self.radius, normals),
+                (max(abs(self._depth), abs(first.tool), abs(last.tool)), tools),
+            )
         )
-        return max(counts)
+        # What fades while the tool turns bends the way by a quarter of both changes.
+        bend = abs(last.tool - first.tool) * _turned(tools) / 4.0
+        return max(*counts, ceil(sqrt(bend / (CHORD_ERROR_MM / 2.0))))
 
     def _centre(self, move: Move, center: Vector) -> Vector:
         """The centre of the parallel arc, as far down the tool as its ends."""
@@ -469,6 +486,7 @@ class SpatialStage(Stage):
             self._depth = held.depth + held.deeper
             emit = self._emit if held.starts else partial(self._emit_turning, tangent=held.tangent)
             emit(held.move, shift=self._beside(held.normal, held.tool))
+            self._starts = self._starts or (held.starts and held.normal == NOWHERE)
         self._run_queue()
 
     def lead_back(self) -> None:
@@ -486,13 +504,20 @@ class SpatialStage(Stage):
             self._join(way, move, 0.0)
         else:
             self._release()
-        self._emit(move, (0.0, 0.0, 0.0))
+        self._emit(move, NOWHERE)
         self.leaves, self._left = False, True
 
     def change(self, side: int, radius: float) -> None:
-        """The other side, or another radius, from the next block on; between the two is no corner."""
+        """The other side, or another radius, from the next block on; between the two is no corner, or a crossing."""
+        if self.rules.crosses and side * radius * self.side * self.radius < 0.0:
+            self.side, self._next_radius = side, radius
+            return
         self._release()
-        self.side, self.radius = side, radius
+        self.side, self.radius, self._next_radius = side, radius, radius
+
+    def change_radius(self, radius: float) -> None:
+        """Another radius: it holds at the end of the next block and grows along it (FANUC 0i-TF Plus 5.4.3)."""
+        self._next_radius = radius
 
     def event(self, event: PlacedEvent) -> None:
         """Take an event; it comes behind the block that waits."""
@@ -523,12 +548,3 @@ def _turned(directions: Sequence[Vector]) -> float:
 
 def _near(a: Vector, b: Vector) -> bool:
     return all(abs(x - y) < PARALLEL for x, y in zip(a, b, strict=True))
-
-
-def _between(a: Vector, b: Vector, sweep: float, share: float) -> Vector:
-    """A direction between two on their great circle."""
-    if sweep < PARALLEL:
-        return b
-    p, q = sin((1.0 - share) * sweep) / sin(sweep), sin(share * sweep) / sin(sweep)
-    x, y, z = (p * s + q * t for s, t in zip(a, b, strict=True))
-    return (x, y, z)

@@ -1,8 +1,9 @@
-"""Arcs in space compensation: looked at along the tool they are arcs of a plane, whose parallels meet as there."""
+"""Where parallels meet in space compensation: looked at along the tool, lines and arcs are those of a plane."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from math import sin
+from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.geometry import offset
 from polycnc.geometry.vectors import cross, dot, minus
@@ -29,7 +30,7 @@ def turns_left(move: Move, tool: Vector) -> bool:
 
 
 def meeting(
-    first: Move, second: Move, tool: Vector, distance: float, geometry: tuple[int, int, int]
+    first: Move, second: Move, tool: Vector, distances: tuple[float, float], geometry: tuple[int, int, int]
 ) -> Vector | None:
     """From a corner to where the parallels of its two moves meet; None where they do not.
 
@@ -37,7 +38,7 @@ def meeting(
         first: The move that ends at the corner, a line or an arc across the tool.
         second: The one that begins there.
         tool: Direction along the tool.
-        distance: Of the parallels, left positive, mm.
+        distances: Of the parallels, left positive, mm.
         geometry: Columns of X, Y, Z.
     """
     corner = _point(first.end, geometry)
@@ -56,10 +57,66 @@ def meeting(
     here = (0.0, 0.0)
     a = edge(first, drawn(_point(first.start, geometry)), here)
     b = edge(second, here, drawn(_point(second.end, geometry)))
-    point = offset.meet(a, b, distance, distance)
+    point = offset.meet(a, b, *distances)
     if point is None:
         return None
     x, y, z = (point[0] * a + point[1] * b for a, b in zip(u, v, strict=True))
+    return (x, y, z)
+
+
+def crossing(one: Vector, two: Vector) -> Vector | None:
+    """From a corner to where two straight parallels cross, each through the tip of its vector and square on that."""
+    a, b, c = dot(one, one), dot(two, two), dot(one, two)
+    span = a * b - c * c
+    if span <= PARALLEL * a * b:
+        return None
+    p, q = b * (a - c) / span, a * (b - c) / span
+    x, y, z = (p * u + q * v for u, v in zip(one, two, strict=True))
+    return (x, y, z)
+
+
+class Rest(NamedTuple):
+    """What a vector has beside what stands square on path and tool: parts along the path, down the tool, and others.
+
+    The first two keep the tool as far beside the path, however it turns.
+    """
+
+    path: float
+    tool: float
+    beside: Vector
+
+    @classmethod
+    def of(cls, rest: Vector, tangent: Vector, tool: Vector) -> Rest:
+        """The parts of a vector; path and tool must not be parallel."""
+        cosine, along, down = dot(tangent, tool), dot(rest, tangent), dot(rest, tool)
+        span = 1.0 - cosine * cosine
+        p, q = (along - cosine * down) / span, (down - cosine * along) / span
+        x, y, z = (a - p * b - q * c for a, b, c in zip(rest, tangent, tool, strict=True))
+        return cls(p, q, (x, y, z))
+
+    def fading(self, other: Rest, share: float) -> Rest:
+        """On the way from this one to another."""
+        x, y, z = (a + share * (b - a) for a, b in zip(self.beside, other.beside, strict=True))
+        path, tool = (
+            self.path + share * (other.path - self.path),
+            self.tool + share * (other.tool - self.tool),
+        )
+        return Rest(path, tool, (x, y, z))
+
+    def at(self, tangent: Vector, tool: Vector) -> Vector:
+        """The vector with the tool where it stands now."""
+        x, y, z = (
+            a + self.path * b + self.tool * c for a, b, c in zip(self.beside, tangent, tool, strict=True)
+        )
+        return (x, y, z)
+
+
+def between(a: Vector, b: Vector, sweep: float, share: float) -> Vector:
+    """A direction at a share of the way between two on their great circle, which are `sweep` apart, radians."""
+    if sweep < PARALLEL:
+        return b
+    p, q = sin((1.0 - share) * sweep) / sin(sweep), sin(share * sweep) / sin(sweep)
+    x, y, z = (p * s + q * t for s, t in zip(a, b, strict=True))
     return (x, y, z)
 
 

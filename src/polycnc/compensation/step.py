@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import field
 from enum import Enum
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.deferred.records import dataclass
 from polycnc.geometry import arcs, offset
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from polycnc.channel.moves.path import Item, Move
     from polycnc.compensation.policy import Policy
     from polycnc.geometry.arcs import Point
+    from polycnc.geometry.frames import Vector
     from polycnc.geometry.offset import Corner, Edge
 
 NO_VECTOR: Point = (0.0, 0.0)
@@ -35,6 +36,18 @@ class Role(Enum):
 _SAME_RADIUS_MM = 1e-6
 
 
+class Contact(NamedTuple):
+    """How the path of the tool goes on at the end of the contour, seen from the free point's side.
+
+    Attributes:
+        outwards: Unit tangent in the plane's order (u, v, w), away from the contour.
+        curvature: Second derivative of the path by its length there, 1/mm; None where only the tangent counts.
+    """
+
+    outwards: Vector
+    curvature: Vector | None
+
+
 @dataclass(slots=True)
 class Step:
     """A plane move in the window.
@@ -49,15 +62,18 @@ class Step:
         policy: The control's behaviour when the block was read.
         read: Number of the block.
         first: Vector at its start.
+        side: The side that was commanded, 1 left.
         corner: Vectors at its end, once known.
         forced: Direction on which the vector at its end stands square (I, J, K in the block).
         holds: It keeps the vector of its start (G38).
         suspended: It belongs to a stretch that keeps one vector (CUTCONON); arcs are moved by it as they are.
         starts_square: The block in front ends square on itself.
+        is_bare: It leads back behind a cancel block without motion (`Policy.bare_cancel_is_square`).
         straight: Its vectors were left out, so it is a straight move.
         is_chord: The chord of an arc that the tool does not fit into takes its place.
         altered: A detour round an interference changed it.
         corner_arc: The block of G39 after it, and the direction on which the arc ends square.
+        contact: How the contour goes on where a start-up or cancel block meets it on a polynomial (KONTT, KONTC).
         after: What came after it, in order: held items, and steps that a detour has left out.
     """
 
@@ -70,15 +86,18 @@ class Step:
     policy: Policy
     read: int
     first: Point = NO_VECTOR
+    side: int = 1
     corner: Corner | None = None
     forced: Point | None = None
     holds: bool = False
     suspended: bool = False
     starts_square: bool = False
+    is_bare: bool = False
     straight: bool = False
     is_chord: bool = False
     altered: bool = False
     corner_arc: tuple[Move, Point | None] | None = None
+    contact: Contact | None = None
     after: list[Item | Step] = field(default_factory=list)
 
     def lead_to(self, following: Step) -> None:

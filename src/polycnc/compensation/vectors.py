@@ -11,13 +11,17 @@ from __future__ import annotations
 from math import asin, atan2, cos, hypot, pi, sin
 from typing import TYPE_CHECKING
 
-from polycnc.compensation.policy import Approach
+from polycnc.compensation.policy import BENDS, Approach
 from polycnc.geometry import offset
 from polycnc.geometry.offset import Corner, Edge, Joint
 
 if TYPE_CHECKING:
     from polycnc.compensation.policy import Policy
     from polycnc.geometry.arcs import Point
+
+
+#: Rules by which the tool stands square on the contour whichever way it comes.
+_SQUARE = (Approach.SQUARE, *BENDS)
 
 
 def square(direction: Point, distance: float) -> Corner:
@@ -28,7 +32,7 @@ def square(direction: Point, distance: float) -> Corner:
 def approach(startup: Edge, contour: Edge, distance: float, policy: Policy) -> Corner:
     """The end of the start-up block, before the first block of the contour."""
     rule = policy.approach
-    if rule is Approach.SQUARE or not startup.length or not offset.is_outer(startup, contour, distance):
+    if rule in _SQUARE or not startup.length or not offset.is_outer(startup, contour, distance):
         return square(contour.departing, distance)
     if rule is Approach.TANGENT:
         touching = _touching(startup.start, contour.start, distance, leaving=False)
@@ -56,7 +60,7 @@ def leave(contour: Edge, cancel: Edge, distance: float, policy: Policy, wall: Po
     rule = policy.approach
     if (
         wall is not None
-        or rule is Approach.SQUARE
+        or rule in _SQUARE
         or not cancel.length
         or not offset.is_outer(contour, cancel, distance)
     ):

@@ -14,6 +14,7 @@ from polycnc.mainrun.commands.states import State
 from polycnc.mainrun.execution.clock import Clock
 from polycnc.mainrun.execution.main_loop import LONGEST_RUN_S, MainLoop
 from polycnc.mainrun.execution.operation import Operation
+from polycnc.mainrun.preparation.items import Move
 from polycnc.mainrun.signals.image import SignalImage
 from polycnc.mainrun.signals.interlocks import Interlocks
 from polycnc.mainrun.status import Status
@@ -110,6 +111,7 @@ class Continuation:
                 self._give_up(AlarmError("PC0013"))
             elif first.blocks + self._clock.visits >= first.block_limit:
                 self._give_up(first.control.block_limit())
+        self._end_by_machine()
         self._stand()
 
     def _give_up(self, error: AlarmError) -> None:
@@ -119,6 +121,25 @@ class Continuation:
         run.execution.abandon()
         run.preprocessing.refuse(error)
         run.execution.start()
+
+    def _end_by_machine(self) -> None:
+        """An alarm of the machine's own controller ends the program too; what is only prepared has not happened."""
+        operation = self._operation
+        alarm = next((each for each in operation.status.alarms if not each.channel), None)
+        if alarm is None:
+            return
+        run = operation.runs.first
+        execution, preprocessing = run.execution, run.preprocessing
+        if execution.motion is not None:
+            preprocessing.cut(execution.motion.piece.row)
+        comes = next((item.row for item in preprocessing.items if isinstance(item, Move)), None)
+        if comes is not None:
+            preprocessing.toolpath.forget_from(int(comes))
+        preprocessing.arrived(execution.machine)
+        run.interpolator.end(reset=False)
+        execution.abandon()
+        number = preprocessing.toolpath.program_number(alarm.program)
+        preprocessing.refuse(AlarmError(alarm.code, line=alarm.line, program=number))
 
     def _stand(self) -> None:
         """Axes that were moved beside the path stand where that has led them."""

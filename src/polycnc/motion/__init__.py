@@ -5,7 +5,7 @@ same chunk by chunk while the toolpath grows.
 
     columns     limits (machine and settings as the kernels read them), pace (what a program says beside F), settings
     the path    frames, transformed (the real axes under a transformation; demand: many
-                rows at once), pole (through that of G12.1)
+                rows at once; reach: how fast an arc gets from end to end), pole (through that of G12.1)
     planning    planner over `kernels/`, compiled or as they are (`compiled`), time_constants (what rapids and cuts run
                 by), plan, times
     standing/   tool changes, spindle ramps, dwells

@@ -19,10 +19,12 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from polycnc.motion.kernels.columns import Limits
+    from polycnc.motion.pole import PathLeg
     from polycnc.toolpath.table import Chunk
 
 __all__ = [
-    "BEND", "FULL", "LOOKS", "NOTHING", "PATH_STEP", "TURN", "TWIST", "UNEVEN", "Demand", "RowShares", "Shares",
+    "BEND", "FULL", "LOOKS", "NOTHING", "PATH_STEP", "TURN", "TWIST", "UNEVEN", "Bounds", "Demand", "RowShares",
+    "Shares",
     "asked_of", "between", "bound_tip", "looks_along", "share_ends",
 ]  # fmt: skip
 
@@ -40,6 +42,28 @@ class Shares(NamedTuple):
     end: array[float]
     top: array[float]
     ease: array[float]
+
+
+class Bounds(NamedTuple):
+    """What the kernels must know of the rows of a chunk.
+
+    Attributes:
+        shares: Bounds along the rows.
+        feed: Factor on the feed of every row; empty where all are 1.
+        enters: Rows at which the columns get another meaning, with the position of the path there: the axes stand.
+        legs: Rows that lead through the pole, or begin or end there: they are laid as these legs instead.
+    """
+
+    shares: Shares
+    feed: array[float]
+    enters: dict[int, list[float]]
+    legs: dict[int, list[PathLeg]]
+
+    def paced(self, feed: array[float], rows: slice = slice(None)) -> array[float]:
+        """The feeds of some rows as the program's overrides and rules leave them."""
+        if not self.feed:
+            return feed
+        return array("d", (value * factor for value, factor in zip(feed, self.feed[rows], strict=True)))
 
 
 class RowShares(NamedTuple):

@@ -21,7 +21,7 @@ from __future__ import annotations
 from array import array
 from math import hypot, inf, radians, sqrt
 from operator import sub
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from polycnc.motion.demand import (
     BEND,
@@ -32,6 +32,7 @@ from polycnc.motion.demand import (
     TURN,
     TWIST,
     UNEVEN,
+    Bounds,
     Demand,
     RowShares,
     Shares,
@@ -56,10 +57,11 @@ from polycnc.motion.pole import (
     slope_steps,
     turn_records,
 )
+from polycnc.motion.reach import looked_at, shares_of
 from polycnc.motion.time_constants import Use
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS, RAPID_KINDS
-from polycnc.toolpath.modes import AccelerationMode, FeedMode
+from polycnc.toolpath.modes import AccelerationMode, CornerMode, FeedMode
 from polycnc.toolpath.row_path import arc_path, line_path
 from polycnc.toolpath.table import CURVE_WIDTH
 from polycnc.transformation.orientation.linked import linkage_of
@@ -96,28 +98,6 @@ LED_ALONE = frozenset((Kind.RAPID, Kind.FEED, Kind.REF, Kind.DWELL, Kind.EVENT))
 LED_KINDS = bytes(kind in LED_ALONE for kind in range(256))
 #: An axis along which an arc's unit normal has more than this does not take part in the arc.
 ACROSS = 0.999
-
-
-class Bounds(NamedTuple):
-    """What the kernels must know of the rows of a chunk.
-
-    Attributes:
-        shares: Bounds along the rows.
-        feed: Factor on the feed of every row; empty where all are 1.
-        enters: Rows at which the columns get another meaning, with the position of the path there: the axes stand.
-        legs: Rows that lead through the pole, or begin or end there: they are laid as these legs instead.
-    """
-
-    shares: Shares
-    feed: array[float]
-    enters: dict[int, list[float]]
-    legs: dict[int, list[PathLeg]]
-
-    def paced(self, feed: array[float], rows: slice = slice(None)) -> array[float]:
-        """The feeds of some rows as the program's overrides and rules leave them."""
-        if not self.feed:
-            return feed
-        return array("d", (value * factor for value, factor in zip(feed, self.feed[rows], strict=True)))
 
 
 def _last_move(chunk: Chunk) -> list[int]:
@@ -408,6 +388,12 @@ class RealAxes:
         looks = [look(k / count, lateral=True) for k in range(count + 1)]
         sizes = [max(look.pull, 1.0 / look.top) for look in looks]
         uneven = max(sizes) >= UNEVEN * min(sizes) or any(rests)
+        limits = self.limits(context.transformation)
+        even = not uneven or (len(limits.linkage) > 0 and not any(rests))
+        if kind in ARC_KINDS and even and self._may_reach(context):
+            seen = looked_at(context, self._axes, limits.acceleration, path, length, kind)
+            shares = shares_of(seen, length, angle, stops=context.corner_mode is CornerMode.EXACT_STOP)
+            return self._corners(context, length, look, shares, rests)
         if kind in ARC_KINDS and not uneven:
             inside = [look(k / count, lateral=False) for k in range(count + 1)]
             return self._corners(context, length, look, [(1.0, *self._within(inside, length))], rests)
@@ -438,6 +424,10 @@ class RealAxes:
             shares.append((f, *self._within(inside, (f - begin) * length)))
             begin = f
         return self._corners(context, length, demand, shares, rests)
+
+    def _may_reach(self, context: Context) -> bool:
+        """Whether acceleration alone bounds the speed, and corners have no averages that reach into a row."""
+        return not self._is_soft(context) and not any(averages(context, self._machine, self._settings))
 
     def _corners(
         self,

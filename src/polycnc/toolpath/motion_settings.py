@@ -91,6 +91,8 @@ class MotionSettings:
             their name in programs (FANUC 1735).
         arc_least: Speed below which these do not slow an arc, mm/s (FANUC 1732). All of them hold in cuts that are
             planned ahead.
+        line_pulls: Highest acceleration from one line to the next in such cuts, mm/s² or degrees/s², of axes by their
+            names in programs (FANUC 1737); `line_least` is the speed below which it slows none, mm/s (FANUC 1738).
         behind_times: Time constants behind the interpolation of cuts that are planned ahead, seconds, by the axes'
             names in programs (FANUC 1769).
         path_feed: Highest speed of a cut along the path, mm/s (SYNTEC Pr405).
@@ -111,6 +113,7 @@ class MotionSettings:
         taps_held: Feed hold stops a rigid tap at once (FANUC 5200#6 FHD).
         dry_run: What a dry run does.
         slowest_rapid: Speed of the fastest axis at the lowest position of the rapid override (F0), mm/s.
+        rapid_held: A feed override of 0 % holds rapids too (FANUC 1401#4 RF0).
         returns_to_path: Axes that were moved by hand go back to where the program waits before it goes on (SINUMERIK
             REPOSA, FANUC 7001#0 MIT); else it goes on from where they are.
     """
@@ -128,6 +131,8 @@ class MotionSettings:
     arc_pull: float = inf
     arc_pulls: Mapping[str, float] = field(default_factory=dict)
     arc_least: float = 0.0
+    line_pulls: Mapping[str, float] = field(default_factory=dict)
+    line_least: float = 0.0
     path_feed: float = inf
     rapid_caps: Mapping[str, float] = field(default_factory=dict)
     feed_caps: Mapping[str, float] = field(default_factory=dict)
@@ -144,6 +149,7 @@ class MotionSettings:
     taps_held: bool = False
     dry_run: DryRun = DryRun()
     slowest_rapid: float = 400.0 / 60.0
+    rapid_held: bool = False
     returns_to_path: bool = True
 
 

@@ -378,6 +378,15 @@ class Toolpath:
         """Forget the rows of a block that alarmed."""
         self.chunk.truncate(mark)
 
+    def forget_from(self, number: int) -> None:
+        """Drop the rows from a number on that are still held: the main run has not executed them."""
+        while len(self.chunks) > 1 and self.chunks[-1].first >= number:
+            self.chunks.pop()
+            self._ways_before -= _ways(self.chunks[-1])
+        self.chunk = self.chunks[-1]
+        self._rows_before = self.chunk.first
+        self.chunk.truncate(max(number - self.chunk.first, 0))
+
     def memento(self) -> Callable[[], None]:
         """What forgets all that comes from here on (for a snapshot). Chunks that were dropped meanwhile are back."""
         chunk, chunks, cut = self.chunk, self.chunks.copy(), self.chunk.memento()

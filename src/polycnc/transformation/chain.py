@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass
+from polycnc.transformation.contract import product
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -60,7 +61,7 @@ class Chain:
         point, slopes = list(work), self.links[0].jacobian(work)
         for before, link in zip(self.links, self.links[1:], strict=False):
             point = before.to_machine(point)
-            slopes = _product(link.jacobian(point), slopes)
+            slopes = product(link.jacobian(point), slopes)
         return slopes
 
     def solutions(self, work: Sequence[float]) -> list[list[float]]:
@@ -69,16 +70,3 @@ class Chain:
         for link in self.links:
             points = [found for point in points for found in link.solutions(point)]
         return points
-
-
-def _product(outer: list[list[N | float]], inner: list[list[N | float]]) -> list[list[N | float]]:
-    """Two matrices, multiplied."""
-    count = len(inner)
-    product: list[list[N | float]] = []
-    for row in outer:
-        sums: list[N | float] = [0.0] * count
-        for k, factor in enumerate(row):
-            for j in range(count):
-                sums[j] = sums[j] + factor * inner[k][j]
-        product.append(sums)
-    return product

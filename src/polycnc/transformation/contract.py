@@ -70,3 +70,16 @@ def unchanged(work: Sequence[N]) -> list[list[N | float]]:
     for i, row in enumerate(slopes):
         row[i] = 1.0
     return slopes
+
+
+def product(outer: list[list[N | float]], inner: list[list[N | float]]) -> list[list[N | float]]:
+    """Two Jacobians, multiplied: of what comes behind, and of what comes in front."""
+    count = len(inner)
+    rows: list[list[N | float]] = []
+    for row in outer:
+        sums: list[N | float] = [0.0] * count
+        for k, factor in enumerate(row):
+            for j in range(count):
+                sums[j] = sums[j] + factor * inner[k][j]
+        rows.append(sums)
+    return rows

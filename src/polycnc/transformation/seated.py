@@ -1,7 +1,8 @@
 """A transformation with what lies before and behind it: frames in front, tools behind (SINUMERIK).
 
-There programmed frames belong to the work, in front of the transformation: `work --(frame, shifts)--> basic system
---(transformation)--> --(offsets)--> machine`. While it acts nothing else lies between the display and the machine.
+There programmed frames belong to the work, in front of the transformation: `work --(frame, shifts, led)--> basic system
+--(transformation)--> --(offsets, driven)--> machine`. While it acts nothing else lies between the display and the
+machine. Couplings stand on both sides: `led` are those of the basic system, `driven` those of the machine's axes.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, Frame
+from polycnc.transformation.contract import product
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -32,12 +34,16 @@ class Seated:
         frame: From the work to the basic system, geometry axes.
         shifts: The same for every axis beside it (rotary axes, and lengths of a tool that counts in front).
         offsets: What is added to the axes behind the transformation: lengths of a tool that counts there.
+        led: Axes that follow others in the basic system; none of them is one of the pole's.
+        driven: Axes that follow others as axes of the machine.
     """
 
     inner: Transformation
     frame: Frame = IDENTITY
     shifts: tuple[float, ...] = ()
     offsets: tuple[float, ...] = ()
+    led: Transformation | None = None
+    driven: Transformation | None = None
 
     @property
     def geometry(self) -> Geometry:
@@ -63,22 +69,47 @@ class Seated:
 
     def to_machine(self, work: Sequence[N]) -> list[N]:
         """Positions of the machine's axes at a point of the work."""
-        return _added(self.inner.to_machine(self.basic(work)), self.offsets)
+        return self._drive(_added(self.inner.to_machine(self.basic(work)), self.offsets))
 
     def to_work(self, axes: Sequence[N]) -> list[N]:
         """The point of the work for positions of the machine's axes."""
-        point = _added(self.inner.to_work(_taken(axes, self.offsets)), ())
+        own = axes if self.driven is None else self.driven.to_work(axes)
+        point = _added(self.inner.to_work(_taken(own, self.offsets)), ())
+        if self.led is not None:
+            point = self.led.to_work(point)
         return self._mapped(self.frame.inverse(), _taken(point, self.shifts))
 
     def basic(self, work: Sequence[N]) -> list[N]:
         """The point of the basic system for one of the work."""
-        return _added(self._mapped(self.frame, work), self.shifts)
+        point = self._shifted(work)
+        return point if self.led is None else self.led.to_machine(point)
 
     def jacobian(self, work: Sequence[N]) -> list[list[N | float]]:
-        """That of the transformation, seen through the frame."""
-        slopes = self.inner.jacobian(self.basic(work))
-        if self.frame.is_identity:
+        """That of the transformation, seen through the frame and with the axes that follow others."""
+        basic = self.basic(work)
+        slopes = self.inner.jacobian(basic)
+        if self.led is not None:
+            slopes = product(slopes, self.led.jacobian(self._shifted(work)))
+        if not self.frame.is_identity:
+            self._turn(slopes)
+        if self.driven is None:
             return slopes
+        own = _added(self.inner.to_machine(basic), self.offsets)
+        return product(self.driven.jacobian(own), slopes)
+
+    def solutions(self, work: Sequence[float]) -> list[list[float]]:
+        """All positions of the machine's axes at a point."""
+        return [self._drive(_added(found, self.offsets)) for found in self.inner.solutions(self.basic(work))]
+
+    def _shifted(self, work: Sequence[N]) -> list[N]:
+        """The point of the basic system without what others lead."""
+        return _added(self._mapped(self.frame, work), self.shifts)
+
+    def _drive(self, axes: list[N]) -> list[N]:
+        return axes if self.driven is None else self.driven.to_machine(axes)
+
+    def _turn(self, slopes: list[list[N | float]]) -> None:
+        """Slopes by the basic system become those by the work."""
         columns = self.geometry
         for row in slopes:
             old = [row[column] if column >= 0 else 0.0 for column in columns]
@@ -86,11 +117,6 @@ class Seated:
                 if column >= 0:
                     a, b, c = (self.frame.m[i][j] for i in range(3))
                     row[column] = old[0] * a + old[1] * b + old[2] * c
-        return slopes
-
-    def solutions(self, work: Sequence[float]) -> list[list[float]]:
-        """All positions of the machine's axes at a point."""
-        return [_added(found, self.offsets) for found in self.inner.solutions(self.basic(work))]
 
     def _mapped(self, frame: Frame, point: Sequence[N]) -> list[N]:
         mapped = list(point)

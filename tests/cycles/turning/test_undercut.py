@@ -8,6 +8,7 @@ from math import hypot, radians, tan
 import pytest
 
 from polycnc.cycles.turning import undercut
+from polycnc.cycles.turning.groove import GrooveError
 from polycnc.geometry import arcs, offset
 
 
@@ -17,7 +18,7 @@ def test_undercuts_of_shafts_run_smoothly_from_the_cylinder_to_the_shoulder(
     form: str, diameter: float
 ) -> None:
     shape = undercut.of_shaft(form, diameter)
-    edges = [piece.edge for piece in undercut.contour(shape, 2.0)]
+    edges = [piece.edge for piece in undercut.contour(shape, None if form == "F" else 2.0)]
     assert edges[0].start == (shape.width, 0.0)
     assert edges[-1].end[0] == pytest.approx(0.0)
     for a, b in pairwise(edges):
@@ -36,7 +37,7 @@ def test_the_face_of_form_f_is_as_deep_and_as_high_as_the_standard_has_it(
     diameter: float, height: float
 ) -> None:
     shape = undercut.of_shaft("F", diameter)
-    edges = [piece.edge for piece in undercut.contour(shape, 2.0)]
+    edges = [piece.edge for piece in undercut.contour(shape, None)]
     rounding = edges[-2]
     assert rounding.center is not None
     assert rounding.center[0] - arcs.radius_of(rounding.center, rounding.end) == pytest.approx(-shape.face)
@@ -55,6 +56,49 @@ def test_undercuts_of_threads_fit_their_width(form: str) -> None:
         assert shape.width > shape.depth / tan(radians(shape.slope_deg)) + shape.radius
         base = surface + (shape.depth if form in undercut.INSIDE else -shape.depth)
         assert (base > 0.5 * nominal) is (form in undercut.INSIDE)
+
+
+@pytest.mark.parametrize("form", "ABCD")
+def test_every_pitch_of_the_standard_fits_its_width(form: str) -> None:
+    for pitch in undercut.THREADS:
+        shape, _ = undercut.of_pitch(form, 20.0, pitch)
+        edges = [piece.edge for piece in undercut.contour(shape, 2.0)]
+        assert edges[0].start == (shape.width, 0.0)
+        for a, b in pairwise(edges):
+            assert offset.turn(a, b) == pytest.approx(0.0, abs=1e-6)
+
+
+def test_finer_pitches_have_smaller_undercuts() -> None:
+    rows = [undercut.THREADS[pitch] for pitch in sorted(undercut.THREADS)]
+    for finer, coarser in pairwise(rows):
+        assert all(a <= b for a, b in zip(finer[:3], coarser[:3], strict=True))
+        assert all(a < b for a, b in zip(finer[3], coarser[3], strict=True))
+
+
+def test_an_undercut_under_stock_for_grinding_is_the_same_below_the_finished_surfaces() -> None:
+    """The slopes are led on up to the stock; what grinding leaves is the undercut of the standard."""
+    plain = undercut.of_shaft("F", 40.0)
+    under = plain._replace(stock=0.3, face_stock=0.2)
+    finished = [piece.edge for piece in undercut.contour(plain, None)]
+    raw = [piece.edge for piece in undercut.contour(under, None)]
+    assert raw[0].start == pytest.approx((plain.width + 0.3 / tan(radians(15.0)), -0.3))
+    assert raw[-1].end[0] == pytest.approx(0.2)
+    for a, b in ((finished[0], raw[0]), (finished[-1], raw[-1])):
+        assert a.departing == pytest.approx(b.departing)
+        assert offset.turn(offset.line(a.start, b.end), offset.line(a.start, a.end)) == pytest.approx(
+            0.0, abs=1e-9
+        )
+    assert [edge.center for edge in finished[1:-1]] == [edge.center for edge in raw[1:-1]]
+
+
+def test_slopes_and_corners_that_do_not_fit_are_refused() -> None:
+    for shape in (
+        undercut.Undercut(2.0, 2.0, 0.0, 30.0),
+        undercut.Undercut(4.0, 2.0, 3.0, 45.0),
+        undercut.Undercut(4.0, 2.0, 0.0, 45.0, corner=3.0),
+    ):
+        with pytest.raises(GrooveError):
+            undercut.contour(shape, 1.0)
 
 
 def test_a_thread_that_has_no_coarse_pitch_has_no_undercut() -> None:

@@ -432,6 +432,21 @@ def test_block_search_for_a_block_that_never_comes_is_refused() -> None:
     assert virtual.machine_position[:2] == [40.0, 20.0]
 
 
+@pytest.mark.parametrize("how", ["contour", "end-point", "program-test"])
+def test_block_search_says_that_a_block_belongs_to_the_shape_of_a_cycle(how: str) -> None:
+    shape = "N100 G0 X20.\nN105 G1 Z-10. F50\nN110 X62.\n"
+    text = f"G98 G0 X100. Z10.\nG71 U3. R1.\nG71 P100 Q110 F9000\n{shape}G70 P100 Q110\nM30\n"
+    virtual = power_on(text, "fanuc-0i-tf")
+    told = "block N105 runs only as a part of the block in line 7"
+    if how == "program-test":
+        virtual.block_search("N105", how=how)
+        virtual.run(limit_s=600.0)
+        assert any(told in message for message in virtual.messages)
+        return
+    with pytest.raises(CommandRefused, match=told):
+        virtual.block_search("N105", how=how)
+
+
 def test_block_search_that_comes_to_an_alarm_tells_it() -> None:
     virtual = power_on("O1\nG1 X10. F600\nX[1/0]\nN40 X5.\nM30\n")
     with pytest.raises(CommandRefused) as refused:

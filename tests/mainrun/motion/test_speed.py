@@ -73,6 +73,7 @@ MACHINE = MachineLimits(
     jump=array("d", [0.0, 0.0]),
     step=array("d", [0.0, 0.0]),
     arc=array("d", [0.0, 0.0]),
+    bend=array("d", [0.0, 0.0]),
     rotary=array("d", [0.0, 0.0]),
     jerk=array("d", [0.0, 0.0]),
     geometry=array("q", [0, 1, -1]),

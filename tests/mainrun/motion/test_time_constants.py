@@ -99,7 +99,7 @@ def test_whatever_an_operator_does_a_cut_takes_its_time_constant_to_change_its_s
 
 
 AHEAD = {
-    "fanuc-m": {"1660": 2000, "1772": 40, "1769": 30, "1783": 300, "1735": 400, "1732": 300},
+    "fanuc-m": {"1660": 2000, "1772": 40, "1769": 30, "1783": 300, "1737": 500, "1735": 400, "1732": 300},
     "syntec-mill": {"406": 300, "408": 1200},
 }
 

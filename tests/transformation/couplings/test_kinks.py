@@ -10,6 +10,7 @@ from polycnc.geometry.frames import IDENTITY
 from polycnc.transformation.couplings.coupled import Coupled
 from polycnc.transformation.couplings.kinks import has_kinks, kinks
 from polycnc.transformation.couplings.laws import ByCurve, Ratio
+from polycnc.transformation.kinematic.parallel import ParallelAxes
 from polycnc.transformation.seated import Seated
 
 
@@ -61,7 +62,7 @@ def test_a_periodic_table_has_its_kinks_in_every_period() -> None:
 
 def test_on_an_arc_the_leading_axis_passes_a_kink_twice_behind_frame_and_tool() -> None:
     curve = table((0.0, 0.0), (10.0, 0.0), (20.0, 10.0))
-    seated = Seated(led(curve), IDENTITY, (), (3.0, 0.0))
+    seated = Seated(ParallelAxes((-1, -1, -1)), IDENTITY, (), (3.0, 0.0), led=led(curve))
     found = kinks(seated, lambda f: [10.0 - 5.0 * cos(2.0 * pi * f), 0.0], lambda *_: 0.01)
     assert found == pytest.approx([0.25, 0.75])
 

@@ -17,9 +17,9 @@ def test_a_point_of_the_work_goes_with_the_table(
     error: Frame, measured: float, now: float, zero: Point, point: Point
 ) -> None:
     before, after = rotation(2, measured), rotation(0, now) @ rotation(2, 20.0)
-    lies = Misplaced(error, before, after)
+    lies = Misplaced(((error, before),), after)
     # Where the work was measured its error is what was measured.
-    assert Misplaced(error, before, before).seen(zero).apply(*point) == pytest.approx(
+    assert Misplaced(((error, before),), before).seen(zero).apply(*point) == pytest.approx(
         error.apply(*point), abs=1e-9
     )
     # A point that the program has at `ideal` of the turned table lies where the table has taken the true one.

@@ -89,7 +89,7 @@ class Window:
         edge = offset.line(self._plane.point(start), self._plane.point(end))
         return Step(
             move, edge, edge, Role.CONTOUR, template.distance, template.shift, template.policy, block,
-            self.vector(i - 1), after=[END_OF_BLOCK],
+            self.vector(i - 1), template.side, after=[END_OF_BLOCK],
         )  # fmt: skip
 
     def _end(self, i: int) -> list[float]:

@@ -5,7 +5,8 @@ P1), else 1622 after the interpolation. 3708#0 SAR: the first cut waits for the 
 
 General knowledge, from parameter manuals of later controls: rapids on a line (1401#1 LRP) by 1671 and 1672 where
 19501#5 FRP says so; with look-ahead the change of an axis's speed at corners by 1783, the feed of arcs by 1735, not
-below 1732, and a time constant behind the interpolation, 1769.
+below 1732, the acceleration of an axis from one short line to the next by 1737, not below 1738, and a time constant
+behind the interpolation, 1769.
 """
 
 from __future__ import annotations
@@ -58,6 +59,8 @@ def accelerated(
         corner_steps=_given(names, lambda name: parameters.of(name).corner_step / 60.0),
         arc_pulls=_given(names, lambda name: parameters.of(name).arc_acceleration),
         arc_least=parameters.arc_least_feed / 60.0,
+        line_pulls=_given(names, lambda name: parameters.of(name).line_acceleration),
+        line_least=parameters.line_least_feed / 60.0,
         behind_times=_given(names, lambda name: parameters.of(name).ahead_time * _MS),
         spindle_wait="" if parameters.SAR is None else "cut" if parameters.SAR else "never",
     )

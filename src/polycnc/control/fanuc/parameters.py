@@ -43,6 +43,9 @@ class FanucAxisParameters(MacroAxisParameters):
     #: 1735: Arcs with look-ahead: largest acceleration, which bounds the feed by the radius; 0 for none
     #: [mm/s²].
     arc_acceleration = Number(1735, delivered=0.0)
+    #: 1737: Short lines with look-ahead: largest acceleration of an axis from one to the next; 0 for none
+    #: [mm/s²].
+    line_acceleration = Number(1737, delivered=0.0)
     #: 1769: Cuts with look-ahead: time constant of the acceleration after interpolation; 0 for none [ms].
     ahead_time = Number(1769, delivered=0.0)
     #: 1783: Corners with look-ahead: largest change of an axis's feed, which bounds the feed there; 0 for
@@ -59,6 +62,11 @@ class FanucAxisParameters(MacroAxisParameters):
 class FanucParameters(MacroParameters[A_co]):
     """The parameters of the control."""
 
+    #: 0#2: unit at power-on, metric (0) or inch (1).
+    INI = Bit(0, 2, delivered=False)
+    #: 1004#7: a length or angle without a point counts one (0) or ten (1) least input increments, not with
+    #: IS-A.
+    IPR = Bit(1004, 7, delivered=False)
     #: 1013#0: least input increment 0.01 mm.
     ISA = Bit(1013, 0, delivered=False)
     #: 1013#1: least input increment 0.0001 mm.
@@ -67,6 +75,8 @@ class FanucParameters(MacroParameters[A_co]):
     OUT = Bit(1300, 0, delivered=False)
     #: 1401#1: rapids run every axis by itself (0) or on a line (1).
     LRP = Bit(1401, 1, delivered=False)
+    #: 1401#4: a feed override of 0 % leaves rapids alone (0) or holds them too (1).
+    RF0 = Bit(1401, 4, delivered=False)
     #: 1401#5: a dry run acts on threads and taps (0) or not (1).
     TDR = Bit(1401, 5, delivered=False)
     #: 1401#6: a dry run acts on rapids (1).
@@ -81,10 +91,16 @@ class FanucParameters(MacroParameters[A_co]):
     rapid_change_time = Number(1672, delivered=None)
     #: 1732: Arcs with look-ahead: feed below which 1735 slows none [mm/min].
     arc_least_feed = Number(1732, delivered=0.0)
+    #: 1738: Short lines with look-ahead: feed below which 1737 slows none [mm/min].
+    line_least_feed = Number(1738, delivered=0.0)
     #: 1772: Cuts with look-ahead: time constant T2 of the bell-shaped acceleration before interpolation [ms].
     cutting_bell_time = Number(1772, delivered=None)
     #: 3401#0: words without a point are least increments (0) or millimetres, inches, seconds (1).
     DPI = Bit(3401, 0, delivered=False)
+    #: 3402#0: G01 at power-on.
+    start_g01 = Bit(3402, 0, delivered=False)
+    #: 3402#3: G91 at power-on (lathe: systems B, C).
+    start_g91 = Bit(3402, 3, delivered=False)
     #: 3403#5: an arc without R and centre is a line (0) or the alarm PS0022 (1).
     CIR = Bit(3403, 5, delivered=False)
     #: 3404#6: a program without M02, M30 or M99 at its end is the alarm PS5010 (0), or it ends with a reset
@@ -141,6 +157,10 @@ class FanucParameters(MacroParameters[A_co]):
     PRT = Bit(6001, 1, delivered=False)
     #: 6001#5: T calls O9000 (1).
     TCS = Bit(6001, 5, delivered=False)
+    #: 6001#6: the RESET key empties #100 to #199 (0) or leaves them (1).
+    CCV = Bit(6001, 6, delivered=False)
+    #: 6001#7: a reset empties #1 to #33 (0) or leaves them (1).
+    CLV = Bit(6001, 7, delivered=False)
     #: 6003#2: an interruption macro waits for the end of the block (1).
     MIN = Bit(6003, 2, delivered=False)
     #: 6003#5: the interruption program has local variables of its own, as a macro (0), or those of the
@@ -162,6 +182,8 @@ class FanucParameters(MacroParameters[A_co]):
     m_codes_of_subprograms = WholeRun(6071, 9, delivered=0)
     #: 6080: M codes that call the macros O9020 to O9029.
     m_codes_of_macros = WholeRun(6080, 10, delivered=0)
+    #: 6200#7: in G31 by feed per minute feed override and dry run do not act (0) or act (1).
+    SKF = Bit(6200, 7, delivered=False)
     #: 7001#0: axes moved by hand return to the path before the program goes on (1).
     MIT = Bit(7001, 0, delivered=False)
     #: 11304#3: program numbers have four (0) or eight digits (1).

@@ -81,9 +81,12 @@ class MeldasMilling(MillingControl):
     def motion_settings(self, channel: Channel) -> MotionSettings:
         """#1086 G0Intp = 0: rapids run on a line; delivered, every axis by itself.
 
+        #1206 G1bF, reached within #1207 G1btL, is the acceleration of cuts that are planned ahead (general knowledge).
         #2004 G0tL and #2007 G1tL: time constants of rapids and of cuts that are not planned ahead, milliseconds.
         """
         given = MeldasParameters.naming(channel.setup.parameters)
+        feed, time = given.ahead_feed, given.ahead_time
+        ahead = Ramp(acceleration=feed / 60.0 / (time / 1000.0)) if feed > 0.0 and time > 0.0 else None
         axes = [(name, given.of(name)) for name in channel.axes]
         return replace(
             super().motion_settings(channel),
@@ -93,6 +96,7 @@ class MeldasMilling(MillingControl):
             rapid_ramps={
                 name: Ramp(of.rapid_time / 1000.0) for name, of in axes if of.rapid_time is not None
             },
+            cut_ramps={} if ahead is None else dict.fromkeys(channel.axes, ahead),
             after_interpolation=True,
             after_times={name: of.cutting_time / 1000.0 for name, of in axes if of.cutting_time is not None},
         )

@@ -41,6 +41,11 @@ class MeldasParameters(MacroParameters["MeldasAxisParameters"]):
     arc_tolerance = Number(1084, delivered=0.1)
     #: 1086: G0Intp: rapids run on a line (0), or every axis by itself (1).
     rapids_by_axis = Whole(1086, delivered=1)
+    #: 1206: G1bF: speed of cuts under high-accuracy control that is reached within G1btL; 0 for what the
+    #: machine can do [mm/min].
+    ahead_feed = Number(1206, delivered=0.0)
+    #: 1207: G1btL: time from rest to G1bF in cuts under high-accuracy control [ms].
+    ahead_time = Number(1207, delivered=0.0)
     #: 1522: Rotary axis of normal line control.
     normal_axis = Whole(1522, delivered=None)
     #: 1523: Normal line control: feed of turns; 0 for that of the cut [degrees/min].

@@ -25,7 +25,7 @@ from polycnc.control.sinumerik.m_functions import (
     STOP,
 )
 from polycnc.control.sinumerik.replaced import program_of
-from polycnc.control.sinumerik.tools import selection, stages
+from polycnc.control.sinumerik.tools import master_holder, selection, stages
 from polycnc.control.sinumerik.tools.holders import active as carriers
 from polycnc.control.sinumerik.variables import part_counts
 from polycnc.control.tool_change import follow, way_to_change
@@ -101,7 +101,10 @@ def _put_out(channel: SinumerikChannel, code: int, spindle_number: int | None) -
     data = memory.data
     changes = code == data.integer("$MC_TOOL_CHANGE_M_CODE") and data.integer("$MC_TOOL_CHANGE_MODE")
     if changes or does == TOOL_CHANGE:
-        load_tool(channel)
+        if spindle_number is not None and master_holder.is_other(channel, spindle_number):
+            master_holder.load(channel, spindle_number)
+        else:
+            load_tool(channel)
 
 
 def after_motion(channel: SinumerikChannel, code: int) -> None:

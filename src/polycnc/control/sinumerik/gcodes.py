@@ -153,7 +153,7 @@ INTERNAL_CODES = {
 
 #: Known functions that polycnc does not execute: the path would differ, so they raise an alarm.
 _NOT_EXECUTED = """
-OEMIPO1 OEMIPO2 KONTT KONTC
+OEMIPO1 OEMIPO2
 G291
 """
 NOT_EXECUTED = frozenset(_NOT_EXECUTED.split())

@@ -166,6 +166,7 @@ class SyntecMill(WordAddressControl):
         """Pr411: each axis runs a rapid by itself; Pr405, Pr406, Pr461 on, Pr621 on: speeds in mm/min, 0 for none.
 
         Pr441 on, Pr541 on: milliseconds from rest to these speeds; Pr641 on: in which the acceleration builds up.
+        Pr401: the same of cuts on their path.
         """
         given = SyntecParameters.naming(channel.setup.parameters)
 
@@ -180,10 +181,13 @@ class SyntecMill(WordAddressControl):
             found = {name: Ramp(time / 1000.0 or None, bell / 1000.0 or None) for name, time, bell in numbers}
             return {name: ramp for name, ramp in found.items() if ramp != Ramp()}
 
+        cut_ramps = ramps(given.cutting_times, given.cutting_bell_times)
+        if given.cutting_time > 0:
+            cut_ramps = self._with_path_time(channel, cut_ramps, caps(given.cutting_speeds))
         return replace(
             super().motion_settings(channel),
             rapid_ramps=ramps(given.rapid_times, given.cutting_bell_times),
-            cut_ramps=ramps(given.cutting_times, given.cutting_bell_times),
+            cut_ramps=cut_ramps,
             rapid_by_axis=given.rapids_by_axis == 1,
             path_feed=(given.path_feed or inf) / 60.0,
             corner_speed=(given.corner_feed or inf) / 60.0,
@@ -191,6 +195,22 @@ class SyntecMill(WordAddressControl):
             rapid_caps=caps(given.rapid_speeds),
             feed_caps=caps(given.cutting_speeds),
         )
+
+    def _with_path_time(
+        self, channel: SyntecChannel, ramps: Mapping[str, Ramp], caps: Mapping[str, float]
+    ) -> dict[str, Ramp]:
+        """Pr401: time of cuts from rest to Pr405, or to the highest feed of an axis; Pr541 where that is slower."""
+        given = SyntecParameters.naming(channel.setup.parameters)
+        found: dict[str, Ramp] = {}
+        for name, axis in zip(channel.axes, channel.axis_data, strict=True):
+            own = ramps.get(name, Ramp())
+            top = min(axis.max_feed or inf, caps.get(name, inf))
+            pulls = [(given.path_feed / 60.0 or top) / (given.cutting_time / 1000.0)]
+            if own.seconds:
+                pulls.append(top / own.seconds)
+            pull = min(pulls)
+            found[name] = Ramp(bell_s=own.bell_s, acceleration=pull) if pull < inf else own
+        return found
 
     def make_memory(self, channel: SyntecChannel) -> SyntecMemory:
         """Offsets, tools and variables."""
@@ -363,7 +383,7 @@ class SyntecMill(WordAddressControl):
     def compensation_policy(self, channel: SyntecChannel) -> Policy:
         """Radius compensation; Pr3819 = 1 checks for overcut."""
         checked = channel.memory.parameters.overcut_check == 1
-        return Policy(checks_direction=checked)
+        return Policy(checks_direction=checked, sign_is_side=False)
 
     # ---- reports -----------------------------------------------------------------------------------------
 

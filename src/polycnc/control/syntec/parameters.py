@@ -22,6 +22,8 @@ class SyntecParameters(ControlParameters["SyntecAxisParameters"]):
     diameter_axes = WholeRun(281, 20, delivered=0)
     #: 321: Code of each axis's name: 100 is X, 101 X1, 302 Z2; 0 for the name that the machine gives.
     axis_names = WholeRun(321, 20, delivered=0)
+    #: 401: Time from rest to Pr405 in cuts; 0 for what the axes can do [ms].
+    cutting_time = Whole(401, delivered=0)
     #: 405: Highest feed of a cut on its path; 0 for no limit [mm/min].
     path_feed = Whole(405, delivered=0)
     #: 406: Reference feed of corners; 0 for what the axes can do [mm/min].

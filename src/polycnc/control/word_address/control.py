@@ -144,7 +144,9 @@ class WordAddressControl:
     LENGTH_TRAVELS_ALONE: ClassVar[bool] = True
     LATER_AXIS_WORD_COUNTS: ClassVar[bool] = False
     INCH_CODE: ClassVar[str] = "G20"
-    CORNER_POLICY: ClassVar[CornerPolicy] = CornerPolicy()
+    #: Modal groups that a reset leaves as they are.
+    KEPT_AT_RESET: ClassVar[frozenset[str]] = frozenset({"stroke"})
+    CORNER_POLICY: ClassVar[CornerPolicy] = CornerPolicy(threads_follow=False)
     ENDED_ANYWHERE: ClassVar[frozenset[str]] = frozenset()
     LOOPS: ClassVar[tuple[int, int]] = (3, 3)
     POINT_IN_WHOLE_NUMBERS: ClassVar[DecimalPoint] = DecimalPoint.READ_OVER
@@ -269,6 +271,7 @@ class WordAddressControl:
         ZeroState.of(channel).system, memory.spindle.speed = context.wcs, context.spindle_rpm
         memory.spindle.direction = context.spindle_direction
         self.reset(channel)
+        memory.forget_commons()
 
     def stays_at_end(self, channel: Channel, code: int) -> bool:  # noqa: ARG002 - parameters decide on a lathe
         """A program that has ended goes back to its top; a machine's own rules may differ."""

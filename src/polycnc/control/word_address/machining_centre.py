@@ -62,7 +62,9 @@ class MillingControl(CustomMacroControl):
         "mirror_off": frames.end_mirror_by_m,
     }
     repeated_codes: ClassVar[Mapping[str, Condition]] = repeated_codes.MILLING
-    CORNER_POLICY: ClassVar[CornerPolicy] = CornerPolicy(dwell_between=True)
+    #: G20 and G21 are what they were before the power went off (manual, list of G codes, note 4).
+    KEPT_AT_RESET: ClassVar[frozenset[str]] = frozenset({"unit", "stroke"})
+    CORNER_POLICY: ClassVar[CornerPolicy] = CornerPolicy(dwell_between=True, threads_follow=False)
     CURVE_BEGINS_AT_TOOL: ClassVar[bool] = True
     rules: ClassVar[tuple[Rule, ...]] = (
         normal_line.RULE,
@@ -96,6 +98,9 @@ class MillingControl(CustomMacroControl):
         """Factors of G51: P for all axes, or I J K; without a point in units of 5400#7 SCR."""
         unit = 0.001 if channel.memory.parameters.SCR else 0.00001
         if "P" in words:
+            own = next((letter for letter in "IJK" if letter in words), "")
+            if own:
+                raise self.fail("address", address=own)
             factor = self._factor(words, "P", unit)
             return (factor, factor, factor)
         given = [self._factor(words, letter, unit) if letter in words else 1.0 for letter in "IJK"]

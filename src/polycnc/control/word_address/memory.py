@@ -179,6 +179,14 @@ class Memory:
         """Offsets of all axes as the control keeps them, from what its displays show."""
         return shown
 
+    @property
+    def kept_at_reset(self) -> tuple[type[State], ...]:
+        """States that a reset leaves as they are, by a parameter of the control."""
+        return ()
+
+    def forget_commons(self) -> None:
+        """The RESET key: variables that end with it, where the control has any."""
+
     def forget_locals(self) -> None:
         """A reset: the local variables are those of the main program, as they begin, where there are any."""
 

@@ -42,6 +42,7 @@ class MacroParameters(ControlParameters[A_co]):
     """The parameters of a control with custom macro B."""
 
     # ---- numbers, arcs, zones --------------------------------------------------------------------------------
+    IPR: Parameter[bool] = Constant(False)
     ISA: Parameter[bool] = Constant(False)
     ISC: Parameter[bool] = Constant(False)
     DPI: Parameter[bool] = Constant(False)
@@ -59,10 +60,13 @@ class MacroParameters(ControlParameters[A_co]):
 
     # ---- macros and programs ---------------------------------------------------------------------------------
     EOR: Parameter[bool] = Constant(False)
+    SKF: Parameter[bool] = Constant(True)
     G67: Parameter[bool] = Constant(True)
     SBM: Parameter[bool] = Constant(False)
     SBV: Parameter[bool] = Constant(False)
     PRT: Parameter[bool] = Constant(False)
+    CCV: Parameter[bool] = Constant(True)
+    CLV: Parameter[bool] = Constant(False)
     MIN: Parameter[bool] = Constant(False)
     MSB: Parameter[bool] = Constant(False)
     MUS: Parameter[bool | None] = Constant(None)

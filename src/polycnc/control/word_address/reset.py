@@ -23,14 +23,16 @@ def reset(channel: WordAddressChannel) -> None:
     cylinder.end_cylinder(channel)
     hypothetical_axis.end(channel)
     normal_line.end(channel)
-    end_of(channel, Lifetime.RESET)
     memory = channel.memory
+    end_of(channel, Lifetime.RESET, memory.kept_at_reset)
     memory.forget_locals()
     machine = channel.coordinates.machine
     channel.coordinates.transformation = None
     frames = memory.frames
     channel.path.clear()
-    channel.mode = channel.modes.mode(channel.control.start_codes(channel))
+    control = channel.control
+    kept = {group: code for group, code in channel.mode.codes.items() if group in control.KEPT_AT_RESET}
+    channel.mode = channel.modes.mode(control.start_codes(channel) | kept)
     channel.coordinates.set_programming(frames.product(), frames.shift)
     channel.coordinates.pending = [0.0] * len(channel.axes)
     channel.coordinates.owes = False

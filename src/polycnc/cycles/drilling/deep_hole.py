@@ -1,6 +1,6 @@
 """Deep holes in strokes that become shorter: the division of the depth, and the strokes of the tool.
 
-Source: SINUMERIK cycles, deep hole drilling (CYCLE83) and tapping in steps (CYCLE84).
+Source: SINUMERIK cycles, deep hole drilling (CYCLE83, CYCLE830) and tapping in steps (CYCLE84).
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from polycnc.cycles.count import checked
 from polycnc.cycles.drilling.holes import Action, Stroke
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
 
     from polycnc.cycles.drilling.holes import Hole
 
@@ -107,6 +107,7 @@ def peck(
     dwell: float = 0.0,
     dwell_at_bottom: float = 0.0,
     retract: float | None = None,
+    breaks: int = 0,
     dwell_at_clearance: float = 0.0,
     limits: Sequence[float] = (),
 ) -> Iterator[Stroke]:
@@ -120,6 +121,7 @@ def peck(
         dwell: At every depth but the last; seconds, or revolutions below 0.
         dwell_at_bottom: At the last depth.
         retract: Way back between strokes for breaking chips; None to clear chips at `clearance`.
+        breaks: After so many strokes that broke chips, one clears them; 0 for none.
         dwell_at_clearance: There.
         limits: For each level the distance in front of it at which the rapid return ends.
     """
@@ -131,13 +133,67 @@ def peck(
             yield Stroke(Action.DWELL, dwell_at_bottom)
             break
         yield Stroke(Action.DWELL, dwell)
-        if retract is not None:
+        if retract is not None and (not breaks or (number + 1) % (breaks + 1)):
             yield Stroke(Action.FEED, level + up * retract)
             continue
         yield Stroke(Action.RAPID, clearance)
         yield Stroke(Action.DWELL, dwell_at_clearance)
         yield Stroke(Action.RAPID, level + up * limits[number])
     yield Stroke(Action.RAPID, back)
+
+
+class Zone(NamedTuple):
+    """The part of a hole down to a level, and the factor on the feed there."""
+
+    level: float
+    factor: float
+
+
+#: A feed that rises evenly is cut into so many parts.
+SLICES = 8
+
+
+def rising(start: float, way: float, factor: float) -> list[Zone]:
+    """Parts of a hole over which the feed rises from a factor to the whole one.
+
+    Args:
+        start: Level at which they begin.
+        way: With its sign, to where the feed is the whole one.
+        factor: At the start.
+    """
+    return [
+        Zone(start + way * (k + 1) / SLICES, factor + (1.0 - factor) * (k + 0.5) / SLICES)
+        for k in range(SLICES)
+    ]
+
+
+def in_zones(strokes: Iterable[Stroke], start: float, zones: Sequence[Zone], down: float) -> Iterator[Stroke]:
+    """The strokes with those at feed into the hole divided where it has another feed.
+
+    Args:
+        strokes: Levels as they stand.
+        start: Level of the tool in front of them.
+        zones: In their order from the top; below the last one the feed is the whole one.
+        down: Direction of drilling, 1 or -1.
+    """
+    at = start
+    for stroke in strokes:
+        action, end, factor, _ = stroke
+        if action is Action.FEED and (end - at) * down > 0.0:
+            for zone in zones:
+                if (zone.level - at) * down <= SAME_MM:
+                    continue
+                reached = zone.level if (end - zone.level) * down > SAME_MM else end
+                yield stroke._replace(value=reached, factor=factor * zone.factor)
+                at = reached
+                if reached == end:
+                    break
+            if at != end:
+                yield stroke
+        else:
+            yield stroke
+        if action in (Action.FEED, Action.RAPID):
+            at = end
 
 
 def tap_in_steps(

@@ -43,7 +43,18 @@ def with_stock(contour: Sequence[Piece], way: Point, towards: float) -> Contour:
     if all(looks):
         return shifted(contour, *way)
     moved = [shifted([part], *way)[0] if look else part for part, look in zip(parts, looks, strict=True)]
-    return _joined(moved, outside)
+    result = _joined(moved, outside)
+    # At the end that the stock is moved away from, what stays begins under the stock on the front.
+    begin, end = contour[0].edge.start, contour[-1].edge.end
+    if way[0] * (begin[0] - end[0]) > 0.0 and not looks[0]:
+        return [Piece(offset.line(_plus(begin, way), begin)), *result]
+    if way[0] * (end[0] - begin[0]) > 0.0 and not looks[-1]:
+        return [*result, Piece(offset.line(end, _plus(end, way)))]
+    return result
+
+
+def _plus(point: Point, way: Point) -> Point:
+    return point[0] + way[0], point[1] + way[1]
 
 
 def _split(piece: Piece, way: Point) -> list[Piece]:

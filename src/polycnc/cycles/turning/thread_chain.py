@@ -8,12 +8,16 @@ from __future__ import annotations
 from math import copysign, radians, sqrt, tan
 from typing import TYPE_CHECKING, NamedTuple
 
+from polycnc.cycles import count
 from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from polycnc.geometry.arcs import Point
+
+
+_WHOLE = 1e-9
 
 
 class ThreadStroke(NamedTuple):
@@ -41,6 +45,7 @@ class Thread:
         start_angle_deg: Spindle angle of the first start.
         starts: Number of starts.
         lift: Way off the thread between cuts.
+        roughs: The roughing cuts are made; `finishes`: the one that takes the allowance, and the idle ones.
     """
 
     corners: Sequence[Point]
@@ -57,16 +62,25 @@ class Thread:
     start_angle_deg: float
     starts: int
     lift: float
+    roughs: bool = True
+    finishes: bool = True
+
+
+def cuts_of_first(rough: float, first: float, *, degressive: bool) -> int:
+    """Number of roughing cuts of which the first one is at most so deep."""
+    share = rough / first
+    return max(count.parts(share * share if degressive else share, 1.0, _WHOLE), 1)
 
 
 def depths(thread: Thread) -> list[float]:
-    """Depth of each cut below the crest: roughing, finishing, idle."""
+    """Depth of each cut that is made, below the crest: roughing, finishing, idle."""
     rough = thread.depth - thread.allowance
     parts = [k / thread.cuts for k in range(1, thread.cuts + 1)]
-    found = [rough * (sqrt(part) if thread.degressive else part) for part in parts]
-    if thread.allowance > 0.0:
-        found.append(thread.depth)
-    return found + [thread.depth] * thread.idle
+    found = [rough * (sqrt(part) if thread.degressive else part) for part in parts] if thread.roughs else []
+    if not thread.finishes:
+        return found
+    last = 1 if thread.allowance > 0.0 or not thread.roughs else 0
+    return found + [thread.depth] * (last + thread.idle)
 
 
 def strokes(thread: Thread) -> Iterator[ThreadStroke]:
@@ -80,7 +94,7 @@ def strokes(thread: Thread) -> Iterator[ThreadStroke]:
     yield ThreadStroke((corners[0][0], off))
     for start in range(thread.starts):
         angle = (thread.start_angle_deg + start * 360.0 / thread.starts) % 360.0
-        for number, depth in enumerate(depths(thread)):
+        for number, depth in enumerate(depths(thread), 0 if thread.roughs else thread.cuts):
             shift = onwards * depth * slope * (-1.0 if thread.flank_deg < 0.0 and number % 2 else 1.0)
             if shift:
                 yield ThreadStroke((corners[0][0] + shift, off))

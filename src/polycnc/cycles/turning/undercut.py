@@ -13,7 +13,7 @@ from math import cos, radians, sin, tan
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.cycles.turning.contour import Piece
-from polycnc.cycles.turning.groove import Corner, with_corner
+from polycnc.cycles.turning.groove import Corner, GrooveError, with_corner
 from polycnc.geometry import offset
 
 if TYPE_CHECKING:
@@ -27,9 +27,12 @@ class Undercut(NamedTuple):
     Attributes:
         width: From the shoulder to where the slope leaves the cylinder.
         depth: Below the surface of the cylinder.
-        radius: Of the corners at its base.
+        radius: Of the corner between slope and base.
         slope_deg: Of the way down from the cylinder.
         face: Depth into the shoulder, 0 for none.
+        corner: Radius at the shoulder; None for the same.
+        stock: Above the finished cylinder, which is cut later: the slope begins on it.
+        face_stock: In front of the finished face of the shoulder.
     """
 
     width: float
@@ -37,6 +40,14 @@ class Undercut(NamedTuple):
     radius: float
     slope_deg: float
     face: float = 0.0
+    corner: float | None = None
+    stock: float = 0.0
+    face_stock: float = 0.0
+
+    @property
+    def reach(self) -> float:
+        """From the shoulder to where the slope leaves the material that is there."""
+        return self.width + self.stock / tan(radians(self.slope_deg))
 
 
 _SLOPE_OF_SHAFT, _SLOPE_OF_THREAD, _SLOPE_OF_FACE = 15.0, 30.0, radians(8.0)
@@ -55,8 +66,16 @@ PITCHES = {
 #: DIN 76-1 by pitch: what the base is smaller than the nominal diameter outside, and larger inside, both on the
 #: diameter; radius; greatest width g2 of the forms A, B, C, D.
 THREADS = {
+    0.2: (0.3, 0.1, 0.1, (0.7, 0.5, 1.2, 0.9)),
+    0.25: (0.4, 0.1, 0.12, (0.9, 0.6, 1.4, 1.0)),
+    0.3: (0.5, 0.1, 0.16, (1.05, 0.75, 1.6, 1.25)),
+    0.35: (0.6, 0.2, 0.16, (1.2, 0.9, 1.9, 1.4)),
+    0.4: (0.7, 0.2, 0.2, (1.4, 1.0, 2.2, 1.6)),
+    0.45: (0.7, 0.2, 0.2, (1.6, 1.1, 2.4, 1.7)),
     0.5: (0.8, 0.3, 0.2, (1.75, 1.25, 2.7, 2.0)),
+    0.6: (1.0, 0.3, 0.4, (2.1, 1.5, 3.3, 2.4)),
     0.7: (1.1, 0.3, 0.4, (2.45, 1.75, 3.8, 2.75)),
+    0.75: (1.2, 0.3, 0.4, (2.6, 1.9, 4.0, 2.9)),
     0.8: (1.3, 0.3, 0.4, (2.8, 2.0, 4.2, 3.0)),
     1.0: (1.6, 0.5, 0.6, (3.5, 2.5, 5.2, 3.7)),
     1.25: (2.0, 0.5, 0.6, (4.4, 3.2, 6.7, 4.9)),
@@ -85,37 +104,59 @@ def of_shaft(form: str, diameter: float) -> Undercut:
 
 
 def of_thread(form: str, nominal: float) -> tuple[Undercut, float] | None:
-    """Form A to D of a metric thread, and the radius of the surface it begins on; None for no coarse thread.
+    """Form A to D of a metric thread of coarse pitch, as `of_pitch`; None for no coarse thread."""
+    pitch = PITCHES.get(round(nominal)) if abs(nominal - round(nominal)) <= 1e-6 else None
+    return None if pitch is None else of_pitch(form, nominal, pitch)
+
+
+def of_pitch(form: str, nominal: float, pitch: float, slope_deg: float = 0.0) -> tuple[Undercut, float]:
+    """Form A to D of a metric thread, and the radius of the surface it begins on.
 
     That surface is the nominal diameter outside, the core hole inside.
+
+    Args:
+        form: As named.
+        nominal: Diameter of the thread, mm.
+        pitch: One that has a row in `THREADS`.
+        slope_deg: Of the way down; 0 for that of the standard.
     """
-    pitch = PITCHES.get(round(nominal)) if abs(nominal - round(nominal)) <= 1e-6 else None
-    if pitch is None:
-        return None
     smaller, larger, radius, widths = THREADS[pitch]
-    width = widths["ABCD".index(form)]
+    width, slope = widths["ABCD".index(form)], slope_deg or _SLOPE_OF_THREAD
     if form not in INSIDE:
-        return Undercut(width, 0.5 * smaller, radius, _SLOPE_OF_THREAD), 0.5 * nominal
+        return Undercut(width, 0.5 * smaller, radius, slope), 0.5 * nominal
     core = nominal - _CORE * pitch
-    return Undercut(width, 0.5 * (nominal + larger - core), radius, _SLOPE_OF_THREAD), 0.5 * core
+    return Undercut(width, 0.5 * (nominal + larger - core), radius, slope), 0.5 * core
 
 
-def contour(undercut: Undercut, out: float) -> Contour:
+def contour(undercut: Undercut, out: float | None) -> Contour:
     """The undercut from the cylinder to the shoulder, in (a, t), and on along the face by `out` above the cylinder.
 
-    Form F ends where its slope leaves the face.
+    Without `out` form F ends where its slope leaves the face.
+
+    Raises:
+        GrooveError: Slope and corners do not fit its width.
     """
-    width, depth, radius, slope, face = undercut
-    foot = (width - depth / tan(radians(slope)), depth)
-    corner, end = ((0.0, depth), (0.0, -out)) if not face else _into_face(depth, radius, face)
-    pieces: Contour = [Piece(offset.line((width, 0.0), foot))]
-    for a, b in ((foot, corner), (corner, end)):
+    depth, slope = undercut.depth, radians(undercut.slope_deg)
+    foot = (undercut.width - depth / tan(slope), depth)
+    if not undercut.face:
+        corner, end = (0.0, depth), (undercut.face_stock, -(out or 0.0))
+    else:
+        corner, end = _into_face(undercut)
+    if foot[0] <= corner[0]:
+        raise GrooveError("slope")
+    radii = (undercut.radius, undercut.radius if undercut.corner is None else undercut.corner)
+    pieces: Contour = [Piece(offset.line((undercut.reach, -undercut.stock), foot))]
+    for a, b, radius in zip((foot, corner), (corner, end), radii, strict=True):
         pieces = with_corner(pieces, Piece(offset.line(a, b)), Corner(radius=radius))
+    if undercut.face and out is not None and -out < end[1]:
+        pieces.append(Piece(offset.line(end, (end[0], -out))))
     return pieces
 
 
-def _into_face(depth: float, radius: float, face: float) -> tuple[Point, Point]:
+def _into_face(undercut: Undercut) -> tuple[Point, Point]:
     """Where base and slope of the face meet, and where that slope ends: the rounding between them is `face` deep."""
+    depth, radius = undercut.depth, undercut.radius
     c, s, slope = cos(_SLOPE_OF_FACE), sin(_SLOPE_OF_FACE), tan(_SLOPE_OF_FACE)
-    touch = (radius * (1.0 - c) - face, depth - radius * (1.0 + s))
-    return (touch[0] - (depth - touch[1]) * slope, depth), (0.0, touch[1] + touch[0] / slope)
+    touch = (radius * (1.0 - c) - undercut.face, depth - radius * (1.0 + s))
+    end = undercut.face_stock
+    return (touch[0] - (depth - touch[1]) * slope, depth), (end, touch[1] + (touch[0] - end) / slope)

@@ -34,6 +34,9 @@ G_FUNCTIONS = {
     "G58": "G505",
     "G59": "G506",
     "G61": "G60",
+    # The type of feed stays, as in the dialect.
+    "G96": "G962",
+    "G97": "G972",
 }
 #: Words that mean the same.
 SAME = frozenset("XYZABCUVWIJKFSTM")

@@ -140,7 +140,7 @@ MODAXVAL    (AR)        REAL
 NEWT        (Si)        INT
 POSRANGE    (ARRi)      BOOL
 SETDNO      (III)       BOOL
-SETTCOR     ([siiiiii)  INT
+SETTCOR     ([Sii?siii) INT
 SPI         (I)         AXIS
 SPRINT      (*)         STRING
 TOOLENV     (S)         INT
@@ -187,6 +187,9 @@ PROCEDURES: dict[str, str] = {
     "GETACTT": "VS",
     "MVTOOL": "VIIII",
     "RESETMON": "VIii",
+    "DELT": "Si",
+    "SETTA": "VIIi",
+    "SETTIA": "VII",
     "SETDNO": "III",
 }
 

@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from polycnc.machine.model import Axis as AxisData
     from polycnc.transformation.couplings.laws import Law
 
-#: Speeds are differences over so many seconds.
-SHORT_S = 1e-6
 #: Parts of velocity and acceleration with which an axis catches up; what leads it has the rest.
 OWN_SPEED, OWN_PULL = 0.2, 0.5
 
@@ -31,6 +29,9 @@ class Leading(Protocol):
 
     def setpoint(self, time: float) -> float:
         """Its place, mm or degrees."""
+
+    def speed(self, time: float) -> float:
+        """How fast that changes, mm/s or degrees/s."""
 
 
 class CommandedAxis:
@@ -78,33 +79,34 @@ class CommandedAxis:
     def _shares(self, time: float) -> float:
         return sum(law.share(axis.setpoint(time)) for axis, law in self._led)
 
-    def follow(self, led: Sequence[tuple[Leading, Law]], *, smoothly: bool = False) -> None:
-        """Others lead it from now on, beside what it does by itself; without any it stays.
+    def follow(self, led: Sequence[tuple[Leading, Law]], *, catches_up: bool = True) -> None:
+        """Others lead it from now on, beside what it does by itself; without any it brakes, and stays.
+
+        What its speed would change at once it makes up by itself.
 
         Args:
             led: What leads it, and by which laws.
-            smoothly: What its speed would change at once it makes up by itself: it catches up with those that lead it,
-                or brakes where none does.
+            catches_up: It makes up for the way that it is behind meanwhile, too.
         """
         time = self._clock()
-        before = self.velocity(time) + self._share_speed(time) if smoothly else 0.0
+        before = self.velocity(time) + self._share_speed(time)
         self.stop()
         place = self.place(time)
         self._led = tuple(led)
         self._place = place - self._shares(time)
         self._lead = self._target = None
-        after = self._share_speed(time) if smoothly else 0.0
+        after = self._share_speed(time)
         if before != after:
-            self._make_up(before - after, time)
+            self._make_up(before - after, time, catches_up=catches_up and bool(led))
 
     def _share_speed(self, time: float) -> float:
         """How fast those that lead it move it."""
-        return (self._shares(time + SHORT_S) - self._shares(time)) / SHORT_S
+        return sum(law.slope(leading.setpoint(time)) * leading.speed(time) for leading, law in self._led)
 
-    def _make_up(self, velocity: float, time: float) -> None:
-        """Come from a velocity to rest: at its place where others lead it, where it can where none does."""
+    def _make_up(self, velocity: float, time: float, *, catches_up: bool) -> None:
+        """Come from a velocity to rest: at its place where it catches up with those that lead it, else where it can."""
         pull, target = OWN_PULL * (self._data.acceleration or 1e9), self._place
-        if not self._led:
+        if not catches_up:
             target += copysign(0.5 * velocity * velocity / pull, velocity)
         speed = OWN_SPEED * (self._data.rapid or 1e9)
         self._lead = axis_move(self._place, velocity, target, speed, pull, time)
@@ -139,7 +141,7 @@ class CommandedAxis:
 
     @property
     def is_turning(self) -> bool:
-        """Whether it moves now."""
+        """Whether it moves by itself now, beside what leads it."""
         return self._lead is not None
 
     @property

@@ -28,6 +28,10 @@ class SpindleTurning:
         turned = ramp * 0.5 * (self._rpm + self._rpm_after(ramp)) + (seconds - ramp) * self._wanted
         return self._angle + DEGREES_S * turned
 
+    def speed(self, time: float) -> float:
+        """Degrees a second at a time."""
+        return DEGREES_S * self._rpm_after(max(time - self._since, 0.0))
+
     def turn_with(self, rpm: float, time: float) -> None:
         """From a time on it gets to another speed."""
         if rpm == self._wanted:

@@ -114,7 +114,7 @@ class ProgramCommands:
             if alarms:
                 texts = catalogue_of(operation.control, run.channel.machine)
                 raise SearchStopped(named, alarms[0].told_by(texts))
-            raise CommandRefused("mainrun.search", target=named)
+            raise wanted.missed(named)
         run.execution.stand_before(found.position, found.context, found.modal)
         run.take_in_hand(here)
         operation.collected, operation.searched = {channel: found.functions}, True

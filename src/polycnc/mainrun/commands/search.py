@@ -7,6 +7,7 @@ from enum import StrEnum
 from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass
+from polycnc.mainrun.errors import CommandRefused
 from polycnc.mainrun.preparation.items import Block, Happening, Move
 from polycnc.toolpath import Context
 from polycnc.toolpath.events import Auxiliary, Raised, Shown, SignalWrite, SpindleSpeed, ToolSelection
@@ -57,15 +58,31 @@ class SearchMode(StrEnum):
     """With program test (SINUMERIK's SERUPRO): the program runs, with its actions and waits, while the axes stand."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Wanted:
-    """The block that is looked for: of the main program, or of a subprogram with the blocks that call it."""
+    """The block that is looked for: of the main program, or of a subprogram with the blocks that call it.
+
+    Attributes:
+        levels: Where it stands.
+        part_of: Line of a block that runs it as its own part, such as the shape of a turning cycle; 0 for none so far.
+    """
 
     levels: Places
+    part_of: int = 0
 
     def is_met_by(self, block: Block) -> bool:
         """Whether it is this one, or one of the subprogram that it calls."""
-        return block.levels[: len(self.levels)] == self.levels
+        if block.levels[: len(self.levels)] == self.levels:
+            return True
+        if block.callers and (block.program, block.line) == self.levels[-1]:
+            self.part_of = self.part_of or block.callers[-1][1]
+        return False
+
+    def missed(self, named: object) -> CommandRefused:
+        """The refusal where the program has ended without it."""
+        if self.part_of:
+            return CommandRefused("mainrun.search-part", target=named, line=self.part_of)
+        return CommandRefused("mainrun.search", target=named)
 
 
 @dataclass(slots=True)

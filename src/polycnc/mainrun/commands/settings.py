@@ -65,10 +65,10 @@ class Switches:
         """Speed of an axis in rapid traverse, mm/s or degrees/s."""
         return (axis.rapid or 1e9) * self.rates.rapid
 
-    def set_rates(self, *, feed_is_100: bool, dry_run: DryRun | None) -> None:
+    def set_rates(self, *, feed_is_100: bool, rapid_held: bool, dry_run: DryRun | None) -> None:
         """The speeds follow the dials; a soft key of the machine holds the feed at 100 %."""
         dials, rates = self.dials, self.rates
-        rates.feed_cancelled = feed_is_100
+        rates.feed_cancelled, rates.rapid_held = feed_is_100, rapid_held
         rates.feed = 1.0 if feed_is_100 else dials.feed
         rates.rapid, rates.spindle, rates.dry_run = dials.rapid, dials.spindle, dry_run
 

@@ -284,13 +284,13 @@ class ChannelRun:
     def give_up(self) -> None:
         """The axes stand: the program is given up, the channel is as after reset."""
         self.reach(self.execution.block)
-        running, modal, context = self.execution.block, self.execution.modal, self.execution.context
+        channel, control = self.channel, self.channel.control
+        modal, context = self.execution.modal, self.execution.context
+        if self.execution.block is None:
+            modal, context = channel.mode.codes, control.context(channel)
         self.execution.abandon()
         self.interpolator.end(reset=True)
         self.machinery.reset()
-        if running is None:
-            self.channel.control.reset(self.channel)
-        else:
-            self.channel.control.give_up(self.channel, modal, context)
+        control.give_up(channel, modal, context)
         if self.channel.group is not None:
             self.channel.group.end(self.number)

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from polycnc.mainrun.execution.clock import Clock
     from polycnc.mainrun.execution.execution import Execution
     from polycnc.mainrun.execution.machinery import Machinery
-    from polycnc.mainrun.preparation.items import Block, Row
+    from polycnc.mainrun.preparation.items import Block, Rates, Row
     from polycnc.mainrun.reading.snapshot import SpindleState
     from polycnc.messages import AlarmError
     from polycnc.toolpath import Context, Event
@@ -41,6 +41,7 @@ class Led(Protocol):
     execution: Execution
     machinery: Machinery
     axes: ChannelAxes
+    rates: Rates
 
     @property
     def path(self) -> list[float]:
@@ -60,6 +61,26 @@ class Led(Protocol):
     @property
     def channel(self) -> Channel:
         """The channel."""
+
+
+class LeadingAxis:
+    """An axis that leads another one; satisfies `Leading`.
+
+    Args:
+        interpolator: The main run of its channel.
+        column: The axis.
+    """
+
+    def __init__(self, interpolator: ChannelInterpolator, column: int) -> None:
+        self._interpolator, self._column = interpolator, column
+
+    def setpoint(self, time: float) -> float:
+        """Its place; of the path that of this moment alone."""
+        return self._interpolator.setpoint(self._column, time)
+
+    def speed(self, time: float) -> float:  # noqa: ARG002 - it is that of this moment
+        """How fast it moves, by what it has gone since the last look."""
+        return 0.0 if self._interpolator.is_still else self._interpolator.speed(self._column)
 
 
 class ChannelInterpolator:
@@ -265,6 +286,10 @@ class ChannelInterpolator:
         """Active codes in the block in execution."""
         return self._run.execution.modal
 
+    def setpoint(self, column: int, time: float) -> float:
+        """Where an axis shall be at a time, as far as that is known ahead."""
+        return self._run.axes[column].setpoint(time)
+
     def machine(self, column: int) -> float:
         """Commanded position of an axis on the machine."""
         return self._positions()[column]
@@ -393,9 +418,15 @@ class ChannelInterpolator:
         return tuple(self._led.get(column, ()))
 
     def follow(
-        self, column: int, laws: Sequence[CouplingLaw], spindles: Mapping[int, float] | None = None
+        self,
+        column: int,
+        laws: Sequence[CouplingLaw],
+        spindles: Mapping[int, float] | None = None,
+        speed: Callable[[int, float], float] | None = None,
+        *,
+        catches_up: bool = True,
     ) -> None:
-        """These lead an axis beside the path from now on, none lets it stay where it is.
+        """These lead an axis beside the path from now on, none lets it brake.
 
         Raises:
             CircularCouplingError: An axis would lead itself.
@@ -403,10 +434,10 @@ class ChannelInterpolator:
         every = {**self._led, column: tuple(laws)}
         in_order(every)
         self._led = {each: of for each, of in every.items() if of}
-        leading: list[tuple[Leading, CouplingLaw]] = [(self._run.axes[law.leading], law) for law in laws]
+        leading: list[tuple[Leading, CouplingLaw]] = [(LeadingAxis(self, law.leading), law) for law in laws]
         if spindles is not None:
-            leading += self._turning.led_by(column, spindles)
-        self.commanded(column).follow(leading, smoothly=spindles is not None)
+            leading += self._turning.led_by(column, spindles, speed)
+        self.commanded(column).follow(leading, catches_up=catches_up)
         self.wake()
 
     def commanded_shares(self) -> dict[int, float]:

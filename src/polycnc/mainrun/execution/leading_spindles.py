@@ -9,13 +9,14 @@ from polycnc.mainrun.axes.spindle_turning import DEGREES_S, SpindleTurning
 from polycnc.transformation.couplings.laws import Ratio
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from polycnc.channel.channel import Channel
     from polycnc.mainrun.axes.channel_axes import ChannelAxes
     from polycnc.mainrun.axes.commanded import Leading
     from polycnc.mainrun.execution.clock import Clock
     from polycnc.mainrun.execution.execution import Execution
+    from polycnc.mainrun.preparation.items import Rates
     from polycnc.mainrun.reading.snapshot import SpindleState
     from polycnc.transformation.couplings.laws import Law
 
@@ -34,6 +35,8 @@ class Turning(Protocol):
     def spindle(self) -> SpindleState:
         """The spindle of the block in execution."""
 
+    rates: Rates
+
 
 class LeadingSpindles:
     """Follows the spindles of a channel that lead axes; satisfies the clock's `Watch`.
@@ -47,12 +50,16 @@ class LeadingSpindles:
         self._run, self._clock = run, clock
         self._turning: dict[int, SpindleTurning] = {}
         self._led: dict[int, tuple[int, ...]] = {}
+        self._speed: Callable[[int, float], float] | None = None
 
-    def led_by(self, column: int, ratios: Mapping[int, float]) -> list[tuple[Leading, Law]]:
+    def led_by(
+        self, column: int, ratios: Mapping[int, float], speed: Callable[[int, float], float] | None = None
+    ) -> list[tuple[Leading, Law]]:
         """What leads an axis from now on: by degrees that it turns for one of each spindle, its number.
 
         A law is told by the column of the axis that it leads: a spindle has none.
         """
+        self._speed = speed or self._speed
         was_armed = bool(self._led)
         self._led.pop(column, None)
         if ratios:
@@ -71,16 +78,25 @@ class LeadingSpindles:
 
     def look(self, time: float) -> None:
         """An interpolation cycle has come."""
+        for number, turning in self._turning.items():
+            turning.turn_with(self._rpm(number), time)
+
+    def _rpm(self, number: int) -> float:
+        """What a spindle turns with; one that the block in execution does not follow by its speed and the override."""
         state = self._run.spindle
-        turning = self._turning.get(state.number)
-        if turning is not None:
-            turning.turn_with(state.rpm * state.direction, time)
+        if state.number == number:
+            return state.rpm * state.direction
+        if self._speed is None:
+            return 0.0
+        context = self._run.execution.context
+        override = self._run.rates.spindle if context.spindle_override else 1.0
+        most = self._run.channel.machine.spindle[number].max_rpm
+        return max(-most, min(most, self._speed(number, override)))
 
     def _begun(self, number: int, column: int, ratio: float) -> SpindleTurning:
         """A spindle begins to lead: it gets to other speeds no faster than the axis can follow."""
-        state, spindle = self._run.spindle, self._run.channel.machine.spindle[number]
-        rpm = state.rpm * state.direction if state.number == number else 0.0
+        spindle = self._run.channel.machine.spindle[number]
         pull = (1.0 - OWN_PULL) * self._run.axes[column].data.acceleration
         follows = pull / (DEGREES_S * abs(ratio)) if ratio else 0.0
         pulls = [pull for pull in (spindle.acceleration_rpm_s, follows) if pull > 0.0]
-        return SpindleTurning(rpm, min(pulls, default=0.0), self._clock.time)
+        return SpindleTurning(self._rpm(number), min(pulls, default=0.0), self._clock.time)

@@ -294,8 +294,7 @@ class Operation:
             run.stand_at(position)
             self.prepare(run)
         if test is not None and missed and not self.status.is_locked:
-            refusal = CommandRefused("mainrun.search", target=test.target)
-            self.runs[test.channel].machinery.messages.append(str(refusal))
+            self.runs[test.channel].machinery.messages.append(str(test.wanted.missed(test.target)))
         self.starts_up = False
         if not self.status.is_locked:
             self.status.show_alarms(())
@@ -342,6 +341,7 @@ class Operation:
         in_dry_run = tests or (switches.panel.dry_run and self.program_mode is not Mode.TAPE)
         switches.set_rates(
             feed_is_100=tests or bool(self.signals[FEED_IS_100]),
+            rapid_held=settings.rapid_held,
             dry_run=settings.dry_run if in_dry_run else None,
         )
         self.runs.revise()

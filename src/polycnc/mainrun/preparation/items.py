@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, TypeAlias
 from polycnc.channel.interpolator import Influence
 from polycnc.channel.intervention import NOTHING_BACK
 from polycnc.deferred.records import dataclass
+from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -228,6 +229,7 @@ class Rates:
         rapid: Rapid override.
         spindle: Spindle override.
         dry_run: What a dry run does; None while none is on.
+        rapid_held: A feed override of 0 % holds rapids too.
         hold: Feed hold: the axes come to rest.
         feed_cancelled: The feed override is switched off.
         gives_up: Reset or emergency stop: so they do in threads and taps.
@@ -238,6 +240,7 @@ class Rates:
     rapid: float = 1.0
     spindle: float = 1.0
     dry_run: DryRun | None = None
+    rapid_held: bool = False
     hold: bool = False
     feed_cancelled: bool = False
     gives_up: bool = False
@@ -245,6 +248,8 @@ class Rates:
 
     def rapid_on(self, move: Row) -> float:
         """Rapid override that acts on a move."""
+        if self.rapid_held and self.feed == 0.0 and move.context.feed_override:
+            return 0.0
         return self.rapid if move.context.rapid_override else 1.0
 
     def axis_speed(self, move: Row, top: float, own: Influence = UNINFLUENCED) -> float:
@@ -281,7 +286,7 @@ class Rates:
             return self.axis_speed(move, 1.0, own) ** 2
         if move.rapid:
             return min(cap2 * self.rapid_on(move) ** 2, self._dry_rapid**2) * min(own.factor, 1.0) ** 2
-        if dry is not None:
+        if dry is not None and (context.feed_override or move.kind != Kind.SKIP):  # FANUC 6200#7 SKF
             speed = dry.speed_for(asked) * self.feed * own.factor
             return min(cap2, speed * speed)
         feed = (self.feed if context.feed_override else 1.0) * own.factor

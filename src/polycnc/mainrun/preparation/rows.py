@@ -23,9 +23,10 @@ if TYPE_CHECKING:
 
     from polycnc.mainrun.preparation.piece_buffer import PieceBuffer
     from polycnc.mainrun.preparation.queue import Queue
+    from polycnc.motion.demand import Bounds
     from polycnc.motion.pole import Turn
     from polycnc.motion.time_constants import Uses
-    from polycnc.motion.transformed import Bounds, RealAxes
+    from polycnc.motion.transformed import RealAxes
     from polycnc.toolpath import Toolpath
     from polycnc.toolpath.motion_settings import MotionSettings
     from polycnc.toolpath.table import Chunk

@@ -65,6 +65,7 @@ class PathLimits(Structure):
         path_feed: Highest speed of a cut.
         arc_pull: Highest acceleration across the path on an arc that is planned ahead.
         arc_least: Speed below which neither that nor what axes may accelerate on arcs slows one.
+        bend_least: Speed below which what axes may accelerate from line to line slows none.
         block_s: How long a cut lasts at least, because the control processes no more blocks a second (0: any).
         feed_along_arc: Whether the feed of an arc is that along the arc, other axes beside it (1).
         arc_by_radius: Whether inverse time counts the radius of an arc, not its length (1).
@@ -74,6 +75,7 @@ class PathLimits(Structure):
     path_feed: float
     arc_pull: float
     arc_least: float
+    bend_least: float
     block_s: float
     feed_along_arc: float
     arc_by_radius: float
@@ -89,6 +91,7 @@ class Limits(NamedTuple):
         jump: Highest step of the velocity at a corner.
         step: That which the control's parameters allow at a corner of two cuts that are planned ahead.
         arc: Highest acceleration that they allow on an arc that is planned ahead.
+        bend: The same where a line of such a cut goes over into the next one.
         rotary: 1 for a rotary axis.
         jerk: Highest jerk.
         geometry: The columns of X, Y, Z, -1 for a missing one.
@@ -103,6 +106,7 @@ class Limits(NamedTuple):
     jump: Floats
     step: Floats
     arc: Floats
+    bend: Floats
     rotary: Floats
     jerk: Floats
     geometry: Ints

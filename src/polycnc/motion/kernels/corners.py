@@ -78,7 +78,7 @@ def join(
         own2 = jump2(turns, n, limits, state, shorter)
     if not turns:
         own2 = min(own2, turned2(angle, distance, n, limits, state, shorter))
-    cap2 = min(cap2, own2, stepped2(contexts, record, n, limits, state))
+    cap2 = min(cap2, own2, stepped2(contexts, record, n, limits, state, shorter))
     if ramp > 0.0:
         cap2 = corner_hold2(contexts, record, n, limits, state, length, cap2)
         if wanted > 0.0 and pays_to_rest(n, limits, state, length, cap2, wanted):
@@ -112,15 +112,18 @@ def goes_on_smoothly(n: int, limits: Limits, state: State, weight: float) -> boo
     return cosine_of_turn(n, limits, state, weight) > SMOOTH_COS
 
 
-def stepped2(contexts: Floats, record: int, n: int, limits: Limits, state: State) -> float:
-    """Largest x at a corner of two cuts at which the velocity of no axis steps by more than parameters allow."""
-    x2 = inf
+def stepped2(contexts: Floats, record: int, n: int, limits: Limits, state: State, shorter: float) -> float:
+    """Largest x at a corner of two cuts at which the velocity of no axis steps by more than parameters allow.
+
+    Spread over the time that the shorter of the two lines takes, the step is an acceleration, which they bound too.
+    """
+    x2, least2 = inf, square(limits.path.bend_least)
     if is_rapid(state) or contexts[record + ContextRecord.AHEAD] == 0.0:
         return x2
     for i in range(n):
         step = abs(state.unit[i] - state.tangent[i])
         if step > SAME_DIRECTION:
-            x2 = min(x2, square(limits.step[i] / step))
+            x2 = min(x2, square(limits.step[i] / step), max(limits.bend[i] * shorter / step, least2))
     return x2
 
 

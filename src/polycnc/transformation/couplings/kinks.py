@@ -13,6 +13,8 @@ if TYPE_CHECKING:
 
     from polycnc.transformation.contract import Transformation
 
+    Places = Callable[[list[float]], list[float]]
+
 #: Parts of a row between whose ends a leading axis passes a place once at most; halvings of the search for it.
 PARTS, HALVINGS = 64, 60
 #: Ways of a leading axis that count as none, mm or degrees; slopes are compared so far before and behind a place.
@@ -21,9 +23,11 @@ SAME_PLACE, BESIDE = 1e-7, 1e-5
 
 def has_kinks(transformation: Transformation | None) -> bool:
     """Whether curves lead axes under a transformation."""
-    found = _coupled(transformation)
-    return found is not None and any(
-        isinstance(law, ByCurve) for each in found.following for law in each.laws
+    return any(
+        isinstance(law, ByCurve)
+        for coupled, _ in _couplings(transformation)
+        for each in coupled.following
+        for law in each.laws
     )
 
 
@@ -39,26 +43,22 @@ def kinks(
         path: The row's points by shares.
         most: The step of the slope that counts as none, by the columns of the following and the leading axis.
     """
-    coupled, found = _coupled(transformation), set[float]()
-    if coupled is None:
-        return []
-    offsets = transformation.offsets if isinstance(transformation, Seated) else ()
-    shares = [k / PARTS for k in range(PARTS + 1)]
-    axes = [transformation.to_machine(path(share)) for share in shares]
-    for each in coupled.following:
-        for law in each.laws:
-            if isinstance(law, ByCurve):
-                column = law.leading
-                shift = offsets[column] if offsets else 0.0
-                places = [point[column] - shift for point in axes]
-                allowed = most(each.column, column)
+    found, shares = set[float](), [k / PARTS for k in range(PARTS + 1)]
+    for coupled, placed in _couplings(transformation):
+        axes = [placed(path(share)) for share in shares]
+        for each in coupled.following:
+            for law in each.laws:
+                if isinstance(law, ByCurve):
+                    column = law.leading
+                    places = [point[column] for point in axes]
+                    allowed = most(each.column, column)
 
-                def leading(share: float, column: int = column, shift: float = shift) -> float:
-                    return transformation.to_machine(path(share))[column] - shift
+                    def leading(share: float, column: int = column, placed: Places = placed) -> float:
+                        return placed(path(share))[column]
 
-                for place in law.kinks(min(places) - SAME_PLACE, max(places) + SAME_PLACE):
-                    if law.step(place, BESIDE) > allowed:
-                        found.update(_passes(leading, shares, places, place))
+                    for place in law.kinks(min(places) - SAME_PLACE, max(places) + SAME_PLACE):
+                        if law.step(place, BESIDE) > allowed:
+                            found.update(_passes(leading, shares, places, place))
     return sorted(found)
 
 
@@ -81,6 +81,11 @@ def _passes(
             yield high
 
 
-def _coupled(transformation: Transformation | None) -> Coupled | None:
-    inner = transformation.inner if isinstance(transformation, Seated) else transformation
-    return inner if isinstance(inner, Coupled) else None
+def _couplings(transformation: Transformation | None) -> list[tuple[Coupled, Places]]:
+    """Couplings under a transformation, each with what gives the places of axes that it sees at a point of the path."""
+    if isinstance(transformation, Coupled):
+        return [(transformation, transformation.to_machine)]
+    if not isinstance(transformation, Seated):
+        return []
+    sides = ((transformation.led, transformation.basic), (transformation.driven, transformation.to_machine))
+    return [(coupled, placed) for coupled, placed in sides if isinstance(coupled, Coupled)]

@@ -18,10 +18,11 @@ if TYPE_CHECKING:
 
 
 def linkage_of(transformation: Transformation | None) -> array[float]:
-    """The record of a transformation; empty for one that is no tool centre point, or has too many joints."""
+    """The record of a transformation; empty for one that is no tool centre point, has too many joints or couplings."""
     seated = transformation if isinstance(transformation, Seated) else None
     point = transformation if seated is None else seated.inner
-    if not isinstance(point, ToolCentrePoint):
+    coupled = seated is not None and (seated.led is not None or seated.driven is not None)
+    if coupled or not isinstance(point, ToolCentrePoint):
         return array("d")
     tables, heads = point.chains
     if len(tables) + len(heads) > MOST_JOINTS or any(

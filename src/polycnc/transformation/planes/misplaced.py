@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from math import asin, atan2, degrees
 from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import Frame, translation
+from polycnc.transformation.planes.tilted import by_fixed_axes
 
 if TYPE_CHECKING:
     from polycnc.geometry.frames import Vector
@@ -16,24 +18,36 @@ class Misplaced:
     """How a workpiece lies.
 
     Attributes:
-        error: From where the work should lie to where it lies, seen from the work zero, along the axes of the machine.
-        measured: How the table had turned when that was measured, machine coordinates.
+        errors: From where the work should lie to where it lies, seen from the work zero, along the axes of the machine,
+            each with how the table had turned when that was measured, machine coordinates. Several are added as they
+            are with the table at zero (A-79634E, page 10).
         turn: How the table has turned now.
     """
 
-    error: Frame
-    measured: Frame
+    errors: tuple[tuple[Frame, Frame], ...]
     turn: Frame
 
     def on_table(self, zero: Vector) -> Frame:
         """The error seen from the work zero (machine coordinates, mm) with the table at zero: it goes along with it."""
-        before = _about(zero, self.measured)
-        return before.inverse() @ self.error @ before
+        turns = ((error, _about(zero, measured)) for error, measured in self.errors)
+        frames = [before.inverse() @ error @ before for error, before in turns]
+        return frames[0] if len(frames) == 1 else _sum(frames)
 
     def seen(self, zero: Vector) -> Frame:
         """The same with the table as it has turned: what positions along the axes of the machine are led by."""
         now = _about(zero, self.turn)
         return now @ self.on_table(zero) @ now.inverse()
+
+
+def _sum(frames: list[Frame]) -> Frame:
+    """The frame whose shifts and turns about X, Y, Z are the sums of those of others."""
+    shifts, turns = [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]
+    for frame in frames:
+        m = frame.m
+        about = (atan2(m[2][1], m[2][2]), asin(max(-1.0, min(1.0, -m[2][0]))), atan2(m[1][0], m[0][0]))
+        shifts = [a + b for a, b in zip(shifts, frame.t, strict=True)]
+        turns = [a + degrees(b) for a, b in zip(turns, about, strict=True)]
+    return translation(*shifts) @ by_fixed_axes((0, 1, 2), turns)
 
 
 def _about(zero: Vector, turn: Frame) -> Frame:

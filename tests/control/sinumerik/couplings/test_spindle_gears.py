@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tests.conformance.leaving_out import HERE
 from tests.control.sinumerik.support import codes, run
 from tests.mainrun.support import power_on
 
@@ -22,10 +23,12 @@ DEFINITION = "EGDEF(A,S1,1,X,1)"
 
 
 def places(
-    text: str, act: Callable[[VirtualControl, int], None] = lambda _control, _cycle: None
+    text: str,
+    act: Callable[[VirtualControl, int], None] = lambda _control, _cycle: None,
+    machine: str = MACHINE,
 ) -> np.ndarray:
     """Where the axis was in each cycle; it has kept its limits."""
-    control = power_on(text, CONTROL, machine=MACHINE)
+    control = power_on(text, CONTROL, machine=machine)
     control.cycle_start()
     found = [control.positions.real["A"]]
     for cycle in range(5000):
@@ -89,6 +92,18 @@ def test_no_override_takes_the_axis_past_its_limits(speed: int) -> None:
         lambda control, cycle: control.override(spindle=1.2) if cycle == 200 else None,
     )
     assert np.diff(found).max() > 0.79 * 120.0 * CYCLE
+
+
+@pytest.mark.parametrize(("speed", "numerator"), [(90, -7), (1500, 5)])
+def test_a_spindle_that_is_not_the_master_is_held_to_what_the_axis_can_do(speed: int, numerator: int) -> None:
+    lines = ("EGDEF(A,S2,1)", f"M2=3 S2={speed}", "G4 F0.3", f'EGON(A,"FINE",S2,{numerator},18)', "G4 F0.5")
+    end = ("M2=5", "G4 F0.5", "EGOFS(A)", "M30\n")
+    found = places(
+        "\n".join((*lines, *end)),
+        lambda control, cycle: control.override(spindle=1.2) if cycle == 150 else None,
+        str(HERE / "machines/mill4-two-spindles.toml"),
+    )
+    assert np.abs(np.diff(found)).max() > 0.5 * min(abs(6.0 * speed * numerator / 18.0), 90.0) * CYCLE
 
 
 @pytest.mark.parametrize(

@@ -18,6 +18,8 @@ def test_definitions_do_not_nest_and_need_two_axes() -> None:
     assert codes(run("CTABDEF(Y,X,1)")) == [("14020", 1)]
 
 
-def test_a_transformation_is_refused() -> None:
-    result = run("TRANSMIT", "CTABDEF(Y,X,1,0)", machine="lathe-c-transmit")
-    assert codes(result)[0][0] in ("PC0001", "12050")
+def test_under_a_transformation_a_table_has_places_of_the_basic_system() -> None:
+    lines = ("TRANS X5", "CTABDEF(Z,Y,1,0)", "G1 Y0 Z0", "Y10 Z4", "CTABEND", "R1=CTAB(5,1,R9)")
+    result = run("G0 X20", "TRANSMIT", *lines, machine="lathe-c-transmit")
+    assert codes(result) == []
+    assert result.variables["R1"] == 2.0

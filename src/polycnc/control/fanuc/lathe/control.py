@@ -223,6 +223,7 @@ class FanucTurning(CustomMacroControl):
             returns_to_path=parameters.MIT,
             dry_run=dry_run(parameters),
             slowest_rapid=parameters.rapid_f0 / 60.0,
+            rapid_held=parameters.RF0,
         )
 
     def stays_at_end(self, channel: LatheChannel, code: int) -> bool:

@@ -46,8 +46,6 @@ class LatheParameters(FanucParameters["LatheAxisParameters"]):
 
     axis_class = LatheAxisParameters
 
-    #: 0#2: unit at power-on, metric (0) or inch (1).
-    INI = Bit(0, 2, delivered=False)
     #: 1#1: program format, normal (0) or Series 15 (1).
     FCV = Bit(1, 1, delivered=False)
     #: 1202#3: a reset cancels the local coordinate system.
@@ -120,14 +118,10 @@ class LatheParameters(FanucParameters["LatheAxisParameters"]):
     GSB = Bit(3401, 6, delivered=False)
     #: 3401#7: G code system C.
     GSC = Bit(3401, 7, delivered=False)
-    #: 3402#0: G01 at power-on.
-    start_g01 = Bit(3402, 0, delivered=False)
     #: 3402#1: G17 at power-on.
     start_g17 = Bit(3402, 1, delivered=False)
     #: 3402#2: G19 at power-on.
     start_g19 = Bit(3402, 2, delivered=False)
-    #: 3402#3: G91 at power-on (systems B, C).
-    start_g91 = Bit(3402, 3, delivered=False)
     #: 3402#4: feed per revolution G99 (0) or per minute G98 (1) at power-on.
     FPM = Bit(3402, 4, delivered=True)
     #: 3402#6: a reset leaves the reset state (0) or the clear state (1).
@@ -147,8 +141,22 @@ class LatheParameters(FanucParameters["LatheAxisParameters"]):
     DDP = Bit(3405, 5, delivered=False)
     #: 3406#1: a reset keeps the codes of group 01.
     C01 = Bit(3406, 1, delivered=False)
+    #: 3406#2: a reset keeps the codes of group 02.
+    C02 = Bit(3406, 2, delivered=False)
+    #: 3406#3: a reset keeps the codes of group 03.
+    C03 = Bit(3406, 3, delivered=False)
+    #: 3406#5: a reset keeps the codes of group 05.
+    C05 = Bit(3406, 5, delivered=False)
     #: 3407#2: a reset keeps the codes of group 10.
     C10 = Bit(3407, 2, delivered=False)
+    #: 3407#3: a reset keeps the codes of group 11.
+    C11 = Bit(3407, 3, delivered=False)
+    #: 3407#6: a reset keeps the codes of group 14.
+    C14 = Bit(3407, 6, delivered=False)
+    #: 3407#7: a reset keeps the codes of group 15.
+    C15 = Bit(3407, 7, delivered=False)
+    #: 3408#0: a reset keeps the codes of group 16.
+    C16 = Bit(3408, 0, delivered=False)
     #: 3453#0: chamfer and corner R by I, K, R (0) or drawing dimensions (1).
     CRD = Bit(3453, 0, delivered=False)
     #: 3458#7: Signs of chamfers and radii of drawing dimensions are read over.

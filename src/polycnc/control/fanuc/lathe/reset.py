@@ -11,6 +11,7 @@ from polycnc.control.fanuc.lathe.coordinates import limits, systems
 from polycnc.control.fanuc.lathe.cycles import single
 from polycnc.control.fanuc.lathe.cycles.tapping import ClampState
 from polycnc.control.fanuc.lathe.memory import TurningFrames
+from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.fanuc.lathe.tools import offsets
 from polycnc.control.fanuc.lathe.tools.offsets import OffsetState
 from polycnc.control.word_address.coordinates.systems import ZeroState
@@ -23,6 +24,18 @@ if TYPE_CHECKING:
 
 #: Groups that a reset never touches.
 _KEPT = ("unit", "stroke")
+#: Groups that the clear state keeps by a parameter.
+_KEPT_BY = {
+    LatheParameters.C01: "motion",
+    LatheParameters.C02: "surface_speed",
+    LatheParameters.C03: "distance",
+    LatheParameters.C05: "feed",
+    LatheParameters.C10: "cycle",
+    LatheParameters.C11: "return",
+    LatheParameters.C14: "wcs",
+    LatheParameters.C15: "path",
+    LatheParameters.C16: "plane",
+}
 #: Groups that every reset brings back.
 _CLEARED = (
     polar_interpolation.GROUP, cylinder.GROUP, normal_line.GROUP, "shape", "macro", "calls", "data_input"
@@ -30,7 +43,7 @@ _CLEARED = (
 
 
 def reset(channel: LatheChannel) -> None:
-    """Clear state (CLR = 1): power-on codes but for units and stroke check; reset state (0): modal codes stay."""
+    """Clear state (CLR = 1): power-on codes but for units, stroke check, groups of 3406 on; reset state: all stay."""
     memory, c = channel.memory, channel.coordinates
     parameters = memory.parameters
     clears = parameters.CLR
@@ -44,12 +57,14 @@ def reset(channel: LatheChannel) -> None:
     codes = {**fresh, **{group: before[group] for group in _KEPT}} if clears else dict(before)
     codes.update({group: fresh[group] for group in _CLEARED if group in fresh})
     codes.pop("shape", None)
-    if clears and parameters.C10:
-        codes["cycle"] = before["cycle"]
-    if before["motion"] in single.CYCLES and (not clears or parameters.C01):
+    if clears:
+        codes |= {group: before[group] for bit, group in _KEPT_BY.items() if parameters.value(bit)}
+    if codes["motion"] in single.CYCLES:
         codes["motion"] = "G1"
+    system = ZeroState.of(channel).system if not clears or parameters.C14 else codes["wcs"]
     channel.mode = channel.modes.mode(codes)
     _end_states(channel, clears=clears)
+    ZeroState.of(channel).system = system
     _cancel_offsets(channel, wear=parameters.LVC, geometry=parameters.TGC)
     systems.CodeState.of(channel).plane = codes["plane"]
     offsets.refresh(channel)
@@ -69,7 +84,7 @@ def _end_states(channel: LatheChannel, *, clears: bool) -> None:
         channel.mode = channel.mode.with_code(balance.GROUP, "G69")
     drills = channel.mode["cycle"] != "G80"
     kept = ((CycleState, ClampState) if drills else ()) + (() if clears else (ZeroState, TurningFrames))
-    end_of(channel, Lifetime.RESET, kept)
+    end_of(channel, Lifetime.RESET, (*kept, *memory.kept_at_reset))
     memory.forget_locals()
     # G41 or G42 that stays modal waits for the next offset number (II.5.4.1).
     radius = RadiusState.of(channel)

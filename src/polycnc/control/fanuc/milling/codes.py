@@ -6,7 +6,7 @@ from functools import wraps
 from typing import TYPE_CHECKING, Any
 
 from polycnc.control.fanuc.dwell import dwell
-from polycnc.control.fanuc.milling import five_axes
+from polycnc.control.fanuc.milling import five_axes, leading_edge
 from polycnc.control.fanuc.milling.cycles import MILLING_DRILLING
 from polycnc.control.word_address.auxiliary import functions
 from polycnc.control.word_address.auxiliary.m_codes import MACHINING_CENTRE
@@ -24,7 +24,7 @@ from polycnc.control.word_address.coordinates import frames, stroke_check, syste
 from polycnc.control.word_address.cycles.drilling import is_active
 from polycnc.control.word_address.macro_b import code_calls, macro_calls, parameter_input
 from polycnc.control.word_address.motion import nurbs, path, path_modes, planes, position_offset, skip, thread
-from polycnc.control.word_address.tools import corner_vectors, length, measuring, radius, spatial
+from polycnc.control.word_address.tools import corner_vectors, length, measuring, spatial
 from polycnc.control.word_address.transformations import (
     cylinder,
     normal_line,
@@ -112,10 +112,11 @@ ROWS = table(
     GCode("G40.1", normal_line.GROUP, normal_line.cancel),
     GCode("G41.1", normal_line.GROUP, normal_line.start),
     GCode("G42.1", normal_line.GROUP, normal_line.start),
-    GCode("G40", "compensation", five_axes.cancel, takes="I J K", order=Order.COMPENSATION),
+    GCode("G40", "compensation", leading_edge.cancel, takes="I J K", order=Order.COMPENSATION),
     GCode("G41", "compensation", corner_vectors.compensate_left, takes="D I J K", order=Order.COMPENSATION),
     GCode("G42", "compensation", corner_vectors.compensate_right, takes="D I J K", order=Order.COMPENSATION),
     *(GCode(code, "compensation", five_axes.compensate, takes="D", order=Order.COMPENSATION) for code in spatial.SIDES),
+    GCode("G41.3", "compensation", leading_edge.offset_edge, takes="D", order=Order.COMPENSATION),
     GCode("G43", "length", tool_length(length.compensate_length), takes="H", order=Order.LENGTH),
     GCode("G44", "length", tool_length(length.compensate_length), takes="H", order=Order.LENGTH),
     GCode("G43.4", "length", five_axes.start_following, takes="H", order=Order.LENGTH),
@@ -162,9 +163,7 @@ ROWS = table(
     GCode("G97", "surface_speed", systems.note_context, only_changes=True),
     GCode("G98", "return"),
     GCode("G99", "return"),
-    not_yet(
-        "G10.9", "G41.3", "G41.4", "G41.5", "G42.4", "G42.5",
-    ),
+    not_yet("G10.9"),
 )  # fmt: skip
 G_CODES = with_aliases(ROWS, ALIASES)
 M_CODES = m_table(*MACHINING_CENTRE, MCode(29, handler=functions.arm_rigid_tapping))
@@ -176,7 +175,7 @@ ADDRESSES = {
     "T": code_calls.plan_tool_or_call,
     "B": functions.plan_second_auxiliary,
     "H": length.plan_length_number,
-    "D": radius.plan_radius_number,
+    "D": spatial.plan_radius_number,
 }
 
 POWER_ON = MILLING_POWER_ON | {

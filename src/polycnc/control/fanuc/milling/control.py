@@ -9,7 +9,7 @@ from polycnc.compensation.policy import Approach, Policy
 from polycnc.control.fanuc.acceleration import accelerated
 from polycnc.control.fanuc.alarm_codes import ALARMS
 from polycnc.control.fanuc.code_calls import registered_codes
-from polycnc.control.fanuc.milling import five_axes
+from polycnc.control.fanuc.milling import five_axes, leading_edge
 from polycnc.control.fanuc.milling.codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
 from polycnc.control.fanuc.milling.cycles import MILLING_DRILLING
 from polycnc.control.fanuc.milling.parameters import FanucMillingParameters
@@ -59,6 +59,7 @@ class FanucMilling(MillingControl):
     drilling: ClassVar[Drilling] = MILLING_DRILLING
     rules: ClassVar[tuple[Rule, ...]] = (
         five_axes.RULE,
+        leading_edge.RULE,
         *MillingControl.rules,
         look_ahead.TRAVEL_RULE,
         interruption.RULE,
@@ -66,6 +67,19 @@ class FanucMilling(MillingControl):
     SCALE_CENTER_IS_ABSOLUTE: ClassVar[bool] = True
     MODES_WITHOUT_JUMPS: ClassVar[frozenset[str]] = MODES_WITHOUT_JUMPS
     POINT_IN_WHOLE_NUMBERS: ClassVar[DecimalPoint] = DecimalPoint.REFUSED
+
+    def start_codes(self, channel: Channel) -> dict[str, str]:
+        """Codes of power-on: 3402#0 to #3, and the unit by 0#2 INI."""
+        parameters, codes = _given(channel), super().start_codes(channel)
+        if parameters.start_g01:
+            codes["motion"] = "G1"
+        if parameters.start_g18 or parameters.start_g19:
+            codes["plane"] = "G18" if parameters.start_g18 else "G19"
+        if parameters.start_g91:
+            codes["distance"] = "G91"
+        if parameters.INI:
+            codes["unit"] = "G20"
+        return codes
 
     def code_calls(self, channel: Channel) -> CodeCalls:
         """Codes registered by 6050 to 6089 and 6001#5."""
@@ -97,6 +111,7 @@ class FanucMilling(MillingControl):
         return replace(
             HARTFORD,
             approach=Approach.CORNER if parameters.SUP else Approach.SQUARE,
+            bare_cancel_is_square=True,
             shifts_without_motion=parameters.SUV,
             read_blocks=min(max(parameters.read_blocks, 3), 8),
             least_move_mm=parameters.least_corner_move,
@@ -160,6 +175,7 @@ class FanucMilling(MillingControl):
             returns_to_path=parameters.MIT,
             dry_run=dry_run(parameters),
             slowest_rapid=parameters.rapid_f0 / 60.0,
+            rapid_held=parameters.RF0,
         )
 
     def make_memory(self, channel: Channel) -> MacroMemory:

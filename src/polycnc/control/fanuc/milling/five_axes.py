@@ -1,9 +1,10 @@
-"""Five axes of the FANUC machining centre: how tip control begins, and radius compensation in space under it.
+"""Five axes of the FANUC machining centre: how tip control begins, and radius compensation in space.
 
-Three-dimensional cutter compensation G41.2, G42.2 (the tool as the rotary axes stand it) and G41.6, G42.6 (by I J K) is
-general knowledge of FANUC 30i; the manuals at hand have none of it. What nobody here knows for sure is PC0001: without
-tip control, start-up type C, a G40 alone with type B, arcs on machines with a swivel head alone, a second code or D in
-between, blocks that turn the tool alone, and codes that change coordinates.
+Three-dimensional cutter compensation G41.2, G42.2 (the tool as the rotary axes stand it), G41.6, G42.6 (by I J K) and
+the forms of FANUC 16i for machines with a table (G41.4, G42.4) and with table and head (G41.5, G42.5) are general
+knowledge of FANUC 30i and of the manuals of 15i (B-63324EN, 14.14, page 559) and 16i (A-78438E); the manuals at hand
+have none of it. Without tip control words name the axes, and a corner is that of the work as the table has turned it.
+What nobody here knows for sure is PC0001.
 """
 
 from __future__ import annotations
@@ -11,12 +12,15 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from polycnc.compensation.spatial import INTERSECTION_FIRST, Corners, Rules
+from polycnc.compensation.spatial_rules import INTERSECTION_FIRST, Corners, Rules
 from polycnc.control.fanuc.milling.parameters import FanucMillingParameters
 from polycnc.control.word_address.block.rules import Rule
+from polycnc.control.word_address.coordinates.on_table import OnTable
+from polycnc.control.word_address.coordinates.systems import ZeroState
 from polycnc.control.word_address.tools import radius, spatial
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations import tool_center_point
+from polycnc.control.word_address.transformations.tilted_plane import TiltState
 from polycnc.control.word_address.transformations.tool_center_point import TIP_CODES
 from polycnc.messages import AlarmError
 
@@ -26,81 +30,128 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import WordAddressChannel
+    from polycnc.machine.kinematics import Kinematics
 
-#: Codes that go with the compensation, beside its own and those of no group that do not touch coordinates.
-STRAIGHT = ("G0", "G1")
-ALLOWED = frozenset((*STRAIGHT, "G4", "G9", "G40", "G61", "G64", "G80", "G90", "G91", "G93", "G94"))
-RULES = Rules(no_corner="PS0033", square_start=True, reverses="PS0041")
+STRAIGHT, ARCS = ("G0", "G1"), ("G2", "G3")
+#: Codes that go with the compensation, beside its own, arcs, and those of no group that do not touch coordinates.
+ALLOWED = frozenset((*STRAIGHT, *ARCS, "G4", "G9", "G40", "G61", "G64", "G80", "G90", "G91", "G93", "G94"))
+#: The forms of FANUC 16i, which lead no axis, for machines with rotary axes in the table alone, and in both.
+FOR_TABLES, FOR_MIXED = ("G41.4", "G42.4"), ("G41.5", "G42.5")
+#: Codes that may take turns while the compensation is on.
+FORMS = (("G41.2", "G42.2"), spatial.BY_VECTOR, FOR_TABLES, FOR_MIXED)
+RULES = Rules(
+    no_corner="PS0033",
+    square_start=True,
+    no_room="PS0041",
+    reverses="PS0041",
+    slanted="PS5460",
+    rounds_ends=True,
+    crosses=True,
+)
 #: Sharper corners of the work are not passed by the intersection of the parallels.
 SHARP_DEG = 90.0
 
 
 def start_following(channel: WordAddressChannel, words: Words) -> None:
-    """G43.4, G43.5 H: words name the tip on the table; PC0001 where 19696#5 WKP has them in a system that stands."""
+    """G43.4, G43.5 H: words name the tip on the table.
+
+    PC0001 where 19696#5 WKP has them in a system that stands; G43.5 does not go with that (FANUC A-79348E, page 20).
+    """
     if _parameters(channel).WKP:
-        raise _not_yet("19696#5")
+        if channel.mode["length"] == "G43.5":
+            raise words.fail("tip_direction", "G43.5")
+        raise not_yet("19696#5")
     tool_center_point.start_following(channel, words)
 
 
+# ---- radius compensation in space ------------------------------------------------------------------------------
+
+
 def compensate(channel: WordAddressChannel, words: Words) -> None:
-    """G41.2, G42.2, G41.6, G42.6 [D]: left or right of the path, across path and tool."""
+    """G41.2, G42.2, G41.6, G42.6, G41.4 … [D]: left or right of the path, across path and tool."""
     code, parameters = channel.mode["compensation"], _parameters(channel)
-    length = channel.mode["length"]
-    by_vector = code in spatial.BY_VECTOR
-    if length not in TIP_CODES or (by_vector and length != "G43.5"):
-        raise _not_yet(f"{code}: {length}")
-    if parameters.SUV:
-        raise _not_yet(f"{code}: 5003#1")
+    begins = spatial.stage_of(channel) is None
     if RadiusState.of(channel).side:
         raise words.fail("tip_mode", code)
+    led = channel.mode["length"] in TIP_CODES
+    if begins:
+        _check_machine(channel, words, code)
+        if not led:
+            check_axes(channel, code)
     corners = Corners(INTERSECTION_FIRST, SHARP_DEG, cut_off=not parameters.CCC)
-    spatial.engage(channel, words, corners, replace(RULES, corner_ends=parameters.SUP))
+    spatial.engage(channel, words, corners, replace(RULES, corner_ends=parameters.SUP, follows_turns=led))
+    stage = spatial.stage_of(channel)
+    if begins and stage is not None and parameters.SUV and not words.axes():
+        stage.shift_at(radius.place_of_block(channel))
+
+
+def _check_machine(channel: WordAddressChannel, words: Words, code: str) -> None:
+    """PS5460 for a form that is not for this machine; those of FANUC 16i do not go with tip control."""
+    length, kinematics = channel.mode["length"], channel.control.kinematics(channel)
+    if code in spatial.BY_VECTOR and length != "G43.5":
+        raise not_yet(f"{code}: {length}")
+    if code in (*FOR_TABLES, *FOR_MIXED) and length in TIP_CODES:
+        raise words.fail("tip_company", code)
+    fits = {
+        **dict.fromkeys(FOR_TABLES, bool(kinematics.work and not kinematics.tool)),
+        **dict.fromkeys(FOR_MIXED, bool(kinematics.work and kinematics.tool)),
+    }
+    if not kinematics.axes or -1 in channel.coordinates.geometry or not fits.get(code, True):
+        raise words.fail("spatial_motion", code)
+
+
+def check_axes(channel: WordAddressChannel, code: str) -> None:
+    """Without tip control: PC0001 where the work system is turned or goes with the table, and by 19746#4 TBP."""
+    zero = ZeroState.of(channel)
+    turned = TiltState.of(channel).plane is not None or not zero.frame.is_identity
+    if _parameters(channel).TBP:
+        raise not_yet(f"{code}: 19746#4")
+    if turned or OnTable.of(channel).acts or channel.coordinates.transformation is not None:
+        raise not_yet(f"{code}: {channel.mode['rotation']}")
 
 
 def cancel(channel: WordAddressChannel, words: Words) -> None:
-    """G40: ends radius compensation of the plane and in space; its own motion leads back by start-up type B."""
-    stage = spatial.stage_of(channel)
-    if stage is not None and stage.rules.corner_ends:
-        if not words.axes():
-            raise _not_yet("5003#0: G40")
+    """G40: ends radius compensation of the plane and in space, as its start-up type says (5003#0, #1)."""
+    stage, moves = spatial.stage_of(channel), bool(words.axes())
+    if stage is not None and not moves and _parameters(channel).SUV:
+        stage.return_at(radius.place_of_block(channel))
+    elif stage is not None and moves and stage.rules.corner_ends:
         stage.lead_back()
     spatial.end(channel)
     radius.cancel_compensation(channel, words)
 
 
 def _check_block(builder: Builder) -> None:
-    """Refuse arcs, and what nobody here knows the control to do between the first block and G40."""
+    """Refuse what nobody here knows the control to do between the first block and G40."""
     before = builder.before["compensation"]
     if before not in spatial.SIDES:
         return
+    kinematics: Kinematics = builder.channel.control.kinematics(builder.channel)
+    form = next(codes for codes in FORMS if before in codes)
     for row in builder.codes:
-        if (
-            row.group == "motion"
-            and row.code not in STRAIGHT
-            and builder.channel.control.kinematics(builder.channel).work
-        ):
+        if row.group == "motion" and row.code not in STRAIGHT and (kinematics.work or row.code not in ARCS):
             raise builder.control.fail("spatial_motion", address=row.code)
-        if row.code not in ALLOWED:
-            raise _not_yet(f"{row.code}: {before}")
-    if builder.mode["motion"] not in STRAIGHT or builder.mode["cycle"] != "G80":
-        raise _not_yet(f"{builder.mode['motion']}: {before}")
-    for address in ("D", "H"):
-        if builder.has(address):
-            raise _not_yet(f"{address}: {before}")
-    _check_turn(builder, before)
+        if row.code not in ALLOWED and row.code not in form:
+            raise not_yet(f"{row.code}: {before}")
+    if builder.mode["cycle"] != "G80":
+        raise not_yet(f"{builder.mode['cycle']}: {before}")
+    if builder.has("H"):
+        raise not_yet(f"H: {before}")
+    if kinematics.work and builder.mode["length"] not in TIP_CODES:
+        _check_turn(builder, before)
 
 
 def _check_turn(builder: Builder, code: str) -> None:
-    """Refuse a block that only turns the tool: on which side of it the work lies meanwhile is not known here."""
+    """Refuse a block that only turns axes which nothing leads: whether it is one of the path is not known here."""
     channel, moves, turns = builder.channel, False, ""
     for address in builder.slots:
         target = builder.control.axis_of_address(channel, address, builder)
         if target is not None and target[0] in channel.coordinates.geometry:
             moves = True
-        elif target is not None or address in "IJK":
+        elif target is not None:
             turns = address
     if turns and not moves and not any(row.code == "G40" for row in builder.codes):
-        raise _not_yet(f"{turns}: {code}")
+        raise not_yet(f"{turns}: {code}")
 
 
 def _behind(builder: Builder, _plan: Plan) -> Step | None:
@@ -114,7 +165,8 @@ def _parameters(channel: Channel) -> FanucMillingParameters:
     return FanucMillingParameters.naming(channel.setup.parameters)
 
 
-def _not_yet(code: str) -> AlarmError:
+def not_yet(code: str) -> AlarmError:
+    """PC0001 for something that polycnc knows and does not execute."""
     return AlarmError("PC0001", hint="hint.not-supported", code=code)
 
 

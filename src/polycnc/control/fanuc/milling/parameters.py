@@ -21,6 +21,10 @@ class FanucMillingParameters(FanucParameters["FanucMillingAxisParameters"]):
 
     axis_class = FanucMillingAxisParameters
 
+    #: 3402#1: G18 at power-on.
+    start_g18 = Bit(3402, 1, delivered=False)
+    #: 3402#2: G19 at power-on.
+    start_g19 = Bit(3402, 2, delivered=False)
     #: 3404#7: of several M codes in a block the last acts (0) or up to three act (1).
     M3B = Bit(3404, 7, delivered=False)
     #: 3451#2: a decimal point in S is PS0007 (0) or allowed (1).
@@ -51,6 +55,8 @@ class FanucMillingParameters(FanucParameters["FanucMillingAxisParameters"]):
     AX1 = Bit(11600, 5, delivered=True)
     #: 19607#2: radius compensation in space passes sharp outer corners by lines (0) or an arc (1).
     CCC = Bit(19607, 2, delivered=False)
+    #: 19631: G41.3: angles between tool and path so close to 0, 90 and 180 degrees count as these [deg].
+    edge_angle_fluctuation = Number(19631, delivered=0.0)
     #: 19696#5: tip control: words name the tip on the table (0) or in the work system, which does not turn
     #: (1).
     WKP = Bit(19696, 5, delivered=False)
@@ -63,3 +69,6 @@ class FanucMillingParameters(FanucParameters["FanucMillingAxisParameters"]):
     second_rotary_high = Number(19743, delivered=0.0)
     #: 19744: lowest machine position of the second rotary axis [deg].
     second_rotary_low = Number(19744, delivered=0.0)
+    #: 19746#4: G41.2 without tip control: words name points of the work system (0) or by WKP of the table
+    #: (1).
+    TBP = Bit(19746, 4, delivered=False)

@@ -29,13 +29,20 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.variables.row import Indices, RowWithStop
 
-#: `$AA_AXCHANGE_TYP`: of the program, commanded by an action, of another channel, neutral; commanded, and asked for by
-#: the program or as neutral.
-PROGRAM, COMMANDED, ELSEWHERE, NEUTRAL, FOR_PROGRAM, FOR_NEUTRAL = 0, 1, 2, 3, 7, 8
+#: `$AA_AXCHANGE_TYP`: of the program, commanded by an action, of another channel, neutral; of another channel, or
+#: commanded, and asked for by the program or as neutral.
+PROGRAM, COMMANDED, ELSEWHERE, NEUTRAL = 0, 1, 2, 3
+ELSEWHERE_FOR_PROGRAM, ELSEWHERE_FOR_NEUTRAL, FOR_PROGRAM, FOR_NEUTRAL = 5, 6, 7, 8
 #: `$AA_TYP` of the same.
-_TYPES = {PROGRAM: 1, COMMANDED: 8, ELSEWHERE: 0, NEUTRAL: 2, FOR_PROGRAM: 8, FOR_NEUTRAL: 8}
+_TYPES = {
+    PROGRAM: 1, COMMANDED: 8, ELSEWHERE: 0, NEUTRAL: 2, FOR_PROGRAM: 8, FOR_NEUTRAL: 8, ELSEWHERE_FOR_PROGRAM: 0,
+    ELSEWHERE_FOR_NEUTRAL: 0,
+}  # fmt: skip
 #: What an axis is that is asked for once more (GET), and what it is once it stands.
-_ASKED = {COMMANDED: FOR_NEUTRAL, FOR_NEUTRAL: FOR_PROGRAM, NEUTRAL: PROGRAM}
+_ASKED = {
+    COMMANDED: FOR_NEUTRAL, FOR_NEUTRAL: FOR_PROGRAM, NEUTRAL: PROGRAM, ELSEWHERE: ELSEWHERE_FOR_NEUTRAL,
+    ELSEWHERE_FOR_NEUTRAL: ELSEWHERE_FOR_PROGRAM,
+}  # fmt: skip
 _AT_REST = {COMMANDED: NEUTRAL, FOR_NEUTRAL: NEUTRAL, FOR_PROGRAM: PROGRAM}
 
 
@@ -91,9 +98,17 @@ def _beyond(channel: SinumerikChannel, column: int, code: str, sign: int) -> Ala
 
 def check_target(channel: SinumerikChannel, column: int, target: float) -> None:
     """Refuse a target beyond a software limit switch (20070), or beyond a working area by setting data (20071)."""
+    error = beyond(channel, column, target)
+    if error is not None:
+        raise error
+
+
+def beyond(channel: SinumerikChannel, column: int, place: float) -> AlarmError | None:
+    """The alarm of an axis that would pass an end of its travel (20070, 20071); None within it."""
     for code, sign, limit in _limits(channel, column):
-        if sign * (target - limit) > NO_WAY:
-            raise _beyond(channel, column, code, sign)
+        if sign * (place - limit) > NO_WAY:
+            return _beyond(channel, column, code, sign)
+    return None
 
 
 def end_of_travel(channel: SinumerikChannel, column: int, direction: int) -> float:
@@ -243,18 +258,22 @@ def release(channel: SinumerikChannel, args: Arguments) -> None:
         ActionAxes.of(channel).states[arguments.column(channel, axis)] = NEUTRAL
 
 
-def get(channel: SinumerikChannel, args: Arguments) -> None:
-    """GET: a neutral axis is the program's; one that moves gets neutral, and the program's if asked for twice.
+def request(channel: SinumerikChannel, column: int) -> bool:
+    """A channel asks for an axis: whether it must come from another one first."""
+    state = _state_of(channel, column)
+    ActionAxes.of(channel).states[column] = _ASKED.get(state, state)
+    return _owned(channel, column) != PROGRAM
 
-    Raises:
-        AlarmError: PC0001 for an axis of another channel, whose program may have prepared blocks of it.
-    """
-    for axis in args:
-        column = arguments.column(channel, axis)
-        state = _state_of(channel, column)
-        if state == ELSEWHERE:
-            raise not_supported(f"DO GET({channel.axes[column]})")
-        ActionAxes.of(channel).states[column] = _ASKED.get(state, state)
+
+def arrived(channel: SinumerikChannel, column: int) -> None:
+    """An axis that has been asked for is there: neutral, or the program's where it has been asked for twice."""
+    states = ActionAxes.of(channel).states
+    states[column] = PROGRAM if states.get(column) in (ELSEWHERE_FOR_PROGRAM, PROGRAM) else NEUTRAL
+
+
+def is_neutral(channel: SinumerikChannel, column: int) -> bool:
+    """Whether an axis stands and belongs to neither the program nor an action of its channel."""
+    return _state_of(channel, column) == NEUTRAL
 
 
 def forget(channel: SinumerikChannel, axis: str) -> None:
@@ -262,20 +281,6 @@ def forget(channel: SinumerikChannel, axis: str) -> None:
     names = channel.machine.channel(channel.number).axes
     if axis in names:
         ActionAxes.of(channel).states.pop(names.index(axis), None)
-
-
-def to_channel(channel: SinumerikChannel, args: Arguments) -> None:
-    """AXTOCHAN(axis, n, …): to the own channel as GET does (1.16).
-
-    Raises:
-        AlarmError: PC0001 for another channel, whose program may have prepared blocks of the axis.
-    """
-    if not args or len(args) % 2:
-        raise AlarmError("14020", text="AXTOCHAN")
-    for axis, value in zip(args[::2], args[1::2], strict=True):
-        if arguments.whole(value) != channel.number:
-            raise not_supported(f"DO AXTOCHAN({arguments.whole(value)})")
-        get(channel, (axis,))
 
 
 def _state_of(channel: SinumerikChannel, column: int) -> int:

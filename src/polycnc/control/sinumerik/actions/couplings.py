@@ -1,7 +1,8 @@
 """TRAILON, TRAILOF, LEADON, LEADOF of actions: axes that follow others beside the path (job planning 10.4.21, 10.4.22).
 
 The main run adds what leading axes do to where the following axis stands, whatever moves them: path, action or overlay.
-Its dynamic limits are not looked at. The program has the axis again behind TRAILOF or LEADOF. An axis that is away from
+It gets to its speed, and stops behind TRAILOF or LEADOF, with its acceleration; then the program has it again. One that
+could not brake within its travel any more, or would be too fast, is led no more: an alarm. An axis that is away from
 its place on the table waits until that comes to where it stands (9.3).
 """
 
@@ -35,6 +36,8 @@ if TYPE_CHECKING:
     from polycnc.transformation.couplings.laws import Law
 
 MOST_LEADING = 2
+#: Part of its acceleration with which an axis brakes that is led no more; speeds of many digits are equal.
+BRAKING_PART, _ROUNDING = 0.5, 1e-3
 #: How far an axis may be from its place when it begins to follow.
 _TOLERANCE = "$MA_COUPLE_POS_TOL_COARSE"
 
@@ -74,10 +77,12 @@ class LedAxes(State, lifetime=Lifetime.RESET):
     Attributes:
         channel: Whose axes they are.
         led: By the column of the following axis.
+        guarded: All axes that actions couple, by tables and by ratios: program and line of the action by column.
     """
 
     channel: Channel[Any, Any, Any]
     led: dict[int, Led] = field(default_factory=dict)
+    guarded: dict[int, tuple[str, int]] = field(default_factory=dict)
 
     @classmethod
     def first(cls, channel: Channel[Any, Any, Any]) -> LedAxes:
@@ -90,9 +95,13 @@ class LedAxes(State, lifetime=Lifetime.RESET):
         CurveTables.of(self.channel).use(table.number)
         gap = self._gap(following, leading, table)
         self.led[following] = Led(leading, table, gap)
-        self.channel.on_clock().watch(self)  # the end of the program lets go of the table
         if at_once or self._is_near(following, gap):
             self._synchronise(following)
+
+    def guard(self, run: Running, following: int) -> None:
+        """An action couples an axis: from now on it is kept within its travel and its speed."""
+        self.guarded[following] = run.action.code.program, run.action.code.line
+        self.channel.on_clock().watch(self)
 
     def let_go(self, following: int) -> None:
         """No table leads an axis any more, or none that it waits for."""
@@ -118,13 +127,31 @@ class LedAxes(State, lifetime=Lifetime.RESET):
             clocked.commanded(following).move_to(wanted, self.channel.axis_data[following].rapid)
 
     def look(self) -> None:
-        """An interpolation cycle: a place may have come to its axis."""
+        """An interpolation cycle: a place may have come to its axis, an axis to the end of what it can do."""
+        for following, place in tuple(self.guarded.items()):
+            error = self._excess(following)
+            if error is not None:
+                self.let_go(following)
+                _follow(self.channel, following, [])
+                self.channel.on_clock().fail(error, program=place[0], line=place[1])
         for following, led in tuple(self.led.items()):
             if led.gap is None:
                 continue
             before, led.gap = led.gap, self._gap(following, led.leading, led.table)
             if before * led.gap <= 0.0 or self._is_near(following, led.gap):
                 self._synchronise(following)
+
+    def _excess(self, following: int) -> AlarmError | None:
+        """The alarm of an axis that could not brake within its travel any more, or is too fast."""
+        clocked, channel = self.channel.on_clock(), self.channel
+        if not clocked.led_by(following):
+            return None
+        axis, speed = channel.axis_data[following], clocked.speed(following)
+        if axis.rapid and abs(speed) > axis.rapid * (1.0 + _ROUNDING):
+            return AlarmError("25030", axis=channel.axes[following])
+        braked = speed * abs(speed) / (2.0 * BRAKING_PART * axis.acceleration) if axis.acceleration else 0.0
+        ahead = clocked.machine(following) + speed * clocked.cycle_s + braked
+        return action_axes.beyond(channel, following, ahead) if speed else None
 
     def block_begins(self) -> None:
         """An axis waits over the ends of blocks."""
@@ -145,11 +172,12 @@ class LedAxes(State, lifetime=Lifetime.RESET):
 
     @property
     def is_quiet(self) -> bool:
-        """No place can come to its axis."""
-        return self.channel.on_clock().is_still or all(led.gap is None for led in self.led.values())
+        """No place can come to its axis, and no coupled one moves."""
+        return not self.guarded or self.channel.on_clock().is_still
 
     def abandon(self, *, reset: bool) -> None:  # noqa: ARG002 - both end it
         """The program has ended, and with it what its actions couple."""
+        self.guarded.clear()
         for following in tuple(self.led):
             self.let_go(following)
 
@@ -160,9 +188,11 @@ def waits_for_place(channel: SinumerikChannel, following: int) -> bool:
     return led is not None and led.gap is not None
 
 
-def _follow(channel: SinumerikChannel, following: int, laws: Sequence[Law]) -> None:
+def _follow(
+    channel: SinumerikChannel, following: int, laws: Sequence[Law], *, catches_up: bool = True
+) -> None:
     try:
-        channel.on_clock().follow(following, laws)
+        channel.on_clock().follow(following, laws, catches_up=catches_up)
     except CircularCouplingError as error:
         raise AlarmError("16778", axis=channel.axes[error.column]) from None
     ActionAxes.of(channel).states[following] = action_axes.COMMANDED
@@ -179,7 +209,9 @@ def trail(run: Running, args: Arguments) -> None:
     others = [law for law in laws if law.leading != leading or not isinstance(law, Ratio)]
     if len(others) >= MOST_LEADING:
         raise AlarmError("16779", axis=run.channel.axes[following])
-    _follow(run.channel, following, [*others, Ratio(leading, factor, run.clocked.machine(leading))])
+    origin = run.clocked.machine(leading)
+    _follow(run.channel, following, [*others, Ratio(leading, factor, origin)], catches_up=False)
+    LedAxes.of(run.channel).guard(run, following)
     run.changed = True
 
 
@@ -196,6 +228,7 @@ def lead(run: Running, args: Arguments) -> None:
     led = axes.led.get(following)
     if led is not None and (not overwrites or (led.leading == leading and led.table is table)):
         return
+    axes.guard(run, following)  # and the end of the program lets go of the table
     axes.begin(following, leading, table, at_once=overwrites)
     run.changed = True
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.sinumerik.actions import axes as action_axes
 from polycnc.control.sinumerik.actions import couplings, polynomials
 from polycnc.control.sinumerik.actions.run import Deleted
 from polycnc.control.sinumerik.block import arguments
+from polycnc.control.sinumerik.channels import axis_requests
 from polycnc.control.sinumerik.channels.coordination import group_of
 from polycnc.control.sinumerik.oscillation.strokes import Oscillations
 from polycnc.control.sinumerik.tools import online
@@ -98,17 +98,17 @@ def alarm(run: Running, args: Arguments) -> None:
 
 def release_axes(run: Running, args: Arguments) -> None:
     """RELEASE: the axes are neutral."""
-    action_axes.release(run.channel, args)
+    axis_requests.release(run.channel, args)
 
 
 def get_axes(run: Running, args: Arguments) -> None:
-    """GET: the axes are the program's, as soon as they stand."""
-    action_axes.get(run.channel, args)
+    """GET: the axes are the program's, as soon as they stand and no other channel has them."""
+    axis_requests.get(run.channel, args)
 
 
 def to_channel(run: Running, args: Arguments) -> None:
-    """AXTOCHAN: to the own channel as GET does."""
-    action_axes.to_channel(run.channel, args)
+    """AXTOCHAN: channels ask for axes."""
+    axis_requests.to_channel(run.channel, args)
 
 
 def lines_at_once(run: Running, _args: Arguments) -> None:

@@ -497,9 +497,9 @@ def _tool_plane(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG
 def _lengths_are_in_force(channel: SinumerikChannel) -> bool:
     """The plane gives the tool the lengths that it has."""
     tools = channel.memory.tools
-    before = tools.lengths
+    before, apart = tools.lengths, tools.apart
     selection.follow(channel)
-    after, tools.lengths = tools.lengths, before
+    after, tools.lengths, tools.apart = tools.lengths, before, apart
     return bool(after == before) and frames.is_in_force(channel)
 
 

@@ -25,8 +25,8 @@ from polycnc.control.sinumerik.motion import polynomial_groups, splines
 from polycnc.control.sinumerik.punching import block as punching
 from polycnc.control.sinumerik.signals import interrupts, retraction, sections
 from polycnc.control.sinumerik.tangential import definitions as tangential
-from polycnc.control.sinumerik.tools import d_numbers, online, stages
-from polycnc.control.sinumerik.tools.management import lists, magazines, monitoring
+from polycnc.control.sinumerik.tools import d_numbers, master_holder, online, stages
+from polycnc.control.sinumerik.tools.management import lists, magazines, monitoring, wear_groups
 from polycnc.control.sinumerik.transformations import seat, selection, start
 from polycnc.control.sinumerik.variables import dialogs, lengths
 from polycnc.control.sinumerik.variables.stored import Stored
@@ -137,11 +137,10 @@ def set_master_spindle(channel: SinumerikChannel, args: Arguments) -> None:
     number = arguments.spindle(args[0]) if args else None
     number = spindles.default_master if number is None else number
     spindles.get(number)
-    for spindle in spindles.all.values():
-        if spindle.number != number:
-            spindle.refuse_leading("SETMS")
+    before = master_holder.master_of(channel)
     spindles.master = number
     channel.context_changed()
+    lists.take_over(channel, before)
 
 
 def position_control(on: bool) -> Callable[[SinumerikChannel, Arguments], None]:
@@ -308,6 +307,7 @@ PROCEDURES: dict[str, Callable[[SinumerikChannel, Arguments], None]] = {
     **lists.PROCEDURES,
     **magazines.PROCEDURES,
     **monitoring.PROCEDURES,
+    **wear_groups.PROCEDURES,
     **punching.PROCEDURES,
     **geometry.PROCEDURES,
     **tangential.PROCEDURES,

@@ -35,7 +35,7 @@ from polycnc.control.sinumerik.oscillation import words as oscillation
 from polycnc.control.sinumerik.punching import block as punching
 from polycnc.control.sinumerik.signals import fixed_stop, retraction
 from polycnc.control.sinumerik.tables import length_factor
-from polycnc.control.sinumerik.tools import stages
+from polycnc.control.sinumerik.tools import master_holder, stages
 from polycnc.control.sinumerik.tools.management import lists
 from polycnc.control.sinumerik.transformations.posture import Orienting
 from polycnc.geometry.units import INCH_MM
@@ -243,7 +243,7 @@ def m_places(draft: Draft) -> tuple[int, ...]:
 
 def tool(draft: Draft, position: int, shape: WordShape) -> Step:
     """T: the tool of a number or a name; MD22550 says whether it is loaded now or with M6."""
-    spindle_number(shape, position)
+    holder = spindle_number(shape, position)
     places = m_places(draft)
 
     def run(channel: SinumerikChannel, values: Values) -> None:
@@ -258,6 +258,9 @@ def tool(draft: Draft, position: int, shape: WordShape) -> Step:
             return
         selected = 0 if wanted == 0 else lists.chosen(channel, wanted).number
         channel.event(ToolSelection(wanted if isinstance(wanted, str) else int(wanted)))
+        if holder is not None and master_holder.is_other(channel, holder):
+            master_holder.select(channel, holder, selected)
+            return
         memory.tools.selected = selected
         if memory.data.integer("$MC_TOOL_CHANGE_MODE") == 0:
             auxiliary.load_tool(channel)

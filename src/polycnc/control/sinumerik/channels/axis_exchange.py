@@ -41,7 +41,8 @@ def shares_axes(channel: SinumerikChannel) -> bool:
     return any(own & set(each.axes) for each in channel.machine.channels if each.number != channel.number)
 
 
-def _name(channel: SinumerikChannel, column: int) -> str:
+def name_on_machine(channel: SinumerikChannel, column: int) -> str:
+    """What the machine calls an axis of a channel."""
     return channel.machine.channel(channel.number).axes[column]
 
 
@@ -52,7 +53,7 @@ def _named(channel: SinumerikChannel, args: Iterable[Any]) -> list[str]:
         if isinstance(value, Axis) and value.name in _owners(channel) and value.name[0] == "S":
             found.append(value.name)
         else:
-            found.append(_name(channel, arguments.column(channel, value)))
+            found.append(name_on_machine(channel, arguments.column(channel, value)))
     return found
 
 
@@ -70,7 +71,7 @@ def ready(channel: SinumerikChannel, columns: Iterable[int]) -> bool:
     if action_axes.may_be_away(channel, columns):
         stages.end_blocks(channel)
         action_axes.give_back(channel, columns)
-    axes = [_name(channel, column) for column in columns]
+    axes = [name_on_machine(channel, column) for column in columns]
     if all(_is_free(channel, axis) for axis in axes):
         moved_by = group_of(channel).moved_by
         if any(moved_by.get(axis, channel.number) != channel.number for axis in axes):
@@ -105,10 +106,22 @@ def take(channel: SinumerikChannel, axes: Iterable[str]) -> None:
 
 def position(channel: SinumerikChannel, axis: str) -> float:
     """Where an axis stands on the machine, as the channel knows that moved it last."""
-    mover = group_of(channel).channel(group_of(channel).moved_by[axis])
-    mover.flush()
-    column = mover.machine.channel(mover.number).axes.index(axis)
+    group_of(channel).channel(group_of(channel).moved_by[axis]).flush()
+    return standing(channel, axis)
+
+
+def standing(channel: SinumerikChannel, axis: str) -> float:
+    """The same of an axis that the channel has nothing to do with any more; what its actions have moved counts."""
+    mover: SinumerikChannel = group_of(channel).channel(group_of(channel).moved_by[axis])
+    column, clocked = column_of(mover, axis), mover.actual.clocked
+    if clocked is not None and action_axes.may_be_away(mover, (column,)):
+        return clocked.take_back(column)
     return mover.coordinates.machine[column]
+
+
+def column_of(channel: SinumerikChannel, axis: str) -> int:
+    """The column that an axis of the machine has in a channel."""
+    return channel.machine.channel(channel.number).axes.index(axis)
 
 
 # ---- procedures

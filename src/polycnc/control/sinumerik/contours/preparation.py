@@ -14,7 +14,6 @@ from polycnc.channel.moves.path import Rank, Stage
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.plan import ExactStop
-from polycnc.control.sinumerik.block.positions import diameter_function
 from polycnc.control.sinumerik.contours import tables
 from polycnc.control.sinumerik.contours.elements import Element, Side, is_full_circle
 from polycnc.control.sinumerik.errors import not_supported
@@ -28,6 +27,7 @@ from polycnc.control.sinumerik.motion.contour_reading import (
     without_away,
 )
 from polycnc.control.sinumerik.tables import feed_type, length_factor
+from polycnc.control.sinumerik.transformations import seat
 from polycnc.deferred.records import dataclass
 from polycnc.geometry import offset
 from polycnc.geometry.planes import PLANES
@@ -59,11 +59,10 @@ _NEAR_MM = AWAY_MM / 10.0
 
 
 class Surroundings(NamedTuple):
-    """What a contour may not change: plane, unit, diameters, frame, transformation, geometry axes, compensation."""
+    """What a contour may not change: plane, unit, frame, transformation, geometry axes, compensation."""
 
     plane: str
     unit: str
-    diameter: str
     frame: object
     transformation: object
     geometry: tuple[int, ...]
@@ -76,7 +75,6 @@ class Surroundings(NamedTuple):
         return cls(
             mode["plane"],
             mode["unit"],
-            mode["diameter"],
             (channel.memory.frames.total(), coordinates.zero),
             coordinates.transformation,
             tuple(coordinates.geometry),
@@ -225,17 +223,16 @@ def _begin(channel: SinumerikChannel, name: str, args: Arguments) -> None:
     """From here on moves are recorded.
 
     Raises:
-        AlarmError: 10932 where a contour is being read already, 10931 with a radius compensation, PC0001 with
-            diameters in the plane.
+        AlarmError: 10932 where a contour is being read already, 10931 with a radius compensation, 14144 under PTP
+            (6.9.1).
     """
     if Readings.of(channel).open:
         raise AlarmError("10932")
+    if channel.mode[seat.GROUP] and channel.mode["point_to_point"] == "PTP":
+        raise AlarmError("14144")
     if channel.mode["compensation"] != "G40":
         raise AlarmError("10931", text=channel.mode["compensation"])
     columns = _plane_columns(channel)
-    transverse = channel.memory.transverse
-    if transverse in columns and diameter_function(channel.mode, transverse, transverse) != "DIAMOF":
-        raise not_supported(f"{name} DIAMON")
     reading = reading_from_here(channel, keeps_modes=False)
     reading.arcs_need_centre = name != "CONTDCON"
     surroundings = Surroundings.of(channel)

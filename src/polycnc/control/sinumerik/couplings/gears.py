@@ -8,6 +8,7 @@ leads goes beside the path altogether. A leading spindle is told from a leading 
 from __future__ import annotations
 
 from dataclasses import field
+from functools import partial
 from math import inf
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -19,13 +20,14 @@ from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.positions import ModuloRange
 from polycnc.control.sinumerik.couplings import switching
 from polycnc.control.sinumerik.couplings.approach import approach
-from polycnc.control.sinumerik.couplings.links import Couplings, Kind, Link
+from polycnc.control.sinumerik.couplings.links import Couplings, Kind, Link, places
 from polycnc.control.sinumerik.couplings.spindle_pairs import turns
 from polycnc.control.sinumerik.curve_tables import definition as curve_definition
 from polycnc.control.sinumerik.curve_tables.memory import table_of
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.tables import length_factor
+from polycnc.control.sinumerik.variables import in_force
 from polycnc.deferred.records import dataclass
 from polycnc.language.sinumerik.names.spindles import spindle_number
 from polycnc.language.sinumerik.names.values import Axis
@@ -44,7 +46,8 @@ MOST_LEADING = 5
 #: Speed of an axis without limit, degrees/s; part of its speed at which a spindle may lead it: it has to catch up too.
 LARGE, LED_PART = 1e9, 0.8
 #: When the block of a gear ends.
-BLOCK_CHANGES = frozenset(("NOC", "FINE", "COARSE", "IPOSTOP"))
+AT_ONCE = "NOC"
+BLOCK_CHANGES = frozenset((AT_ONCE, "FINE", "COARSE", "IPOSTOP"))
 #: Ways of approach: to the next tooth gap; to the place itself by the shorter way, downwards, upwards.
 TOOTH_GAPS, SHORTEST, DOWN, UP = frozenset(("NTGT", "NTGP")), frozenset(("DCT", "DCP")), "ACN", "ACP"
 
@@ -273,7 +276,7 @@ def _engage(
     channel: SinumerikChannel, following: int, wheels: Sequence[Wheel], place: float | None = None
 ) -> None:
     """The gear is on; `place` is the synchronous place of the following axis, by default where it is."""
-    machine = channel.coordinates.machine
+    machine = places(channel)
     gear = Gears.of(channel).defined[following]
     if any(wheel.leading < 0 for wheel in wheels):
         _engage_beside(channel, following, wheels)
@@ -304,7 +307,7 @@ def _synchronise(
     for wheel in wheels:
         if wheel.leading < 0 and (turns(channel, -wheel.leading) or not wheel.denominator):
             raise not_supported(f"{name} {name_of(channel, wheel.leading)}: M3, M4")
-    here = channel.coordinates.machine
+    here = places(channel)
     wanted = _place(channel, following, place)
     target = _target(channel, following, wanted, wheels, how)
     approach(channel, following, target - here[following])
@@ -315,7 +318,7 @@ def _target(
     channel: SinumerikChannel, following: int, place: float, wheels: Sequence[Wheel], how: str
 ) -> float:
     """Where the following axis belongs now: of all places that are in step, the one that the approach asks for."""
-    machine, axes, data = channel.coordinates.machine, channel.memory.axes, channel.memory.data
+    machine, axes, data = places(channel), channel.memory.axes, channel.memory.data
     target, pitches = place, []
     for wheel in wheels:
         assert wheel.synchronous is not None
@@ -356,31 +359,43 @@ def _engage_beside(channel: SinumerikChannel, following: int, wheels: Sequence[W
     """A spindle leads the axis: it goes beside the path, with those of the path that lead it too.
 
     Raises:
-        AlarmError: PC0001 for another spindle than the master spindle, for a curve table, or beside another coupling.
+        AlarmError: PC0001 for a curve table, or beside another coupling.
     """
-    master = channel.memory.spindles.master
     for wheel in wheels:
-        if wheel.leading < 0 and (wheel.leading != -master or not wheel.denominator):
+        if wheel.leading < 0 and not wheel.denominator:
             raise not_supported(f"EGON {name_of(channel, wheel.leading)}")
     clocked = channel.on_clock()
+    channel.control.system_variable(in_force.SPEED)
+    in_force.watch(channel, (in_force.SPEED,))
     action_axes.expect(channel, (following,))
     ActionAxes.of(channel).geared.add(following)
     _lead(channel, clocked, following, wheels)
 
 
 def _lead(channel: SinumerikChannel, clocked: Interpolator, following: int, wheels: Sequence[Wheel]) -> None:
-    """These lead the axis from here on in the order of the blocks; it stands behind the last one."""
-    machine = channel.coordinates.machine
+    """These lead the axis from here on in the order of the blocks; it stands behind the last one.
+
+    The block ends when the axis has caught up with what turns, unless it changes at once (NOC).
+    """
+    gear = Gears.of(channel).defined[following]
+    machine, at_once = channel.coordinates.machine, gear.block_change == AT_ONCE
     laws = [_link(channel, wheel, machine[wheel.leading]).law for wheel in wheels if wheel.leading >= 0]
     spindles = {-wheel.leading: wheel.numerator / wheel.denominator for wheel in wheels if wheel.leading < 0}
 
     def do() -> None:
-        clocked.follow(following, laws, spindles)
+        clocked.follow(following, laws, spindles, partial(_speed, channel))
 
     def moves() -> bool:
-        return not wheels and clocked.commanded(following).moves
+        axis = clocked.commanded(following)
+        return axis.is_turning and not at_once if wheels else axis.moves
 
     channel.event(Deed("EGON", None, do, is_silent=False, awaits=moves))
+
+
+def _speed(channel: SinumerikChannel, number: int, override: float) -> float:
+    """What a spindle turns with in the block in execution, as far as axes that it leads can follow."""
+    most = channel.memory.spindles.get(number).most
+    return max(-most, min(most, override * in_force.turning(channel, number)))
 
 
 def _leave_beside(channel: SinumerikChannel, following: int, gear: Gear, leading: Sequence[int]) -> None:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.couplings import generated, switching
-from polycnc.control.sinumerik.couplings.links import Couplings, Kind, Link
+from polycnc.control.sinumerik.couplings.links import Couplings, Kind, Link, places
 from polycnc.control.sinumerik.couplings.stage import SynchronisationStage
 from polycnc.control.sinumerik.curve_tables.memory import table_of
 from polycnc.messages import AlarmError
@@ -51,14 +51,15 @@ def switch_on(channel: SinumerikChannel, args: Arguments) -> None:
         else:
             raise AlarmError("16797", axis=channel.axes[following])
     switching.begin(channel, "LEADON")
-    machine = channel.coordinates.machine
+    machine = places(channel)
     wanted = table.followed(machine[leading]).place
     tolerance = channel.memory.data.number("$MA_COUPLE_POS_TOL_COARSE", channel.axes[following])
     waits = abs(wanted - machine[following]) > tolerance
     law = ByCurve(leading, table, wanted)
     if not waits:
-        machine[following] = wanted
-        channel.coordinates.arrive_machine(machine)
+        stands = channel.coordinates.machine
+        stands[following] += wanted - machine[following]
+        channel.coordinates.arrive_machine(stands)
     switching.change(channel, following, [*links, Link(Kind.LEAD, law, table.number, waits)])
     if waits:
         channel.path.put(SynchronisationStage(channel))

@@ -1,8 +1,9 @@
 """Which axes follow which: the couplings of a channel, and what they make of its coordinates (job planning 9).
 
-They act in the basic coordinate system, behind the frames and the tool. While one acts it takes the seat of a
-transformation: words name the way that a following axis goes by itself, and what its leading axes add comes on top.
-When a coupling ends, the axes stay where they are, and words mean their places again.
+They act in the basic coordinate system, behind the frames and the tool; those of a gantry and of masters between axes
+of the machine, behind a transformation. While one acts words name the way that a following axis goes by itself, and
+what its leading axes add comes on top. When a coupling ends, the axes stay where they are, and words mean their places
+again. A coupling takes a seat of its own, or a side of that of the transformation (`Seated.led`, `Seated.driven`).
 """
 
 from __future__ import annotations
@@ -14,9 +15,13 @@ from typing import TYPE_CHECKING
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.curve_tables.memory import CurveTables
 from polycnc.control.sinumerik.data.machine_data import MachineData
+from polycnc.control.sinumerik.errors import not_supported
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY
+from polycnc.geometry.tolerances import NO_WAY
 from polycnc.transformation.couplings.coupled import Coupled, Shown
+from polycnc.transformation.couplings.laws import Ratio
+from polycnc.transformation.kinematic.parallel import ParallelAxes
 from polycnc.transformation.seated import Seated
 
 if TYPE_CHECKING:
@@ -40,6 +45,8 @@ class Kind(IntEnum):
     GEAR = 32
 
 
+#: Couplings of axes of the machine, which a transformation has in front of it.
+OF_MACHINE = frozenset((Kind.SLAVE, Kind.GANTRY))
 #: Bits of MD20110 that keep couplings over a reset, where its bit 0 is set; gears (9.4.2) and slaves stay in any case.
 KEPT_BY_MASK = {Kind.TRAIL: 8, Kind.LEAD: 13}
 
@@ -75,10 +82,11 @@ class Couplings(State, lifetime=Lifetime.POWER):
     seated: Seated | None = None
     shown_by: Shown | None = None
 
-    def laws(self) -> dict[int, list[Law]]:
-        """The laws that act, by the column of the following axis."""
+    def laws(self, kinds: frozenset[Kind] = frozenset(Kind)) -> dict[int, list[Law]]:
+        """The laws of some kinds that act, by the column of the following axis."""
         acting = {
-            column: [link.law for link in links if not link.waits] for column, links in self.links.items()
+            column: [link.law for link in links if not link.waits and link.kind in kinds]
+            for column, links in self.links.items()
         }
         return {column: laws for column, laws in acting.items() if laws}
 
@@ -123,21 +131,81 @@ def seated(channel: SinumerikChannel, frame: Frame, shifts: Sequence[float]) -> 
         frame: From the work to the basic system.
         shifts: What is added to every axis behind it: frames of axes beside the geometry, lengths of the tool.
     """
-    laws = Couplings.of(channel).laws()
-    if not laws:
+    if not Couplings.of(channel).laws():
         return None
-    coupled = Coupled.of(laws, channel.coordinates.geometry)
-    return Seated(coupled, IDENTITY if frame.is_identity else frame, tuple(shifts) if any(shifts) else ())
+    geometry = channel.coordinates.geometry
+    frame = IDENTITY if frame.is_identity else frame
+    return beside(channel, Seated(ParallelAxes(geometry), frame, tuple(shifts) if any(shifts) else ()))
+
+
+def beside(channel: SinumerikChannel, made: Seated) -> Seated:
+    """A seat with the couplings that act."""
+    state, geometry = Couplings.of(channel), made.geometry
+    if isinstance(made.inner, ParallelAxes):
+        laws = state.laws()
+        return replace(made, driven=Coupled.of(laws, geometry)) if laws else made
+    led, driven = state.laws(frozenset(Kind) - OF_MACHINE), state.laws(OF_MACHINE)
+    return replace(
+        made,
+        led=Coupled.of(led, geometry) if led else None,
+        driven=Coupled.of(driven, geometry) if driven else None,
+    )
 
 
 def take_seat(channel: SinumerikChannel, made: Seated | None) -> Seated | None:
     """The couplings that act from now on; gives the same object as before where nothing has changed."""
     state = Couplings.of(channel)
+    if made is not None and made.led is None and made.driven is None:
+        made = None
     if made != state.seated:
         state.seated, state.shown_by = made, None
         if made is not None:
-            state.shown_by = Shown(made, replace(made, inner=Coupled((), made.geometry)))
+            state.shown_by = Shown(made, bare(made))
     return state.seated
+
+
+def bare(made: Seated) -> Seated:
+    """A seat without its couplings."""
+    return replace(made, led=None, driven=None)
+
+
+def places(channel: SinumerikChannel, position: Sequence[float] | None = None) -> list[float]:
+    """Where the axes are as couplings see them: in the basic system under a transformation, on the machine else.
+
+    Args:
+        channel: The channel.
+        position: A position of the path; None for where it stands.
+    """
+    coordinates = channel.coordinates
+    made = coordinates.transformation
+    if isinstance(made, Seated) and not isinstance(made.inner, ParallelAxes):
+        return made.basic(coordinates.position if position is None else position)
+    return coordinates.machine if position is None else coordinates.to_machine(list(position))
+
+
+def keep_ways(channel: SinumerikChannel, before: Sequence[float]) -> bool:
+    """Axes are called otherwise, though none has moved: following ones go on from there. Whether any law has changed.
+
+    Args:
+        channel: The channel.
+        before: Their `places` till now.
+
+    Raises:
+        AlarmError: PC0001 where the place on a curve would jump.
+    """
+    ways = [b - a for a, b in zip(before, places(channel), strict=True)]
+    changed = False
+    for links in Couplings.of(channel).links.values():
+        kept = []
+        for link in links:
+            way = 0.0 if link.kind in OF_MACHINE or link.waits else ways[link.law.leading]
+            if abs(way) > NO_WAY:
+                if not isinstance(link.law, Ratio):
+                    raise not_supported(f"LEADON EGON: {channel.axes[link.law.leading]}")
+                changed, link = True, replace(link, law=replace(link.law, origin=link.law.origin + way))
+            kept.append(link)
+        links[:] = kept
+    return changed
 
 
 def shown(channel: SinumerikChannel, position: Iterable[float]) -> list[float]:
@@ -147,9 +215,13 @@ def shown(channel: SinumerikChannel, position: Iterable[float]) -> list[float]:
 
 
 def without_couplings(channel: SinumerikChannel, position: list[float]) -> list[float]:
-    """Where the axes would be at a position of the path if none led another."""
-    by = Couplings.of(channel).shown_by
-    return channel.coordinates.to_machine(position) if by is None else by.bare.to_machine(position)
+    """The `places` of axes at a position of the path if none led another."""
+    made, coordinates = channel.coordinates.transformation, channel.coordinates
+    if isinstance(made, Seated) and not isinstance(made.inner, ParallelAxes):
+        return bare(made).basic(position)
+    return (
+        coordinates.to_machine(position) if not isinstance(made, Seated) else bare(made).to_machine(position)
+    )
 
 
 def coupled(channel: SinumerikChannel) -> frozenset[int]:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.move_path import PIECES, MovePath
 from polycnc.channel.moves.path import Rank, Stage
-from polycnc.control.sinumerik.couplings.links import Couplings, Link, put
+from polycnc.control.sinumerik.couplings.links import Couplings, Link, places, put
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.frames import active
 from polycnc.geometry.tolerances import NO_WAY
@@ -98,8 +98,8 @@ class SynchronisationStage(Stage):
         path = MovePath(move, coordinates.geometry)
 
         def at(part: float) -> tuple[float, float]:
-            machine = coordinates.to_machine(path.at(part))
-            return machine[law.leading], machine[column]
+            stands = places(self._channel, path.at(part))
+            return stands[law.leading], stands[column]
 
         def gap(part: float) -> float:
             leading, here = at(part)

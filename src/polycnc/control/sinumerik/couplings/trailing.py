@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.couplings import switching
-from polycnc.control.sinumerik.couplings.links import Couplings, Kind, Link
+from polycnc.control.sinumerik.couplings.links import Couplings, Kind, Link, places
 from polycnc.messages import AlarmError
 from polycnc.transformation.couplings.laws import Ratio
 
@@ -34,7 +34,7 @@ def switch_on(channel: SinumerikChannel, args: Arguments) -> None:
     others = [link for link in links if link.kind is not Kind.TRAIL or link.law.leading != leading]
     if sum(link.kind is Kind.TRAIL for link in others) >= MOST_LEADING:
         raise AlarmError("16779", axis=channel.axes[following])
-    origin = channel.coordinates.machine[leading]
+    origin = places(channel)[leading]
     switching.change(channel, following, [*others, Link(Kind.TRAIL, Ratio(leading, factor, origin))])
 
 

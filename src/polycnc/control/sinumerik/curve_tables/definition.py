@@ -13,7 +13,6 @@ from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.curve_tables.curve import ONCE, PERIODIC_IN_BOTH, CurveTable
 from polycnc.control.sinumerik.curve_tables.memory import CurveTables, memory_named
 from polycnc.control.sinumerik.curve_tables.recorder import CurveRecorder
-from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.motion.contour_reading import ContourReading, reading_from_here
 from polycnc.deferred.records import dataclass
 from polycnc.language.sinumerik.names.values import Type
@@ -84,8 +83,6 @@ def begin(channel: SinumerikChannel, args: Arguments) -> None:
         raise AlarmError("14020", text=f"CTABDEF({number},{period})")
     if following == leading:
         raise AlarmError("10945", number=number, axis=channel.axes[leading])
-    if channel.mode["transformation"]:
-        raise not_supported(f"CTABDEF {channel.mode['transformation']}")
     CurveTables.of(channel).check_free(number)
     contour = reading_from_here(channel, keeps_modes=True)
     recorder = CurveRecorder(channel, leading, following, number, _known(channel, contour.position.copy()))

@@ -4,7 +4,8 @@
 `levels` what they say of the cycle's axis. The function notes what the cycle does, block by block, in `moves`, and
 `calls` runs the blocks as a program level. The cycles themselves:
 
-    drilling             CYCLE81 to CYCLE89, CYCLE840
+    drilling             CYCLE81, CYCLE82, CYCLE84 to CYCLE89, CYCLE840
+    deep_holes           CYCLE83, CYCLE830
     patterns             HOLES1, HOLES2, CYCLE801, CYCLE802
     chamfers             VARI 5 of the milling cycles
     milling              POCKET1 to POCKET4, SLOT1, SLOT2, LONGHOLE, CYCLE899

@@ -1,8 +1,7 @@
-"""Drilling, tapping and boring cycles: CYCLE81 to CYCLE89 and CYCLE840 (strokes: `polycnc.cycles`)."""
+"""Drilling, tapping and boring cycles: CYCLE81, 82, 84 to 89 and CYCLE840 (strokes: `polycnc.cycles`)."""
 
 from __future__ import annotations
 
-from functools import partial
 from math import radians, tan
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -217,98 +216,6 @@ def bore_and_halt(moves: Moves, a: Arguments) -> None:
         turning(moves, direction)
         acts = Acts(moves.channel.feed, spindle=lambda _value: moves.turn(0))
         perform(moves, holes.bore_and_leave_standing(found.hole(a["DTB"])), acts)
-
-
-# ---- deep holes
-
-
-#: What a call of CYCLE830 may hold behind the strokes: feeds, speeds and directions of pilot hole, hole and way back,
-#: soft entry, through drilling, M functions of the coolant; and behind the modes the distance in the pilot hole.
-REST = (
-    "S_FP S_SDAC2 S_SV2 S_F S_SDAC S_SV S_SPOS S_ZA S_FA S_ZP S_FS S_ZS1 S_ZS2 S_N S_ZD S_FD S_FR S_SDAC3 S_SV3"
-    " S_CON S_COFF"
-)
-REST_OF_MODES = "S_AMODE2 S_AMODE3 S_ZPV"
-
-
-#: Units of VARI that newer versions have beside 0 (breaking chips) and 1 (clearing them): both in turn.
-CHIPS_AND_SWARF = (2, 3)
-
-
-def deep_hole_2(moves: Moves, a: Arguments) -> None:
-    """CYCLE830: as CYCLE83, the first depth absolute; pilot holes, soft entries and through drilling are PC0001."""
-    rest = f"{REST} {REST_OF_MODES}".split()
-    if any(a.text(name) not in ("", "0", "0.0") for name in rest) or a.integer("VARI") >= 10:
-        raise not_supported("CYCLE830: pilot hole, entry, through drilling")
-    deep_hole(moves, a)
-
-
-def deep_hole(moves: Moves, a: Arguments) -> None:
-    """CYCLE83: strokes that become shorter, breaking chips (VARI=0) or clearing them (VARI=1)."""
-    found = levels_of_drill(moves, a)
-    variant = a.integer("VARI")
-    if variant in CHIPS_AND_SWARF or variant >= 10:
-        raise not_supported(f"{a.cycle} VARI")
-    if variant not in (0, 1):
-        raise AlarmError("61002")
-    if found is None:
-        return
-    total = abs(found.depth - found.reference)
-    mode = partial(a.digit, "_AMODE")
-    below = deep.degressive_depths(
-        _first_depth(moves, a, found, total), total, _degression(a, mode(5)), abs(a["_MDEP"])
-    )
-    down = found.down
-    strokes = deep.peck(
-        [found.reference + down * depth for depth in below[:-1]] + [found.depth],
-        found.safe,
-        found.retract,
-        first_factor=_first_feed(a["FRF"], percent=mode(6) == 1),
-        dwell=pause(a["DTB"], mode(1)),
-        dwell_at_bottom=pause(a["_DTD"], mode(3)) or pause(a["DTB"], mode(1)),
-        retract=None if variant == 1 else a["_VRT"] if a["_VRT"] > 0.0 else CHIP_BREAKING_MM,
-        dwell_at_clearance=pause(a["DTS"], mode(2)),
-        limits=[_limit(a, mode(7), depth) for depth in below],
-    )
-    perform(moves, strokes, Acts(moves.channel.feed))
-
-
-def _first_depth(moves: Moves, a: Arguments, found: Levels, total: float) -> float:
-    """Depth of the first stroke below the reference plane; 61107 for one above it."""
-    mode = a.digit("_AMODE", 4)
-    relative = abs(a["FDPR"])
-    if mode == 1 or (mode != 2 and relative):
-        if a.given("FDEP") and mode == 0 and abs(a["FDEP"] - found.reference) != relative:
-            moves.note("62001")
-        return relative or total
-    if not a.given("FDEP"):
-        return total
-    first = (a["FDEP"] - found.reference) * found.down
-    if first <= 0.0:
-        raise AlarmError("61107")
-    return min(first, total)
-
-
-def _degression(a: Arguments, mode: int) -> float:
-    """Amount above 0, factor below, 0 for none; as a percentage where _AMODE says so (100: none)."""
-    name = "DAM" if a.has("DAM") else "_DAM"
-    value = a.plain(name)
-    if mode == 2 or (mode == 0 and value < 0.0):
-        factor = abs(value) / 100.0 if mode == 2 else min(abs(value), 1.0)
-        return 0.0 if factor in (0.0, 1.0) and mode == 2 else -factor
-    return abs(a[name])
-
-
-def _first_feed(factor: float, *, percent: bool) -> float:
-    """FRF: factor on the feed of the first stroke, 0.001 to 1; 0 or none: 1."""
-    if percent and factor > 1.0:
-        factor /= 100.0
-    return min(max(factor, 0.001), 1.0) if factor else 1.0
-
-
-def _limit(a: Arguments, mode: int, depth: float) -> float:
-    """Distance in front of a depth at which the rapid return ends."""
-    return a["_DIS1"] if a["_DIS1"] > 0.0 and mode != 1 else deep.automatic_limit(depth)
 
 
 # ---- tapping

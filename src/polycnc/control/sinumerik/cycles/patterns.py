@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import hypot
 from typing import TYPE_CHECKING
 
+from polycnc.control.sinumerik.errors import not_supported
 from polycnc.cycles.count import checked
 from polycnc.cycles.drilling import patterns
 from polycnc.geometry.frames import cos_sin_deg
@@ -59,7 +60,13 @@ def row(moves: Moves, a: Arguments) -> None:
 
 
 def circle(moves: Moves, a: Arguments) -> None:
-    """HOLES2: holes on a circle, on all of it where INDA is 0."""
+    """HOLES2: holes on a circle, on all of it where INDA is 0.
+
+    Raises:
+        AlarmError: 61103 without holes, 61106 for more than a turn; PC0001 for ways from hole to hole along the circle.
+    """
+    if a.digit("_VARI", 1):
+        raise not_supported("HOLES2 _VARI")
     count, pitch = checked(abs(a.integer("NUM"))), a["INDA"]
     if count == 0:
         raise AlarmError("61103")

@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.control.sinumerik.cycles import (
+    deep_holes,
     drilling,
     engraving,
     high_speed_settings,
@@ -59,12 +60,12 @@ CYCLES: dict[str, Cycle] = {
     "CYCLE81": Cycle(f"{_HOLE} DTB {_SL}", drilling.drill),
     "CYCLE82": Cycle(f"{_HOLE} DTB {_SL} _VARI S_ZA S_FA S_ZD S_FD", drilling.drill),
     "CYCLE83": Cycle(
-        f"{_HOLE} FDEP FDPR DAM DTB DTS FRF VARI _AXN _MDEP _VRT _DTD _DIS1 {_SL}", drilling.deep_hole
+        f"{_HOLE} FDEP FDPR DAM DTB DTS FRF VARI _AXN _MDEP _VRT _DTD _DIS1 {_SL}", deep_holes.deep_hole
     ),
     "CYCLE830": Cycle(
-        f"RTP RFP SDIS DP FDEP _DAM DTB DTS FRF VARI _MDEP _VRT _DTD _DIS1 {drilling.REST} {_SL}"
-        f" {drilling.REST_OF_MODES}",
-        drilling.deep_hole_2,
+        f"RTP RFP SDIS DP FDEP _DAM DTB DTS FRF VARI _MDEP _VRT _DTD _DIS1 {deep_holes.REST} {_SL}"
+        f" {deep_holes.REST_OF_MODES}",
+        deep_holes.deep_hole_2,
     ),
     "CYCLE84": Cycle(
         f"{_HOLE} DTB SDAC MPIT PIT POSS SST SST1 _AXN _PITA _TECHNO _VARI _DAM _VRT {_PITCHES} {_SL}",

@@ -86,6 +86,7 @@ DATA: dict[str, tuple[int, bool | float | str]] = {
     "$MC_START_MODE_MASK": (20112, 1024),
     "$MC_IGNORE_SINGLEBLOCK_ASUP": (20117, False),
     "$MC_GEOAX_CHANGE_RESET": (20118, True),
+    "$MC_TOOL_MANAGEMENT_TOOLHOLDER": (20124, 0),
     "$MC_TOOL_CARRIER_RESET_VALUE": (20126, 0),
     "$MC_CUTTING_EDGE_RESET_VALUE": (20130, 0),
     "$MC_GCODE_RESET_VALUES": (20150, 0),

@@ -123,7 +123,7 @@ def feed_source(channel: SinumerikChannel, args: Arguments) -> None:
     Of an axis whose gear a spindle leads it is what that turns the axis (job planning 9.4.5).
 
     Raises:
-        AlarmError: PC0001 for another axis, and for another spindle while one leads an axis.
+        AlarmError: PC0001 for another axis.
     """
     feed = PathFeed.of(channel)
     feed.spindle, feed.axis = 0, -1
@@ -135,9 +135,6 @@ def feed_source(channel: SinumerikChannel, args: Arguments) -> None:
             return
     if args:
         feed.spindle = channel.memory.spindles.get(_source(args[0])).number
-        for spindle in channel.memory.spindles.all.values():
-            if spindle.number != feed.spindle:
-                spindle.refuse_leading("FPR")
     channel.context_changed()
 
 

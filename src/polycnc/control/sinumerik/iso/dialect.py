@@ -20,6 +20,7 @@ FUNCTIONS: dict[str, Callable[[IsoRun, IsoWord], None]] = {
     "G10": frames.set_offset,
     "G28": reference.return_to,
     "G30": reference.return_to,
+    "G31": reference.to_probe,
     "G43": offsets.select,
     "G49": offsets.cancel,
     "G50": frames.unscale,
@@ -28,6 +29,8 @@ FUNCTIONS: dict[str, Callable[[IsoRun, IsoWord], None]] = {
     "G51.1": frames.mirror,
     "G52": frames.shift,
     "G53": reference.to_machine,
+    "G54": offsets.select_zero,
+    "G54.1": offsets.select_zero,
     "G68": frames.rotate,
     "G69": frames.unrotate,
     "G92": frames.set_position,
@@ -51,8 +54,11 @@ GROUPS = (
     frozenset(("G80", *holes.KINDS)),
     frozenset(("G98", "G99")),
     frozenset(("G65", "G66", "G67")),
+    frozenset(("G54", "G54.1", "G55", "G56", "G57", "G58", "G59")),
     # They read the axis words.
-    frozenset(("G10", "G28", "G30", "G50.1", "G51", "G51.1", "G52", "G53", "G65", "G66", "G68", "G92")),
+    frozenset(
+        ("G10", "G28", "G30", "G31", "G50.1", "G51", "G51.1", "G52", "G53", "G65", "G66", "G68", "G92")
+    ),
 )
 #: Letters that a block may hold several times.
 _REPEATED = "GM"

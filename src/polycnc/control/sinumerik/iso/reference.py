@@ -1,4 +1,4 @@
-"""G28, G30 and G53 of the ISO dialect: over a point to the reference points, and to a point of the machine."""
+"""G28, G30, G53 and G31 of the ISO dialect: to reference points, to a point of the machine, to what a probe touches."""
 
 from __future__ import annotations
 
@@ -55,6 +55,19 @@ def to_machine(running: IsoRun, word: IsoWord) -> None:
     running.positions = True
     running.taken += words
     running.after.append(partial(_to_machine, running, words))
+
+
+def to_probe(running: IsoRun, word: IsoWord) -> None:
+    """G31: straight at F until the first probe touches; the rest of the way is dropped (MEAS=1).
+
+    Raises:
+        AlarmError: PC0001 without axes and with a radius compensation.
+    """
+    if not running.axis_words() or running.channel.mode["compensation"] != "G40":
+        raise running.refused(word)
+    running.positions = True
+    with_motion(running, "G1")
+    running.extra.append("MEAS=1")
 
 
 def _to_machine(running: IsoRun, words: list[IsoWord]) -> None:

@@ -43,6 +43,9 @@ TURNED_BY_TIP = (frozenset({3, 4, 8}), frozenset({2, 3, 7}))
 WITH_TOOL = "TOWSTD"
 #: Systems in which wear goes with an orientable carrier, and those that a frame turns.
 WITH_CARRIER, OF_WORK = "TOWTCS", "TOWWCS"
+#: The system of the machine's axes, and all in which wear stays as it is while a transformation turns the tool.
+OF_MACHINE = "TOWMCS"
+AGAINST_TOOL = frozenset((OF_MACHINE, "TOWBCS", OF_WORK))
 
 
 class Rules(NamedTuple):

@@ -22,7 +22,13 @@ from polycnc.control.sinumerik.tools.edges import (
     DP_WEAR_RADIUS,
     Edge,
 )
-from polycnc.control.sinumerik.tools.lengths import OTHER_LENGTHS, TURNING_LENGTHS, Rules, along_axes
+from polycnc.control.sinumerik.tools.lengths import (
+    AGAINST_TOOL,
+    OTHER_LENGTHS,
+    TURNING_LENGTHS,
+    Rules,
+    along_axes,
+)
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.vectors import minus, times
@@ -69,6 +75,7 @@ class Tools(State, lifetime=Lifetime.POWER):
         edge_number: D number, 0 for no offsets.
         next_edge: D number programmed for the selected tool before it is loaded, or None.
         lengths: Offsets along X, Y, Z of the active edge, mm.
+        apart: What of them a head does not turn: wear in a system of its own (`Lengths.fixed`), mm.
         added_lengths: TOFFL for L1, L2, L3, mm.
         added_on_axes: TOFF along X, Y, Z, mm.
         added_radius: TOFFR, mm.
@@ -87,6 +94,7 @@ class Tools(State, lifetime=Lifetime.POWER):
     edge_number: int = 0
     next_edge: int | None = None
     lengths: Vector = (0.0, 0.0, 0.0)
+    apart: Vector = (0.0, 0.0, 0.0)
     added_lengths: list[float] = field(default_factory=lambda: [0.0, 0.0, 0.0])
     added_on_axes: list[float] = field(default_factory=lambda: [0.0, 0.0, 0.0])
     added_radius: float = 0.0
@@ -218,6 +226,8 @@ class Tools(State, lifetime=Lifetime.POWER):
         parts = (turned, fixed, self._to_tip(plane), carrier.direct(*self.overlay))
         x, y, z = (sum(values) for values in zip(*parts, strict=True))
         self.lengths = (x, y, z)
+        is_apart = self.rules is not None and self.rules.system in AGAINST_TOOL
+        self.apart = fixed if is_apart else (0.0, 0.0, 0.0)
 
     def cutting_data(self, plane: str) -> CuttingData | None:
         """Edge position and its companions as the tool stands now; None without an edge."""

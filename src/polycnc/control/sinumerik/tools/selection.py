@@ -5,9 +5,7 @@ from __future__ import annotations
 from math import hypot
 from typing import TYPE_CHECKING
 
-from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tools.lengths import Rules
-from polycnc.control.sinumerik.transformations import seat
 from polycnc.geometry.frames import Frame
 
 if TYPE_CHECKING:
@@ -15,8 +13,6 @@ if TYPE_CHECKING:
 
 #: SD42950: the lengths of every tool are those of a turning tool.
 AS_TURNING = 2
-#: Systems in which wear stays as it is while a transformation turns the tool.
-AGAINST_TOOL = frozenset(("TOWMCS", "TOWBCS", "TOWWCS"))
 
 
 def rules_of(channel: SinumerikChannel) -> Rules:
@@ -54,6 +50,4 @@ def follow(channel: SinumerikChannel) -> None:
     tools = channel.memory.tools
     if tools.rules is None:
         tools.rules = rules_of(channel)
-    if tools.rules.apart and tools.rules.system in AGAINST_TOOL and channel.mode[seat.GROUP] == "TRAORI":
-        raise not_supported(f"TRAORI: {tools.rules.system}")
     tools.assign_lengths(channel.mode["plane"])

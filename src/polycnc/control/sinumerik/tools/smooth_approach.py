@@ -24,19 +24,21 @@ from polycnc.control.sinumerik.block.positions import number, target
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.motion import circles, moves
 from polycnc.control.sinumerik.motion.last_move import LastMove
-from polycnc.control.sinumerik.tables import length_factor
+from polycnc.control.sinumerik.tables import MINUTE, length_factor
 from polycnc.control.sinumerik.tools import sides, stages
 from polycnc.control.sinumerik.tools.smooth_stage import (
     APPROACHES,
     LINES,
     RETRACTIONS,
     Approach,
+    Clearance,
     Shape,
+    height_of,
     with_value,
 )
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.planes import PLANES
-from polycnc.geometry.tolerances import NO_WAY
+from polycnc.geometry.units import INCH_MM
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 from polycnc.toolpath.modes import FeedMode
@@ -44,6 +46,9 @@ from polycnc.toolpath.modes import FeedMode
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.block.draft import Draft, Step, Values
     from polycnc.control.sinumerik.family import SinumerikChannel
+
+#: What FAD calls the types of feeds that it may have of its own.
+_FEED_TYPES = {FeedMode.PER_MINUTE: "PM", FeedMode.PER_REVOLUTION: "PR"}
 
 __all__ = ["APPROACHES", "RETRACTIONS", "approach", "retract"]
 
@@ -55,12 +60,12 @@ class Words:
     Attributes:
         distance: Place of DISR.
         clearance: Place of DISCL and whether it is absolute, or None.
-        infeed: Place of FAD, or None.
+        infeed: Place of FAD and the feed type that it names (PM, PR, or empty for that of the block), or None.
     """
 
     distance: int | None
     clearance: tuple[int, bool] | None
-    infeed: int | None
+    infeed: tuple[int, str] | None
 
     @classmethod
     def take(cls, draft: Draft) -> Words:
@@ -68,50 +73,56 @@ class Words:
         distance = draft.take("DISR")
         height = draft.take_shape("DISCL", "AC")
         infeed = draft.take_shape("FAD", "PM", "PR")
-        if infeed is not None:
-            mode = tables.feed_type(draft.mode).mode
-            if infeed[1].modifier not in (
-                "",
-                {FeedMode.PER_MINUTE: "PM", FeedMode.PER_REVOLUTION: "PR"}.get(mode, ""),
-            ):
-                raise not_supported(f"FAD={infeed[1].modifier}")
         clearance = (height[0], height[1].modifier == "AC") if height is not None else None
-        return cls(distance, clearance, infeed[0] if infeed is not None else None)
+        return cls(distance, clearance, (infeed[0], infeed[1].modifier) if infeed is not None else None)
 
-    def shape(
-        self, draft: Draft, channel: SinumerikChannel, values: Values, compensation: int, tangent_side: int
-    ) -> Shape:
-        """The line or arc; alarm 10742 without DISR or with one that is not positive."""
+    def shape(self, draft: Draft, channel: SinumerikChannel, values: Values, compensation: int) -> Shape:
+        """The line or arc; alarm 10742 without DISR or with one that is not positive.
+
+        Its side is open under G143, and under G140 without compensation.
+        """
         if self.distance is None:
             raise AlarmError("10742")
         size = number(values, self.distance) * length_factor(draft.mode)
         if size <= 0.0:
             raise AlarmError("10742")
-        side = {"G141": 1, "G142": -1, "G143": tangent_side}.get(
-            draft.mode["smooth_approach_side"], compensation
-        )
-        side = side or 1
+        side = {"G141": 1, "G142": -1, "G140": compensation}.get(draft.mode["smooth_approach_side"], 0)
         radius = stages.radius(channel)
-        code = draft.codes["block_motion"]
+        code, in_plane = draft.codes["block_motion"], draft.mode["smooth_approach_path"] == "G341"
         if code in LINES:
             size += radius if compensation and radius > 0.0 else 0.0
-        else:
-            size += radius * compensation * side
-        return Shape(code, size, side, draft.mode["smooth_approach_path"] == "G341")
+            return Shape(code, size, side or 1, in_plane)
+        shape = Shape(code, size, 0, in_plane, radius * compensation)
+        return shape.sided(side) if side else shape
 
-    def height(self, draft: Draft, values: Values, far: float, plane: float) -> float:
-        """Height of P2; alarm 10741 if it does not lie between the start and the machining plane."""
+    def height(self, draft: Draft, values: Values) -> Clearance:
+        """DISCL in mm; None without one."""
         if self.clearance is None:
-            return plane
-        value = number(values, self.clearance[0]) * length_factor(draft.mode)
-        height = value if self.clearance[1] else plane + (value if far >= plane else -value)
-        if not min(far, plane) - NO_WAY <= height <= max(far, plane) + NO_WAY:
-            raise AlarmError("10741")
-        return height
+            return None
+        return number(values, self.clearance[0]) * length_factor(draft.mode), self.clearance[1]
 
-    def infeed_speed(self, draft: Draft, values: Values) -> float:
-        """FAD in internal units; NaN without one."""
-        return number(values, self.infeed) * moves.feed_factor(draft) if self.infeed is not None else nan
+    def infeed_speed(self, draft: Draft, channel: SinumerikChannel, values: Values) -> float:
+        """FAD in the unit of the block's feed; NaN without one. PR and PM meet at the speed of the master spindle.
+
+        Raises:
+            AlarmError: 10860 where that stands still.
+        """
+        if self.infeed is None:
+            return nan
+        place, told = self.infeed
+        feed = tables.feed_type(draft.mode)
+        value, mode = number(values, place), feed.mode
+        if told in ("", _FEED_TYPES.get(mode, "")):
+            return value * moves.feed_factor(draft)
+        speed = channel.memory.spindles.get().speed
+        if not speed > 0.0:
+            raise AlarmError("10860")
+        inch = INCH_MM if draft.mode["unit"] == "G700" else 1.0
+        if told == "PM" and mode is FeedMode.PER_REVOLUTION and not feed.surface_speed:
+            return value / speed * inch
+        if told == "PR" and mode is FeedMode.PER_MINUTE:
+            return value * speed * inch / MINUTE
+        raise not_supported(f"FAD={told}")  # beside G93, G96 and feeds of a tooth
 
 
 # ---- the two kinds of blocks
@@ -122,24 +133,29 @@ def approach(draft: Draft) -> Step | None:
     words = Words.take(draft)
     terms = draft.take_axes()
     columns = moves.plane_columns(draft)
+    third = columns[2]
     names_point = any(term.column in columns[:2] for term in terms)
+    names_depth = any(term.column == third for term in terms)
     draft.steps.append(_remember_feed)
 
     def run(channel: SinumerikChannel, values: Values) -> None:
+        if stages.approach(channel).active:
+            raise AlarmError("10743")
         start = channel.coordinates.position
         end = target(channel, terms, values)
         compensation = sides.SIDES.get(draft.mode["compensation"], 0)
-        if draft.mode["smooth_approach_side"] == "G143":
-            raise not_supported("G143")
-        shape = words.shape(draft, channel, values, compensation, 0)
-        third = columns[2]
-        height = words.height(draft, values, start[third], end[third]) if third >= 0 else 0.0
+        shape = words.shape(draft, channel, values, compensation)
+        clearance = words.height(draft, values)
+        if third >= 0 and (names_point or names_depth):
+            height_of(clearance, start[third], end[third])
         is_rapid = draft.mode["motion"] == "G0"
         before = _feed_before(channel)
         place = _place(channel, Kind.RAPID if is_rapid else Kind.FEED, nan if is_rapid else before)
         feed = moves.checked_feed(channel.feed)
         touch = end if names_point else None
-        waiting = Approach(shape, place, start, touch, height, feed, words.infeed_speed(draft, values))
+        deep = end[third] if names_depth else nan
+        infeed = words.infeed_speed(draft, channel, values)
+        waiting = Approach(shape, place, start, touch, clearance, deep, feed, infeed)
         LastMove.of(channel).start = None
         channel.coordinates.arrive(end)
         stages.approach(channel).waiting = waiting
@@ -163,16 +179,18 @@ def retract(draft: Draft) -> Step | None:
         cutter = stages.active_cutter(channel)
         compensation = cutter.side if cutter is not None else 0
         direction = circles.last_direction(channel, columns, axes)
-        if draft.mode["smooth_approach_side"] == "G143":
-            raise not_supported("G143")
-        shape = words.shape(draft, channel, values, compensation, 0)
+        shape = words.shape(draft, channel, values, compensation)
         start = channel.coordinates.position
         end = target(channel, terms, values)
         u, v, third = columns
         touch = (start[u], start[v])
+        if shape.side == 0 and not names_point:
+            raise AlarmError("10747")
+        shape = shape.towards((end[u], end[v]), touch, direction)
         old = _feed_before(channel)
         far = shape.far_end(touch, direction)
-        height = words.height(draft, values, end[third], start[third]) if third >= 0 else 0.0
+        clearance = words.height(draft, values)
+        height = height_of(clearance, end[third], start[third]) if third >= 0 else 0.0
         point = start.copy()
         point[u], point[v] = far
         if third >= 0 and not shape.in_plane:
@@ -206,7 +224,7 @@ def _away(
     is_rapid = draft.mode["motion"] == "G0"
     kind, feed = (Kind.RAPID, nan) if is_rapid else (Kind.FEED, moves.checked_feed(channel.feed))
     if third >= 0:
-        infeed = words.infeed_speed(draft, values)
+        infeed = words.infeed_speed(draft, channel, values)
         slow = (kind, feed) if isnan(infeed) else (Kind.FEED, infeed)
         moves.line(channel, slow[0], with_value(point, third, height), slow[1])
         moves.line(channel, kind, with_value(point, third, end[third]), feed)

@@ -5,12 +5,14 @@ See `smooth_approach` for what an approach is made of.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import isnan
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from polycnc.channel.moves import origins
 from polycnc.channel.moves.path import Move, Rank, Stage
 from polycnc.deferred.records import dataclass
+from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 from polycnc.toolpath.context import SHORTENED
@@ -19,6 +21,8 @@ if TYPE_CHECKING:
     from polycnc.compensation.plane import Plane
     from polycnc.geometry.arcs import Point
 
+#: DISCL in mm, and whether it is a height (AC) or counts from the machining plane.
+Clearance: TypeAlias = tuple[float, bool] | None
 LINES, QUARTERS = ("G147", "G148"), ("G247", "G248")
 APPROACHES, RETRACTIONS = ("G147", "G247", "G347"), ("G148", "G248", "G348")
 
@@ -30,14 +34,27 @@ class Shape:
     Attributes:
         code: Function of the block.
         size: DISR and what the tool radius adds to it, mm.
-        side: 1 if it lies left of the direction of travel, -1 right.
+        side: 1 if it lies left of the direction of travel, -1 right; 0 while its other end has to tell (G143).
         in_plane: G341.
+        gain: What the tool radius adds to an arc on the left, mm.
     """
 
     code: str
     size: float
     side: int
     in_plane: bool
+    gain: float = 0.0
+
+    def sided(self, side: int) -> Shape:
+        """The same on a side of the contour."""
+        return replace(self, size=self.size + self.gain * side, side=side, gain=0.0)
+
+    def towards(self, point: Point, touch: Point, travel: Point) -> Shape:
+        """The same on the side of the contour on which a point lies, where no code says which (G143)."""
+        if self.side:
+            return self
+        away = travel[0] * (point[1] - touch[1]) - travel[1] * (point[0] - touch[0])
+        return self.sided(1 if away >= 0.0 else -1)
 
     def far_end(self, touch: Point, direction: Point) -> Point:
         """The end that does not touch the contour; `direction` leads away from it along the contour's tangent."""
@@ -80,7 +97,8 @@ class Approach:
         place: Kind and feed of the way to P2, with the place of the block in the program.
         start: P0.
         touch: P4; None while the next move has to tell it.
-        height: Of P2.
+        clearance: DISCL and whether it is absolute, None for none.
+        deep: Height of P4 where the block tells it; NaN where the next move does.
         feed: Of P3 to P4.
         infeed: Of P2 to P3; NaN for that of the way to P2.
     """
@@ -89,7 +107,8 @@ class Approach:
     place: Move
     start: list[float]
     touch: list[float] | None
-    height: float
+    clearance: Clearance
+    deep: float
     feed: float
     infeed: float
 
@@ -114,6 +133,9 @@ class SmoothApproach(Stage):
         if waiting is None or not self.plane.moves(move):
             self.after.move(move)
         elif waiting.touch is None:
+            third = self.plane.columns[self.plane.w]
+            if third >= 0 and not isnan(waiting.deep) and abs(move.end[third] - waiting.deep) > NO_WAY:
+                raise AlarmError("10745", line=waiting.place.line)
             waiting.touch = move.end
         else:
             self.waiting = None
@@ -134,11 +156,13 @@ class SmoothApproach(Stage):
         plane, shape, place = self.plane, waiting.shape, waiting.place
         third = plane.columns[plane.w]
         away = (-direction[0], -direction[1])
+        shape = shape.towards(plane.point(waiting.start), plane.point(touch), direction)
         far = shape.far_end(plane.point(touch), away)
         above = plane.at(waiting.start, far)
         points = [(above, place.kind, place.feed)]
         if third >= 0:
-            points.append((with_value(above, third, waiting.height), place.kind, place.feed))
+            height = height_of(waiting.clearance, waiting.start[third], touch[third])
+            points.append((with_value(above, third, height), place.kind, place.feed))
             if shape.in_plane:
                 kind, feed = (
                     (place.kind, place.feed) if isnan(waiting.infeed) else (Kind.FEED, waiting.infeed)
@@ -159,6 +183,17 @@ class SmoothApproach(Stage):
             part.origin = SHORTENED
         last.origin = shape.origin
         return [*parts, last]
+
+
+def height_of(clearance: Clearance, far: float, plane: float) -> float:
+    """Height of P2 for DISCL; alarm 10741 if it does not lie between the start and the machining plane."""
+    if clearance is None:
+        return plane
+    value, is_absolute = clearance
+    height = value if is_absolute else plane + (value if far >= plane else -value)
+    if not min(far, plane) - NO_WAY <= height <= max(far, plane) + NO_WAY:
+        raise AlarmError("10741")
+    return height
 
 
 def _placed(place: Move, kind: Kind, start: list[float], end: list[float], feed: float) -> Move:

@@ -15,14 +15,14 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol, runtime_checkable
 
 from polycnc.channel.moves.knots import knot_context
 from polycnc.compensation.limiting_surface import Mill, across, infeed
-from polycnc.compensation.spatial import (
+from polycnc.compensation.spatial import SpatialStage
+from polycnc.compensation.spatial_rules import (
     ARC_FIRST,
     INTERSECTION_FIRST,
     TURNS_ALONG,
     TURNS_BEFORE,
     Corners,
     Rules,
-    SpatialStage,
 )
 from polycnc.control.sinumerik.tools.edges import DP_CORNER_RADIUS, DP_RADIUS
 from polycnc.control.sinumerik.tools.sides import SIDES, Contour

@@ -2,15 +2,17 @@
 
 A stage stands in the channel's path only while it has something to do: what commands it puts it there, and behind
 every block `Path.relax` takes out those that are through. Source: Fundamentals (CHF, CHR, RND,
-RNDM, G40 to G42, NORM, KONT, G450, G451).
+RNDM, G40 to G42, NORM, KONT, KONTT, KONTC, G450, G451).
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from math import nan
 from typing import TYPE_CHECKING
 
+from polycnc.channel.moves.knots import knot_context
 from polycnc.compensation.corner import CornerPolicy, CornerStage, CornerViolation, Shape
 from polycnc.compensation.cutter import CutterCompensation
 from polycnc.compensation.plane import Plane
@@ -42,11 +44,13 @@ _G450 = Policy(
 )  # fmt: skip
 #: MD20210 = 100 degrees.
 _G451 = replace(_G450, outer=Outer(100.0, Joint.ARC, extend_as_circles=True))
+_APPROACHES = {
+    "NORM": Approach.SQUARE, "KONT": Approach.TANGENT, "KONTT": Approach.BENT, "KONTC": Approach.CURVED
+}  # fmt: skip
 POLICIES = {
-    ("NORM", "G450"): _G450,
-    ("NORM", "G451"): _G451,
-    ("KONT", "G450"): replace(_G450, approach=Approach.TANGENT),
-    ("KONT", "G451"): replace(_G451, approach=Approach.TANGENT),
+    (code, corner): replace(rules, approach=approach)
+    for code, approach in _APPROACHES.items()
+    for corner, rules in (("G450", _G450), ("G451", _G451))
 }
 VIOLATIONS = {
     Violation.ARC_START: "10753",
@@ -57,9 +61,10 @@ VIOLATIONS = {
     Violation.AVOIDANCE_INTERFERES: "10751",
 }
 #: As delivered: MD20200 = 1. Too large a size is reduced.
-CORNERS = CornerPolicy(idle_blocks=1, shrinks=True)
+CORNERS = CornerPolicy(idle_blocks=1, shrinks=True, at_rapids=True)
 CORNER_VIOLATIONS = {CornerViolation.TOO_MANY_BLOCKS: "10880"}
-#: Bit of MD20201: what stands between the two moves of a corner comes behind the chamfer or rounding.
+#: Bit of MD20201: what stands between the two moves of a corner comes behind the chamfer or rounding, which has the
+#: feed of the second move; without it that of the first. FRC and FRCM do not count at rapid (Fundamentals).
 BEHIND_SHAPE = 1
 #: Stages that work in one plane.
 PlaneStage = SplineStage | SmoothApproach | CornerStage | CutterCompensation
@@ -71,7 +76,9 @@ def cutter(channel: SinumerikChannel) -> CutterCompensation:
     change_plane(channel)
     stage = channel.path.find(CutterCompensation)
     if stage is None:
-        stage = channel.path.put(CutterCompensation(plane(channel), _G450, VIOLATIONS))
+        stage = channel.path.put(
+            CutterCompensation(plane(channel), _G450, VIOLATIONS, partial(knot_context, channel))
+        )
         suspend(channel)
     return stage
 
@@ -92,9 +99,9 @@ def corner(channel: SinumerikChannel) -> CornerStage:
 def _corners(channel: SinumerikChannel) -> CornerPolicy:
     """Too large a size is reduced; MD20200 says how many blocks without a way in the plane may stand between."""
     data = channel.memory.data
-    behind = data.integer("$MC_CHFRND_MODE_MASK") & BEHIND_SHAPE
+    behind = bool(data.integer("$MC_CHFRND_MODE_MASK") & BEHIND_SHAPE)
     idle = data.integer("$MC_CHFRND_MAXNUM_DUMMY_BLOCKS")
-    return replace(CORNERS, idle_blocks=idle, waits_at_shape=not behind)
+    return replace(CORNERS, idle_blocks=idle, waits_at_shape=not behind, belongs_to_next=behind)
 
 
 def approach(channel: SinumerikChannel) -> SmoothApproach:
@@ -181,7 +188,15 @@ def _settle_corner(channel: SinumerikChannel, what: str = "G40 G41 G42") -> None
 
 
 def end_blocks(channel: SinumerikChannel) -> None:
-    """Preprocessing stops: the blocks in front end. PC0001 between the two moves of a chamfer or rounding."""
+    """Preprocessing stops: the blocks in front end.
+
+    Raises:
+        AlarmError: PC0001 between the two moves of a chamfer or rounding, 10746 where a smooth approach still waits for
+            its contour.
+    """
+    waiting = channel.path.find(SmoothApproach)
+    if waiting is not None and waiting.active:
+        raise AlarmError("10746")
     _settle_corner(channel, "STOPRE $A POS")
     channel.flush()
 

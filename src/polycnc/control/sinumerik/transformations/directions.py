@@ -112,6 +112,9 @@ def frame_of_angles(posture: Posture, words: Words, mode: Mode, values: Values) 
     given, definition = (a, b, c), definition_of_angles(channel, mode)
     if definition == "ORIAXPOS":
         kinematics = posture.point.kinematics
+        for letter, value in zip(LETTERS, given, strict=True):
+            if value and not any(axis.startswith(letter) for axis in kinematics.axes):
+                raise AlarmError("12050", axis=f"{letter}2")
         named = {axis: given[LETTERS.index(axis[0])] for axis in kinematics.axes if axis[0] in LETTERS}
         turned = kinematics.work_turn(named).inverse() @ kinematics.head_turn(named)
         return Frame(turned.m)

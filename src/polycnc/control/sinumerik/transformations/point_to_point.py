@@ -6,7 +6,10 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.block.positions import Dimension, number
+from polycnc.control.sinumerik.couplings.links import Couplings, bare
+from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tools import stages
+from polycnc.control.sinumerik.tools.smooth_stage import APPROACHES, RETRACTIONS
 from polycnc.control.sinumerik.transformations import data_sets, seat
 from polycnc.control.sinumerik.transformations.orientation import is_point_to_point
 from polycnc.control.sinumerik.transformations.posture import Orienting, Posture
@@ -16,6 +19,7 @@ from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError
 from polycnc.transformation.kinematic.polar import PolarPlane
 from polycnc.transformation.orientation.choice import is_within
+from polycnc.transformation.seated import Seated
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.block.draft import Draft, Step, Values
@@ -47,8 +51,8 @@ def plan(draft: Draft) -> None:
     """Take STAT and TU; a straight block under PTP goes with the axes.
 
     Raises:
-        AlarmError: 14140 for STAT and TU without a transformation, 14144 for PTP under radius compensation, for arcs
-            and for positioning axes of the transformation.
+        AlarmError: 14140 for STAT and TU without a transformation, 14144 for PTP under radius compensation, for arcs,
+            smooth approach and retraction, and for positioning axes of the transformation.
     """
     words = [(address, draft.take(address)) for address in ("STAT", "TU")]
     given = [(address, place) for address, place in words if place is not None]
@@ -58,7 +62,8 @@ def plan(draft: Draft) -> None:
         draft.steps.append(_noted(dict(given)))
     if not draft.mode[seat.GROUP]:
         return
-    if draft.mode["point_to_point"] == "PTP" and draft.mode["compensation"] != "G40":
+    is_smooth = draft.codes.get("block_motion") in (*APPROACHES, *RETRACTIONS)
+    if draft.mode["point_to_point"] == "PTP" and (is_smooth or draft.mode["compensation"] != "G40"):
         raise AlarmError("14144")
     moves = draft.lead is not None or bool(draft.axis_terms())
     if draft.mode["point_to_point"] == "PTP" and moves and draft.mode["motion"] not in ("G0", "G1"):
@@ -99,17 +104,21 @@ def go(channel: SinumerikChannel, kind: Kind, end: list[float], feed: float) -> 
     """Go to a point of the work with all axes at once, straight for each of them; its row holds their positions."""
     coordinates, state = channel.coordinates, PointToPoint.of(channel)
     transformation = coordinates.transformation
-    assert transformation is not None
+    assert isinstance(transformation, Seated)
+    leading = {law.leading for laws in Couplings.of(channel).laws().values() for law in laws}
+    if leading & seat.transformed(channel):
+        raise not_supported("PTP: TRAILON LEADON EGON")
     if stages.active_cutter(channel) is not None:
         raise AlarmError("14144")
     machine = _configured(channel, transformation, end)
     channel.flush()
     geometry, width = coordinates.geometry, len(channel.axes)
     coordinates.transform(None, data_sets.native(channel), (IDENTITY, [0.0] * width))
-    state.shown_by = transformation
+    state.shown_by = bare(transformation)
     channel.context_changed()
     try:
         channel.straight(kind, machine, feed)
+        channel.flush()  # no chamfer or rounding leads from here to a block that goes by the tip (6.9.1)
     finally:
         coordinates.transformation, coordinates.geometry = transformation, geometry
         state.shown_by = None

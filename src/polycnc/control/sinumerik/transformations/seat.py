@@ -16,10 +16,12 @@ from polycnc.control.sinumerik import axis_names
 from polycnc.control.sinumerik.couplings import links
 from polycnc.control.sinumerik.data.machine_data import MachineData
 from polycnc.control.sinumerik.errors import not_supported
+from polycnc.control.sinumerik.tools.lengths import OF_MACHINE
 from polycnc.control.sinumerik.transformations import data_sets
 from polycnc.control.sinumerik.transformations.data_sets import Build
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY
+from polycnc.geometry.vectors import minus
 from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES
 from polycnc.messages import AlarmError
 from polycnc.transformation.chain import Chain
@@ -32,10 +34,11 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.family import SinumerikChannel
-    from polycnc.geometry.frames import Frame
+    from polycnc.geometry.frames import Frame, Vector
     from polycnc.language.sinumerik.names.frame import NcFrame
     from polycnc.transformation.contract import Geometry
 
+_NONE: Vector = (0.0, 0.0, 0.0)
 #: Modal state that says which kind of transformation acts; empty for none.
 GROUP = "transformation"
 #: Modal state that says which channel axes are the geometry axes; empty for those of the machine.
@@ -107,10 +110,16 @@ def stand(channel: SinumerikChannel, total: NcFrame, *, travelled: bool = False)
         travelled: The next incremental word of an axis travels a change of frames or tool as well; under a
             transformation none does (6.10).
     """
+    coupled = bool(links.Couplings.of(channel).links)
+    before = links.places(channel) if coupled else []
+    _take_seat(channel, total, travelled=travelled)
+    if coupled and links.keep_ways(channel, before):
+        _take_seat(channel, total, travelled=travelled)
+
+
+def _take_seat(channel: SinumerikChannel, total: NcFrame, *, travelled: bool) -> None:
     coordinates, state = channel.coordinates, Transformations.of(channel)
     if state.build is None and state.columns is not None:
-        if links.seated(channel, total.frame, _offsets(channel, total)) is not None:
-            raise not_supported("GEOAX")  # while axes follow others
         _stand_regrouped(channel, state.columns, total, travelled=travelled)
         return
     if state.build is None:
@@ -120,7 +129,9 @@ def stand(channel: SinumerikChannel, total: NcFrame, *, travelled: bool = False)
         coupled = links.take_seat(channel, links.seated(channel, *zero))
         if coupled is not None:
             if coupled is not coordinates.transformation:
+                state.seated = None
                 _sit(channel, coupled)
+                _name_axes(channel, frozenset())
             return
         if coordinates.transformation is not None:
             state.seated = None
@@ -133,6 +144,7 @@ def stand(channel: SinumerikChannel, total: NcFrame, *, travelled: bool = False)
         channel.context_changed()
         return
     seated = _seated(channel, state.build, total)
+    links.take_seat(channel, seated)
     if seated == state.seated:
         return
     state.seated = seated
@@ -155,6 +167,7 @@ def _stand_regrouped(
     """Frames and tool act on the geometry axes of GEOAX."""
     coordinates, state = channel.coordinates, Transformations.of(channel)
     seated = _regrouped(channel, columns, total)
+    links.take_seat(channel, seated)
     if seated == state.seated:
         return
     state.seated = seated
@@ -171,7 +184,8 @@ def _stand_regrouped(
 def _regrouped(channel: SinumerikChannel, columns: Geometry, total: NcFrame) -> Seated:
     offsets = _offsets(channel, total, columns)
     frame = IDENTITY if total.frame.is_identity else total.frame
-    return Seated(ParallelAxes(columns), frame, (), tuple(offsets) if any(offsets) else ())
+    made = Seated(ParallelAxes(columns), frame, (), tuple(offsets) if any(offsets) else ())
+    return links.beside(channel, made)
 
 
 def is_in_place(channel: SinumerikChannel, total: NcFrame) -> bool:
@@ -209,32 +223,46 @@ def _shifts(channel: SinumerikChannel, total: NcFrame) -> list[float]:
 
 
 def _seated(channel: SinumerikChannel, build: Build, total: NcFrame) -> Seated:
-    x, y, z = lengths = channel.memory.tools.lengths
+    tools = channel.memory.tools
+    x, y, z = lengths = minus(tools.lengths, tools.apart)
     inner, shifts, offsets = build.inner, _shifts(channel, total), [0.0] * len(channel.axes)
+    is_linear = build.lengths in ("tip", "before")
+    on_axes = is_linear and tools.rules is not None and tools.rules.system == OF_MACHINE
+    in_front, behind = (_NONE, tools.apart) if on_axes else (tools.apart, _NONE)
     if build.lengths == "tip":
         inner = _with_tip(inner, (-x, -y, -z))
     elif build.lengths == "before":
-        for column, length in zip(inner.geometry, lengths, strict=True):
-            if column >= 0:
-                shifts[column] += length
+        in_front = (in_front[0] + x, in_front[1] + y, in_front[2] + z)
     else:
-        infeed, second, third = data_sets.native(channel)
-        if y and second < 0:
-            raise not_supported(f"{Transformations.of(channel).kind}: $TC_DP")
-        columns = (inner.geometry[0] if infeed < 0 else infeed, second, third)
-        for column, length in zip(columns, lengths, strict=True):
-            if column >= 0:
-                offsets[column] += length
-        if isinstance(inner, Chain):  # the tool belongs to the first link (6.12)
-            for link in inner.links[1:]:
-                offsets = link.to_machine(offsets)
+        behind = lengths
+    for column, length in zip(inner.geometry, in_front, strict=True):
+        if column >= 0:
+            shifts[column] += length
+    _add_to_axes(channel, inner, offsets, behind)
     frame = total.frame
-    return Seated(
+    made = Seated(
         inner,
         IDENTITY if frame.is_identity else frame,
         tuple(shifts) if any(shifts) else (),
         tuple(offsets) if any(offsets) else (),
     )
+    return links.beside(channel, made)
+
+
+def _add_to_axes(channel: SinumerikChannel, inner: Any, offsets: list[float], lengths: Vector) -> None:
+    """Lengths along the axes of the machine: a virtual Y axis has none of them (PC0001)."""
+    if not any(lengths):
+        return
+    infeed, second, third = data_sets.native(channel)
+    if lengths[1] and second < 0:
+        raise not_supported(f"{Transformations.of(channel).kind}: $TC_DP")
+    columns = (inner.geometry[0] if infeed < 0 else infeed, second, third)
+    for column, length in zip(columns, lengths, strict=True):
+        if column >= 0:
+            offsets[column] += length
+    if isinstance(inner, Chain) and not isinstance(inner.links[0], ToolCentrePoint):
+        for link in inner.links[1:]:  # the tool belongs to the first link (6.12)
+            offsets[:] = link.to_machine(offsets)
 
 
 def _with_tip(inner: Any, tip: tuple[float, float, float]) -> Any:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from polycnc.channel.failure import stand_at_last_row
 from polycnc.compensation.corner import CornerStage
 from polycnc.control.sinumerik.block import arguments
+from polycnc.control.sinumerik.couplings import switching
 from polycnc.control.sinumerik.couplings.links import Couplings
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.limits import protection, working_area
@@ -188,8 +189,6 @@ def _check_change(channel: SinumerikChannel) -> None:
     mode = channel.mode
     if mode["compensation"] != "G40":
         raise AlarmError("14400")
-    if Couplings.of(channel).links:
-        raise not_supported("TRAILON LEADON EGON")
     if mode["motion"] in splines.SPLINES:
         raise AlarmError("14402")
     if mode["fine_tool_offset"] == "FTOCON":
@@ -212,6 +211,7 @@ def _change(channel: SinumerikChannel, kind: str, build: Build | None) -> None:
     """A transformation acts, or none: frames, working area and protection zones are deselected, nothing moves."""
     state, memory = Transformations.of(channel), channel.memory
     channel.path.take(WallStage)
+    switching.check_change(channel, build)
     state.kind, state.build = kind, build
     seat.regroup(channel, None)  # a transformation has geometry axes of its own
     swivelled = any(memory.frames.system[name] != NEUTRAL for name in OF_SWIVEL)
@@ -223,6 +223,7 @@ def _change(channel: SinumerikChannel, kind: str, build: Build | None) -> None:
         channel.mode = channel.mode.with_code("working_area", "WALIMOF")
         protection.deselect(channel)
     channel.mode = channel.mode.with_code(seat.GROUP, kind)
+    switching.refuse_transformed(channel, Couplings.of(channel).links)
     lengths_of_edge.follow(channel)
     seat.stand(channel, memory.frames.total())
     working_area.refresh(channel)

@@ -17,7 +17,7 @@ from polycnc.control.sinumerik.frames.variables import frame_axis
 from polycnc.control.sinumerik.limits import calcposi
 from polycnc.control.sinumerik.signals import workpiece
 from polycnc.control.sinumerik.tools import d_numbers
-from polycnc.control.sinumerik.tools.management import components, environments, lists, magazines
+from polycnc.control.sinumerik.tools.management import components, corrections, environments, lists, magazines
 from polycnc.geometry import fit
 from polycnc.language.sinumerik.formatting import formatted
 from polycnc.language.sinumerik.keywords import CONTROL_FUNCTIONS
@@ -163,6 +163,7 @@ FUNCTIONS: dict[str, Callable[[SinumerikChannel, Arguments], Any]] = {
     **magazines.FUNCTIONS,
     **environments.FUNCTIONS,
     **components.FUNCTIONS,
+    **corrections.FUNCTIONS,
     **administration.FUNCTIONS,
     **reading.FUNCTIONS,
 }

@@ -32,7 +32,8 @@ OF_CHANNEL = frozenset(
     )
 )
 OF_AXES = frozenset(("$AA_MOTEND", "$AA_SCPAR", "$AA_COUP_ACT", "$AA_ATOL", "$AA_FXS", "$AA_FOC"))
-OF_SPINDLES = frozenset(("$AA_S", "$AC_SDIR"))
+SPEED = "$AA_S"
+OF_SPINDLES = frozenset((SPEED, "$AC_SDIR"))
 NAMES = OF_CHANNEL | OF_AXES | OF_SPINDLES
 #: Positions, of which frames of the program are states.
 OF_FRAMES = frozenset(("$AA_IEN", "$AA_IBN"))
@@ -63,12 +64,7 @@ def live(name: str, reader: Reader) -> Reader:
     """A reader of such a variable, or of the frames of a position, that tells what is in force."""
     _READERS[name] = reader
 
-    def read(channel: SinumerikChannel, indices: Indices) -> Any:
-        values = InForce.of(channel).values
-        key = name, indices
-        return values[key] if values and key in values else reader(channel, indices)
-
-    return read
+    return partial(_in_force, name)
 
 
 def watch(channel: SinumerikChannel, names: Iterable[str]) -> None:
@@ -82,6 +78,18 @@ def watch(channel: SinumerikChannel, names: Iterable[str]) -> None:
         state.values.update(now)
     if asked and channel.path.find(StatesOfProgram) is None:
         channel.path.put(StatesOfProgram(channel))
+
+
+def turning(channel: SinumerikChannel, number: int) -> float:
+    """What a spindle turns with in the block in execution, rpm, negative for M4; as far as `SPEED` is watched."""
+    speed: float = _in_force(SPEED, channel, (number,))
+    return speed
+
+
+def _in_force(name: str, channel: SinumerikChannel, indices: Indices) -> Any:
+    values = InForce.of(channel).values
+    key = name, indices
+    return values[key] if values and key in values else _READERS[name](channel, indices)
 
 
 def refresh(channel: SinumerikChannel) -> None:

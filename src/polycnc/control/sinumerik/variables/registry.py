@@ -49,7 +49,7 @@ from polycnc.control.sinumerik.tools.management.monitoring import MONITORING_VAR
 from polycnc.control.sinumerik.tools.online import OVERLAY_VARIABLES
 from polycnc.control.sinumerik.tools.sides import Contour
 from polycnc.control.sinumerik.tools.variables import IN_MAIN_RUN, TOOL_VARIABLES
-from polycnc.control.sinumerik.transformations import seat, smoothing
+from polycnc.control.sinumerik.transformations import smoothing
 from polycnc.control.sinumerik.transformations.seat import Transformations
 from polycnc.control.sinumerik.variables import in_force
 from polycnc.control.sinumerik.variables.block_types import BLOCK_VARIABLES
@@ -254,11 +254,11 @@ def _below_the_work(channel: SinumerikChannel, system: str) -> list[float]:
 
 def _basic(channel: SinumerikChannel) -> list[float]:
     """Positions of all axes now in the basic system: those of the machine, but for what a transformation leads."""
-    machine, coordinates = list(channel.actual.machine), channel.coordinates
-    if Transformations.of(channel).seated is None:
+    machine, seated = list(channel.actual.machine), Transformations.of(channel).seated
+    if seated is None:
         return machine
-    point = coordinates.image(seat.frame_in_front(channel), list(channel.actual.work))
-    led = {column for column in coordinates.geometry if column >= 0}
+    point = seated.basic(list(channel.actual.work))
+    led = {column for column in channel.coordinates.geometry if column >= 0}
     return [point[i] if i in led else value for i, value in enumerate(machine)]
 
 

@@ -28,7 +28,7 @@ from polycnc.control.word_address.coordinates.systems import (
     shift_of_zero,
 )
 from polycnc.control.word_address.memory import EXTERNAL
-from polycnc.control.word_address.tools.data_input import TOOL_FIELDS
+from polycnc.control.word_address.tools.data_input import TOOL_FIELDS, refuse_axes, refuse_words
 from polycnc.control.word_address.tools.length import renew_length
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import about, scaling
@@ -212,6 +212,8 @@ def set_zone(channel: SyntecChannel, zones: dict[int, tuple[float, float]]) -> N
 def scale_factors(channel: SyntecChannel, words: Words) -> tuple[float, float, float]:
     """Factors of G51: P for all axes or I J K; only axes of the plane are scaled (2.33)."""
     common = words.typed("P")
+    if common is not None:
+        refuse_words(words, "IJK", "argument")
     factors = [1.0, 1.0, 1.0]
     for axis in PLANES[channel.mode["plane"]][:2]:
         own = words.typed("IJK"[axis])
@@ -285,6 +287,8 @@ def input_data(channel: SyntecChannel, words: Words) -> None:
         return
     if kind not in TOOL_FIELDS or kind == 1:
         raise channel.control.not_yet("G10" if kind is None else f"G10 L{kind:g}", "G10")
+    refuse_words(words, "QIJK", "argument")
+    refuse_axes(words, "argument")
     length = words.length("R")
     if number is None or number != int(number) or number < 1 or length is None:
         raise words.fail("argument", "P" if length is not None else "R")
@@ -298,6 +302,7 @@ def input_data(channel: SyntecChannel, words: Words) -> None:
 
 def _input_work_offset(channel: SyntecChannel, words: Words) -> None:
     """G10 L2 P X Y Z: zero of work system P, 0 the external one; G91 adds."""
+    refuse_words(words, "RQIJK", "argument")
     number = words.typed("P")
     if number is None or number != int(number) or not 0 <= number <= len(WORK_SYSTEMS):
         raise words.fail("argument", "P" if number is not None else "G10")

@@ -81,7 +81,7 @@ def start(channel: SyntecChannel, words: Words) -> None:
     check_posture(channel, turns.work)
     channel.flush()
     alignment.leave_table(channel)
-    tool_center_point.start_following(channel, words)
+    tool_center_point.follow_table(channel, words)
 
 
 def compensate_length(channel: SyntecChannel, words: Words) -> None:

@@ -24,6 +24,7 @@ from polycnc.control.word_address.motion.arcs import emit_arc
 from polycnc.control.word_address.motion.path import CENTER_WORDS
 from polycnc.control.word_address.motion.skip import LastSkip
 from polycnc.control.word_address.tools import radius
+from polycnc.control.word_address.tools.data_input import refuse_words
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.normal_stage import NormalStage
 from polycnc.control.word_address.transformations.polar_interpolation import is_length
@@ -398,6 +399,7 @@ def _lengthened_move(factor: float, channel: SyntecChannel, words: Words) -> Non
         return
     if motion not in ("G0", "G1"):
         raise control.fail("argument", address=code)
+    refuse_words(words, "IJK", "argument")
     c = channel.coordinates
     end = c.programmed[:]
     for axis, value, incremental in words.axes():

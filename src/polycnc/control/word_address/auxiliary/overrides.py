@@ -5,6 +5,7 @@ The toolpath's context says which overrides and whether feed hold act; what runs
 
 from __future__ import annotations
 
+from contextlib import contextmanager
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -14,6 +15,8 @@ from polycnc.deferred.records import dataclass
 from polycnc.toolpath.modes import CornerMode
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import MacroChannel, WordAddressChannel
     from polycnc.toolpath import Context
@@ -63,6 +66,17 @@ def allow_spindle_override(channel: WordAddressChannel, _words: Words) -> None:
 def _cancel(channel: WordAddressChannel, name: str, *, cancelled: bool) -> None:
     state = OverrideState.of(channel)
     state.cancelled = state.cancelled | {name} if cancelled else state.cancelled - {name}
+    channel.context_changed()
+
+
+@contextmanager
+def fixed_feed(channel: WordAddressChannel) -> Iterator[None]:
+    """The moves in between run at the programmed feed, whatever the operator's override."""
+    state = OverrideState.of(channel)
+    before, state.cancelled = state.cancelled, state.cancelled | {FEED}
+    channel.context_changed()
+    yield
+    state.cancelled = before
     channel.context_changed()
 
 

@@ -26,12 +26,14 @@ class NumberRules:
         decimals: Decimals of the least input increment in millimetres and degrees (IS-B: 3).
         decimals_inch: The same for inches.
         calculator: A number without a point is whole millimetres instead of least increments.
+        tenfold: A number without a point counts ten least increments.
         cuts_digits: Digits below the least increment are cut off (else they are kept).
     """
 
     decimals: int = 3
     decimals_inch: int = 4
     calculator: bool = False
+    tenfold: bool = False
     cuts_digits: bool = True
 
 
@@ -50,7 +52,8 @@ def angle_converter(form: str, rules: NumberRules) -> Convert | None:
 def _converter(form: str, rules: NumberRules, decimals: int, unit: float) -> Convert | None:
     scale = 10.0**decimals
     if form == "" and not rules.calculator:
-        return declare(lambda value: value / scale * unit, Conversion(Scaling.INCREMENTS, scale, unit))
+        counts = scale / 10.0 if rules.tenfold else scale
+        return declare(lambda value: value / counts * unit, Conversion(Scaling.INCREMENTS, counts, unit))
     if form == "#":
         return declare(
             lambda value: (

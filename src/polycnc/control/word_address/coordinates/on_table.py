@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from polycnc.channel.states.state import Lifetime, State, retained
 from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
 from polycnc.deferred.records import dataclass
-from polycnc.geometry.frames import IDENTITY, Frame, translation
+from polycnc.geometry.frames import Frame, translation
 from polycnc.memory.retained import WORKPIECE_ERRORS
 
 if TYPE_CHECKING:
@@ -89,19 +89,28 @@ def follow(channel: WordAddressChannel, angles: Angles | None = None) -> None:
         reference = kinematics.work_turn(dict(zip(channel.axes, values, strict=True)))
         zero.fixture = turn.direct(*reference.inverse().direct(x, y, z))
     if state.error:
-        error, places = _error(channel, state.error)
-        if not error.is_identity:
-            measured = kinematics.work_turn(dict(zip(table_axes(channel), places, strict=False)))
-            zero.misplaced = Misplaced(error, measured, turn)
+        errors = tuple(
+            (error, kinematics.work_turn(dict(zip(table_axes(channel), places, strict=False))))
+            for error, places in _errors(channel, state.error)
+        )
+        if errors:
+            zero.misplaced = Misplaced(errors, turn)
     refresh_zero(channel)
 
 
-def _error(channel: WordAddressChannel, number: int) -> tuple[Frame, list[float]]:
-    """The error of a number with the common one: shifts, turns about X, Y, Z in this order; where the table stood."""
+def _errors(channel: WordAddressChannel, number: int) -> list[tuple[Frame, list[float]]]:
+    """The error of a number and the common one: shifts, turns about X, Y, Z in this order; where the table stood.
+
+    Their values are added where the table stood alike.
+    """
     from polycnc.transformation.planes.tilted import by_fixed_axes
 
-    pairs = zip(values_of(channel, COMMON_ERROR), values_of(channel, number), strict=True)
-    values = [common + own for common, own in pairs]
-    if not any(values[LINEAR]) and not any(values[TURNS]):
-        return IDENTITY, values[TABLE]
-    return translation(*values[LINEAR]) @ by_fixed_axes(ROUND_X_Y_Z, values[TURNS]), values[TABLE]
+    told = [values_of(channel, each) for each in (COMMON_ERROR, number)]
+    found = [values for values in told if any(values[LINEAR]) or any(values[TURNS])]
+    if len(found) > 1 and found[0][TABLE] == found[1][TABLE]:
+        common, own = found
+        found = [[a + b for a, b in zip(common[:6], own[:6], strict=True)] + own[TABLE]]
+    return [
+        (translation(*values[LINEAR]) @ by_fixed_axes(ROUND_X_Y_Z, values[TURNS]), values[TABLE])
+        for values in found
+    ]

@@ -95,16 +95,24 @@ def work_frame(channel: WordAddressChannel, offsets: list[float]) -> Frame:
 
 def frame_on_table(channel: WordAddressChannel, offsets: list[float]) -> Frame:
     """From the display to axes counted from a work zero with the table at zero: tip control turns it by itself."""
-    frame = ZeroState.of(channel).frame @ plane_on_table(channel, offsets)
+    zero, begun = ZeroState.of(channel), tip.TipState.of(channel).begun
+    inner = zero.plane
+    if not begun.is_identity:
+        shift = translation(*work_zero(channel, offsets))
+        inner = shift.inverse() @ begun.inverse() @ shift @ inner
+    frame = zero.frame @ _lies(channel, offsets) @ inner
     return IDENTITY if frame.is_identity else frame
 
 
 def plane_on_table(channel: WordAddressChannel, offsets: list[float]) -> Frame:
     """The tilted plane on the work as that lies on the table, with the table at zero."""
-    zero = ZeroState.of(channel)
-    if zero.misplaced is None:
-        return zero.plane
-    return zero.misplaced.on_table(work_zero(channel, offsets)) @ zero.plane
+    return _lies(channel, offsets) @ ZeroState.of(channel).plane
+
+
+def _lies(channel: WordAddressChannel, offsets: list[float]) -> Frame:
+    """From where the work should lie to where it lies, with the table at zero."""
+    misplaced = ZeroState.of(channel).misplaced
+    return IDENTITY if misplaced is None else misplaced.on_table(work_zero(channel, offsets))
 
 
 def work_zero(channel: WordAddressChannel, offsets: list[float]) -> Vector:

@@ -22,10 +22,18 @@ if TYPE_CHECKING:
 
 @dataclass(slots=True)
 class TipState(State, lifetime=Lifetime.RESET):
-    """What leads the axes while words name the tip; None while they name the axes."""
+    """What leads the axes while words name the tip; None while they name the axes.
+
+    Attributes:
+        active: It without a turn of the work.
+        seated: It with that.
+        begun: How the table had turned when tip control began, machine coordinates: there the system that it takes
+            along is the work system.
+    """
 
     active: ToolCentrePoint | None = None
     seated: Transformation | None = None
+    begun: Frame = IDENTITY
 
     def is_leading(self, channel: WordAddressChannel) -> bool:
         """Whether words name the tip now."""

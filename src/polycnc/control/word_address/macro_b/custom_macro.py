@@ -72,10 +72,11 @@ class CustomMacroControl(WordAddressControl):
     # ---- numbers -------------------------------------------------------------------------------------
 
     def number_rules(self, channel: MacroChannel) -> NumberRules:
-        """IS-B, or IS-A and IS-C by 1013#0 and #1; calculator input by 3401#0 DPI."""
+        """IS-B, or IS-A and IS-C by 1013#0 and #1; calculator input by 3401#0 DPI; ten increments by 1004#7 IPR."""
         parameters = channel.memory.parameters
         decimals = 2 if parameters.ISA else 4 if parameters.ISC else 3
-        return NumberRules(decimals, decimals + 1, calculator=parameters.DPI)
+        tenfold = parameters.IPR and not parameters.ISA
+        return NumberRules(decimals, decimals + 1, calculator=parameters.DPI, tenfold=tenfold)
 
     def whole_numbers(self, _channel: Channel) -> frozenset[str]:
         """Addresses that take neither point nor sign (Hartford manual 2.4.1)."""

@@ -267,6 +267,16 @@ class MacroMemory(Memory):
             raise self.fail("variable_number")
         return number
 
+    @property
+    def kept_at_reset(self) -> tuple[type[State], ...]:
+        """#1 to #33 by 6001#7 CLV."""
+        return (LocalState,) if self.parameters.CLV else ()
+
+    def forget_commons(self) -> None:
+        """#100 to #199 are vacant, by 6001#6 CCV; behind a program's end they can still be read."""
+        if not self.parameters.CCV:
+            self.common[:] = [None] * COMMONS
+
     def forget_locals(self) -> None:
         """The local variables are those of the main program, as they begin."""
         self.locals = LocalState.of(self.channel).main

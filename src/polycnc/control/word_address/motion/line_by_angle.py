@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import nan, radians, sin, tan
+from math import atan2, degrees, nan, radians, sin, tan
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.block.numbers import angle_converter
@@ -21,6 +21,12 @@ ANGLE = ",A"
 #: A line that runs nearer than this to an axis does not say where it reaches a coordinate of the other one.
 LEAST_ANGLE_DEG = 1.0
 _STRAIGHT = {"G0": Kind.RAPID, "G1": Kind.FEED}
+
+
+def leaves_line(first: float, second: float, angle_deg: float) -> bool:
+    """Whether a way says another line than an angle beside its end does; nobody knows which of the two is meant."""
+    turn = degrees(atan2(second, first)) - angle_deg
+    return bool(first or second) and min(turn % 180.0, -turn % 180.0) > LEAST_ANGLE_DEG
 
 
 def plan_line_by_angle(builder: Builder, plan: Plan) -> Step | None:
@@ -47,11 +53,15 @@ def plan_line_by_angle(builder: Builder, plan: Plan) -> Step | None:
         first, second = c.geometry[u], c.geometry[v]
         angle = convert(values[slot]) if convert else values[slot]
         end = reach(channel, plan.axis_words, values)
-        if len(named) == 1:
+        start = c.programmed
+        if len(named) > 1:
+            if leaves_line(end[first] - start[first], end[second] - start[second], angle):
+                raise control.fail("drawing_end", address=ANGLE)
+        else:
             across = angle - 90.0 if first in named else angle
             if abs(sin(radians(across))) < sin(radians(LEAST_ANGLE_DEG)):
                 raise control.fail("drawing_end", address=ANGLE)
-            start, slope = c.programmed, tan(radians(angle))
+            slope = tan(radians(angle))
             if first in named:
                 end[second] = start[second] + (end[first] - start[first]) * slope
             else:

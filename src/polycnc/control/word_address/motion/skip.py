@@ -2,22 +2,25 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from functools import partial
 from math import dist
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
-from polycnc.control.word_address.motion.path import reach
+from polycnc.control.word_address.auxiliary.overrides import fixed_feed
+from polycnc.control.word_address.motion.path import FEED_MODES, reach
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.surfaces import first_touch
 from polycnc.machine.setup.values import SkipInput
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
+from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.words import Words
-    from polycnc.control.word_address.family import WordAddressChannel
+    from polycnc.control.word_address.family import MacroChannel, WordAddressChannel
 
 #: P of G31: which skip input ends the move. All inputs come at the same place here.
 SKIP_INPUTS = range(1, 9)
@@ -61,8 +64,15 @@ def _target(channel: WordAddressChannel, words: Words) -> list[float]:
     return channel.coordinates.to_position(reach(channel, words.plan.axis_words, words.values))
 
 
-def skip_or_torque_move(channel: WordAddressChannel, words: Words) -> None:
-    """G31 of FANUC: as `skip_move`; with P98 and P99 torque limit skip.
+def skip_or_torque_move(channel: MacroChannel, words: Words) -> None:
+    """G31 of FANUC: at the programmed feed alone by feed per minute (6200#7 SKF = 0; B-63844EN, 4.13)."""
+    per_minute = FEED_MODES[channel.mode["feed"]] is FeedMode.PER_MINUTE
+    with nullcontext() if channel.memory.parameters.SKF or not per_minute else fixed_feed(channel):
+        _skip_or_torque_move(channel, words)
+
+
+def _skip_or_torque_move(channel: MacroChannel, words: Words) -> None:
+    """As `skip_move`; with P98 and P99 torque limit skip.
 
     P98 ends where the torque reaches its limit and does not look at the skip input, P99 at what comes first. Where no
     torque limit is active the move goes to its end (0i-TF Plus, warnings: torque limit skip).

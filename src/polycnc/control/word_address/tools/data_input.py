@@ -53,7 +53,21 @@ def life_not_counted() -> AlarmError:
     return AlarmError("PC0001", hint="hint.not-supported", address="L", code="G10 L3")
 
 
+def refuse_words(words: Words, letters: str, mistake: str = "g10_format") -> None:
+    """Words that belong to another kind of data."""
+    found = next((letter for letter in letters if letter in words), "")
+    if found:
+        raise words.fail(mistake, found)
+
+
+def refuse_axes(words: Words, mistake: str = "g10_format") -> None:
+    """Axis words, where the data are those of no axis."""
+    if words.plan.axis_words:
+        raise words.fail(mistake, words.plan.axis_words[0].address)
+
+
 def _set_work_offset(channel: MacroChannel, words: Words, name: str) -> None:
+    refuse_words(words, "R")
     offset = channel.memory.work_offset(name)
     for axis, value, incremental in words.axes():
         offset[axis] = offset[axis] + value if incremental else value
@@ -61,6 +75,7 @@ def _set_work_offset(channel: MacroChannel, words: Words, name: str) -> None:
 
 
 def _set_tool_offset(channel: MacroChannel, words: Words, number: int, field: str) -> None:
+    refuse_axes(words)
     value = words.length("R")
     if value is None or number < 1:
         raise words.fail("g10_number" if value is not None else "g10_format", "P")

@@ -78,17 +78,19 @@ def _engage(channel: WordAddressChannel, words: Words, side: int) -> None:
     stage = compensation_stage(channel)
     state.side = side
     stage.policy = channel.control.compensation_policy(channel)
+    control = channel.control
+    shown, value, tip = (
+        side_on_display(channel),
+        control.radius_value(channel, state.number),
+        control.nose_tip(channel),
+    )
     if stage.active and state.engaged_side != side:
         corners.refuse_change(channel)
-        state.engaged_side = side
-        stage.change_side(side_on_display(channel))
-        return
+        stage.change_side(shown)
+        stage.change_radius(value, tip)
+    else:
+        stage.engage(shown, value, tip, place_of_block(channel))
     state.engaged_side = side
-    control = channel.control
-    tip = control.nose_tip(channel)
-    stage.engage(
-        side_on_display(channel), control.radius_value(channel, state.number), tip, place_of_block(channel)
-    )
     channel.context_changed()
 
 

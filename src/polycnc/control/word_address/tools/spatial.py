@@ -1,6 +1,7 @@
-"""Radius compensation in space under tip control: the tool stands beside the path, across path and tool (G41.2, G42.2).
+"""Radius compensation in space: the tool stands beside the path, across path and tool (G41.2, G42.2).
 
-The geometry is that of `compensation.spatial`; how corners are passed and what is refused is told by the controls.
+The geometry is that of `compensation.spatial` under tip control and of `compensation.spatial_axes` where words name the
+axes; how corners are passed and what is refused is told by the controls.
 """
 
 from __future__ import annotations
@@ -10,17 +11,24 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.knots import knot_context
 from polycnc.compensation.spatial import SpatialStage
+from polycnc.control.word_address.coordinates.systems import work_zero
 from polycnc.control.word_address.coordinates.tip import TipState
+from polycnc.control.word_address.tools import radius
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.transformation.orientation.solutions import Posture
 
 if TYPE_CHECKING:
-    from polycnc.compensation.spatial import Corners, Rules
+    from polycnc.compensation.spatial_rules import Corners, Rules
+    from polycnc.control.word_address.block.codes import Step
+    from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import WordAddressChannel
 
-#: Codes by the side of the path on which the tool stands; those that name the tool's direction by I J K.
-SIDES = {"G41.2": 1, "G42.2": -1, "G41.6": 1, "G42.6": -1}
+#: Codes by the side of the path on which the tool stands; G41.4 to G42.5 are the forms of FANUC 16i.
+SIDES = {
+    "G41.2": 1, "G42.2": -1, "G41.6": 1, "G42.6": -1, "G41.4": 1, "G42.4": -1, "G41.5": 1, "G42.5": -1,
+}  # fmt: skip
+#: Codes that name the tool's direction by I J K.
 BY_VECTOR = ("G41.6", "G42.6")
 #: Codes that mirror and scale what the program says.
 SHAPES = ("G50", "G50.1", "G51", "G51.1")
@@ -37,18 +45,37 @@ def engage(channel: WordAddressChannel, words: Words, corners: Corners, rules: R
     state = RadiusState.of(channel)
     number = words.integer("D")
     state.number = state.number if number is None else number
-    radius: float = channel.control.radius_value(channel, state.number)
+    amount: float = channel.control.radius_value(channel, state.number)
     side = SIDES[channel.mode["compensation"]] * (-1 if channel.coordinates.programming.mirrors else 1)
     stage = stage_of(channel)
     if stage is not None:
-        stage.change(side, radius)
+        stage.change(side, amount)
         return
-    c, frame = channel.coordinates, TipState.of(channel).frame
-    posture = Posture(channel.control.kinematics(channel), channel.axes, tuple(c.offsets), frame)
     channel.flush()
     channel.path.take(SpatialStage)
+    channel.path.put(_stage(channel, amount, side, corners, rules))
+
+
+def posture_of(channel: WordAddressChannel) -> Posture:
+    """How the tool stands on the work, by positions of the path."""
+    c = channel.coordinates
+    kinematics = channel.control.kinematics(channel)
+    return Posture(kinematics, channel.axes, tuple(c.offsets), TipState.of(channel).frame)
+
+
+def _stage(
+    channel: WordAddressChannel, amount: float, side: int, corners: Corners, rules: Rules
+) -> SpatialStage:
+    c, kinematics = channel.coordinates, channel.control.kinematics(channel)
     within = partial(knot_context, channel)
-    channel.path.put(SpatialStage(c.geometry, posture, radius, side, corners, rules, within))
+    if TipState.of(channel).active is not None or not kinematics.work:
+        return SpatialStage(c.geometry, posture_of(channel), amount, side, corners, rules, within)
+    from polycnc.compensation.spatial_axes import AxesStage
+    from polycnc.transformation.orientation.unled import Unled
+
+    zero = work_zero(channel, c.offsets)
+    table = Unled(kinematics, channel.axes, tuple(c.offsets), c.geometry, zero)
+    return AxesStage(c.geometry, table, amount, side, corners, rules, within)
 
 
 def end(channel: WordAddressChannel) -> None:
@@ -57,3 +84,16 @@ def end(channel: WordAddressChannel) -> None:
     if stage is not None and not stage.leaves:
         channel.flush()
         channel.path.take(SpatialStage)
+
+
+def plan_radius_number(builder: Builder) -> Step:
+    """D: number of the radius offset, modal; the new radius holds from the end of the block, in space as well."""
+    change = radius.plan_radius_number(builder)
+
+    def act(channel: WordAddressChannel, values: list[float]) -> None:
+        change(channel, values)
+        stage = stage_of(channel)
+        if stage is not None:
+            stage.change_radius(channel.control.radius_value(channel, RadiusState.of(channel).number))
+
+    return act

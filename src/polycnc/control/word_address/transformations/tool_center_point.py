@@ -1,7 +1,8 @@
 """G43.4, G43.5 tool centre point control: words name the tip against the work, the linear axes follow the rotary ones.
 
-The programming system is fixed to the table and turns with it (FANUC 19696#5 = 0). Positions in the toolpath are those
-of the tip; their context turns them into positions of the axes.
+The programming system is fixed to the table and turns with it (FANUC 19696#5 = 0): on FANUC and MELDAS it is the work
+system as that lies when tip control begins, on SYNTEC with the table at machine zero. Positions in the toolpath are
+those of the tip; their context turns them into positions of the axes.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from polycnc.control.word_address.motion.path import reach
 from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.tilted_plane import TiltState, nearest_angles
+from polycnc.geometry.frames import IDENTITY
 from polycnc.language.bulk import Straight, declare
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
@@ -31,11 +33,31 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.family import WordAddressChannel
-    from polycnc.geometry.frames import Vector
+    from polycnc.geometry.frames import Frame, Vector
 
 
 def start_following(channel: WordAddressChannel, words: Words) -> None:
-    """G43.4, G43.5 H: from here on positions are those of the tip. Without motion in its block nothing moves."""
+    """G43.4, G43.5 H: the system that the table takes along from here on is the work system, as that lies now.
+
+    Positions of the table that the block itself names count (FANUC A-79348E, page 19; 15i, B-63783EN-1, 10.4.14).
+    """
+    c = channel.coordinates
+    angles = dict(zip(channel.axes, c.machine, strict=True))
+    for axis, value, incremental in words.axes():
+        if channel.axis_data[axis].rotary:
+            name = channel.axes[axis]
+            angles[name] = angles[name] + value if incremental else value + c.offsets[axis]
+    follow_table(channel, words, channel.control.kinematics(channel).work_turn(angles))
+
+
+def follow_table(channel: WordAddressChannel, words: Words, begun: Frame = IDENTITY) -> None:
+    """From here on positions are those of the tip; without motion in its block nothing moves.
+
+    Args:
+        channel: The channel.
+        words: Words of the block.
+        begun: How the table has turned where the system that it takes along is the work system; not at all at zero.
+    """
     from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
 
     state = LengthState.of(channel)
@@ -50,6 +72,7 @@ def start_following(channel: WordAddressChannel, words: Words) -> None:
     state.number = state.number if number is None else number
     value = channel.control.length_value(channel, state.number) if state.number else 0.0
     c.transform(None)
+    tip.TipState.of(channel).begun = begun
     ZeroState.of(channel).length = [0.0] * len(channel.axes)
     refresh_zero(channel)
     following = ToolCentrePoint(kinematics, channel.axes, c.geometry, tuple(c.offsets), (0.0, 0.0, -value))
@@ -168,6 +191,7 @@ def end_following(channel: WordAddressChannel) -> None:
     state = tip.TipState.of(channel)
     leads = state.is_leading(channel)
     state.active = state.seated = None
+    state.begun = IDENTITY
     if not leads:
         return
     channel.coordinates.transform(None)

@@ -10,8 +10,9 @@ from math import nan
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.block.rules import Rule
-from polycnc.control.word_address.coordinates import on_table, tip
+from polycnc.control.word_address.coordinates import on_table
 from polycnc.control.word_address.coordinates.on_table import OnTable
+from polycnc.control.word_address.coordinates.systems import plane_on_table
 from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.cycles import drilling
 from polycnc.control.word_address.motion.path import reach
@@ -213,7 +214,8 @@ def _plan_posture(builder: Builder, plan: Plan) -> Step | None:
             else:
                 posture[name] = goal[word.axis] + c.offsets[word.axis]
         _check_posture(channel)
-        wanted = tip.direction(channel, channel.control.kinematics(channel).tool_on_work(posture))
+        told = channel.control.kinematics(channel).tool_on_work(posture)
+        wanted = plane_on_table(channel, c.offsets).direct(*told)
         angles = nearest_angles(channel, wanted, posture)
         if angles is None:
             raise channel.control.fail("tip_direction", address=rotary[0].address)

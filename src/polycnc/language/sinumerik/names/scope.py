@@ -206,8 +206,8 @@ class Scope:
                         codes.append(constant(None))
             reader.expect(closing)
         if letters != "*":
-            wanted = sum(letter.isupper() or letter in "[?" for letter in letters)
-            if len(codes) < wanted and not (letters[len(codes)] == "?"):
+            missing = letters[len(codes) :]
+            if any(letter.isupper() or letter == "[" for letter in missing) and missing[0] != "?":
                 raise NcSyntaxError("14020", token.column, token.text)
             codes += [constant(None)] * (len(letters) - len(codes))
         return sequence(codes)

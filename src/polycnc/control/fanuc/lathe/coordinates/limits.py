@@ -89,6 +89,11 @@ def renew_zones(channel: LatheChannel) -> None:
 
 def _zone_of_words(channel: LatheChannel, words: Words) -> StrokeZone | None:
     upper = {axis: value for axis, value, _ in words.axes()}
+    beside = next(
+        (word for word in words.plan.axis_words if word.axis not in channel.coordinates.geometry), None
+    )
+    if beside is not None:
+        raise words.fail("address", beside.address)
     named: list[tuple[int, float, float]] = []
     for letter, axis in zip("IJK", channel.coordinates.geometry, strict=True):
         low = words.length(letter, diameter=axis >= 0 and channel.control.is_diameter(channel, axis))

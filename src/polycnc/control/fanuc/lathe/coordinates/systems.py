@@ -248,6 +248,10 @@ def rotate(channel: LatheChannel, words: Words) -> None:
     if channel.mode["motion"] not in ("G0", "G1"):
         raise words.fail("rotation_form", "G68.1")
     center = c.programmed[:]
+    plane = plane_axes(channel)
+    for word in words.plan.axis_words:
+        if word.axis not in plane:
+            raise words.fail("rotation_form", word.address)
     for axis, value, _ in words.axes():
         center[axis] = value
     angle = words.angle("R")

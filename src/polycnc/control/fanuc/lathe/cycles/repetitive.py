@@ -469,6 +469,7 @@ def thread(channel: LatheChannel, words: Words) -> None:
 
 def _store_thread(channel: LatheChannel, words: Words) -> None:
     """The first block of G76: P packs finishing passes, chamfer in 0.1 leads and tip angle; Q and R are depths."""
+    _check_words(words, ("P", "Q"), ("R",))
     store = channel.memory.set_cycle_parameter
     packed = words.integer("P") if "P" in words else None
     if packed is not None:

@@ -17,6 +17,7 @@ from polycnc.control.fanuc.lathe.motion.corners import LEAST_ANGLE_DEG, corner_s
 from polycnc.control.word_address.block.numbers import Convert, angle_converter
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion import path
+from polycnc.control.word_address.motion.line_by_angle import leaves_line
 from polycnc.deferred.records import dataclass
 from polycnc.geometry import offset
 from polycnc.geometry.frames import cos_sin_deg
@@ -162,6 +163,8 @@ class _DrawingWords:
         start = channel.coordinates.programmed
         named = {word.axis for word in self.plan.axis_words}
         if first in named and second in named:
+            if leaves_line(end[first] - start[first], end[second] - start[second], angle_deg):
+                raise self.control.fail("drawing_increment", address=self._angle or "")
             return end
         slope = radians(angle_deg)
         if first in named:

@@ -10,7 +10,12 @@ from polycnc.control.fanuc.lathe.tools.offset_memory import OffsetMemory, y_offs
 from polycnc.control.fanuc.lathe.tools.offsets import MAX_OFFSETS, offset_changed, refresh
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.macro_b import parameter_input
-from polycnc.control.word_address.tools.data_input import TOOL_LIFE, WORK_SYSTEMS, life_not_counted
+from polycnc.control.word_address.tools.data_input import (
+    TOOL_LIFE,
+    WORK_SYSTEMS,
+    life_not_counted,
+    refuse_words,
+)
 
 if TYPE_CHECKING:
     from polycnc.control.fanuc.lathe.family import LatheChannel
@@ -75,6 +80,7 @@ def plan_parameter_block(builder: Builder, plan: Plan) -> Step | None:
 
 
 def _set_work_offset(channel: LatheChannel, words: Words, offset: list[float]) -> None:
+    refuse_words(words, "RCQEF".translate(str.maketrans("", "", "".join(channel.axes))))
     for axis, value, incremental in words.axes():
         offset[axis] = offset[axis] + value if incremental else value
     refresh(channel)

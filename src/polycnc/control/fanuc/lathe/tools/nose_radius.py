@@ -35,6 +35,7 @@ def policy(channel: LatheChannel) -> Policy:
     return replace(
         TYPE_A,
         approach=Approach.CORNER if parameters.SUP else Approach.SQUARE,
+        bare_cancel_is_square=True,
         shifts_without_motion=parameters.SUV,
         outer=Outer(90.0, Joint.ARC) if parameters.CCC else TYPE_A.outer,
         read_blocks=min(max(parameters.read_blocks, 3), 8),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import dist
+from math import dist, radians, tan
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.control.sinumerik.cycles.moves import require_tool
@@ -25,6 +25,8 @@ GROOVES = (*range(1, 9), *range(11, 19))
 CHAMFERS_BY_LEG = 10
 #: Flanks lean less than this, degrees.
 UPRIGHT = 89.999
+#: A contour across the work stands so on its axis, where STA1 is told, degrees.
+SQUARE = 90.0
 
 
 class Seat(NamedTuple):
@@ -58,35 +60,41 @@ def groove(moves: Moves, a: Arguments) -> None:
     Raises:
         AlarmError: 61000 without tool offset, 61002 for VARI, 61602 for a tool without width or one that does not fit,
             61603 for a groove without width or depth or whose corners do not fit, 61608 for an edge that looks
-            another way; PC0001 for one on a slanted contour.
+            another way.
     """
     require_tool(moves)
     if a.integer("VARI") not in GROOVES:
         raise AlarmError("61002")
     if not abs(a["WIDG"]) or not abs(a["DIAG"]):
         raise AlarmError("61603")
-    if a["STA1"]:
-        raise not_supported("CYCLE93 STA1")
     if not all(0.0 <= a[name] < UPRIGHT for name in ("ANG1", "ANG2")):
         raise AlarmError("61603")
     seat = SEATS[a.digit("VARI", 0)]
-    _require_edge(moves, seat)
+    require_edge(moves, across=seat.across, inwards=seat.inwards)
     shape = Groove(
         abs(a["WIDG"]),
         abs(a["DIAG"]),
-        _tool_width(moves, a.integer("_DN"), _ALONG_X if seat.across else _ALONG_Z),
+        tool_width(moves, a.integer("_DN"), _ALONG_X if seat.across else _ALONG_Z),
         base_allowance=abs(a["FAL1"]),
         flank_allowance=abs(a["FAL2"]),
         infeed=abs(a["IDEP"]),
         lift=a["_VRT"] if a["_VRT"] > 0.0 else LIFT_MM,
         sides=(_side(a, 1), _side(a, 2)),
         nose_radius=stages.radius(moves.channel),
+        slope=_slope(seat, a["STA1"]),
     )
     home, feed = moves.point, moves.channel.feed
     start = (a["SPD"], a["SPL"]) if seat.across else (a["SPL"], a["SPD"])
     _cut(moves, _strokes(shape), Placing(shape, seat, start), feed, a["DTB"])
     moves.rapid(*home)
     moves.end_block()
+
+
+def _slope(seat: Seat, angle: float) -> float:
+    """How a groove's depth grows along it on a contour that stands at an angle to Z; 0 or left out: along its axis."""
+    if not angle:
+        return 0.0
+    return tan(radians(SQUARE - angle if seat.across else angle)) * seat.onwards * seat.inwards
 
 
 def _strokes(shape: Groove) -> list[GrooveStroke]:
@@ -114,16 +122,16 @@ def _corner(a: Arguments, name: str) -> Corner:
     return Corner(leg=-size) if a.integer("VARI") >= CHAMFERS_BY_LEG else Corner(length=-size)
 
 
-def _require_edge(moves: Moves, seat: Seat) -> None:
+def require_edge(moves: Moves, *, across: bool, inwards: float) -> None:
     """61608 for an active edge with a nose that is not the tool's corner towards smaller positions, and the base."""
     along, deep = stages.tip(moves.channel)
-    if seat.across:
+    if across:
         along, deep = deep, along
-    if stages.radius(moves.channel) > _ROUNDING and dist((along, deep), (-1.0, seat.inwards)) > _ROUNDING:
+    if stages.radius(moves.channel) > _ROUNDING and dist((along, deep), (-1.0, inwards)) > _ROUNDING:
         raise AlarmError("61608")
 
 
-def _tool_width(moves: Moves, number: int, length: int) -> float:
+def tool_width(moves: Moves, number: int, length: int) -> float:
     """From the active edge to the second one along Z or X; 61602 where there is none."""
     tools = moves.memory.tools
     first, second = tools.edge, tools.edges.get(number or tools.edge_number + 1)
@@ -171,13 +179,21 @@ def _cut(moves: Moves, way: list[GrooveStroke], placing: Placing, feed: float, d
 
 # ---- grooves of the editor
 
-#: Digits of _VARI of CYCLE930: nothing, stage, seat, place of the reference point, a choice of the editor's mask.
-_STAGE, _SEAT, _REFERENCE, _CHOICE = 1, 2, 3, 4
+#: Digits of _VARI of CYCLE930: nothing, stage, seat, place of the reference point, allowances along each axis.
+_STAGE, _SEAT, _REFERENCE, _ALLOWANCES = 1, 2, 3, 4
 ROUGHING, FINISHING, COMPLETE = 1, 2, 3
+#: _ALLOWANCES: `_FAL` along the contour, or `_FALX` and `_FALZ`.
+EVEN, ODD = 0, 1
 #: Two plunges are at most this share of the tool's width apart.
 STEP = 0.8
-#: Corners as they stand in the call: at the rim and at the base where it begins, then on the other side.
-CORNERS = (("_RCO1", "_RCI1"), ("_RCO2", "_RCI2"))
+#: Corners as they stand in the call, at the rim and at the base where it begins, then on the other side, and the digits
+#: of _AMODE that make chamfers of them. In front of these stand those of the depths, and what the width is told for.
+CORNERS = ((("_RCO1", 3), ("_RCI1", 4)), (("_RCO2", 6), ("_RCI2", 5)))
+_DEPTH, _OTHER_DEPTH, _WIDTH = 0, 1, 2
+#: Forms by _NR: a rectangle, one with leaning walls and corners, the same on a slanted contour.
+RECTANGLE, SHAPED, ON_CONE = 0, 1, 2
+#: Sizes that the mask shows beside others are rounded by less, mm.
+_SHOWN_MM = 2e-3
 
 
 def grooves(moves: Moves, a: Arguments) -> None:
@@ -186,8 +202,8 @@ def grooves(moves: Moves, a: Arguments) -> None:
     Raises:
         AlarmError: 61000 without tool offset, 61002 for `_VARI`, 61003 without feed, 61602 for a tool without width or
             one that does not fit, 61603 for a groove without width or depth or whose corners do not fit, 61608 for an
-            edge that looks another way; PC0001 for one on a slanted contour, from its base, with chamfers, and for
-            sizes that contradict each other.
+            edge that looks another way; PC0001 for one that is told from its base, and for sizes that contradict
+            each other.
     """
     require_tool(moves)
     number, stage = a.digit("_VARI", _SEAT), a.digit("_VARI", _STAGE)
@@ -196,13 +212,15 @@ def grooves(moves: Moves, a: Arguments) -> None:
     seat, feed = SEATS[number], abs(a["_FF1"])
     if not feed:
         raise AlarmError("61003")
-    _require_edge(moves, seat)
+    require_edge(moves, across=seat.across, inwards=seat.inwards)
     shape = _of_mask(moves, a, seat, stage)
-    _refuse(a, shape)
     way = _strokes(shape)
+    _refuse(a, shape, seat)
     start = (a["_SPD"], a["_SPL"]) if seat.across else (a["_SPL"], a["_SPD"])
+    # A row lies along its contour.
+    along, deep = a["_DBH"], a["_DBH"] * shape.slope * seat.onwards * seat.inwards
     for k in range(max(a.integer("_NUM"), 1)):
-        placing = Placing(shape, seat, (start[0] + k * a["_DBH"], start[1]))
+        placing = Placing(shape, seat, (start[0] + k * along, start[1] + k * deep))
         _approach(moves, placing, way)
         _cut(moves, way, placing, feed, 0.0)
 
@@ -212,23 +230,23 @@ def _of_mask(moves: Moves, a: Arguments, seat: Seat, stage: int) -> Groove:
     if not all(0.0 <= a[name] < UPRIGHT for name in ("_ANG1", "_ANG2")):
         raise AlarmError("61603")
     depth = abs(a["_DIAG"])
-    if a.digit("_AMODE", 0) == 0:
+    if a.digit("_AMODE", _DEPTH) == 0:
         base = a["_DIAG"] * (1.0 if seat.across else 0.5)
         depth = (base - a["_SPL" if seat.across else "_SPD"]) * seat.inwards
     if depth <= 0.0 or not abs(a["_WIDG"]):
         raise AlarmError("61603")
     deep, aside = ("_FALZ", "_FALX") if seat.across else ("_FALX", "_FALZ")
-    roughs = stage != FINISHING
+    roughs, even = stage != FINISHING, a["_FAL"] if a.digit("_VARI", _ALLOWANCES) == EVEN else 0.0
     sides = [
-        Side(a[f"_ANG{number}"], Corner(radius=abs(a[rim])), Corner(radius=abs(a[base])))
+        Side(a[f"_ANG{number}"], _broken(a, *rim), _broken(a, *base))
         for number, (rim, base) in enumerate(CORNERS, 1)
     ]
     return Groove(
         abs(a["_WIDG"]),
         depth,
-        _tool_width(moves, a.integer("_DN"), _ALONG_X if seat.across else _ALONG_Z),
-        base_allowance=abs(a["_FAL"] or a[deep]) if roughs else 0.0,
-        flank_allowance=abs(a["_FAL"] or a[aside]) if roughs else 0.0,
+        tool_width(moves, a.integer("_DN"), _ALONG_X if seat.across else _ALONG_Z),
+        base_allowance=abs(even or a[deep]) if roughs else 0.0,
+        flank_allowance=abs(even or a[aside]) if roughs else 0.0,
         infeed=abs(a["_IDEP1"]),
         lift=abs(a["_SDIS"]) or LIFT_MM,
         sides=(sides[0], sides[1]),
@@ -237,23 +255,38 @@ def _of_mask(moves: Moves, a: Arguments, seat: Seat, stage: int) -> Groove:
         alternates=True,
         roughs=roughs,
         finishes=None if stage == COMPLETE else not roughs,
+        slope=_slope(seat, a["_STA"]),
     )
 
 
-def _refuse(a: Arguments, shape: Groove) -> None:
+def _broken(a: Arguments, name: str, digit: int) -> Corner:
+    """A corner of the mask: a radius, or a chamfer by what it leaves out."""
+    size = abs(a[name])
+    return Corner(leg=size) if a.digit("_AMODE", digit) else Corner(radius=size)
+
+
+def _refuse(a: Arguments, shape: Groove, seat: Seat) -> None:
     """What is not executed, or contradicts itself."""
-    has_corners = any(a[name] for pair in CORNERS for name in pair)
+    form = a.integer("_NR") if a.given("_NR") else ON_CONE
     even, odd = abs(a["_FAL"]), (abs(a["_FALX"]), abs(a["_FALZ"]))
+    depth = abs(a["_DIAG"])
+    # Told as a position, the base lies elsewhere at the other end of a slope.
+    other = a["_DIAG"] + seat.inwards * shape.slope * shape.top * (1.0 if seat.across else 2.0)
     unknown = {
-        "_STA": bool(a["_STA"]),
-        "_WIDG2": bool(a["_WIDG2"]) and abs(abs(a["_WIDG2"]) - shape.top) > _ROUNDING,
-        "_DIAG2": bool(a["_DIAG2"]) and abs(abs(a["_DIAG2"]) - abs(a["_DIAG"])) > _ROUNDING,
-        "_FAL": bool(even and any(odd)) and odd != (even, even),
+        "_WIDG2": bool(a["_WIDG2"]) and abs(abs(a["_WIDG2"]) - shape.top) > _SHOWN_MM,
+        "_DIAG2": bool(a["_DIAG2"])
+        and min(abs(abs(a["_DIAG2"]) - of) for of in (depth, abs(other))) > _SHOWN_MM,
+        "_FAL": a.digit("_VARI", _ALLOWANCES) == EVEN and bool(even and any(odd)) and odd != (even, even),
         "_VARI": a.digit("_VARI", 0) != 0
         or a.digit("_VARI", _REFERENCE) != 0
-        or a.integer("_VARI") >= 2 * 10**_CHOICE
-        or (a.digit("_VARI", _CHOICE) != 0 and any(shape.feet)),
-        "_AMODE": a.digit("_AMODE", 0) > 1 or (has_corners and a.integer("_AMODE") >= 10),
+        or a.integer("_VARI") >= (ODD + 1) * 10**_ALLOWANCES,
+        "_NR": not RECTANGLE <= form <= ON_CONE
+        or (form == RECTANGLE and not all(side.is_plain for side in shape.sides))
+        or (form != ON_CONE and shape.is_slanted),
+        "_AMODE": a.digit("_AMODE", _DEPTH) > 1
+        or a.digit("_AMODE", _OTHER_DEPTH) > 1
+        or (a.digit("_AMODE", _WIDTH) != 0 and any(shape.feet))
+        or any(a.digit("_AMODE", digit) > 1 for pair in CORNERS for _, digit in pair),
         "_NUM": a.integer("_NUM") > 1 and not a["_DBH"],
     }
     for name, wrong in unknown.items():
@@ -264,7 +297,7 @@ def _refuse(a: Arguments, shape: Groove) -> None:
 def _approach(moves: Moves, placing: Placing, way: list[GrooveStroke]) -> None:
     """Over the first place of a groove, axis by axis: out to the safety distance first, never down."""
     first = next(stroke.end for stroke in way if stroke.end is not None)
-    over = placing.point((first[0], -placing.shape.lift))
+    over = placing.point((first[0], placing.shape.over))
     across = placing.seat.across
     deep = 0 if across else 1
     here = moves.point

@@ -44,15 +44,20 @@ def thread_chain(moves: Moves, a: Arguments) -> None:
 
 
 #: CYCLE99: what its parameters must be, as far as it is executed: one pitch, lengthwise, absolute.
-_ONLY_ZERO = "_GDEP _PIT1 _FDEP _GST _GUD _MID _AMODE".split()  # noqa: SIM905 - a table
+_ONLY_ZERO = "_GDEP _PIT1 _FDEP _GST _GUD _AMODE".split()  # noqa: SIM905 - a table
 _PITCH_UNITS = (0, 1)
-#: Digits of its VARI: how cuts go in, and whether it roughs and finishes.
-INFEED_PLACE, STAGE_PLACE, ALTERNATING = 2, 5, 2
-_COMPLETE = (0, 3)
+#: Digits of its VARI: how cuts go in, whether it roughs and finishes, the order of the starts.
+INFEED_PLACE, STAGE_PLACE, ORDER_PLACE, ALTERNATING = 2, 5, 6, 2
+ROUGHING, FINISHING, COMPLETE = 1, 2, 3
 
 
 def thread_of_plane(moves: Moves, a: Arguments) -> None:
-    """CYCLE99: thread lengthwise, roughed and finished; other kinds are PC0001."""
+    """CYCLE99: thread lengthwise, roughed, finished or both; other kinds are PC0001.
+
+    Raises:
+        AlarmError: 61001 without pitch, 61002 for VARI, 61601 for one deeper than its radius, 61610 for roughing
+            without number or depth of cuts; PC0001 for what is not executed.
+    """
     kind = a.digit("_VARI", 0)
     if kind not in KINDS:
         raise AlarmError("61002")
@@ -62,8 +67,17 @@ def thread_of_plane(moves: Moves, a: Arguments) -> None:
     wrong = [name for name in _ONLY_ZERO if a.plain(name)]
     if a.integer("_PITA") not in _PITCH_UNITS:
         wrong.append("_PITA")
-    if wrong or a.digit("_VARI", STAGE_PLACE) not in _COMPLETE or not a.integer("_NRC"):
-        raise not_supported(f"CYCLE99 {wrong[0] if wrong else '_VARI'}")
+    if a.digit("_VARI", ORDER_PLACE) and a.integer("_NUMT") > 1:
+        wrong.append("_VARI")
+    if a.integer("_NRC") and a["_MID"]:
+        wrong.append("_MID")  # which of both counts?
+    if wrong:
+        raise not_supported(f"CYCLE99 {wrong[0]}")
+    stage = a.digit("_VARI", STAGE_PLACE) or COMPLETE
+    if stage > COMPLETE:
+        raise AlarmError("61002")
+    if stage != FINISHING and not a.integer("_NRC") and not abs(a["_MID"]):
+        raise AlarmError("61610")
     flank = a["_IANG"]
     if not flank and a["_IFLANK"]:
         flank = degrees(atan2(abs(a["_IFLANK"]), abs(a["_TDEP"])))
@@ -71,7 +85,7 @@ def thread_of_plane(moves: Moves, a: Arguments) -> None:
         flank = -abs(flank)
     # The editor leaves the second diameter out where the thread is none of a taper.
     corners = [(a["_SPL"], a["_DM1"]), (a["_FPL"], a["_DM2"] or a["_DM1"])]
-    _thread(moves, a, corners, [lead], prefix="_", kind=kind, flank=flank, lift=a["_SDIS"])
+    _thread(moves, a, corners, [lead], prefix="_", kind=kind, flank=flank, lift=a["_SDIS"], stage=stage)
 
 
 def _thread(
@@ -84,6 +98,7 @@ def _thread(
     kind: int | None = None,
     flank: float | None = None,
     lift: float | None = None,
+    stage: int = COMPLETE,
 ) -> None:
     """Cut a thread; what is not given here has the names of CYCLE97, behind a prefix."""
     kind = a.integer("VARI") if kind is None else kind
@@ -95,6 +110,10 @@ def _thread(
             raise not_supported(f"{a.cycle}: face thread")
     if kind not in INSIDE_KINDS and min(radius for _, radius in corners) < abs(a[f"{prefix}TDEP"]):
         raise AlarmError("61601")
+    cuts, degressive = max(a.integer(f"{prefix}NRC"), 1), kind in (3, 4)
+    if a.has("_MID") and a["_MID"]:
+        rough = max(abs(a["_TDEP"]) - abs(a["_FAL"]), 0.0)
+        cuts = thread_turning.cuts_of_first(rough, abs(a["_MID"]), degressive=degressive)
     cutting = Thread(
         corners,
         leads,
@@ -102,14 +121,16 @@ def _thread(
         run_out=abs(a[f"{prefix}ROP"]),
         depth=abs(a[f"{prefix}TDEP"]),
         allowance=abs(a[f"{prefix}FAL"]),
-        cuts=max(a.integer(f"{prefix}NRC"), 1),
+        cuts=cuts,
         idle=max(a.integer(f"{prefix}NID"), 0),
         inside=kind in INSIDE_KINDS,
-        degressive=kind in (3, 4),
+        degressive=degressive,
         flank_deg=a[f"{prefix}IANG"] if flank is None else flank,
         start_angle_deg=a[f"{prefix}NSP"],
         starts=max(a.integer(f"{prefix}NUMT"), 1),
         lift=lift if lift > 0.0 else LIFT_MM,
+        roughs=stage != FINISHING,
+        finishes=stage != ROUGHING,
     )
     for stroke in thread_turning.strokes(cutting):
         if stroke.lead:

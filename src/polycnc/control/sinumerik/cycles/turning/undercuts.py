@@ -17,6 +17,7 @@ from polycnc.cycles.count import parts
 from polycnc.cycles.turning import undercut as shapes
 from polycnc.cycles.turning.allowance import with_stock
 from polycnc.cycles.turning.contour import Contour, Piece, shifted
+from polycnc.cycles.turning.groove import GrooveError
 from polycnc.cycles.turning.stock_removal import Removal, remove
 from polycnc.cycles.turning.stroke import PlaneStroke
 from polycnc.geometry import offset
@@ -65,7 +66,7 @@ def undercut(moves: Moves, a: Arguments) -> None:
 
     work = Work(moves, across=False, towards=towards)
     place = Placing(a["SPL"], surface, onwards, towards)
-    path = work.tool_path(place.contour(shapes.contour(shape, START_ABOVE_MM)), 0.0)
+    path = work.tool_path(place.contour(shapes.contour(shape, None if shape.face else START_ABOVE_MM)), 0.0)
     home = place.point((START_BESIDE_MM, -START_ABOVE_MM))
     _cut(work, path, home, moves.channel.feed)
     work.perform(PlaneStroke(Kind.RAPID, home), 0.0)
@@ -139,22 +140,22 @@ _STAGE, _WAY = 0, 1
 ROUGHING, FINISHING, COMPLETE = 1, 2, 3
 ALONG_CONTOUR, LENGTHWISE = 0, 1
 ON_SHAFTS, FREE = ("E", "F"), "T"
-#: Pitches of the editor's list, _PITI (DIN 76).
-PITCHES = (
-    0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 0.6, 0.7, 0.75, 0.8, 1.0, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0,
-    5.5, 6.0,
-)  # fmt: skip
-#: _AMODE with all values absolute, or all of them relative.
-_ABSOLUTE, _RELATIVE = 0, 111
+#: Pitches of the editor's list, _PITI, from 0 on (DIN 76).
+PITCHES = tuple(shapes.THREADS)
+#: Digits of _AMODE: what counts from X0, Z0 and X0.
+_X1, _Z1, _VX = 0, 1, 2
+#: Steepest way down into an undercut, degrees.
+SQUARE = 90.0
 
 
 def undercut_of_mask(moves: Moves, a: Arguments) -> None:
-    """CYCLE940: forms E and F in one cut, A and B roughed, finished or both.
+    """CYCLE940: forms E and F in one cut; A to D of threads and the free form T roughed, finished or both.
 
     Raises:
-        AlarmError: 61000 without tool offset, 61002 for `_VARI` and `_LAGE`, 61003 without feed, 61601 for a diameter
-            below 3 mm, 61606 for a nose that does not fit, 61608 for a tool point that cannot, 61609 for a form that
-            does not exist, 61610 for roughing without depth; PC0001 for form T, C and D, allowances of E and F.
+        AlarmError: 61000 without tool offset, 61001 for a pitch that is not in the list, 61002 for `_VARI` and `_LAGE`,
+            61003 without feed, 61601 for a diameter that is too small, 61606 for a nose, slope or corner that does not
+            fit, 61608 for a tool point that cannot, 61609 for a form that does not exist, 61610 for roughing without
+            depth; PC0001 for an allowance on the face of form E, and values that contradict each other.
     """
     require_tool(moves)
     form = a.text("_FORM").strip().upper()
@@ -166,22 +167,22 @@ def undercut_of_mask(moves: Moves, a: Arguments) -> None:
     number = _edge_position(moves)
     if number is None or SEATS[number] != seat:
         raise AlarmError("61608")
+    onwards, towards = CORNERS[number]
+    if form in FORMS["CYCLE96"] and (form in shapes.INSIDE) is not (towards > 0.0):
+        raise AlarmError("61608")
     _refuse(a, form)
     feed, lift = feed_of(a, "_FFP"), abs(a["_SDIS"]) or LIFT_MM
-    onwards, towards = CORNERS[number]
-    if form in ON_SHAFTS:
-        if 2.0 * a["_SPD"] < LEAST_DIAMETER_MM - _ROUNDING:
-            raise AlarmError("61601")
-        shape = shapes.of_shaft(form, 2.0 * a["_SPD"])
-    else:
-        shape = _of_pitch(a, form)
-    work = Work(moves, across=False, towards=towards)
-    place = Placing(a["_SPL"], a["_SPD"], onwards, towards)
-    contour = place.contour(shapes.contour(shape, _up_the_face(a, towards, lift)))
-    home = place.point((shape.width + lift, -lift))
+    shape, surface = _shape(a, form, onwards, towards)
     stage = FINISHING if form in ON_SHAFTS else a.digit("_VARI", _STAGE)
     if not ROUGHING <= stage <= COMPLETE:
         raise AlarmError("61002")
+    work = Work(moves, across=False, towards=towards)
+    place = Placing(a["_SPL"], surface, onwards, towards)
+    try:
+        contour = place.contour(shapes.contour(shape, _up_the_face(a, place, shape, lift)))
+    except GrooveError:
+        raise AlarmError("61606") from None
+    home = place.point((shape.reach + lift, -shape.stock - lift))
     if stage != FINISHING:
         _rough(work, a, contour, home, shape.depth)
     if stage != ROUGHING:
@@ -190,14 +191,12 @@ def undercut_of_mask(moves: Moves, a: Arguments) -> None:
 
 
 def _refuse(a: Arguments, form: str) -> None:
-    """What is not executed."""
+    """What is not executed, or contradicts itself."""
     is_shaft = form in ON_SHAFTS
     even, odd = abs(a["_FAL"]), (abs(a["_FALX"]), abs(a["_FALZ"]))
     unknown = {
-        f"_FORM {form}": form == FREE or form in shapes.INSIDE,
-        "_EPD": is_shaft and a["_EPD"] not in (0.0, 2.0 * a["_SPD"]),
-        "_EPL": is_shaft and a["_EPL"] not in (0.0, a["_SPL"]),
-        "_VRT": bool(a["_VRT"]) and a.integer("_AMODE") not in (_ABSOLUTE, _RELATIVE),
+        "_EPL": form == "E" and a["_EPL"] not in (0.0, 0.0 if a.digit("_AMODE", _Z1) else a["_SPL"]),
+        "_AMODE": a.integer("_AMODE") >= 1000 or any(a.digit("_AMODE", k) > 1 for k in (_X1, _Z1, _VX)),
         "_VARI": not is_shaft and a.digit("_VARI", _WAY) > LENGTHWISE,
         "_FAL": not is_shaft and bool(even and any(odd)) and odd != (even, even),
     }
@@ -206,28 +205,58 @@ def _refuse(a: Arguments, form: str) -> None:
             raise not_supported(f"CYCLE940 {name}")
 
 
-def _of_pitch(a: Arguments, form: str) -> shapes.Undercut:
-    """Form A or B by the pitch of the editor's list, which must be the coarse one of the diameter.
+def _shape(a: Arguments, form: str, onwards: float, towards: float) -> tuple[shapes.Undercut, float]:
+    """The undercut of a call, and the radius of the surface it begins on.
 
     Raises:
-        AlarmError: 61001 for a diameter of no coarse thread; PC0001 for another pitch than its own.
+        AlarmError: 61001 for a pitch that is not in the list, 61601 for a diameter that is too small, 61606 for an
+            undercut without depth or width or an angle that is none.
     """
-    found = shapes.of_thread(form, 2.0 * a["_SPD"])
-    if found is None:
-        raise AlarmError("61001")
-    number = a.integer("_PITI")
-    if not 0 <= number < len(PITCHES) or PITCHES[number] != shapes.PITCHES[round(2.0 * a["_SPD"])]:
-        raise not_supported("CYCLE940 _PITI")
-    return found[0]
+    if form in ON_SHAFTS:
+        if 2.0 * a["_SPD"] < LEAST_DIAMETER_MM - _ROUNDING:
+            raise AlarmError("61601")
+        # What is left for grinding, where it is told: up to a diameter and a place, or so much.
+        stock = _beyond(a, "_EPD", _X1, a["_SPD"], -towards) if a["_EPD"] else 0.0
+        on_face = _beyond(a, "_EPL", _Z1, a["_SPL"], onwards) if form == "F" and a["_EPL"] else 0.0
+        if min(stock, on_face) < 0.0:
+            raise AlarmError("61606")
+        return shapes.of_shaft(form, 2.0 * a["_SPD"])._replace(stock=stock, face_stock=on_face), a["_SPD"]
+    slope = a["_STA"]
+    if not 0.0 <= slope <= SQUARE or (form == FREE and not slope):
+        raise AlarmError("61606")
+    if form == FREE:
+        depth = _beyond(a, "_EPD", _X1, a["_SPD"], towards)
+        width = _beyond(a, "_EPL", _Z1, a["_SPL"], onwards)
+        if depth <= 0.0 or width <= 0.0:
+            raise AlarmError("61606")
+        shape = shapes.Undercut(width, depth, abs(a["_R1"]), slope, corner=abs(a["_R2"]))
+        surface = a["_SPD"]
+    else:
+        number = a.integer("_PITI")
+        if not 0 <= number < len(PITCHES):
+            raise AlarmError("61001")
+        shape, surface = shapes.of_pitch(form, 2.0 * a["_SPD"], PITCHES[number], slope)
+    if surface + towards * shape.depth <= 0.0 or surface <= 0.0:
+        raise AlarmError("61601")
+    return shape, surface
 
 
-def _up_the_face(a: Arguments, towards: float, lift: float) -> float:
-    """How far the cut goes up the face of the shoulder: by `_VRT`, to the diameter it names, else by the lift-off."""
-    if not a["_VRT"]:
-        return lift
-    if a.integer("_AMODE") == _RELATIVE:
-        return abs(a["_VRT"])
-    return max((a["_SPD"] - 0.5 * a["_VRT"]) * towards, 0.0) or lift
+def _beyond(a: Arguments, name: str, digit: int, reference: float, sense: float) -> float:
+    """How far an end lies beyond X0 or Z0, as a position (a diameter along X) or so much from there (of radius)."""
+    if a.digit("_AMODE", digit):
+        return abs(a[name])
+    return (a[name] * (0.5 if digit == _X1 else 1.0) - reference) * sense
+
+
+def _up_the_face(a: Arguments, place: Placing, shape: shapes.Undercut, lift: float) -> float | None:
+    """How far the cut goes up the face of the shoulder: by `_VRT`, to the diameter it names, else by the lift-off.
+
+    Form F ends where its slope leaves the face, unless `_VRT` says more.
+    """
+    out = abs(a["_VRT"]) if a.digit("_AMODE", _VX) else (place.surface - 0.5 * a["_VRT"]) * place.towards
+    if not a["_VRT"] or out <= 0.0:
+        return None if shape.face else shape.stock + lift
+    return max(out, shape.stock)
 
 
 def _rough(work: Work, a: Arguments, contour: Contour, home: Point, depth: float) -> None:

@@ -69,12 +69,19 @@ class Work:
             raise AlarmError("61608")
 
     def tool_path(
-        self, contour: Contour, allowance: float, *, roughs: bool = False, rounds_begin: bool = False
+        self,
+        contour: Contour,
+        allowance: float,
+        *,
+        roughs: bool = False,
+        rounds_begin: bool = False,
+        rounds_end: bool = False,
     ) -> Contour:
         """Where the tool's point runs: the nose lies on the contour, or an allowance off it.
 
         Roughing leaves stock in a rounding that is too narrow for both. `rounds_begin`: the nose comes round an open
-        end from which the contour goes down, for it passes over that end.
+        end from which the contour goes down, for it passes over that end; `rounds_end`: it comes over the end to which
+        the contour rises.
 
         Raises:
             AlarmError: 61606 where the nose does not fit the contour.
@@ -89,6 +96,8 @@ class Work:
             raise AlarmError("61606") from None
         if rounds_begin:
             path = [*self._round_begin(contour[0].edge, path[0].edge.start, off, contour[-1].edge.end), *path]
+        if rounds_end:
+            path = [*path, *self._round_end(contour, path[-1].edge.end, off)]
         return shifted(path, *self.pair(radius * first, radius * second))
 
     def _round_begin(self, first: Edge, onto: Point, off: float, end: Point) -> Contour:
@@ -99,6 +108,15 @@ class Work:
             return []
         above = (begin[0], begin[1] - self.towards * abs(off))
         return [Piece(offset.arc(above, onto, begin, off < 0.0))]
+
+    def _round_end(self, contour: Contour, begin: Point, off: float) -> Contour:
+        """The nose's way over the end of a contour that rises to there; nothing for a wall, or where it runs along."""
+        (along, into), end = contour[-1].edge.arriving, contour[-1].edge.end
+        rises, is_wall = self.towards * into < -NO_WAY, onwards(contour) * along <= NO_WAY
+        if not rises or is_wall or abs(off) <= NO_WAY:
+            return []
+        above = (end[0], end[1] - self.towards * abs(off))
+        return [Piece(offset.arc(begin, above, end, off < 0.0))]
 
     def clear(self, contour: Contour, end: Point, lift: float, *, stock: Contour | None = None) -> None:
         """Go past the contour before a rapid to a place, where that would touch it; 61606 where no way is clear.

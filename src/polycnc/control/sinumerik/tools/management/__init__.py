@@ -1,8 +1,11 @@
 """Tool management: what the manual names (job planning 16.1) and the Function Manual Tool Management explains.
 
-lists       NEWT, GETT, GETSELT, GETEXET, GETACTT, TCA, and which of several tools of a name T means
+lists       NEWT, DELT, GETT, GETSELT, GETEXET, GETACTT, TCA, SETMTH, and which of several tools of a name T means
 monitoring  $TC_MOP, SETPIECE, RESETMON
+wear_groups  SETTA, SETTIA
 environments  TOOLENV, DELTOOLENV, GETTENV, and LENTOAX
 components  GETTCOR
-magazines   $TC_MAP, $TC_MPP, GETFREELOC, MVTOOL, CHKDM
+corrections  SETTCOR
+systems     MCS, BCS, WCS, KCS, TCS: how each sees lengths of the tool
+magazines   $TC_MAP, $TC_MPP, GETFREELOC, MVTOOL, POSM, TCI, CHKDM
 """

@@ -21,10 +21,10 @@ from polycnc.control.sinumerik.tools.edges import (
     WEAR_PARAMETERS,
     Edge,
 )
-from polycnc.control.sinumerik.tools.lengths import Rules, along_axes
+from polycnc.control.sinumerik.tools.lengths import AGAINST_TOOL, OF_MACHINE, Rules, along_axes
 from polycnc.control.sinumerik.tools.management.environments import ORDER, Environments, field_of
+from polycnc.control.sinumerik.tools.management.systems import BASIC, MACHINE, SYSTEMS, seen_from
 from polycnc.control.sinumerik.tools.selection import rules_of
-from polycnc.control.sinumerik.transformations import seat
 from polycnc.geometry.frames import IDENTITY
 
 if TYPE_CHECKING:
@@ -47,8 +47,6 @@ DONE, NO_ENVIRONMENT, WRONG_COMPONENTS, NO_TOOL, NO_EDGE, NO_ADDITIVE, WRONG_SYS
 #: Parts of a length: base, set-up, geometry, sum offsets, toolholder, wear, kinematics of a transformation.
 BASE, SETUP, GEOMETRY, SUM, HOLDER, WEAR, KINEMATIC = "CEGSTWK"
 PARTS = frozenset((BASE, SETUP, GEOMETRY, SUM, HOLDER, WEAR, KINEMATIC))
-#: Systems: basic, kinematic, machine, tool, work.
-SYSTEMS, MACHINE, TOOL, WORK, OF_KINEMATICS = frozenset("BKMTW"), "M", "T", "W", "K"
 #: Places in the result: type, edge position, three lengths, then radius and $TC_DP7 to 11.
 FIELD, LENGTHS = 11, range(2, 9)
 #: Additive offsets of an edge.
@@ -57,7 +55,7 @@ _GEOMETRY_PARAMETERS = range(DP_LENGTH, DP_SIDE_ANGLE + 1)
 _BASE_PARAMETERS = range(DP_BASE_LENGTH, DP_BASE_LENGTH + 3)
 
 
-class _Asked(NamedTuple):
+class Asked(NamedTuple):
     """Whose lengths: the edge (None for no offsets), its additive offset, the rules; whether it is the active one."""
 
     edge: Edge | None
@@ -74,7 +72,7 @@ def length_of(channel: SinumerikChannel, args: Arguments) -> int:
     and -9 for environment, parts, T, D, DL, system that are none; then the field stays.
 
     Raises:
-        AlarmError: PC0001 for the system and the part of a transformation, and under one.
+        AlarmError: PC0001 for the part of a transformation, and what `seen_from` finds.
     """
     field_of("GETTCOR", args[0], (FIELD,))
     given = [*args[1:], *[None] * 5][:5]
@@ -84,9 +82,9 @@ def length_of(channel: SinumerikChannel, args: Arguments) -> int:
         return WRONG_COMPONENTS
     if system not in SYSTEMS:
         return WRONG_SYSTEM
-    if system == OF_KINEMATICS or KINEMATIC in parts or seat.Transformations.of(channel).build is not None:
-        raise not_supported("GETTCOR: TRAORI, KCS")
-    asked = _asked(channel, given)
+    if KINEMATIC in parts:
+        raise not_supported("GETTCOR: K")
+    asked = asked_of(channel, given[1:])
     if isinstance(asked, int):
         return asked
     unit = data_factor(channel.mode)
@@ -95,18 +93,18 @@ def length_of(channel: SinumerikChannel, args: Arguments) -> int:
     return DONE
 
 
-def _asked(channel: SinumerikChannel, given: list[object]) -> _Asked | int:
+def asked_of(channel: SinumerikChannel, given: list[object]) -> Asked | int:
     """The edge that environment, T, D and DL tell; a result where they tell none."""
     tools = channel.memory.tools
     number, edge_number, additive = tools.active, tools.edge_number, tools.additive
     rules, is_active = tools.rules or rules_of(channel), True
-    if given[1]:
-        environment = Environments.of(channel).named.get(str(given[1]))
+    if given[0]:
+        environment = Environments.of(channel).named.get(str(given[0]))
         if environment is None:
             return NO_ENVIRONMENT
         number, edge_number, additive, rules = environment
         is_active = (number, edge_number) == (tools.active, tools.edge_number)
-    wanted = [None if each is None else int(str(each)) for each in given[2:]]
+    wanted = [None if each is None else int(str(each)) for each in given[1:]]
     if wanted[0] is not None:
         number, is_active = wanted[0], wanted[0] == number and is_active
     tool = tools.tools.get(number)
@@ -120,14 +118,14 @@ def _asked(channel: SinumerikChannel, given: list[object]) -> _Asked | int:
         return NO_EDGE
     if wanted[2] is not None:
         additive = wanted[2]
-    return _Asked(edge, additive, rules, is_active) if 0 <= additive <= LAST_ADDITIVE else NO_ADDITIVE
+    return Asked(edge, additive, rules, is_active) if 0 <= additive <= LAST_ADDITIVE else NO_ADDITIVE
 
 
-def _values(channel: SinumerikChannel, asked: _Asked, parts: frozenset[str], system: str) -> list[float]:
+def _values(channel: SinumerikChannel, asked: Asked, parts: frozenset[str], system: str) -> list[float]:
     if asked.edge is None:
         return [0.0] * FIELD
-    edge = _made_of(asked.edge, parts)
-    length = _length(channel, edge, asked, parts, system)
+    edge = made_of(asked.edge, parts)
+    length = length_along(channel, edge, asked, parts, system)
     order = ORDER[channel.mode["plane"]]
     return [
         asked.edge.values[DP_TYPE],
@@ -138,7 +136,7 @@ def _values(channel: SinumerikChannel, asked: _Asked, parts: frozenset[str], sys
     ]
 
 
-def _made_of(edge: Edge, parts: frozenset[str]) -> Edge:
+def made_of(edge: Edge, parts: frozenset[str]) -> Edge:
     """The edge with some of its parts only, all where none is told."""
     if not parts:
         return edge
@@ -153,8 +151,8 @@ def _made_of(edge: Edge, parts: frozenset[str]) -> Edge:
     return Edge(values, edge.teeth, edge.cutting_edge, edge.is_valid, additive)
 
 
-def _length(
-    channel: SinumerikChannel, edge: Edge, asked: _Asked, parts: frozenset[str], system: str
+def length_along(
+    channel: SinumerikChannel, edge: Edge, asked: Asked, parts: frozenset[str], system: str
 ) -> Vector:
     """The length along X, Y, Z of a system; that of the tool is as it is drawn, whatever a toolholder does to it."""
     tools, whole = channel.memory.tools, not parts
@@ -164,9 +162,16 @@ def _length(
     carrier = tools.carrier or IDENTITY
     holder = carrier.t if whole or HOLDER in parts else (0.0, 0.0, 0.0)
     turned = carrier.direct(*found.turning)
-    x, y, z = (sum(values) for values in zip(turned, found.fixed, holder, strict=True))
-    back = {TOOL: carrier.inverse(), WORK: rules_of(channel).work.inverse()}.get(system, IDENTITY)
-    return back.direct(x, y, z)
+    is_apart = rules.system in AGAINST_TOOL
+    with_tool = (0.0, 0.0, 0.0) if is_apart else found.fixed
+    x, y, z = (sum(values) for values in zip(turned, with_tool, holder, strict=True))
+    seen = seen_from(channel, system, "GETTCOR")
+    length = seen.direct(x, y, z)
+    if is_apart and any(found.fixed):
+        own = seen_from(channel, MACHINE if rules.system == OF_MACHINE else BASIC, "GETTCOR")
+        x, y, z = (a + b for a, b in zip(length, (seen @ own.inverse()).direct(*found.fixed), strict=True))
+        return (x, y, z)
+    return length
 
 
 FUNCTIONS: dict[str, Callable[[SinumerikChannel, Arguments], int]] = {"GETTCOR": length_of}

@@ -7,15 +7,15 @@ Source: job planning 16.1 (what the functions do); Function Manual W1 (arguments
 from __future__ import annotations
 
 from dataclasses import field
+from math import copysign
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from polycnc.channel.states.state import Lifetime, State
-from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tools.lengths import Rules, axes_of
+from polycnc.control.sinumerik.tools.management.systems import NAMES, SYSTEMS, WORK, seen_from
 from polycnc.control.sinumerik.tools.selection import rules_of
-from polycnc.control.sinumerik.transformations import seat
 from polycnc.deferred.records import dataclass
-from polycnc.geometry.frames import IDENTITY
+from polycnc.geometry.frames import IDENTITY, Frame
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.messages import AlarmError
 
@@ -26,15 +26,13 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.variables.row import Indices, Row
 
-#: Results: done, no such environment or no edge, a name that is none.
-DONE, NOTHING, NO_NAME = 0, -1, -4
+#: Results: done, lengths lie between the axes, no such environment or no edge, a name that is none.
+DONE, BETWEEN, NOTHING, NO_NAME = 0, 1, -1, -4
 LONGEST_NAME = 31
 #: Geometry axes of abscissa, ordinate and applicate by the plane.
 ORDER = {"G17": (0, 1, 2), "G18": (2, 0, 1), "G19": (1, 2, 0)}
-#: Systems of LENTOAX: the work, the basic one, which is that of the machine where no transformation acts, the tool's.
-_WORK, _BASIC, _TOOL = ("W", "WCS"), ("B", "BCS", "M", "MCS"), ("T", "TCS")
-#: What counts as no part of a direction.
-_NONE = 1e-9
+#: What counts as no part of a direction; digits in which two parts are equal.
+_NONE, _DIGITS = 1e-9, 9
 
 
 class Environment(NamedTuple):
@@ -85,43 +83,42 @@ def numbers_of(channel: SinumerikChannel, args: Arguments) -> int:
 def assignment(channel: SinumerikChannel, args: Arguments) -> int:
     """LENTOAX(VAR lengths, VAR matrix[, system]): which length acts on abscissa, ordinate and applicate.
 
-    `lengths` gets the number of the length of each axis, negative where it counts against it, 0 for none. The matrix
-    makes offsets along these axes of lengths 1 to 3. The system is the work (WCS), the basic one (BCS, MCS), or that of
-    the tool as it is drawn, whatever a toolholder does to it (TCS). 0, or -1 without an edge.
+    `lengths` gets the number of the length that lies along each axis, negative where it counts against it, 0 for none.
+    The matrix makes offsets along these axes of lengths 1 to 3. The system is the work where none is told, else the
+    name or letter of one (`systems`). 0; 1 where lengths lie between the axes, and `lengths` has those that act most;
+    -1 without an edge.
 
     Raises:
-        AlarmError: PC0001 for the system of the head (KCS), and where TRAORI turns the tool in the others.
+        AlarmError: 14020 for another system, and what `seen_from` finds.
     """
     lengths, matrix = args[:2]
-    system = str(args[2]).upper() if len(args) > 2 and args[2] is not None else "WCS"
-    if system not in (*_WORK, *_BASIC, *_TOOL):
-        raise not_supported(f"LENTOAX {system}")
-    if system not in _TOOL and seat.centre_point(channel) is not None:
-        raise not_supported("LENTOAX: TRAORI")
+    told = str(args[2]).strip().upper() if len(args) > 2 and args[2] is not None else WORK
+    system = NAMES.get(told, told)
+    if system not in SYSTEMS:
+        raise AlarmError("14020", text="LENTOAX")
     field_of("LENTOAX", lengths, (3,))
     field_of("LENTOAX", matrix, (3, 3))
     tools, plane = channel.memory.tools, channel.mode["plane"]
     edge = tools.edge
     if edge is None:
         return NOTHING
-    turned = IDENTITY if system in _TOOL or tools.carrier is None else tools.carrier
     rules = tools.rules or rules_of(channel)
-    back = rules_of(channel).work.inverse() if system in _WORK else IDENTITY
-    axes = axes_of(edge, rules, plane)
+    turned = seen_from(channel, system, "LENTOAX") @ Frame((tools.carrier or IDENTITY).m)
     columns = []
-    for axis in axes:
+    for axis in axes_of(edge, rules, plane):
         sign = -1.0 if rules.mirrors_lengths and rules.mirrored[axis] else 1.0
-        columns.append(back.direct(*turned.direct(*(sign if k == axis else 0.0 for k in range(3)))))
+        columns.append(turned.direct(*(sign if k == axis else 0.0 for k in range(3))))
     rows = [[column[axis] for column in columns] for axis in ORDER[plane]]
     matrix.items[:9] = [value for row in rows for value in row]
     lengths.items[:3] = [_length_of(row) for row in rows]
-    return DONE
+    lies_between = any(_NONE < abs(value) < 1.0 - _NONE for row in rows for value in row)
+    return BETWEEN if lies_between else DONE
 
 
 def _length_of(row: list[float]) -> int:
-    """The number of the length that acts on an axis alone; 0 for none, 99 for several."""
-    parts = [i + 1 if value > 0.0 else -i - 1 for i, value in enumerate(row) if abs(value) > _NONE]
-    return parts[0] if len(parts) == 1 else 99 if parts else 0
+    """The number of the length that acts most on an axis; 0 for none."""
+    most = max(row, key=lambda value: round(abs(value), _DIGITS))  # the first of equal ones
+    return 0 if abs(most) <= _NONE else int(copysign(row.index(most) + 1, most))
 
 
 def field_of(name: str, array: Any, dims: tuple[int, ...]) -> None:

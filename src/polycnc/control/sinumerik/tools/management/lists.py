@@ -1,4 +1,4 @@
-"""Lists of tools, and which of them is selected: NEWT, GETT, GETSELT, GETEXET, GETACTT, TCA; sister tools.
+"""Lists of tools, which is selected: NEWT, DELT, GETT, GETSELT, GETEXET, GETACTT, TCA, SETMTH, sister tools.
 
 Source: job planning 16.1 (what the functions do); Function Manual Tool Management (arguments, bits of $TC_TP8).
 """
@@ -7,8 +7,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.sinumerik.auxiliary import load_tool
+from polycnc.control.sinumerik.auxiliary import edge_selected, first_location, load_tool
 from polycnc.control.sinumerik.block import arguments
+from polycnc.control.sinumerik.tools import master_holder
+from polycnc.control.sinumerik.tools.management import magazines
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import ToolSelection
@@ -93,14 +95,35 @@ def number_of(channel: SinumerikChannel, args: Arguments) -> int:
     return -1
 
 
+def remove(channel: SinumerikChannel, args: Arguments) -> None:
+    """DELT(name[,duplo]): take a tool and its edges out of the memory, without a duplo number the first of its name.
+
+    Raises:
+        AlarmError: 17190 for no such tool, 17200 for one that is in a holder or a magazine.
+    """
+    if not 1 <= len(args) <= 2:
+        raise AlarmError("14020", text="DELT")
+    number = number_of(channel, args)
+    if number < 0:
+        raise AlarmError("17190", tool=args[0])
+    inside = {tool for tool, _ in master_holder.Holders.of(channel).tools.values()}
+    if number == channel.memory.tools.active or number in inside or number in magazines.tools_held(channel):
+        raise AlarmError("17200", tool=args[0])
+    del channel.memory.tools.tools[number]
+
+
+def _holder(args: Arguments) -> int | None:
+    return arguments.whole(args[1]) if len(args) > 1 and args[1] is not None else None
+
+
 def selected(channel: SinumerikChannel, args: Arguments) -> None:
     """GETSELT(VAR t[,holder]): the tool that is selected for the next change, else the one in the spindle."""
-    arguments.give_back(args[0], channel.memory.tools.selected)
+    arguments.give_back(args[0], master_holder.tools_in(channel, _holder(args))[1])
 
 
 def loaded(channel: SinumerikChannel, args: Arguments) -> None:
     """GETEXET(VAR t[,holder]): the tool in the spindle as the program sees it, 0 for none."""
-    arguments.give_back(args[0], channel.memory.tools.active)
+    arguments.give_back(args[0], master_holder.tools_in(channel, _holder(args))[0])
 
 
 def active(channel: SinumerikChannel, args: Arguments) -> None:
@@ -121,9 +144,45 @@ def change_to(channel: SinumerikChannel, args: Arguments) -> None:
     if number < 0:
         raise AlarmError("17190", tool=args[0])
     channel.event(ToolSelection(args[0]))
+    holder = arguments.whole(args[2]) if len(args) > 2 and args[2] is not None else None
+    if holder is not None and master_holder.is_other(channel, holder):
+        master_holder.select(channel, holder, number)
+        return
     channel.memory.tools.selected = number
     if channel.memory.data.integer("$MC_TOOL_CHANGE_MODE") == 0:
         load_tool(channel)
+
+
+def set_master(channel: SinumerikChannel, args: Arguments) -> None:
+    """SETMTH(n): the master toolholder; SETMTH alone returns to that of the machine data.
+
+    Raises:
+        AlarmError: 16761 for a spindle that the channel does not have, where spindles are the holders.
+    """
+    if len(args) > 1:
+        raise AlarmError("14020", text="SETMTH")
+    own = master_holder.holder_of_data(channel)
+    number = arguments.whole(args[0]) if args and args[0] is not None else own
+    if own == 0 and number:
+        channel.memory.spindles.get(number)
+    before = master_holder.master_of(channel)
+    master_holder.Holders.of(channel).master = 0 if number == own else number
+    take_over(channel, before)
+
+
+def take_over(channel: SinumerikChannel, before: int) -> None:
+    """Another holder is the master one: its tool acts, with the edge of MD20270, where T has ever named it."""
+    held, tools = master_holder.Holders.of(channel).tools, channel.memory.tools
+    now = master_holder.master_of(channel)
+    if now == before:
+        return
+    held[before] = (tools.active, tools.selected)
+    if now in held:
+        active, tools.selected = held[now]
+        location = tools.additive
+        tools.load(active, channel.memory.data)
+        first_location(channel, location)
+        edge_selected(channel)
 
 
 def _exists(channel: SinumerikChannel, indices: Indices) -> bool:
@@ -161,4 +220,6 @@ PROCEDURES: dict[str, Procedure] = {
     "GETEXET": loaded,
     "GETACTT": active,
     "TCA": change_to,
+    "DELT": remove,
+    "SETMTH": set_master,
 }

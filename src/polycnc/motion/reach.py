@@ -1,0 +1,150 @@
+"""How fast a row gets along its way, where its axes share their acceleration between two things.
+
+An axis that leads a curved path needs a part of its acceleration, `|q''|·x`, for the bend of its way (x is the square
+of the speed), and has the rest for changes of speed, `|q'|·x'/2`. So what it has left depends on the speed, and the
+speed on what was left before: from place to place x becomes as large as the axes allow, from both ends towards the
+middle. That gives every share of the row its own speed and its own part of the acceleration.
+
+Which part is for the bend is found there, not chosen: little where the row begins at rest, all of it where it is
+fastest. Where a row may be entered at speed, or left, it is not known how fast, and `AT_JOINT` is the most all along.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from math import cos, inf, sqrt
+from typing import TYPE_CHECKING, NamedTuple
+
+from polycnc.motion.demand import PATH_STEP
+from polycnc.motion.kernels.demands import NOTHING
+from polycnc.motion.pace import left_of
+from polycnc.toolpath.kinds import RAPID_KINDS
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from polycnc.machine.model import Axis
+    from polycnc.toolpath import Context
+    from polycnc.toolpath.row_path import Path
+
+#: Shares of a row: as many as a row has room for, but for those of its ends.
+PARTS = 28
+#: Part of the largest x that a row has where it may be entered or left at speed.
+AT_JOINT = 0.6
+#: No share has less than this of the acceleration, so that the path comes along it.
+LEAST_EASE = 0.02
+
+
+class Place(NamedTuple):
+    """What the axes allow at a place of a row.
+
+    Attributes:
+        top2: Largest x by their velocities.
+        along: What the columns can accelerate along the path, mm/s².
+        asks: Of each axis, parts of its acceleration: for each unit of x, and for `along`.
+    """
+
+    top2: float
+    along: float
+    asks: list[tuple[float, float]]
+
+
+def looked_at(
+    context: Context,
+    axes: Sequence[Axis | None],
+    pulls: Sequence[float],
+    path: Path,
+    length: float,
+    kind: int,
+) -> list[Place]:
+    """Look at a row under a transformation, from share to share; `pulls` is what the columns can accelerate."""
+    return [_place(context, axes, pulls, path, length, k / PARTS, kind) for k in range(PARTS + 1)]
+
+
+def _place(
+    context: Context,
+    axes: Sequence[Axis | None],
+    pulls: Sequence[float],
+    path: Path,
+    length: float,
+    share: float,
+    kind: int,
+) -> Place:
+    made = context.transformation
+    assert made is not None
+    step = PATH_STEP / length
+    middle = min(max(share, step), 1.0 - step)
+    nearby = [path(middle + k * step) for k in (-1, 0, 1)]
+    before, here, after = (made.to_machine(point) for point in nearby)
+    direction = [(b - a) / (2.0 * PATH_STEP) for a, b in zip(nearby[0], nearby[2], strict=True)]
+    along = min((limit / abs(u) for limit, u in zip(pulls, direction, strict=True) if u), default=0.0)
+    top2, asks = inf, []
+    for i, axis in enumerate(axes):
+        if axis is None:
+            continue
+        came, goes = here[i] - before[i], after[i] - here[i]
+        if axis.rotary:  # the shorter way round
+            came, goes = ((way + 180.0) % 360.0 - 180.0 for way in (came, goes))
+        first, second = abs(came + goes) / (2.0 * PATH_STEP), abs(goes - came) / PATH_STEP**2
+        velocity = axis.rapid if kind in RAPID_KINDS else axis.max_feed
+        velocity, acceleration = left_of(context, i, velocity, axis.acceleration)
+        if velocity and first > 0.0:
+            top2 = min(top2, (velocity / first) ** 2)
+        if acceleration:
+            asks.append((second / acceleration, first * along / acceleration))
+    return Place(top2, along, asks)
+
+
+def shares_of(
+    places: Sequence[Place], length: float, angle: float, *, stops: bool
+) -> list[tuple[float, float, float]]:
+    """End, speed and `ease` of shares of equal length between places.
+
+    Args:
+        places: At equal distances, the first at the start of the row and the last at its end.
+        length: Of the row, mm.
+        angle: By how much the path turns, radians.
+        stops: Whether it begins and ends at rest.
+    """
+    count, most = len(places) - 1, 1.0 if stops else AT_JOINT
+    parts = [between(a, b, angle / count) for a, b in pairwise(places)]
+    forth = _reached(parts, length / count, most, stops)
+    back = _reached(parts[::-1], length / count, most, stops)[::-1]
+    shares = []
+    for k, part in enumerate(parts):
+        x = max(min(forth[k], back[k]), NOTHING)
+        shares.append(((k + 1) / count, sqrt(x), max(ease_at(part, x), LEAST_EASE)))
+    return shares
+
+
+def between(a: Place, b: Place, angle: float) -> Place:
+    """The least that is allowed between two places, along which the path turns by an angle, radians."""
+    nearer = cos(0.5 * angle)
+    asks = [(max(p[0], q[0]) / nearer, max(p[1], q[1]) / nearer) for p, q in zip(a.asks, b.asks, strict=True)]
+    return Place(min(a.top2, b.top2) * nearer * nearer, min(a.along, b.along), asks)
+
+
+def largest2(place: Place) -> float:
+    """Largest x at which every axis keeps its velocity and can hold the speed."""
+    most = max((bend for bend, _ in place.asks), default=0.0)
+    return min(place.top2, 1.0 / most if most > NOTHING else inf)
+
+
+def ease_at(place: Place, x: float) -> float:
+    """Part of what the columns can accelerate along the path that is left at an x."""
+    left = [(1.0 - bend * x) / pull for bend, pull in place.asks if pull > NOTHING]
+    return max(min(1.0, *left), 0.0) if left else 1.0
+
+
+def _reached(parts: Sequence[Place], step: float, most: float, from_rest: bool) -> list[float]:
+    """Largest x of each part that is reached from the first one's start with what is left at that x."""
+    x, found = 0.0 if from_rest else most * largest2(parts[0]), []
+    for part in parts:
+        reach = x + 2.0 * step * part.along
+        for bend, pull in part.asks:
+            if pull > NOTHING:
+                gain = 2.0 * step * part.along / pull
+                reach = min(reach, (x + gain) / (1.0 + gain * bend))
+        x = min(max(reach, x), most * largest2(part))
+        found.append(x)
+    return found
