@@ -42,7 +42,6 @@ def test_pages_give_the_programs_that_the_whole_file_gives(
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(long_text, "LONG_FILE_BYTES", 0)
         patch.setattr(long_text, "PAGE_BYTES", page)
-        patch.setattr(long_text, "READ_BYTES", page + 5)
         patch.setattr(long_text, "MAX_LINE", min(page - 1, 40))
         try:
             assert told(path, form) == whole

@@ -37,6 +37,9 @@ MODAL_GROUPS = {
     "oscillation": "oscillation of an axis: G81.1",
     # ---- mills of FANUC's kind
     "fixture": "offsets of a fixture that turn with its table: G54.2",
+    "tip_lean": "whether the tool leans towards its way: G43.5 Q",
+    "tip_system": "where words of G43.4 name the tip while the system does not turn with the table: 19696#5 WKP",
+    "posture": "what rotary words of G43.4 tell directions of in a turned work system: G43.4 Q",
     "workpiece_error": "where a workpiece stands wrong on its table: G54.4",
     # ---- the FANUC lathe
     "atc_offset": "offsets of an automatic tool changer",

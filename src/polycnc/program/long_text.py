@@ -28,9 +28,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
 #: Smaller files are read as a whole.
-LONG_FILE_BYTES = 8 * 1024 * 1024
-#: Bytes of a page, and of what is read at once while the file is looked through.
-PAGE_BYTES, READ_BYTES = 256 * 1024, 1024 * 1024
+LONG_FILE_BYTES = 1024 * 1024
+#: Bytes of a page, and what is left of its last line: so much the processor has at hand while it is looked through.
+PAGE_BYTES = 256 * 1024
 #: Pages of a file that are kept at hand.
 PAGES_AT_HAND = 4
 #: Bytes of pages with characters beyond ASCII that decide on the encoding.
@@ -235,29 +235,28 @@ def _look_through(file: TextFile) -> LongText | None:
     sample = bytearray()
     beyond_ascii: list[int] = []
     with Path(file.path).open("rb") as stream:
-        while whole := stream.read(READ_BYTES):
-            whole += stream.readline(MAX_LINE + 1)
-            if len(file.places) == 1 and has_byte_order_mark(whole):
+        while page := stream.read(PAGE_BYTES):
+            page += stream.readline(MAX_LINE + 1)
+            if len(file.places) == 1 and has_byte_order_mark(page):
                 return None
-            if b"\r" in whole:
+            if b"\r" in page:
                 file.has_returns = True
-                if whole.count(b"\r") != whole.count(b"\r\n"):
+                if page.count(b"\r") != page.count(b"\r\n"):
                     return None
-            if any(sign in whole for sign in HEADING_SIGNS):
-                _add_headings(file, whole)
-            first = len(file.places) - 1
-            _add_pages(file, whole)
-            if not whole.isascii():
-                beyond_ascii += range(first, len(file.places) - 1)
-                sample += whole[: max(SAMPLE_BYTES - len(sample), 0)]
+            if any(sign in page for sign in HEADING_SIGNS):
+                _add_headings(file, page)
+            if not page.isascii():
+                beyond_ascii.append(len(file.places) - 1)
+                sample += page[: max(SAMPLE_BYTES - len(sample), 0)]
+            _add_page(file, page)
     if beyond_ascii:
         _find_codec(file, beyond_ascii, bytes(sample))
     return LongText(file, range(file.numbers[-1]))
 
 
-def _add_headings(file: TextFile, whole: bytes) -> None:
-    """Note the lines that may be headings; `whole` begins behind the pages found so far."""
-    alike = whole.translate(_HEADINGS_ALIKE, _CONTROLS)
+def _add_headings(file: TextFile, page: bytes) -> None:
+    """Note the lines that may be headings; `page` begins behind the pages found so far."""
+    alike = page.translate(_HEADINGS_ALIKE, _CONTROLS)
     line, last = file.numbers[-1], 0
     if alike.startswith(_HEADING):
         file.headings.append(line)
@@ -270,18 +269,12 @@ def _add_headings(file: TextFile, whole: bytes) -> None:
         at = alike.find(mark, last)
 
 
-def _add_pages(file: TextFile, whole: bytes) -> None:
-    """Cut whole lines into pages."""
-    base, at = file.places[-1], 0
-    while at < len(whole):
-        end = len(whole) if len(whole) - at <= PAGE_BYTES else whole.rfind(b"\n", at, at + PAGE_BYTES) + 1
-        _refuse_long_lines(file, whole, at, end or at + PAGE_BYTES)
-        lines = whole.count(b"\n", at, end)
-        if whole[end - 1] != _NEWLINE:
-            lines = _ended(whole[at:end]).count(b"\n")
-        file.places.append(base + end)
-        file.numbers.append(file.numbers[-1] + lines)
-        at = end
+def _add_page(file: TextFile, page: bytes) -> None:
+    """Note a page of whole lines."""
+    _refuse_long_lines(file, page)
+    lines = page.count(b"\n") if page[-1] == _NEWLINE else _ended(page).count(b"\n")
+    file.places.append(file.places[-1] + len(page))
+    file.numbers.append(file.numbers[-1] + lines)
 
 
 def _ended(page: bytes) -> bytes:
@@ -290,13 +283,13 @@ def _ended(page: bytes) -> bytes:
     return page if not page or page.endswith(b"\n") else page + b"\n"
 
 
-def _refuse_long_lines(file: TextFile, whole: bytes, at: int, end: int) -> None:
+def _refuse_long_lines(file: TextFile, page: bytes) -> None:
     """From line end to line end, as far apart as they may be."""
-    place = at
-    while place + MAX_LINE < end:
-        found = whole.rfind(b"\n", place, place + MAX_LINE + 1)
+    place = 0
+    while place + MAX_LINE < len(page):
+        found = page.rfind(b"\n", place, place + MAX_LINE + 1)
         if found < 0:
-            line = file.numbers[-1] + whole.count(b"\n", at, place) + 1
+            line = file.numbers[-1] + page.count(b"\n", 0, place) + 1
             refuse_long_line(file.path, line)
         place = found + 1
 

@@ -192,9 +192,9 @@ class Chunk:
         self.end.extend(end)
         self.curve.extend(array("i", (NO_CURVE,)) * count)
 
-    def add_curves(self, count: int, curves: array[float]) -> None:
-        """Add the first rows of a column of curve parameters."""
-        self.curves.extend(curves[: count * CURVE_WIDTH])
+    def add_curves(self, count: int, curves: memoryview) -> None:
+        """Add the first rows of a column of curve parameters, which comes as bytes."""
+        self.curves.frombytes(curves[: count * CURVE_WIDTH * self.curves.itemsize])
 
     def numpy(self) -> Columns:
         """The columns as NumPy views of the same memory."""

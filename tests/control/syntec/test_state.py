@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import cos, radians, sin
 from typing import Any
 
 import pytest
@@ -51,22 +52,65 @@ def test_pr3014_keeps_the_tilted_plane_over_power_off(kept: int, machine: tuple[
     assert [results[-1].rows[0]["machine"][axis] for axis in "XYZ"] == pytest.approx(machine)
 
 
-@pytest.mark.parametrize(("code", "alarms"), [("G43.4 H1", ["PC0001"]), ("G43.5 H1", [])])
-def test_vectors_count_in_a_turned_work_system_whatever_pr3057_says(code: str, alarms: list[str]) -> None:
+def turned_work(program: str, machine: str, turn: list[float], **parameters: int) -> Result:
+    """A run in a work system that G54.4 turns by the angles X, Y, Z of its page."""
     memory = InMemoryStore()
-    memory.table(WORK_TURNS, 1)["G54"] = [90.0, 0.0, 0.0]
-    setup = {"parameters": {"3057": 1}, "tools": {1: {"length": 50}}}
-    result = open_session(
-        f"G54.4 P1\n{code}\nG00 X5. Y6. Z7. I0 J1. K0\nM30\n",
-        control="syntec-mill",
-        machine="mill5-bc-head",
-        setup=setup,
-        memory=memory,
-    ).run()
-    assert [alarm.code for alarm in result.alarms] == alarms
-    if not alarms:
-        # X' = X, Y' = Z, Z' = -Y: the tool along Y' stands upright.
-        assert result.rows[0]["machine"] == pytest.approx({"X": 5, "Y": -7, "Z": 6 + 50, "B": 0, "C": 0})
+    memory.table(WORK_TURNS, 1)["G54"] = turn
+    setup = {"parameters": parameters, "tools": {1: {"length": 50}}}
+    return open_session(program, control="syntec-mill", machine=machine, setup=setup, memory=memory).run()
+
+
+def test_vectors_count_in_a_turned_work_system_whatever_pr3057_says() -> None:
+    text = "G54.4 P1\nG43.5 H1\nG00 X5. Y6. Z7. I0 J1. K0\nM30\n"
+    result = turned_work(text, "mill5-bc-head", [90.0, 0.0, 0.0], **{"3057": 1})
+    assert result.ok
+    # X' = X, Y' = Z, Z' = -Y: the tool along Y' stands upright.
+    assert result.rows[0]["machine"] == pytest.approx({"X": 5, "Y": -7, "Z": 6 + 50, "B": 0, "C": 0})
+
+
+@pytest.mark.parametrize(
+    ("words", "tool"),
+    [
+        # The work is turned by 30 degrees about Y: B30 of the machine stands the tool along its Z.
+        ("B0 C0", (0.0, 0.0, 1.0)),
+        ("B45. C0", (0.5**0.5, 0.0, 0.5**0.5)),
+        ("B45. C90.", (0.0, 0.5**0.5, 0.5**0.5)),
+        # An axis without a word keeps its program coordinate, and increments count from what words have told.
+        ("B45.\nC90.", (0.0, 0.5**0.5, 0.5**0.5)),
+        ("B45. C0\nG91 C90.", (0.0, 0.5**0.5, 0.5**0.5)),
+    ],
+)
+@pytest.mark.parametrize(("frame", "parameter"), [(" Q1", 0), ("", 1)])
+def test_rotary_words_tell_the_tool_in_a_turned_work_system(
+    words: str, tool: tuple[float, float, float], frame: str, parameter: int
+) -> None:
+    text = f"G54.4 P1\nG43.4 H1{frame}\nG00 X5. Y6. Z7. {words}\nM30\n"
+    result = turned_work(text, "mill5-bc-head", [0.0, 30.0, 0.0], **{"3057": parameter})
+    assert result.ok, result.alarms
+    machine = [row["machine"] for row in result.rows if "machine" in row][-1]
+    b, c = radians(machine["B"]), radians(machine["C"])
+    found = (sin(b) * cos(c), sin(b) * sin(c), cos(b))
+    about_y = cos(radians(30.0)), sin(radians(30.0))
+
+    def turned(x: float, y: float, z: float) -> tuple[float, float, float]:
+        return (about_y[0] * x + about_y[1] * z, y, about_y[0] * z - about_y[1] * x)
+
+    assert found == pytest.approx(turned(*tool), abs=1e-9)
+    nose = [place + 50.0 * along for place, along in zip(turned(5.0, 6.0, 7.0), found, strict=True)]
+    assert [machine[axis] for axis in "XYZ"] == pytest.approx(nose, abs=1e-6)
+
+
+def test_nothing_moves_before_words_have_told_the_tool_in_a_turned_work_system() -> None:
+    text = "G54.4 P1\nG43.4 H1 Q1\nG00 X5.\nM30\n"
+    result = turned_work(text, "mill5-bc-head", [0.0, 30.0, 0.0])
+    assert [alarm.code for alarm in result.alarms] == ["PC0001"]
+
+
+def test_directions_of_the_machine_count_again_behind_q0() -> None:
+    text = "G54.4 P1\nG43.4 H1 Q1\nG00 X0 Y0 Z0 B0 C0\nG43.4 H1 Q0\nG00 B0 C0\nM30\n"
+    result = turned_work(text, "mill5-bc-head", [0.0, 30.0, 0.0])
+    places = [row["machine"]["B"] for row in result.rows if "machine" in row]
+    assert places == pytest.approx([30.0, 0.0])
 
 
 def test_a_channel_runs_its_own_section_of_a_file() -> None:

@@ -70,3 +70,11 @@ def test_there_is_a_cut_at_every_edge() -> None:
     }
     assert straight == {28.0, 25.0, 22.5, 20.0}
     assert all(len(points(piece.edge)) == 2 for piece in part)
+
+
+def test_a_contour_is_led_over_its_reliefs() -> None:
+    shaft = lines((0.0, 20.0), (-5.0, 20.0), (-8.0, 15.0), (-10.0, 15.0), (-18.0, 25.0), (-20.0, 22.0))
+    bridged = corners(outline.without_reliefs(shaft, -1.0))
+    assert bridged == [(0.0, 20.0), (-5.0, 20.0), (-14.0, 20.0), (-18.0, 25.0), (-20.0, 25.0)]
+    bore = lines((0.0, 30.0), (-5.0, 35.0), (-10.0, 25.0))
+    assert corners(outline.without_reliefs(bore, 1.0)) == [(0.0, 30.0), (-7.5, 30.0), (-10.0, 25.0)]

@@ -1,5 +1,6 @@
-"""What parameters of a FANUC control say about acceleration (parameter manual B-64310EN, 4.11).
+"""What parameters of a FANUC control say about speed and acceleration (parameter manual B-64310EN, 4.10 and 4.11).
 
+Speeds: 1420 of axes at rapid traverse, 1430 in cuts, 1422 along the path.
 Rapids: 1620 (T or T1) and 1621 (T2). Cuts: 1660 and 1772 (T2) where they are planned ahead (G05.1 Q1, G05 P10000, G08
 P1), else 1622 after the interpolation. 3708#0 SAR: the first cut waits for the spindle.
 
@@ -12,6 +13,7 @@ behind the interpolation, 1769.
 from __future__ import annotations
 
 from dataclasses import replace
+from math import inf
 from typing import TYPE_CHECKING
 
 from polycnc.toolpath.motion_settings import Ramp
@@ -52,6 +54,9 @@ def accelerated(
             )  # an exponential one is as far behind
     return replace(
         settings,
+        rapid_caps=_given(names, lambda name: parameters.of(name).rapid_speed / 60.0),
+        feed_caps=_given(names, lambda name: parameters.of(name).cutting_speed / 60.0),
+        path_feed=(parameters.path_feed or inf) / 60.0,
         rapid_ramps=rapids,
         cut_ramps=cuts,
         after_interpolation=True,

@@ -23,6 +23,10 @@ class FanucAxisParameters(MacroAxisParameters):
     travel_upper = Number(1320, delivered=None)
     #: 1321: Stored stroke check 1, lower limit [mm].
     travel_lower = Number(1321, delivered=None)
+    #: 1420: Rapid traverse; 0 for that of the machine, which it does not pass [mm/min].
+    rapid_speed = Number(1420, delivered=0.0)
+    #: 1430: Highest feed of an axis in cuts; 0 for that of the machine [mm/min].
+    cutting_speed = Number(1430, delivered=0.0)
     #: 1610#0: linear acceleration after interpolation (1).
     CTL = Bit(1610, 0, delivered=False)
     #: 1610#1: bell-shaped acceleration after interpolation (1).
@@ -87,6 +91,8 @@ class FanucParameters(MacroParameters[A_co]):
     dry_run_speed = Number(1410, delivered=0.0)
     #: 1421: Speed of the rapid override's position F0 [mm/min].
     rapid_f0 = Number(1421, delivered=400.0)
+    #: 1422: Highest feed of a cut on its path; 0 for no limit [mm/min].
+    path_feed = Number(1422, delivered=0.0)
     #: 1672: The same rapids: time in which that acceleration builds up (bell-shaped); 0 for at once [ms].
     rapid_change_time = Number(1672, delivered=None)
     #: 1732: Arcs with look-ahead: feed below which 1735 slows none [mm/min].

@@ -81,6 +81,8 @@ class MeldasMilling(MillingControl):
     def motion_settings(self, channel: Channel) -> MotionSettings:
         """#1086 G0Intp = 0: rapids run on a line; delivered, every axis by itself.
 
+        #2001 rapid and #2002 clamp bound the speeds of axes.
+
         #1206 G1bF, reached within #1207 G1btL, is the acceleration of cuts that are planned ahead (general knowledge).
         #2004 G0tL and #2007 G1tL: time constants of rapids and of cuts that are not planned ahead, milliseconds.
         """
@@ -93,6 +95,8 @@ class MeldasMilling(MillingControl):
             rapid_by_axis=given.rapids_by_axis != 0,
             inverse_time_by_radius=True,
             returns_to_path=False,
+            rapid_caps={name: of.rapid_speed / 60.0 for name, of in axes if of.rapid_speed > 0.0},
+            feed_caps={name: of.cutting_speed / 60.0 for name, of in axes if of.cutting_speed > 0.0},
             rapid_ramps={
                 name: Ramp(of.rapid_time / 1000.0) for name, of in axes if of.rapid_time is not None
             },

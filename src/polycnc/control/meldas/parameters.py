@@ -9,6 +9,10 @@ from polycnc.control.word_address.parameters import MacroAxisParameters, MacroPa
 class MeldasAxisParameters(MacroAxisParameters):
     """The parameters that every axis has."""
 
+    #: 2001: rapid: rapid traverse of an axis; 0 for that of the machine, which it does not pass [mm/min].
+    rapid_speed = Number(2001, delivered=0.0)
+    #: 2002: clamp: highest feed of an axis in cuts; 0 for that of the machine [mm/min].
+    cutting_speed = Number(2002, delivered=0.0)
     #: 2004: G0tL: time constant of rapids (linear), from rest to rapid traverse [ms].
     rapid_time = Number(2004, delivered=None)
     #: 2007: G1tL: time constant of cuts (linear) without high-accuracy control, whatever the feed [ms].

@@ -27,8 +27,10 @@ from polycnc.control.sinumerik.m_functions import (
 from polycnc.control.sinumerik.replaced import program_of
 from polycnc.control.sinumerik.tools import master_holder, selection, stages
 from polycnc.control.sinumerik.tools.holders import active as carriers
+from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.variables import part_counts
 from polycnc.control.tool_change import follow, way_to_change
+from polycnc.messages import AlarmError
 from polycnc.toolpath.events import Auxiliary
 
 if TYPE_CHECKING:
@@ -129,7 +131,9 @@ def _is_late(channel: SinumerikChannel, code: int) -> bool:
 
 
 def load_tool(channel: SinumerikChannel) -> None:
-    """The selected tool comes into the spindle."""
+    """The selected tool comes into the spindle; PC0020 under radius compensation where a transformation acts (6.10)."""
+    if channel.mode[seat.GROUP] and channel.mode["compensation"] != "G40":
+        raise AlarmError("PC0020")
     follow(channel, way_to_change(channel))
     memory = channel.memory
     before = memory.tools.additive

@@ -166,11 +166,13 @@ class Sinumerik:
             raise not_supported(EULER_ANGLES)
         if memory.data.read(CUTTING_DIRECTION):
             raise not_supported(CUTTING_DIRECTION)
-        init_programs.call(channel)
-        run_times.begin(channel)
+        self.begin(channel)
 
     def begin(self, channel: SinumerikChannel) -> None:
-        """A main program begins in the state that the channel is in."""
+        """A main program begins in the state that the channel is in; SD42110 is its feed where it has none."""
+        feed = channel.memory.data.number("$SC_DEFAULT_FEED")
+        if feed > 0.0 and not channel.feed > 0.0:
+            channel.feed = feed * tables.feed_type(channel.mode).factor
         init_programs.call(channel)
         run_times.begin(channel)
 

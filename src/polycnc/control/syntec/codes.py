@@ -6,6 +6,7 @@ from polycnc.control.syntec import cycles, spindles, tapping
 from polycnc.control.syntec.axis_groups import borrowing, groups
 from polycnc.control.syntec.coordinates import diameters, tool_setting
 from polycnc.control.syntec.coordinates import systems as frames
+from polycnc.control.syntec.coordinates.turns import POSTURE
 from polycnc.control.syntec.five_axes import alignment, normal_direction, spatial, tilted, tip_control
 from polycnc.control.syntec.macros import calls, interrupts
 from polycnc.control.syntec.motion import (
@@ -180,4 +181,5 @@ POWER_ON = MILLING_POWER_ON | {
     polar.POLAR: "G13.1",
     normal_line.GROUP: normal_line.OFF,
     oscillation.OSCILLATION: oscillation.OFF,
+    POSTURE: "",
 }

@@ -15,7 +15,7 @@ from polycnc.control.syntec.axis_groups import borrowing, groups, names
 from polycnc.control.syntec.builder import SyntecBuilder
 from polycnc.control.syntec.codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
 from polycnc.control.syntec.coordinates import systems
-from polycnc.control.syntec.five_axes import mechanism, normal_direction, tilted, tip_control
+from polycnc.control.syntec.five_axes import mechanism, normal_direction, posture, tilted, tip_control
 from polycnc.control.syntec.five_axes import spatial as spatial_radius
 from polycnc.control.syntec.macros import calls, interrupts, single_block
 from polycnc.control.syntec.macros.variables import USER, SpaceState, locals_of
@@ -47,7 +47,7 @@ if TYPE_CHECKING:
 
     from polycnc.channel.stack import Executable
     from polycnc.control.syntec.family import SyntecChannel
-    from polycnc.control.word_address.block.codes import ContextStep, GCode, Handler, MCode, Planner
+    from polycnc.control.word_address.block.codes import ContextStep, GCode, Handler, MCode, MRow, Planner
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.rules import Rule
     from polycnc.control.word_address.block.single_block import Halts
@@ -82,6 +82,7 @@ class SyntecMill(WordAddressControl):
     alarm_files: ClassVar[tuple[str, ...]] = ("syntec/alarms.toml", "syntec/alarms_special.toml")
     g_codes: ClassVar[Mapping[str, GCode]] = G_CODES
     m_codes: ClassVar[Mapping[int, MCode]] = M_CODES
+    m_rows: ClassVar[tuple[MRow, ...]] = (interrupts.m_row,)
     context_steps: ClassVar[tuple[ContextStep, ...]] = (
         in_tapping_mode,
         moves.recorded,
@@ -126,6 +127,7 @@ class SyntecMill(WordAddressControl):
         corners.RULE,
         line_by_angle.RULE,
         tip_control.COMPANY_RULE,
+        posture.RULE,
         tip_control.RULE,
         drilling_cycles.RULE,
         cycles.OVERLAP_RULE,
@@ -224,7 +226,8 @@ class SyntecMill(WordAddressControl):
         if feed == "G95":
             channel.feed = moves.DEFAULT_FEED["G95"]
         for number, code in zip(SyntecParameters.m_macros.numbers, memory.parameters.m_macros, strict=True):
-            if code in calls.NEVER_REGISTERED - {0}:
+            on = memory.parameters.interrupt_m
+            if code in calls.NEVER_REGISTERED - {0} or code in (on, on + 1):
                 raise self.fail("registered_m", number=number)
         kept = tilted.Kept.over_power_off(channel)
         tilted.rotate_work_system(channel, on=memory.parameters.rotates_at_start == 1)

@@ -95,7 +95,7 @@ class SyntecParameters(ControlParameters["SyntecAxisParameters"]):
     without_work_systems = Whole(3229, delivered=0)
     #: 3241: Numbers without a point count least input units (0) or whole units (1).
     whole_units = Whole(3241, delivered=0)
-    #: 3600: M code of the interrupt function.
+    #: 3600: M code that enables interrupts; the next one ends that.
     interrupt_m = Whole(3600, delivered=96)
     #: 3601: M codes that call macros; 0 for none.
     m_macros = WholeRun(3601, 10, delivered=0)

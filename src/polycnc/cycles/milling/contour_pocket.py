@@ -296,18 +296,29 @@ def rough(pocket: ContourPocket, levels: Sequence[float]) -> Iterator[MillStroke
     if pocket.start is not None:
         _check_start(pocket, [done for around in ways for done in around if not done.is_linked])
     for around in ways:
-        above = pocket.reference
-        for number, level in enumerate(levels):
-            for done in around:
-                if not done.is_linked:
-                    yield rapid(w=pocket.retract)
-                    yield from _enter(pocket, done, above, level, is_first=number == 0)
-                else:
-                    yield cut(pocket.feed, done.start)
-                for edge in done.loop:
-                    yield _stroke(pocket, edge)
-            above = level
+        yield from mill_passes(pocket, around, levels)
     yield rapid(w=pocket.retract)
+
+
+def mill_passes(
+    pocket: ContourPocket, around: Sequence[Pass], levels: Sequence[float]
+) -> Iterator[MillStroke]:
+    """The passes of an area, level by level.
+
+    Raises:
+        InsertionError: As `rough`.
+    """
+    above = pocket.reference
+    for number, level in enumerate(levels):
+        for done in around:
+            if not done.is_linked:
+                yield rapid(w=pocket.retract)
+                yield from _enter(pocket, done, above, level, is_first=number == 0)
+            else:
+                yield cut(pocket.feed, done.start)
+            for edge in done.loop:
+                yield stroke_of(pocket, edge)
+        above = level
 
 
 def _check_start(pocket: ContourPocket, entered: Sequence[Pass]) -> None:
@@ -321,7 +332,8 @@ def _check_start(pocket: ContourPocket, entered: Sequence[Pass]) -> None:
         raise StartError
 
 
-def _stroke(pocket: ContourPocket, edge: Edge, w: float | None = None) -> MillStroke:
+def stroke_of(pocket: ContourPocket, edge: Edge, w: float | None = None) -> MillStroke:
+    """The stroke along an edge, down to a level with `w`."""
     if edge.center is None:
         return cut(pocket.feed, edge.end, w)
     return arc(pocket.feed, edge.end, edge.center, edge.ccw, w)
@@ -377,8 +389,8 @@ def _ramp(pocket: ContourPocket, loop: Loop, above: float, level: float) -> Iter
     at = 0.0
     back = region.reversed_loop([edge])[0]
     for part in turns:
-        yield _stroke(pocket, edge, above + down * 0.5 * (at + part))
-        yield _stroke(pocket, back, above + down * part)
+        yield stroke_of(pocket, edge, above + down * 0.5 * (at + part))
+        yield stroke_of(pocket, back, above + down * part)
         at = part
 
 
@@ -436,7 +448,7 @@ def finish_edges(pocket: ContourPocket, levels: Sequence[float]) -> Iterator[Mil
             yield cut(pocket.depth_feed, w=level)
             yield cut(pocket.feed, begun[0].start)
             for edge in begun:
-                yield _stroke(pocket, edge)
+                yield stroke_of(pocket, edge)
             yield cut(pocket.feed, beside)
     yield rapid(w=pocket.retract)
 

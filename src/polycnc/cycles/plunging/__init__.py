@@ -1,1 +1,4 @@
-"""Turning with a tool that has a width: `profile` says how deep its point may go, `cuts` plunges and turns there."""
+"""Turning by heights over places.
+
+`profile` says how deep a tool's point may go, `cuts` plunges and turns there, `material` tells what is left.
+"""

@@ -1,4 +1,4 @@
-"""Grooving and plunge turning along a contour (SINUMERIK CYCLE952): plunges, cuts between walls, and along them.
+"""Plunges, cuts between walls, along them and along a whole contour (SINUMERIK CYCLE952).
 
 Coordinates are those of `profile`. The tool's point stays on or above `floor`, in front of it is stock up to `stock`;
 straight up from wherever it stands the way is open, for a profile has no overhang.
@@ -171,6 +171,32 @@ def follow(work: Work) -> Iterator[Stroke]:
                 edge = piece.edge
                 yield Stroke(Use.FOLLOW, edge.end, edge.center, edge.ccw)
             yield Stroke(Use.RAPID, (way[-1].edge.end[0], work.over))
+
+
+def follow_on(work: Work, direction: float, front: float) -> Iterator[Stroke]:
+    """Along the floor in one direction, 1 or -1, wherever there is stock; past the work from place to place.
+
+    Where the stock begins, at `front`, the tool comes along the floor, elsewhere from above.
+    """
+    found = work.stretches()
+    for low, high in found if direction > 0.0 else reversed(found):
+        way = _walled(work, low, high)
+        if direction < 0.0:
+            way = turned_round(way)
+        begin = way[0].edge.start[0]
+        if abs(begin - front) <= _NARROW:
+            if abs(way[0].edge.end[0] - begin) <= _HAIR:
+                way = way[1:]
+            before = (front - direction * work.lift, way[0].edge.start[1])
+            yield Stroke(Use.RAPID, (before[0], work.over))
+            yield Stroke(Use.RAPID, before)
+        else:
+            yield from _down(work, begin, max(way[0].edge.start[1], work.stock.height(begin)))
+        yield Stroke(Use.FOLLOW, way[0].edge.start)
+        for piece in way:
+            edge = piece.edge
+            yield Stroke(Use.FOLLOW, edge.end, edge.center, edge.ccw)
+        yield Stroke(Use.RAPID, (way[-1].edge.end[0], work.over))
 
 
 def _walled(work: Work, low: float, high: float) -> Contour:

@@ -12,6 +12,7 @@ from itertools import pairwise
 from math import hypot, sqrt
 from typing import TYPE_CHECKING
 
+from polycnc.cycles.count import checked
 from polycnc.cycles.turning.contour import Piece, reversal, shifted, slopes, turned_round
 from polycnc.deferred.records import dataclass
 from polycnc.geometry import arcs, offset
@@ -131,8 +132,13 @@ def _turned_over(edge: Edge) -> Edge:
     return offset.arc(start, end, (edge.center[0], -edge.center[1]), not edge.ccw)
 
 
-def profile(contour: Sequence[Piece], top: float) -> Profile:
+def profile(contour: Sequence[Piece], top: float, *, open_at: float = 0.0) -> Profile:
     """Heights of a contour of (a, h), with walls at both ends up to a height.
+
+    Args:
+        contour: Towards larger `a`.
+        top: Of the walls.
+        open_at: 1 or -1 where there is no wall at the larger or smaller end.
 
     Raises:
         ValueError: It runs back along `a`, or nowhere.
@@ -144,7 +150,8 @@ def profile(contour: Sequence[Piece], top: float) -> Profile:
     curves = [edge for edge in edges if edge.end[0] - edge.start[0] > _HAIR]
     if not curves:
         raise ValueError("no way")
-    tops = [(a, max(h, top)) for a, h in (contour[0].edge.start, contour[-1].edge.end)]
+    ends = ((contour[0].edge.start, -1.0), (contour[-1].edge.end, 1.0))
+    tops = [(a, h if side == open_at else max(h, top)) for (a, h), side in ends]
     walls = [point for edge in edges if edge not in curves for point in (edge.start, edge.end)]
     return Profile(envelope(curves), (*tops, *walls))
 
@@ -291,3 +298,27 @@ def stretches(above: Profile, below: Profile) -> list[tuple[float, float]]:
 def level(height: float, low: float, high: float) -> Profile:
     """The same height from place to place."""
     return Profile((offset.line((low, height), (high, height)),))
+
+
+def layers(floor: Profile, stock: Profile, step: float) -> list[Profile]:
+    """Floors at multiples of a distance off one, square to it, as far as there is stock; that one is the last."""
+    result = [floor]
+    while stretches(stock, found := dilated(floor, step * len(result))):
+        result.append(found)
+        checked(len(result))
+    return result[::-1]
+
+
+def shifted_layers(floor: Profile, stock: Profile, way: Point) -> list[Profile]:
+    """As `layers`, each moved by a way along both axes from the one below it; none goes below the floor."""
+    result = [floor]
+    wall = floor.highest(floor.begin, floor.end)
+    while True:
+        along, up = way[0] * len(result), way[1] * len(result)
+        beside = [floor.begin, floor.begin + along] if along > 0.0 else [floor.end + along, floor.end]
+        walls = level(max(wall, stock.highest(stock.begin, stock.end)), *beside).curves if along else ()
+        found = Profile(envelope([*floor.curves, *moved(floor, along, up).curves, *walls]))
+        if not stretches(stock, found):
+            return result[::-1]
+        result.append(found)
+        checked(len(result))

@@ -9,7 +9,7 @@ from __future__ import annotations
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from polycnc.cycles.turning.contour import Piece, points, runs, swapped
+from polycnc.cycles.turning.contour import Piece, points, runs, slopes, swapped
 from polycnc.geometry import offset
 from polycnc.geometry.tolerances import NO_WAY
 
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from polycnc.cycles.turning.contour import Contour
+    from polycnc.geometry.arcs import Point
 
 _HAIR = 1e-7
 
@@ -49,6 +50,32 @@ def walled(contour: Contour, wall: float, top: float, towards: float) -> Contour
     if towards * (end.end[1] - top) > NO_WAY:
         corners.append((corners[-1][0], top))
     return result + [Piece(offset.line(p, q)) for p, q in pairwise(corners)]
+
+
+def without_reliefs(contour: Contour, towards: float) -> Contour:
+    """A contour that is led straight along the cuts from every summit to where it rises above that, or to its end."""
+    result: Contour = []
+    summit: Point | None = None
+    for piece in slopes(contour):
+        edge = piece.edge
+        if summit is None:
+            if towards * (edge.end[1] - edge.start[1]) > NO_WAY:
+                summit = edge.start
+            else:
+                result.append(piece)
+            continue
+        risen = next((run for is_deep, run in runs([piece], summit[1], towards) if not is_deep), None)
+        if risen is not None:
+            result += _led(summit, (risen[0].edge.start[0], summit[1]))
+            result += risen
+            summit = None
+    if summit is not None:
+        result += _led(summit, (contour[-1].edge.end[0], summit[1]))
+    return result
+
+
+def _led(start: Point, end: Point) -> Contour:
+    return [Piece(offset.line(start, end))] if abs(end[0] - start[0]) > NO_WAY else []
 
 
 def not_deeper(contour: Contour, level: float, towards: float) -> Contour:

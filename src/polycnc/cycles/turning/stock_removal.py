@@ -14,7 +14,7 @@ from math import copysign, hypot
 from typing import TYPE_CHECKING
 
 from polycnc.cycles.count import parts
-from polycnc.cycles.turning.contour import Gap, Piece, climb, gaps, points
+from polycnc.cycles.turning.contour import Gap, Piece, climb, crossings, gaps, points, swapped
 from polycnc.cycles.turning.stroke import PlaneStroke
 from polycnc.deferred.records import dataclass
 from polycnc.geometry import arcs, offset
@@ -184,6 +184,10 @@ class _Work:
             level = -towards * height
             at = (entry, level, -towards * above, -towards * stock)
             cuts = list(_cut(self.contour, self.removal, gap, at, self.onwards, front=front))
+            if front and self._is_near_stock(entry, level):
+                # What was cut before lies under the way in: the last of it is no rapid.
+                above_it = PlaneStroke(Kind.RAPID, (entry, level - towards * lift))
+                cuts[:1] = [Cut(above_it), Cut(PlaneStroke(Kind.FEED, (entry, level)))]
             if self.at is not None and above == section.top:
                 way = way_over(self.contour, self.at, cuts[0].stroke.end, towards=towards, lift=lift)
                 yield from map(Cut, way)
@@ -197,6 +201,13 @@ class _Work:
             if towards * (self.at[1] - over) > _HAIR:
                 self.at = (self.at[0], over)
                 yield Cut(PlaneStroke(Kind.RAPID, self.at))
+
+    def _is_near_stock(self, entry: float, level: float) -> bool:
+        """Whether the outline of the stock reaches up to a level at a place, or nearly so."""
+        if self.outline is None:
+            return False
+        at = [point[0] for piece in swapped(self.outline) for point in crossings(piece.edge, entry)]
+        return any(self.removal.towards * (level - b) > -self.removal.lift + _WHOLE for b in at)
 
     def _place(self, section: Section, height: float, *, is_flat: bool) -> tuple[Gap, float, bool] | None:
         """The gap of a cut, where the tool goes down to it, and whether that is in front; None for no cut."""

@@ -149,10 +149,10 @@ class Scanner:
         told = dialect.routines
         self._routines = None if told is None else RunningRoutines(told, state, dialect.spelling)
         self._columns = (
-            array("B", bytes(rooms)), array("H", bytes(2 * rooms)), array("I", bytes(4 * rooms)),
-            array("d", bytes(8 * rooms)),
-            array("d", bytes(8 * rooms * axes)), array("i", bytes(4 * rooms)),
-            array("d", bytes(8 * rooms * CURVE_WIDTH)),
+            array("B", (0,)) * rooms, array("H", (0,)) * rooms, array("I", (0,)) * rooms,
+            array("d", (0.0,)) * rooms,
+            array("d", (0.0,)) * (rooms * axes), array("i", (0,)) * rooms,
+            array("d", (0.0,)) * (rooms * CURVE_WIDTH),
         )  # fmt: skip
         self._views = tuple([memoryview(column).cast("B") for column in self._columns])
         self._notes = array("q", bytes(8 * layout.NoteRecord.SIZE * MOST_NOTES))
@@ -426,7 +426,7 @@ class Scanner:
     def _take_rows(self, channel: ScannedChannel) -> None:
         """Rows into the chunk; where a block has left a note, its steps act between them, as they would have there."""
         state, axes = self._state, self._axes
-        channel.toolpath.chunk.add_curves(state.scan.curves, self._columns[-1])
+        channel.toolpath.chunk.add_curves(state.scan.curves, self._views[-1])
         code = channel.level.code
         taken = 0
         for i in range(state.scan.notes):

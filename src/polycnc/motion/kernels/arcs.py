@@ -145,13 +145,18 @@ def arc_point(angle: float, n: int, limits: Limits, weight: float, state: State)
     return way
 
 
+def leads_tip(limits: Limits, state: State) -> bool:
+    """Whether shares of the row at hand hold the velocities of the axes that lead a tip: its columns have none then."""
+    return state.row.shares > 1.0 and len(limits.linkage) > 0
+
+
 def point_cap2(n: int, limits: Limits, state: State, margin: float) -> float:
     """Largest x at a point of a curve at which every axis keeps its velocity and can hold the speed."""
     unit, bend = state.unit, state.bend
-    cap2 = inf
+    cap2, leads = inf, leads_tip(limits, state)
     for i in range(n):
         share, curvature = abs(unit[i]) * margin, abs(bend[i]) * margin
-        if share > 0.0:
+        if share > 0.0 and not leads:
             speed = limits.top_feed[i] / share
             cap2 = min(cap2, speed * speed)
         if curvature > 0.0:
@@ -243,7 +248,7 @@ def lay_arc(
         store_point(pieces, at + PieceRecord.VECTORS + n, n, state, margin)
         # On a spiral the way grows unevenly (Simpson's rule): a length that is off would bend the cubic along itself.
         pieces[at + PieceRecord.LENGTH] = (way + 4.0 * middle_way + next_way) / 6.0 * (last - first)
-        bound_curve(pieces, at, n, limits, min(speed, own))
+        bound_curve(pieces, at, n, limits, state, min(speed, own))
         if contexts[record + ContextRecord.DRIVE_SPEED] < 1.0 or state.row.ease < 1.0:
             slow_down(contexts, record, pieces, at, n, limits, state)
         if gentle:
@@ -425,13 +430,13 @@ def store_point(pieces: Floats, at: int, n: int, state: State, margin: float) ->
         pieces[at + 2 * n + i] = state.bend[i] * margin
 
 
-def bound_curve(pieces: Floats, at: int, n: int, limits: Limits, speed: float) -> None:
+def bound_curve(pieces: Floats, at: int, n: int, limits: Limits, state: State, speed: float) -> None:
     """Set CAP2 and PULL of a curved piece from the tangents at its ends."""
-    cap2, pull = speed * speed, inf
+    cap2, pull, leads = speed * speed, inf, leads_tip(limits, state)
     for i in range(n):
         share = max(abs(pieces[at + PieceRecord.VECTORS + i]), abs(pieces[at + PieceRecord.VECTORS + n + i]))
         if share > 0.0:
-            top = limits.top_feed[i] / share
+            top = inf if leads else limits.top_feed[i] / share
             cap2 = min(cap2, top * top)
             pull = min(pull, limits.acceleration[i] / share)
     pieces[at + PieceRecord.CAP2], pieces[at + PieceRecord.PULL] = cap2, pull

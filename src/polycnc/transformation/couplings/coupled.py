@@ -79,10 +79,10 @@ class Coupled(OneToOne):
 
 @dataclass(frozen=True, slots=True)
 class Shown(OneToOne):
-    """Displays show following axes where they are, not what they have gone by themselves.
+    """Displays show following axes where they are, not what they have gone by themselves, and the tip off the table.
 
     Attributes:
-        led: From the work to the machine, with couplings.
+        led: From the work to the machine, with couplings (turns of the table).
         bare: The same without them.
     """
 

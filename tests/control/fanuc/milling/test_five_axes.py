@@ -256,3 +256,38 @@ def test_tip_control_takes_the_work_system_along_as_it_lies_when_it_begins(
     tip, _ = seen(kind, np.array(channel.coordinates.machine), 50.0)
     m, t = table_at(kind, *start)
     assert tip == pytest.approx(m.T @ (np.array([17.0, -1.0, 27.0]) - t), abs=1e-6)
+
+
+@settings(max_examples=6, deadline=None)
+@given(kind=st.sampled_from(("table", "mixed")), start=st.tuples(ANGLE, ANGLE), points=POINTS)
+def test_in_a_system_that_stands_the_tip_goes_straight_on_the_table(
+    kind: str,
+    start: tuple[float, float],
+    points: list[Point],
+    tmp_path_factory: pytest.TempPathFactory,
+) -> None:
+    machine = machine_file(kind, tmp_path_factory.mktemp("machine"))
+    names, zero = "XYZAC" if kind == "table" else "XYZBC", np.array([5.0, 6.0, 7.0])
+    blocks = [f"G90 G00 {names[3]}{start[0]} C{start[1]}", "G43.4 H1", "G01 F900"]
+    goals = laid(points)[:-1]
+    blocks += [
+        " ".join(f"{name}{value:.3f}" for name, value in zip(names, goal, strict=True)) for goal in goals
+    ]
+    setup = {
+        "tools": {1: {"length": 50}},
+        "work_offsets": {"G54": dict(zip("XYZ", zero.tolist(), strict=True))},
+        "parameters": {"19696#5": 1},
+    }
+    channel = run("\n".join([*blocks, "M30", ""]), setup=setup, machine=machine)
+    assert codes(channel) == []
+    rows, geometry = moves(channel)[-len(goals) :], channel.coordinates.geometry
+    before = None
+    for row, goal in zip(rows, goals, strict=True):
+        end = np.array(row.end)
+        tip, _ = seen(kind, np.array(channel.toolpath.to_machine(row.end, row.context, geometry)), 50.0)
+        m, t = table_at(kind, *goal[3:])
+        assert tip == pytest.approx(m.T @ (goal[:3] + zero - t), abs=1e-6)
+        if before is not None:
+            middle = channel.toolpath.to_machine(((before[0] + end) / 2.0).tolist(), row.context, geometry)
+            assert seen(kind, np.array(middle), 50.0)[0] == pytest.approx((before[1] + tip) / 2.0, abs=1e-6)
+        before = (end, tip)

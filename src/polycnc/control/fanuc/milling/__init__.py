@@ -1,5 +1,6 @@
 """The FANUC machining centre (`fanuc-m`).
 
-`control`, `codes` (its tables), `five_axes` (G41.2), `leading_edge` (G41.3), `cycles` (drilling), `variables`,
-`parameters` (written from the list beside it).
+`control`, `codes` (its tables), `cycles` (drilling), `variables`, `parameters` (written from the list beside it).
+
+Of five axes `standing_system` (G43.4 by WKP), `leaning` (Q of G43.5), `five_axes` (G41.2), `leading_edge` (G41.3).
 """

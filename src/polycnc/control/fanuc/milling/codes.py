@@ -6,7 +6,7 @@ from functools import wraps
 from typing import TYPE_CHECKING, Any
 
 from polycnc.control.fanuc.dwell import dwell
-from polycnc.control.fanuc.milling import five_axes, leading_edge
+from polycnc.control.fanuc.milling import five_axes, leading_edge, leaning, standing_system
 from polycnc.control.fanuc.milling.cycles import MILLING_DRILLING
 from polycnc.control.word_address.auxiliary import functions
 from polycnc.control.word_address.auxiliary.m_codes import MACHINING_CENTRE
@@ -30,7 +30,6 @@ from polycnc.control.word_address.transformations import (
     normal_line,
     polar_interpolation,
     tilted_plane,
-    tool_center_point,
     workpiece,
 )
 
@@ -57,7 +56,7 @@ def tool_length(handler: Handler) -> Handler:
 
     @wraps(handler)
     def act(channel: Channel, words: Words) -> None:
-        tool_center_point.end_following(channel)
+        standing_system.end_following(channel)
         handler(channel, words)
 
     return act
@@ -119,8 +118,8 @@ ROWS = table(
     GCode("G41.3", "compensation", leading_edge.offset_edge, takes="D", order=Order.COMPENSATION),
     GCode("G43", "length", tool_length(length.compensate_length), takes="H", order=Order.LENGTH),
     GCode("G44", "length", tool_length(length.compensate_length), takes="H", order=Order.LENGTH),
-    GCode("G43.4", "length", five_axes.start_following, takes="H", order=Order.LENGTH),
-    GCode("G43.5", "length", five_axes.start_following, takes="H", order=Order.LENGTH),
+    GCode("G43.4", "length", standing_system.start_following, takes="H", order=Order.LENGTH),
+    GCode("G43.5", "length", standing_system.start_following, takes="H Q", order=Order.LENGTH),
     *(moves(code, position_offset.offset_move, "D I J K R", idle_in_cycle=True) for code in position_offset.TIMES),
     GCode("G49", "length", tool_length(length.cancel_length), order=Order.LENGTH),
     GCode("G50", "scaling", frames.end_scale),
@@ -185,6 +184,8 @@ POWER_ON = MILLING_POWER_ON | {
     normal_line.GROUP: normal_line.OFF,
     workpiece.FIXTURE: "",
     workpiece.ERROR: "",
+    standing_system.SYSTEM: "",
+    leaning.GROUP: "",
     "calls": macro_calls.ALL_CALLS,
     "interruption": "M97",
     "data_input": "G11",

@@ -9,7 +9,7 @@ from polycnc.compensation.policy import Approach, Policy
 from polycnc.control.fanuc.acceleration import accelerated
 from polycnc.control.fanuc.alarm_codes import ALARMS
 from polycnc.control.fanuc.code_calls import registered_codes
-from polycnc.control.fanuc.milling import five_axes, leading_edge
+from polycnc.control.fanuc.milling import five_axes, leading_edge, leaning, standing_system
 from polycnc.control.fanuc.milling.codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
 from polycnc.control.fanuc.milling.cycles import MILLING_DRILLING
 from polycnc.control.fanuc.milling.parameters import FanucMillingParameters
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from polycnc.channel.channel import Channel
-    from polycnc.control.word_address.block.codes import GCode, MCode, MRow, Planner, Step
+    from polycnc.control.word_address.block.codes import ContextStep, GCode, MCode, MRow, Planner, Step
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.rules import Rule
     from polycnc.control.word_address.block.words import Words
@@ -57,9 +57,15 @@ class FanucMilling(MillingControl):
     parameter_files: ClassVar[tuple[str, ...]] = ("fanuc/parameters.toml", "fanuc/milling/parameters.toml")
     parameter_class: ClassVar = FanucMillingParameters
     drilling: ClassVar[Drilling] = MILLING_DRILLING
+    context_steps: ClassVar[tuple[ContextStep, ...]] = (
+        *MillingControl.context_steps,
+        standing_system.displayed,
+    )
     rules: ClassVar[tuple[Rule, ...]] = (
         five_axes.RULE,
         leading_edge.RULE,
+        standing_system.RULE,
+        leaning.RULE,
         *MillingControl.rules,
         look_ahead.TRAVEL_RULE,
         interruption.RULE,

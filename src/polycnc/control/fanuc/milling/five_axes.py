@@ -1,4 +1,4 @@
-"""Five axes of the FANUC machining centre: how tip control begins, and radius compensation in space.
+"""Radius compensation in space on the FANUC machining centre.
 
 Three-dimensional cutter compensation G41.2, G42.2 (the tool as the rotary axes stand it), G41.6, G42.6 (by I J K) and
 the forms of FANUC 16i for machines with a table (G41.4, G42.4) and with table and head (G41.5, G42.5) are general
@@ -19,7 +19,6 @@ from polycnc.control.word_address.coordinates.on_table import OnTable
 from polycnc.control.word_address.coordinates.systems import ZeroState
 from polycnc.control.word_address.tools import radius, spatial
 from polycnc.control.word_address.tools.radius import RadiusState
-from polycnc.control.word_address.transformations import tool_center_point
 from polycnc.control.word_address.transformations.tilted_plane import TiltState
 from polycnc.control.word_address.transformations.tool_center_point import TIP_CODES
 from polycnc.messages import AlarmError
@@ -50,21 +49,6 @@ RULES = Rules(
 )
 #: Sharper corners of the work are not passed by the intersection of the parallels.
 SHARP_DEG = 90.0
-
-
-def start_following(channel: WordAddressChannel, words: Words) -> None:
-    """G43.4, G43.5 H: words name the tip on the table.
-
-    PC0001 where 19696#5 WKP has them in a system that stands; G43.5 does not go with that (FANUC A-79348E, page 20).
-    """
-    if _parameters(channel).WKP:
-        if channel.mode["length"] == "G43.5":
-            raise words.fail("tip_direction", "G43.5")
-        raise not_yet("19696#5")
-    tool_center_point.start_following(channel, words)
-
-
-# ---- radius compensation in space ------------------------------------------------------------------------------
 
 
 def compensate(channel: WordAddressChannel, words: Words) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.control.fanuc.milling import standing_system
 from polycnc.control.fanuc.system_variables import (
     COMMON_VARIABLES,
     axis_at,
@@ -204,7 +205,7 @@ def _shown(m: MacroMemory, axis: int, value: float) -> float:
 def _end_point(m: MacroMemory, i: int) -> float:
     """Work coordinates of the block end, as programmed."""
     axis = axis_at(m, i)
-    return _shown(m, axis, m.channel.coordinates.position[axis])
+    return _shown(m, axis, standing_system.place(m.channel, m.channel.coordinates.position)[axis])
 
 
 def _machine(m: MacroMemory, i: int) -> float:
@@ -217,7 +218,8 @@ def _machine(m: MacroMemory, i: int) -> float:
 def _work_with_length(m: MacroMemory, i: int) -> float:
     """Work position now: machine position less work zero, the tool length not taken off."""
     axis = axis_at(m, i)
-    return _shown(m, axis, tool_position(m.channel)[axis] + ZeroState.of(m.channel).length[axis])
+    place = standing_system.place(m.channel, tool_position(m.channel))
+    return _shown(m, axis, place[axis] + ZeroState.of(m.channel).length[axis])
 
 
 def _skip(m: MacroMemory, i: int) -> float:

@@ -85,15 +85,28 @@ class ModuloRange(NamedTuple):
 FULL_TURN = ModuloRange()
 
 
+#: Machine positions of the reference points, MD34100.
+_REFERENCES = "$MA_REFP_SET_POS"
+
+
 def configured_axes(channel: SinumerikChannel) -> tuple[MachineAxis, ...]:
-    """The channel's axes as the machine file tells them; MD30310 makes rotary ones modulo axes or not."""
+    """The channel's axes as the machine file tells them; MD30310 makes rotary ones modulo axes or not.
+
+    MD34100 tells the first to fourth reference point.
+    """
     data = MachineData.of(channel)
-    return tuple(
-        replace(axis, modulo=bool(data.integer("$MA_ROT_IS_MODULO", axis.name)))
-        if axis.rotary and data.is_set("$MA_ROT_IS_MODULO", axis.name)
-        else axis
-        for axis in channel.axis_data
-    )
+    return tuple(_configured(axis, data) for axis in channel.axis_data)
+
+
+def _configured(axis: MachineAxis, data: MachineData) -> MachineAxis:
+    if axis.rotary and data.is_set("$MA_ROT_IS_MODULO", axis.name):
+        axis = replace(axis, modulo=bool(data.integer("$MA_ROT_IS_MODULO", axis.name)))
+    points = [
+        data.number(_REFERENCES, i, axis.name) if data.is_set(_REFERENCES, i, axis.name) else point
+        for i, point in enumerate(axis.reference_points)
+    ]
+    first, second, third, fourth = points
+    return replace(axis, reference_points=(first, second, third, fourth))
 
 
 class AxisTerm(NamedTuple):

@@ -264,10 +264,27 @@ def _directions(a: Arguments) -> int:
     return DIRECTIONS.get(a.integer("SDAC"), 0)
 
 
+#: Greatest digits of _TECHNO, from the right: exact stop, feedforward, acceleration, spindle, check of the gear.
+TECHNOLOGY = (3, 2, 3, 1, 1)
+_STAYS_CONTROLLED = 3
+
+
+def _check_technology(a: Arguments) -> None:
+    """61125 for a digit of _TECHNO that does not exist; the first three change no way, and are not carried out."""
+    digits = (a.digit("_TECHNO", place) for place in range(len(TECHNOLOGY)))
+    if not 0 <= a.integer("_TECHNO") < 10 ** len(TECHNOLOGY) or any(
+        digit > most for digit, most in zip(digits, TECHNOLOGY, strict=True)
+    ):
+        raise AlarmError("61125", text=a.cycle)
+
+
 def rigid_tapping(moves: Moves, a: Arguments) -> None:
     """CYCLE84: tapping with the spindle in position control, in one go or in steps."""
     lead = pitch(a)
-    variant = a.digit("_VARI", 0)
+    _check_technology(a)
+    variant = a.integer("_VARI")
+    if variant >= 10:
+        raise not_supported("CYCLE84 _VARI")
     if variant not in (0, 1, 2):
         raise AlarmError("61002")
     found = levels(moves, a)
@@ -288,7 +305,7 @@ def rigid_tapping(moves: Moves, a: Arguments) -> None:
             moves.speed(into if value > 0.0 else out)
         else:
             moves.speed(speed)
-            if a.digit("_TECHNO", 3) != 1:
+            if a.digit("_TECHNO", _STAYS_CONTROLLED) != 1:
                 moves.turn(_directions(a))
 
     strokes = deep.tap_in_steps(
@@ -322,6 +339,7 @@ WITH_ENCODER, WITH_ENCODER_AND_DWELL, BY_FEED, BY_PITCH = 0, 20, 1, 11
 def tapping_with_chuck(moves: Moves, a: Arguments) -> None:
     """CYCLE840: tapping with a compensating chuck, G33 with the spindle's encoder or G63 without."""
     kind = a.integer("ENC")
+    _check_technology(a)
     if kind not in (WITH_ENCODER, WITH_ENCODER_AND_DWELL, BY_FEED, BY_PITCH):
         raise AlarmError("61002")
     encoder = kind in (WITH_ENCODER, WITH_ENCODER_AND_DWELL)

@@ -148,6 +148,7 @@ def reference_point(moves: Moves, a: Arguments) -> Point:
 _START_POINT_PLACE, _DIMENSIONING_PLACE, _PREMACHINED_PLACE = 2, 3, 4
 ONLY_START = 2
 WHOLE = 1
+FROM_MIDDLE = 1
 #: On which side of the reference point the shape lies, by the thousands of _GMODE: about it, or from a corner: the left
 #: or right one below, the left or right one above.
 SIDES_OF_REFERENCE = {
@@ -459,7 +460,8 @@ def open_slot(moves: Moves, a: Arguments) -> None:
 
     Raises:
         AlarmError: As the other milling cycles; 61002 for VARI, 61105 for a tool that does not go in, 61118 for a slot
-            without length or width; PC0001 for a mere start point.
+            without length or width; PC0001 for a mere start point, a reference point on one of its walls, and
+            higher digits of VARI.
     """
     check_start_point(a)
     kind = a.digit("_VARI", 0)
@@ -467,8 +469,12 @@ def open_slot(moves: Moves, a: Arguments) -> None:
     require_tool(moves)
     radius = chamfer(moves, a).radius if chamfers else cutter(moves)
     technique = next((digit for place in _TECHNIQUE_PLACES if (digit := a.digit("_VARI", place))), TROCHOIDAL)
-    if kind not in KINDS_OF_OPEN_SLOTS or technique not in (TROCHOIDAL, PLUNGING):
+    if kind not in KINDS_OF_OPEN_SLOTS or technique not in (TROCHOIDAL, PLUNGING) or a.integer("_VARI") < 0:
         raise AlarmError("61002")
+    if a.integer("_VARI") >= 10 ** (max(_TECHNIQUE_PLACES) + 1):
+        raise not_supported("CYCLE899 _VARI")
+    if a.digit("_GMODE", _DIMENSIONING_PLACE) > FROM_MIDDLE:
+        raise not_supported("CYCLE899 _GMODE")
     length, width = abs(a["_LENG"]), abs(a["_WID"])
     if not length or not width:
         raise AlarmError("61118")

@@ -22,6 +22,7 @@ from polycnc.control.sinumerik.cycles.milling import (
     width_of_cut,
 )
 from polycnc.control.sinumerik.cycles.moves import require_tool
+from polycnc.control.sinumerik.errors import not_supported
 from polycnc.cycles.count import checked
 from polycnc.cycles.milling import contour as path_milling
 from polycnc.cycles.milling import facing, spigots
@@ -132,6 +133,8 @@ def path(moves: Moves, a: Arguments) -> None:
     kind = variant(a, "_VARI", (ROUGHING, FINISHING), digits=TURNED_ROUND + 1)
     if a.digit("_VARI", 1) not in (0, 1) or a.digit("_VARI", 2) > STAYS:
         raise AlarmError("61002")
+    if a.digit("_VARI", TURNED_ROUND - 1) or a.digit("_VARI", TURNED_ROUND) > 1:
+        raise not_supported("CYCLE72 _VARI")
     side = SIDES.get(a.integer("_RL"))
     if side is None or (kind == CHAMFER and not side):
         raise AlarmError("61114")

@@ -235,11 +235,13 @@ def absolute_factor(channel: SinumerikChannel, draft: Draft, column: int) -> flo
 
 
 def check_end(channel: SinumerikChannel, begin: arcs.Point, end: arcs.Point, center: arcs.Point) -> None:
-    """14040 if start and end are not equally far from the centre (MD21000), or there is no radius."""
-    memory = channel.memory
-    if arcs.radius_of(center, begin) <= NO_WAY:
-        raise AlarmError("14040")
-    if abs(arcs.radius_mismatch(begin, end, center)) > memory.data.number("$MC_CIRCLE_ERROR_CONST") + 1e-9:
+    """14040 if start and end are not equally far from the centre, or there is no radius.
+
+    The difference may be MD21000, or MD21010 times the radius at the start where that is more (general knowledge).
+    """
+    data, radius = channel.memory.data, arcs.radius_of(center, begin)
+    allowed = max(data.number("$MC_CIRCLE_ERROR_CONST"), data.number("$MC_CIRCLE_ERROR_FACTOR") * radius)
+    if radius <= NO_WAY or abs(arcs.radius_mismatch(begin, end, center)) > allowed + 1e-9:
         raise AlarmError("14040")
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.channel.waits import Wait, Why
+from polycnc.control.word_address.tools.data_input import refuse_axes
 from polycnc.deferred.records import dataclass
 from polycnc.program.split import split_channels
 
@@ -75,6 +76,7 @@ def _bytes_of(program: Program) -> int:
 
 def meet(channel: SyntecChannel, words: Words) -> None:
     """G04.1 P Q: axis groups wait for each other; Q names them by digits, without Q all of them."""
+    refuse_axes(words, "meeting_mark")
     mark, groups = words.typed("P"), words.typed("Q")
     existing = {each.number for each in channel.machine.channels}
     if mark is None or mark < 0 or mark != int(mark):

@@ -180,6 +180,9 @@ def limits_in(channel: SyntecChannel, travel: Sequence[int]) -> dict[int, tuple[
 def stroke_limit_on(channel: SyntecChannel, words: Words) -> None:
     """G22 X Y Z I J K: second travel limits, X Y Z with I J K in pairs, the others from Pr2501 on (2.18)."""
     memory = channel.memory
+    beside = next((w for w in words.plan.axis_words if w.axis not in channel.coordinates.geometry), None)
+    if beside is not None:
+        raise words.fail("stroke_pair", beside.address)
     given = {axis: value for axis, value, _ in words.axes()}
     zones = limits_in(channel, memory.parameters.second_travel)
     for letter, axis in zip("IJK", channel.coordinates.geometry, strict=True):

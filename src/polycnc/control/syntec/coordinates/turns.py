@@ -6,6 +6,7 @@ G54.4 P1 is on.
 
 from __future__ import annotations
 
+from dataclasses import field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, lasting, retained
@@ -52,11 +53,22 @@ class TurnState(State, lifetime=Lifetime.RESET):
         return self.work @ self.tilt
 
 
+#: Modal group: "work" while rotary words of G43.4 tell directions of a work system that is turned.
+POSTURE = "posture"
+
+
 @dataclass(slots=True)
 class PostureState(State, lifetime=Lifetime.RESET):
-    """Whether directions of the tool refer to the work system under G43.4 (#1848)."""
+    """Whether directions of the tool refer to the work system under G43.4.
+
+    Attributes:
+        in_work: #1848.
+        told: Positions of the rotary axes by which words have told the direction in a turned system, by name; empty
+            before the first ones.
+    """
 
     in_work: bool = False
+    told: dict[str, float] = field(default_factory=dict)
 
     @classmethod
     def first(cls, channel: SyntecChannel) -> Self:
@@ -135,22 +147,23 @@ def refuse_in_compensation(channel: SyntecChannel, code: str) -> None:
         raise channel.control.not_yet(f"{code} {channel.mode['compensation']}", code)
 
 
-def check_posture(channel: SyntecChannel, turn: Frame) -> None:
-    """PC0001 where rotary words would tell the tool's direction in a work system that is turned (2.28.3, note 8).
+def refer_posture(channel: SyntecChannel, turn: Frame) -> None:
+    """Whether rotary words tell the tool's direction in a work system that is turned (2.28.3, note 8).
 
     Under G43.5 none do: vectors always count in the program's system (2.29.1).
     """
-    by_words = channel.mode["length"] == "G43.4"
-    if by_words and PostureState.of(channel).in_work and not turn.is_identity:
-        raise channel.control.not_yet("G54.4 Pr3057 = 1")
+    state = PostureState.of(channel)
+    acts = channel.mode["length"] == "G43.4" and state.in_work and not turn.is_identity
+    state.told = {}
+    channel.mode = channel.mode.with_code(POSTURE, "work" if acts else "")
 
 
 def renew_work_turn(channel: SyntecChannel) -> bool:
     """The angles of the chosen work system act from here on, with G54.4 P1; gives whether it turns otherwise now.
 
     Raises:
-        AlarmError: A transformation is active that is no tip control, directions of the tool would turn along
-            (G43.4 Q1), or the radius is compensated: that is not executed.
+        AlarmError: A transformation is active that is no tip control, or the radius is compensated: that is not
+            executed.
     """
     state = TurnState.of(channel)
     turn = turn_of(channel, ZeroState.of(channel).system) if state.by_table else IDENTITY
@@ -161,7 +174,7 @@ def renew_work_turn(channel: SyntecChannel) -> bool:
         raise channel.control.not_yet("G54.4")
     refuse_in_compensation(channel, "G54.4")
     if leads:
-        check_posture(channel, turn)
+        refer_posture(channel, turn)
     state.work = turn
     renew_preset_frame(channel.memory)
     return True

@@ -125,6 +125,8 @@ def switch_work_rotation(channel: SyntecChannel, words: Words) -> None:
         raise words.fail("argument", "G54.4")
     if switch not in (0, 1):
         raise words.fail("number", "P")
+    if switch and channel.mode["rotation"] == "G68.3":
+        raise words.fail("tool_plane", "G54.4")
     rotate_work_system(channel, on=switch == 1)
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.syntec.coordinates import length as tool_length
-from polycnc.control.syntec.coordinates.turns import PostureState, TurnState, check_posture, renew_work_turn
+from polycnc.control.syntec.coordinates.turns import PostureState, TurnState, refer_posture, renew_work_turn
 from polycnc.control.syntec.five_axes import alignment, mechanism
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words import Words
@@ -78,8 +78,8 @@ def start(channel: SyntecChannel, words: Words) -> None:
         raise words.fail("number", "I")
     FollowingState.of(channel).fastest = fastest
     state.in_work = state.in_work if frame is None else bool(frame)
-    check_posture(channel, turns.work)
     channel.flush()
+    refer_posture(channel, turns.work)
     alignment.leave_table(channel)
     tool_center_point.follow_table(channel, words)
 
@@ -106,6 +106,7 @@ def end(channel: SyntecChannel) -> None:
     """
     if PolarState.of(channel).plane is not None:
         return
+    refer_posture(channel, IDENTITY)
     stands = TipState.of(channel).is_leading(channel) and LengthState.of(channel).direction is not None
     tool_center_point.end_following(channel)
     if stands:

@@ -6,6 +6,7 @@ whole increment. While M96 is active the modal state says so, so that only then 
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import nan
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -14,6 +15,7 @@ from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.syntec.motion.polar import POLAR
 from polycnc.control.syntec.motion.smoothing import SmoothingState
 from polycnc.control.syntec.spindles import SpindleState
+from polycnc.control.word_address.auxiliary import machine_codes
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion import path, skip
 from polycnc.control.word_address.motion.arc_signals import made_arc
@@ -25,13 +27,15 @@ if TYPE_CHECKING:
 
     from polycnc.channel.stack import Level
     from polycnc.control.syntec.family import SyntecChannel
-    from polycnc.control.word_address.block.codes import Step
+    from polycnc.control.word_address.block.codes import MCode, Step
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.motion.arc_signals import MadeArc
     from polycnc.program import Program
 
 GROUP, ON, OFF = "interrupt", "M96", "M97"
+#: Pr3600 as delivered.
+DELIVERED = 96
 LAST_PROGRAM, LAST_BIT, LAST_REGISTER, REGISTER_BITS = 9999, 511, 65535, 16
 #: Modal states in which the signal has no effect: group and the code that is none of them (3.2.3, 10).
 DEAF = {POLAR: "G13.1", "polar": "G15", "compensation": "G40", "scaling": "G50", "mirror": "G50.1"}
@@ -85,6 +89,17 @@ def interrupts_off(channel: SyntecChannel, _words: Words) -> None:
     channel.flush()
     InterruptState.of(channel).prepared = None
     channel.mode = channel.mode.with_code(GROUP, OFF)
+
+
+def m_row(builder: Builder, number: int) -> MCode | None:
+    """Pr3600 is the number of M96, and that of M97 the next one (general knowledge); else both are the builder's."""
+    channel: SyntecChannel = builder.channel
+    on = channel.memory.parameters.interrupt_m
+    if on == DELIVERED or number not in (on, on + 1, DELIVERED, DELIVERED + 1):
+        return None
+    if number in (on, on + 1):
+        return replace(channel.control.m_codes[DELIVERED + number - on], code=number)
+    return machine_codes.m_row(channel, None, number)
 
 
 def _whole(words: Words, address: str, low: int, high: int) -> int | None:

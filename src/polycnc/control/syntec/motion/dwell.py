@@ -33,6 +33,9 @@ def ended_by_signal(channel: SyntecChannel, context: Context) -> Context:
 
 def dwell(channel: SyntecChannel, words: Words) -> None:
     """G04 X or P, Q: X with a point seconds, else milliseconds; P milliseconds, decimals cut off; C bit Q ends it."""
+    beside = next((word for word in words.plan.axis_words if word.address != "X"), None)
+    if beside is not None:
+        raise words.fail("argument", beside.address)
     seconds = _seconds(words)
     signal = _signal(words)
     if not signal:
@@ -51,6 +54,8 @@ def dwell(channel: SyntecChannel, words: Words) -> None:
 def _seconds(words: Words) -> float:
     milliseconds = words.typed("P")
     if milliseconds is not None:
+        if "X" in words:
+            raise words.fail("argument", "X")
         return int(milliseconds) / 1000.0
     value = words.typed("X")
     if value is None:

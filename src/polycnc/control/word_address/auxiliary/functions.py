@@ -160,6 +160,9 @@ def dwell(channel: WordAddressChannel, words: Words, *, in_revolutions: bool = F
     for word in words.plan.axis_words:
         if word.address not in "XU":
             raise words.fail("address", word.address)
+    times = [address for address in "XUP" if address in words]
+    if len(times) > 1:
+        raise words.fail("address", times[1])
     corners = channel.path.find(CornerStage)
     if corners is not None:
         corners.dwell()

@@ -53,10 +53,12 @@ def _point(channel: WordAddressChannel, words: Words, *, absolute: bool) -> list
     base = channel.memory.frames
     here = c.image(base.product().inverse(), c.position) if base.product() is not IDENTITY else c.position
     point = [here[axis] if axis >= 0 else 0.0 for axis in c.geometry]
+    for word in words.plan.axis_words:
+        if word.axis not in c.geometry:
+            raise words.fail("address", word.address)
     for axis, value, incremental in words.axes():
-        if axis in c.geometry:
-            i = c.geometry.index(axis)
-            point[i] = point[i] + value if incremental and not absolute else value
+        i = c.geometry.index(axis)
+        point[i] = point[i] + value if incremental and not absolute else value
     return point
 
 

@@ -70,8 +70,17 @@ def zone_between(named: Sequence[tuple[int, float, float]], *, inside: bool) -> 
     return StrokeZone(lows, highs, axes, inside)
 
 
+def refuse_others(channel: WordAddressChannel, words: Words) -> None:
+    """A zone has edges along X, Y and Z: another axis would not be watched."""
+    geometry = channel.coordinates.geometry
+    beside = next((word for word in words.plan.axis_words if word.axis not in geometry), None)
+    if beside is not None:
+        raise words.fail("address", beside.address)
+
+
 def stroke_check_on(channel: MacroChannel, words: Words) -> None:
     """G22 X Y Z I J K: stored stroke check 2; X Y Z the upper corner, I J K the lower, machine coordinates."""
+    refuse_others(channel, words)
     upper = {axis: value for axis, value, _ in words.axes()}
     named: list[tuple[int, float, float]] = []
     for letter, axis in zip("IJK", channel.coordinates.geometry, strict=True):

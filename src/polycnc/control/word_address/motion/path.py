@@ -45,10 +45,18 @@ CENTER_WORDS = "IJK"
 _CUTS = frozenset({"G1", "G2", "G3"})
 
 
-def target(channel: WordAddressChannel, words: tuple[AxisWord, ...], values: list[float]) -> list[float]:
-    """The programmed end point that axis words name; changed offsets still owe their difference to increments."""
+def target(
+    channel: WordAddressChannel,
+    words: tuple[AxisWord, ...],
+    values: list[float],
+    start: list[float] | None = None,
+) -> list[float]:
+    """The programmed end point that axis words name; changed offsets still owe their difference to increments.
+
+    What has no word stays as `start` has it, else as the channel is.
+    """
     c = channel.coordinates
-    end, owed = c.programmed[:], c.pending[:] if c.owes else c.pending
+    end, owed = (c.programmed if start is None else start)[:], c.pending[:] if c.owes else c.pending
     for word in words:
         value = values[word.slot]
         if word.convert is not None:

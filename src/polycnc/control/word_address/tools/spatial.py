@@ -1,7 +1,7 @@
 """Radius compensation in space: the tool stands beside the path, across path and tool (G41.2, G42.2).
 
-The geometry is that of `compensation.spatial` under tip control and of `compensation.spatial_axes` where words name the
-axes; how corners are passed and what is refused is told by the controls.
+The geometry is that of `compensation.spatial` under tip control and of `spatial_axes` where words name the axes; how
+corners are passed and what is refused is told by the controls.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ def _stage(
     within = partial(knot_context, channel)
     if TipState.of(channel).active is not None or not kinematics.work:
         return SpatialStage(c.geometry, posture_of(channel), amount, side, corners, rules, within)
-    from polycnc.compensation.spatial_axes import AxesStage
+    from polycnc.control.word_address.tools.spatial_axes import AxesStage
     from polycnc.transformation.orientation.unled import Unled
 
     zero = work_zero(channel, c.offsets)

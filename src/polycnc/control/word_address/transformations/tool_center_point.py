@@ -28,12 +28,14 @@ from polycnc.toolpath import Kind
 from polycnc.transformation.orientation.standing import StandRecord, stand
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.family import WordAddressChannel
     from polycnc.geometry.frames import Frame, Vector
+
+    Leaning = Callable[[WordAddressChannel, Vector, list[float]], Vector]
 
 
 def start_following(channel: WordAddressChannel, words: Words) -> None:
@@ -113,8 +115,11 @@ def _check_block(builder: Builder) -> None:
                 raise builder.control.fail("tip_company", address=address)
 
 
-def plan_with_direction(builder: Builder, plan: Plan) -> Step | None:
-    """G43.5: a straight block names the tip, and with I J K the direction of the tool; None without them."""
+def plan_with_direction(builder: Builder, plan: Plan, leaning: Leaning | None = None) -> Step | None:
+    """G43.5: a straight block names the tip, and with I J K the direction of the tool; None without them.
+
+    `leaning` gives another direction for that, by the end of the block.
+    """
     if builder.mode["length"] != "G43.5" or builder.mode["motion"] not in ("G0", "G1"):
         return None
     letters = [letter for letter in "IJK" if builder.has(letter) and builder.is_free(letter)]
@@ -137,7 +142,8 @@ def plan_with_direction(builder: Builder, plan: Plan) -> Step | None:
         c = channel.coordinates
         end = c.to_position(programmed)
         x, y, z = (words.typed(letter) or 0.0 for letter in "IJK")
-        turned = _stood(channel, (x, y, z), end) or _turned(channel, (x, y, z))
+        vector = (x, y, z) if leaning is None else leaning(channel, (x, y, z), end)
+        turned = _stood(channel, vector, end) or _turned(channel, vector)
         if not turned:
             raise words.fail("tip_direction", letters[0])
         for axis, angle in turned.items():
@@ -146,7 +152,7 @@ def plan_with_direction(builder: Builder, plan: Plan) -> Step | None:
         channel.straight(Kind.RAPID if rapid else Kind.FEED, end, nan if rapid else channel.feed, programmed)
 
     told = targets_as_data(plan.axis_words)
-    if told is None or polar:
+    if told is None or polar or leaning is not None:
         return move
     i, j, k = (-1 if place is None else place for place in places)
     return declare(move, Straight(rapid, told, absolute=absolute, direction=(i, j, k)))

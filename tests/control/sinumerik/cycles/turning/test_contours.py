@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from tests.control.sinumerik.cycles.turning.material import (
     FACE,
     INSIDE,
+    NOWHERE,
     OUTSIDE,
     Edge,
     Point,
@@ -18,6 +19,7 @@ from tests.control.sinumerik.cycles.turning.material import (
     Stock,
     cut_all,
     gouge,
+    height,
     turn,
     ways,
 )
@@ -113,3 +115,96 @@ def test_finishing_leaves_the_contour(
     edge, found = Edge(radius), ways(side, result)
     assert gouge(contour, edge, found) <= 1e-3
     assert cut_all(stock_of(contour), edge, found) <= GRID
+
+
+@settings(max_examples=5)
+@given(PARTS, SIDES, NOSES, ALLOWANCES, st.sampled_from((1.5, 4.0)), st.sampled_from(("010", "210")))
+def test_cuts_parallel_to_the_contour_keep_to_it(
+    parts: list[tuple[int, int]], side: Side, radius: float, allowance: Point, depth: float, rest: str
+) -> None:
+    contour = contour_of(parts)
+    digits = call(side, rest=rest, d=depth, allowance=allowance)
+    kind = side.vari(1, rest)
+    result = turn(side, contour, radius, digits.replace(kind, f"{kind[:-1]}3"))
+    if codes(result):
+        return
+    edge, found = Edge(radius), ways(side, result, step=0.2)
+    assert gouge(contour, edge, found, allowance) <= 1e-3
+    assert cut_all(stock_of(contour), edge, found) <= GRID
+
+
+def test_reliefs_are_bridged_or_cut() -> None:
+    contour = [(0.0, 15.0), (-4.0, 15.0), (-8.0, 10.0), (-12.0, 10.0), (-12.0, 20.0)]
+    for rest, left in (("010", 0.0), ("110", 0.0), ("210", 5.0)):
+        stock = stock_of(contour)
+        cut_all(stock, Edge(0.2), ways(OUTSIDE, turn(OUTSIDE, contour, 0.2, call(OUTSIDE, rest=rest))))
+        middle = stock.heights[stock.places.index(min(stock.places, key=lambda a: abs(a + 9.5)))]
+        assert middle == pytest.approx(10.0 + left, abs=0.01)
+
+
+def twice(side: Side, contour: list[Point], first: str, second: str, radius: float = 0.4) -> Any:
+    """A call that notes what it leaves, and one for what that was."""
+    noted = call(side, rest=first).replace('"R","",""', '"R","","REST"')
+    residual = (
+        call(side, rest=second).replace('"R","",""', '"R","rest",""').replace(",12,1100000", ",112,1100000")
+    )
+    z, x = side.place((20.0, 40.0))
+    away = f"G0 X{2 * x} Z{z}"
+    return turn(side, contour, radius, f'{noted}\n{away}\nCYCLE62("",2,"AA","BB")\n{residual}')
+
+
+@settings(max_examples=6)
+@given(PARTS, SIDES)
+def test_residual_material_is_cut_out_of_what_was_left(parts: list[tuple[int, int]], side: Side) -> None:
+    contour = contour_of(parts)
+    result = twice(side, contour, "210", "110")
+    if codes(result):
+        return
+    found = ways(side, result)
+    assert gouge(contour, Edge(0.4), found) <= 1e-3
+    assert cut_all(stock_of(contour), Edge(0.4), found) <= GRID
+
+
+@pytest.mark.parametrize("side", [OUTSIDE, INSIDE, FACE])
+def test_residual_material_is_nothing_but_the_reliefs(side: Side) -> None:
+    contour = [(0.0, 15.0), (-4.0, 15.0), (-8.0, 10.0), (-14.0, 10.0), (-14.0, 20.0)]
+    result = twice(side, contour, "210", "110")
+    assert codes(result) == []
+    stock = stock_of(contour)
+    assert cut_all(stock, Edge(0.4), ways(side, result)) <= GRID
+    middle = stock.heights[min(range(len(stock.places)), key=lambda k: abs(stock.places[k] + 11.0))]
+    assert middle == pytest.approx(10.0, abs=0.01)
+    once = turn(side, contour, 0.4, call(side, rest="210"))
+    cuts = [row for row in result.rows if row.get("type") == "feed"]
+    before = [row for row in once.rows if row.get("type") == "feed"]
+    depths = [side.point((row["to"]["Z"], row["to"]["X"] / 2.0))[1] for row in cuts[len(before) :]]
+    # All that is cut again lies below the summit, but for the ways out of it.
+    assert min(depths) == pytest.approx(10.0)
+    assert sum(depth > 17.1 for depth in depths) == 0
+
+
+def test_nothing_was_left_under_that_name() -> None:
+    lost = call(OUTSIDE).replace('"R","",""', '"R","GONE",""')
+    assert [code for code, _ in codes(turn(OUTSIDE, contour_of([(5, 0), (2, 3)]), 0.4, lost))] == ["14011"]
+
+
+@pytest.mark.parametrize("side", [OUTSIDE, INSIDE, FACE])
+@pytest.mark.parametrize("kind", ["as it is", "parallel"])
+def test_a_blank_that_is_an_allowance_is_entered_in_front_of_it(side: Side, kind: str) -> None:
+    contour = [(0.0, 15.0), (-8.0, 15.0), (-16.0, 20.0), (-20.0, 20.0)]
+    _, xd = side.amounts(0.0, 2.0)
+    zd, _ = side.amounts(0.0, 2.0)
+    cylinder = call(side, d=1.5)
+    vari = side.vari(1)
+    start = cylinder.index(",0,1,")
+    made = f"{cylinder[:start]},0,2,{xd},{zd},,,,,2,2,,,0,1,,0,12,1100000,1,0,0.1)"
+    if kind == "parallel":
+        made = made.replace(vari, f"{vari[:-1]}3")
+    result = turn(side, contour, 0.8, made)
+    assert codes(result) == []
+    stock = stock_of(contour)
+    stock.heights = [(height(contour, a) or NOWHERE) + 2.0 for a in stock.places]
+    found = ways(side, result)
+    assert gouge(contour, Edge(0.8), found) <= 1e-3
+    assert cut_all(stock, Edge(0.8), found) <= GRID
+    assert stock.left(contour[:-1]) <= 0.1

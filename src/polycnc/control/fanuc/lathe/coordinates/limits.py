@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.fanuc.lathe.coordinates.barrier import barrier, is_described
-from polycnc.control.word_address.coordinates.stroke_check import StrokeZone, zone_between
+from polycnc.control.word_address.coordinates.stroke_check import StrokeZone, refuse_others, zone_between
 from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:
@@ -89,11 +89,7 @@ def renew_zones(channel: LatheChannel) -> None:
 
 def _zone_of_words(channel: LatheChannel, words: Words) -> StrokeZone | None:
     upper = {axis: value for axis, value, _ in words.axes()}
-    beside = next(
-        (word for word in words.plan.axis_words if word.axis not in channel.coordinates.geometry), None
-    )
-    if beside is not None:
-        raise words.fail("address", beside.address)
+    refuse_others(channel, words)
     named: list[tuple[int, float, float]] = []
     for letter, axis in zip("IJK", channel.coordinates.geometry, strict=True):
         low = words.length(letter, diameter=axis >= 0 and channel.control.is_diameter(channel, axis))

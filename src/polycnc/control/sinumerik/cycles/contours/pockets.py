@@ -25,7 +25,7 @@ from polycnc.control.sinumerik.cycles.milling import (
 )
 from polycnc.control.sinumerik.cycles.moves import require_tool
 from polycnc.control.sinumerik.errors import not_supported
-from polycnc.cycles.milling import contour_pocket, region
+from polycnc.cycles.milling import contour_pocket, region, residual
 from polycnc.cycles.milling.contour_pocket import ContourPocket, InsertionError, StartError
 from polycnc.cycles.milling.pockets import Insertion
 from polycnc.cycles.milling.region import RegionError
@@ -34,9 +34,12 @@ from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Sequence
+
     from polycnc.control.sinumerik.cycles.arguments import Arguments
     from polycnc.control.sinumerik.cycles.levels import Levels
     from polycnc.control.sinumerik.cycles.moves import Moves
+    from polycnc.cycles.milling.stroke import MillStroke
     from polycnc.cycles.turning.contour import Contour
 
 #: Units of VARI beside roughing.
@@ -68,15 +71,16 @@ def mill(moves: Moves, a: Arguments) -> None:
     Raises:
         AlarmError: As the other milling cycles; 61605 for contours that are open, cross, lie in each other or are too
             few, 61606 where they cannot be followed, 61105 for a cutter that goes in nowhere, 61108 for a helix or an
-            oscillation without room, 61607 for a start point from which it cannot go on; PC0001 for residual material,
-            a mere calculation, a start point of an oscillation or of edges.
+            oscillation without room, 61607 for a start point from which it cannot go on; for residual material 17190
+            and 61000 for a reference cutter that does not exist; PC0001 for a mere calculation, a start point of an
+            oscillation, of residual material or of edges.
     """
     radius = radius_of(moves, a, "_VARI")
     if radius <= NO_WAY:
         raise AlarmError("61117")
     kind = a.digit("_VARI", 0)
     _refuse(a, kind)
-    base_allowance = abs(a["_UZ"]) if kind == ROUGHING else 0.0
+    base_allowance = abs(a["_UZ"]) if kind in (ROUGHING, REST) else 0.0
     chamfers = kind == CHAMFER
     found = chamfer(moves, a).levels if chamfers else milling_levels(moves, a, base_allowance, "_DZ")
     if found is None:
@@ -136,8 +140,8 @@ def _refuse(a: Arguments, kind: int) -> None:
     if a.integer("_CDIR") not in (0, 1):
         raise AlarmError("61109")
     unknown = {
-        "_TR": a.cycle == "CYCLE63" and bool(a.text("_TR").strip()),
-        "_VARI": kind == REST or _start_is_unknown(a, kind),
+        "_TR": a.cycle == "CYCLE63" and kind not in (ROUGHING, REST) and bool(a.text("_TR").strip()),
+        "_VARI": _start_is_unknown(a, kind),
         "_GMODE": a.digit("_GMODE", _HUNDREDS) >= ONLY_START,
         "_DMODE": a.digit("_DMODE", _HUNDREDS) not in (*POCKETS, SPIGOT),
     }
@@ -146,11 +150,20 @@ def _refuse(a: Arguments, kind: int) -> None:
             raise not_supported(f"{a.cycle} {name}")
 
 
+def _is_rest(a: Arguments) -> bool:
+    """Whether a call mills what a reference cutter has left: roughing with one."""
+    return a.cycle == "CYCLE63" and (
+        a.digit("_VARI", 0) == REST or (a.digit("_VARI", 0) == ROUGHING and bool(a.text("_TR").strip()))
+    )
+
+
 def _start_is_unknown(a: Arguments, kind: int) -> bool:
     """Whether a call names a start point in a way that is not executed."""
     chooser = a.digit("_VARI", _START_PLACE)
     is_slope = INSERTIONS.get(a.digit("_VARI", _INSERTION_PLACE)) is Insertion.OSCILLATION
-    return chooser not in (BY_CYCLE, BY_CALL) or (chooser == BY_CALL and (kind in ALONG_WALLS or is_slope))
+    return chooser not in (BY_CYCLE, BY_CALL) or (
+        chooser == BY_CALL and (kind in (REST, *ALONG_WALLS) or is_slope)
+    )
 
 
 def _with_walls(a: Arguments, shape: ContourPocket, contours: list[Contour]) -> ContourPocket:
@@ -164,11 +177,32 @@ def _with_walls(a: Arguments, shape: ContourPocket, contours: list[Contour]) -> 
     return replace(shape, walls=spigots, blank=blank)
 
 
+def _work(
+    moves: Moves, a: Arguments, shape: ContourPocket
+) -> Callable[[ContourPocket, Sequence[float]], Iterator[MillStroke]]:
+    """What a call does with a shape and its levels.
+
+    Raises:
+        AlarmError: For residual material 61000 without reference cutter, 61105 for one that is no larger.
+    """
+    kind = a.digit("_VARI", 0)
+    if kind in ALONG_WALLS:
+        return contour_pocket.finish_edges
+    if not _is_rest(a):
+        return contour_pocket.rough
+    if not a.text("_TR").strip():
+        raise AlarmError("61000")
+    reference = _cutter_radius(moves, a)
+    if reference <= shape.radius + NO_WAY:
+        raise AlarmError("61105")
+    return partial(residual.rough, reference=reference)
+
+
 def _mill(
     moves: Moves, a: Arguments, shape: ContourPocket, levels: list[float], contours: list[Contour]
 ) -> None:
     """Mill what the contours enclose."""
-    work = contour_pocket.finish_edges if a.digit("_VARI", 0) in ALONG_WALLS else contour_pocket.rough
+    work = _work(moves, a, shape)
     try:
         strokes = list(work(_with_walls(a, shape, contours), levels))
     except RegionError as error:

@@ -5,12 +5,16 @@ Source: SINUMERIK Operate, contour turning; parameter lists of the externally pr
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import field, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.cycles.turning.work import LIFT_MM, Work, onwards
 from polycnc.control.sinumerik.errors import not_supported
+from polycnc.control.sinumerik.tools import stages
+from polycnc.cycles.plunging.material import Edges, left_by
+from polycnc.cycles.plunging.profile import profile, upright
 from polycnc.cycles.turning import outline
 from polycnc.cycles.turning.allowance import with_stock
 from polycnc.cycles.turning.contour import Contour, Piece, turned_round
@@ -22,6 +26,7 @@ from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.cycles.arguments import Arguments
+    from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.geometry.arcs import Point
 
 #: What the blank is.
@@ -30,6 +35,10 @@ CYLINDER, SWOLLEN, CONTOUR = 1, 2, 3
 XD_RELATIVE, ZD_RELATIVE = 5, 6
 HAS_LIMITS = 3
 LIMITS = ("_XA", "_XB", "_ZA", "_ZB")
+#: Digit of _DMODE: residual material.
+RESIDUAL = 2
+#: Stock lies no higher than this where a blank has none, mm.
+NOTHING = -1e6
 #: Digit of _VARI, and the stage at which limits count.
 STAGE, ROUGHING = 1, 1
 _HAIR = 1e-6
@@ -72,6 +81,60 @@ def home(work: Work, a: Arguments, point: Point, top: float) -> Point:
     return (point[0], a["_RP"])
 
 
+# ---- residual material
+
+
+@dataclass(slots=True)
+class UpdatedBlanks(State, lifetime=Lifetime.RESET):
+    """What calls have left of their blanks, by the names that `_CONR` gives, in the plane."""
+
+    contours: dict[str, Contour] = field(default_factory=dict)
+
+
+def is_residual(a: Arguments) -> bool:
+    """Whether a call is about what another one has left."""
+    return a.digit("_DMODE", RESIDUAL) == 1 or bool(a.text("_CON").strip())
+
+
+def _left_before(work: Work, name: str) -> Contour:
+    found = UpdatedBlanks.of(work.moves.channel).contours.get(name.strip().upper())
+    if found is None:
+        raise AlarmError("14011", text=name)
+    return found
+
+
+def note_left(work: Work, a: Arguments, turning: Turning, width: float = 0.0) -> None:
+    """Keep what the call leaves of its blank, where it gives that a name; `width` is that of the tool.
+
+    Raises:
+        AlarmError: 61606 for a blank that runs back along the cuts.
+    """
+    name = a.text("_CONR").strip().upper()
+    if not name:
+        return
+    radius = stages.radius(work.moves.channel)
+    tip = work.pair(*stages.tip(work.moves.channel))
+    tool = Edges(radius, width, (-radius * tip[0], radius * work.towards * tip[1]))
+    blank = turning.stock
+    if blank is None:
+        blank = [
+            Piece(offset.line((turning.front, turning.top), (turning.part[-1].edge.end[0], turning.top)))
+        ]
+    try:
+        stock = profile(upright(blank, work.towards), NOTHING)
+    except ValueError:
+        raise AlarmError("61606") from None
+    ways = [piece.edge for cut in work.cuts for piece in upright([Piece(cut)], work.towards)]
+    left = left_by(stock, ways, tool)
+    # Upright once more is as it was.
+    contour = upright(left.between(left.begin, left.end), work.towards)
+    work.moves.act(_keep, work.moves.channel, name, work.contour(contour))
+
+
+def _keep(channel: SinumerikChannel, name: str, contour: Contour) -> None:
+    UpdatedBlanks.of(channel).contours[name] = contour
+
+
 def to_corner(work: Work, turning: Turning, front: float, top: float, point: Point) -> None:
     """Go to the free corner of the blank, past it; front and top are where the tool's point touches it."""
     part = turning.part
@@ -84,9 +147,12 @@ def of_call(work: Work, a: Arguments, direction: float, found: list[Contour]) ->
     """Contour and blank of a call.
 
     Raises:
-        AlarmError: 61605 where a blank contour is missing; PC0001 for further contours.
+        AlarmError: 61605 where a blank contour is missing, 14011 where no call has left what residual material is cut
+            out of; PC0001 for further contours.
     """
     kind = a.integer("_BL")
+    if is_residual(a):
+        kind, found = CONTOUR, [_left_before(work, a.text("_CON")), *found]
     if len(found) != (2 if kind == CONTOUR else 1):
         if len(found) < 2:
             raise AlarmError("61605")

@@ -50,10 +50,10 @@ if TYPE_CHECKING:
 STAGE, ALLOWANCE, ROUNDING = 1, 4, 5
 ROUGHING, FINISHING, COMPLETE = 1, 2, 3
 ALONG_CONTOUR, WITHOUT_ROUNDING = 1, 2
+#: Digit of _AMODE: finishing leaves _U1 along the contour.
+WITH_U1 = 3
 #: Length 1 of a turning tool lies along X, length 2 along Z.
 _ALONG_X, _ALONG_Z = 0, 1
-#: Stock lies no higher than this where a blank has none, mm.
-_NOTHING = -1e6
 #: Higher than a level by this is above it, mm.
 _HAIR = 1e-5
 
@@ -129,10 +129,10 @@ def _all(
     if count > 1 and not pitch:
         raise not_supported("CYCLE952 _N")
     turning = blanks.of_call(work, a, direction, found)
-    over = blanks.home(work, a, (0.0, _height(work, _top(work, a, turning) + turning.lift)), turning.top)[1]
+    over = blanks.home(work, a, (0.0, height(work, _top(work, a, turning) + turning.lift)), turning.top)[1]
     begin = (turning.front - direction * turning.lift, over)
     blanks.to_corner(work, turning, turning.front, turning.top, begin)
-    groove = _Groove(work, a, turning, tool, _height(work, over))
+    groove = _Groove(work, a, turning, tool, height(work, over))
     finishing = feed_of(a, "_FS") if groove.stage == COMPLETE else feeds[Use.FOLLOW]
     for number in range(count):
         away = number * pitch
@@ -140,15 +140,16 @@ def _all(
             part = groove.roughing(away)
             if turning.stock is None and not part.stretches():
                 raise AlarmError("61602")
-            _perform(work, rough(part), feeds)
+            perform(work, rough(part), feeds)
             if groove.follows:
-                _perform(work, cuts.follow(part), feeds)
+                perform(work, cuts.follow(part), feeds)
         if groove.stage != ROUGHING:
-            _perform(work, cuts.follow(groove.finishing(away)), dict.fromkeys(Use, finishing))
+            perform(work, cuts.follow(groove.finishing(away)), dict.fromkeys(Use, finishing))
     work.perform(PlaneStroke(Kind.RAPID, begin), 0.0)
+    blanks.note_left(work, a, turning, tool.width)
 
 
-def _height(work: Work, b: float) -> float:
+def height(work: Work, b: float) -> float:
     """The height of a place of the infeed, or the place of a height."""
     return -work.towards * b
 
@@ -156,20 +157,20 @@ def _height(work: Work, b: float) -> float:
 def _top(work: Work, a: Arguments, turning: Turning) -> float:
     """Height of the stock: of the blank, or of the contour with what roughing leaves on it."""
     _, up = work.pair(abs(a["_UZ"]), abs(a["_UX"]))
-    part = _height(work, outline.farthest(turning.part, 1, -work.towards)) + max(up, abs(a["_U"]), 0.0)
-    return max(_height(work, turning.top), part)
+    part = height(work, outline.farthest(turning.part, 1, -work.towards)) + max(up, abs(a["_U"]), 0.0)
+    return max(height(work, turning.top), part)
 
 
-def _perform(work: Work, strokes: Iterator[Stroke], feeds: dict[Use, float]) -> None:
+def perform(work: Work, strokes: Iterator[Stroke], feeds: dict[Use, float]) -> None:
     """Strokes of (a, h) as moves; one to where the tool stands is none."""
     for stroke in strokes:
-        end = (stroke.end[0], _height(work, stroke.end[1]))
+        end = (stroke.end[0], height(work, stroke.end[1]))
         feed = 0.0 if stroke.use is Use.RAPID else feeds[stroke.use]
         if stroke.center is None:
             work.perform(PlaneStroke(Kind.RAPID if stroke.use is Use.RAPID else Kind.FEED, end), feed)
             continue
         ccw = stroke.ccw is (work.towards < 0.0)
-        center = (stroke.center[0], _height(work, stroke.center[1]))
+        center = (stroke.center[0], height(work, stroke.center[1]))
         work.perform(PlaneStroke(Kind.CCW if ccw else Kind.CW, end, center), feed)
 
 
@@ -180,7 +181,7 @@ class _Groove:
         self.work, self.a, self.turning, self.tool, self.over = work, a, turning, tool, over
         self.stage = a.digit("_VARI", STAGE)
         self.follows = a.digit("_VARI", ROUNDING) != WITHOUT_ROUNDING
-        self.top = _height(work, turning.top)
+        self.top = height(work, turning.top)
         contour = upright(outline.from_front(turning.part, turning.front), work.towards)
         self.places = (contour[0].edge.start[0], contour[-1].edge.end[0] - tool.width + SNUG_MM)
         if self.places[1] <= self.places[0]:
@@ -207,11 +208,13 @@ class _Groove:
     def _outline(self, contour: Contour) -> Profile:
         """Where the tool's point meets a blank that is no cylinder."""
         try:
-            found = profile(upright(contour, self.work.towards), _NOTHING)
+            found = profile(upright(contour, self.work.towards), blanks.NOTHING)
         except ValueError:
             raise AlarmError("61606") from None
         met = of_tool(found, self.tool.radius, self.tool.width)
-        return Profile(envelope([*cropped(met, *self.places).curves, *level(_NOTHING, *self.places).curves]))
+        return Profile(
+            envelope([*cropped(met, *self.places).curves, *level(blanks.NOTHING, *self.places).curves])
+        )
 
     def _limited(self, part: Profile) -> Profile:
         """The contour with walls and a base where the limits of the call are.
@@ -226,7 +229,7 @@ class _Groove:
             raise not_supported(f"CYCLE952 {blanks.LIMITS[0]}")
         first, second = work.pair(a["_ZA"], a["_XA"]), work.pair(a["_ZB"], a["_XB"])
         low, high = sorted((first[0], second[0]))
-        base = min(_height(work, first[1]), _height(work, second[1]))
+        base = min(height(work, first[1]), height(work, second[1]))
         beside = max(self.top, part.highest(part.begin, part.end))
         walls = [
             level(beside, part.begin, min(low, part.end)),
@@ -238,7 +241,8 @@ class _Groove:
 
     def finishing(self, away: float) -> cuts.Work:
         """Down to the contour, from end to end of it."""
-        floor = of_tool(self.part, self.tool.radius, self.tool.width)
+        left = self.a["_U1"] if self.a.digit("_AMODE", WITH_U1) == 1 else 0.0
+        floor = of_tool(dilated(self.part, left), self.tool.radius, self.tool.width)
         stock = level(_top(self.work, self.a, self.turning) + _HAIR, *self.places)
         lift = self.turning.lift
         return cuts.Work(moved(floor, away, 0.0), moved(stock, away, 0.0), lift, self.over)

@@ -285,7 +285,7 @@ def _refuse(a: Arguments, shape: Groove, seat: Seat) -> None:
         or (form != ON_CONE and shape.is_slanted),
         "_AMODE": a.digit("_AMODE", _DEPTH) > 1
         or a.digit("_AMODE", _OTHER_DEPTH) > 1
-        or (a.digit("_AMODE", _WIDTH) != 0 and any(shape.feet))
+        or (a.digit("_AMODE", _WIDTH) != 0 and any(shape.feet) and not a["_WIDG2"])
         or any(a.digit("_AMODE", digit) > 1 for pair in CORNERS for _, digit in pair),
         "_NUM": a.integer("_NUM") > 1 and not a["_DBH"],
     }

@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import partial
-from math import copysign
 from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.cycles.contours.reading import read
 from polycnc.control.sinumerik.cycles.milling import feed_of
 from polycnc.control.sinumerik.cycles.moves import require_tool
-from polycnc.control.sinumerik.cycles.turning.work import LIFT_MM, Work, finish, onwards
-from polycnc.cycles.count import parts
+from polycnc.control.sinumerik.cycles.turning.work import LIFT_MM, Work, finish, in_steps, onwards
 from polycnc.cycles.turning.allowance import with_stock
 from polycnc.cycles.turning.contour import Contour, turned_round
 from polycnc.cycles.turning.outline import farthest
 from polycnc.cycles.turning.stock_removal import Removal, blank, remove
-from polycnc.cycles.turning.stroke import PlaneStroke
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -89,29 +85,11 @@ def _rough(work: Work, a: Arguments, contour: Contour, *, follows: bool) -> Cont
         if cut.stroke.center is None:
             work.require_clear(path, cut.stroke.end)
         if cut.is_straight and a["DAM"] > 0.0:
-            _in_steps(work, a, cut.stroke, straight)
+            in_steps(work, cut.stroke, straight, a["DAM"], a["DT"])
         else:
             work.perform(cut.stroke, relief if cut.is_relief else straight)
     # Cuts that do not follow the contour leave steps on it.
     return path if follows else before
-
-
-def _in_steps(work: Work, a: Arguments, stroke: PlaneStroke, feed: float) -> None:
-    """A cut that stands still for DT after every DAM, so that the chip breaks."""
-    at = work.moves.point
-    begin = at[1] if work.across else at[0]
-    way = stroke.end[0] - begin
-    for part in steps_of(abs(way), a["DAM"]):
-        work.perform(replace(stroke, end=(begin + copysign(part, way), stroke.end[1])), feed)
-        if part < abs(way):
-            work.moves.dwell(a["DT"])
-            work.moves.end_block()
-
-
-def steps_of(total: float, step: float) -> list[float]:
-    """Ends of equal steps along a way, the last one shorter."""
-    count = max(0, parts(total, step, 1e-9) - 1)
-    return [step * k for k in range(1, count + 1)] + [total]
 
 
 def _finish(work: Work, a: Arguments, contour: Contour, stock: Contour | None) -> None:

@@ -49,6 +49,8 @@ _PITCH_UNITS = (0, 1)
 #: Digits of its VARI: how cuts go in, whether it roughs and finishes, the order of the starts.
 INFEED_PLACE, STAGE_PLACE, ORDER_PLACE, ALTERNATING = 2, 5, 6, 2
 ROUGHING, FINISHING, COMPLETE = 1, 2, 3
+#: Greatest digits that are known at the other places; which of number and depth the mask shows is one of them.
+MOST_OF_VARI = {1: 0, INFEED_PLACE: ALTERNATING, 3: 0, 4: 1, ORDER_PLACE: 1, 7: 0}
 
 
 def thread_of_plane(moves: Moves, a: Arguments) -> None:
@@ -67,7 +69,8 @@ def thread_of_plane(moves: Moves, a: Arguments) -> None:
     wrong = [name for name in _ONLY_ZERO if a.plain(name)]
     if a.integer("_PITA") not in _PITCH_UNITS:
         wrong.append("_PITA")
-    if a.digit("_VARI", ORDER_PLACE) and a.integer("_NUMT") > 1:
+    is_ordered = a.digit("_VARI", ORDER_PLACE) and a.integer("_NUMT") > 1
+    if is_ordered or any(a.digit("_VARI", place) > most for place, most in MOST_OF_VARI.items()):
         wrong.append("_VARI")
     if a.integer("_NRC") and a["_MID"]:
         wrong.append("_MID")  # which of both counts?

@@ -197,7 +197,8 @@ def _refuse(a: Arguments, form: str) -> None:
     unknown = {
         "_EPL": form == "E" and a["_EPL"] not in (0.0, 0.0 if a.digit("_AMODE", _Z1) else a["_SPL"]),
         "_AMODE": a.integer("_AMODE") >= 1000 or any(a.digit("_AMODE", k) > 1 for k in (_X1, _Z1, _VX)),
-        "_VARI": not is_shaft and a.digit("_VARI", _WAY) > LENGTHWISE,
+        "_VARI": not is_shaft
+        and (a.digit("_VARI", _WAY) > LENGTHWISE or a.integer("_VARI") >= 10 ** (_WAY + 1)),
         "_FAL": not is_shaft and bool(even and any(odd)) and odd != (even, even),
     }
     for name, wrong in unknown.items():

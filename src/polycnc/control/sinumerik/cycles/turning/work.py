@@ -7,7 +7,9 @@ from math import copysign
 from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.tools import stages
+from polycnc.cycles.count import parts
 from polycnc.cycles.turning.contour import Contour, Piece, parallel, shifted, swapped, swapped_stroke
+from polycnc.cycles.turning.outline import farthest
 from polycnc.cycles.turning.stock_removal import is_clear, way_clear, way_over
 from polycnc.cycles.turning.stroke import PlaneStroke
 from polycnc.geometry import offset
@@ -29,12 +31,19 @@ _ROUNDING = 1e-9
 
 
 class Work:
-    """Which way the cuts of a call run: lengthwise (a is Z, b the radius) or across (a is the radius, b is Z)."""
+    """Which way the cuts of a call run: lengthwise (a is Z, b the radius) or across (a is the radius, b is Z).
+
+    Attributes:
+        moves: Of the cycle.
+        across, towards: Kind of the cuts, and direction of infeed, 1 or -1.
+        cuts: The ways that have been cut, of the tool's point.
+    """
 
     def __init__(self, moves: Moves, *, across: bool, towards: float) -> None:
         self.moves = moves
         self.across = across
         self.towards = towards
+        self.cuts: list[Edge] = []
 
     def contour(self, read_: Contour) -> Contour:
         """A contour of the plane in the coordinates of the cuts."""
@@ -145,6 +154,11 @@ class Work:
 
     def perform(self, stroke: PlaneStroke, feed: float) -> None:
         """Make a stroke, which is a block."""
+        start = self.pair(*self.moves.point)
+        if stroke.center is not None:
+            self.cuts.append(offset.arc(start, stroke.end, stroke.center, stroke.kind is Kind.CCW))
+        elif stroke.kind is not Kind.RAPID:
+            self.cuts.append(offset.line(start, stroke.end))
         made = swapped_stroke(stroke) if self.across else stroke
         if made.kind is Kind.RAPID:
             self.moves.rapid(*made.end)
@@ -162,12 +176,39 @@ def onwards(contour: Contour) -> float:
     return copysign(1.0, contour[-1].edge.end[0] - contour[0].edge.start[0])
 
 
+def in_steps(work: Work, stroke: PlaneStroke, feed: float, step: float, dwell: float) -> None:
+    """A cut that stands still after every step of it, so that the chip breaks.
+
+    Args:
+        work: The cuts.
+        stroke: A straight one, along them.
+        feed: Of it.
+        step: Way from stop to stop, mm.
+        dwell: Seconds above 0, revolutions below.
+    """
+    begin = work.pair(*work.moves.point)[0]
+    way = stroke.end[0] - begin
+    for part in steps_of(abs(way), step):
+        work.perform(replace(stroke, end=(begin + copysign(part, way), stroke.end[1])), feed)
+        if part < abs(way):
+            work.moves.dwell(dwell)
+            work.moves.end_block()
+
+
+def steps_of(total: float, step: float) -> list[float]:
+    """Ends of equal steps along a way, the last one shorter."""
+    count = max(0, parts(total, step, 1e-9) - 1)
+    return [step * k for k in range(1, count + 1)] + [total]
+
+
 def finish(
     work: Work, path: Contour, onwards_: float, feed: float, lift: float, stock: Contour | None
 ) -> None:
     """Along a path of the tool once, from beside its begin to beside its end; `stock` is what roughing has left."""
     start, end = path[0].edge.start, path[-1].edge.end
     before = _beside(start, path[0].edge.departing, onwards_, work.towards, lift)
+    if _is_closed(path, work.towards):
+        before = (start[0], farthest(path, 1, -work.towards) - work.towards * lift)
     after = _beside(end, path[-1].edge.arriving, onwards_, work.towards, lift)
     work.clear(path, before, lift, stock=stock)
     for stroke in (
@@ -178,6 +219,12 @@ def finish(
     ):
         # A rapid in the contour cuts as well: the cycle has feeds of its own.
         work.perform(stroke if stroke.end == before else _at_feed(stroke), feed)
+
+
+def _is_closed(path: Contour, towards: float) -> bool:
+    """Whether a path begins at its closed end, below a summit: behind it stock stands as high as that."""
+    begin, end = path[0].edge.start[1], path[-1].edge.end[1]
+    return towards * (begin - end) < -NO_WAY and towards * (begin - farthest(path, 1, -towards)) > NO_WAY
 
 
 def _beside(point: Point, direction: Point, onwards_: float, towards: float, lift: float) -> Point:

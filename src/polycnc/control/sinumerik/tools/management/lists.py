@@ -177,8 +177,8 @@ def take_over(channel: SinumerikChannel, before: int) -> None:
     if now == before:
         return
     held[before] = (tools.active, tools.selected)
-    if now in held:
-        active, tools.selected = held[now]
+    active, tools.selected = held.get(now, held[before])
+    if active != tools.active:
         location = tools.additive
         tools.load(active, channel.memory.data)
         first_location(channel, location)

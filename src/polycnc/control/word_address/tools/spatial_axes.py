@@ -1,8 +1,9 @@
 """Radius compensation in space where nothing leads the axes: words name them as the table stands at the end of a block.
 
 The corner of two blocks is that of the work, so points are seen from the table: with its turn `M` at a point `P` the
-work sees `M⁻¹ P`. There the vector is found as in `spatial`, and `M` of the block's end leads it back to the axes
-(FANUC 15i, B-63324EN, page 559: `P1' = M2 M1⁻¹ (P1 - P0) + P0`). Between two ends the axes go straight.
+work sees `M⁻¹ P`. There the vector is found as under tip control (`compensation.spatial`), and `M` of the block's end
+leads it back to the axes (FANUC 15i, B-63324EN, page 559: `P1' = M2 M1⁻¹ (P1 - P0) + P0`). Between two ends the axes go
+straight.
 """
 
 from __future__ import annotations

@@ -1,0 +1,85 @@
+"""Q of G43.5: the tool leans from the direction of I J K towards where the tip goes (FANUC 30i, A-79348E, page 18).
+
+I J K are then the normal of the surface that is cut. The angle holds until the next G43.5 or until tip control ends.
+"""
+
+from __future__ import annotations
+
+from math import cos, radians, sin, sqrt
+from typing import TYPE_CHECKING
+
+from polycnc.channel.states.state import Lifetime, State
+from polycnc.control.fanuc.milling.five_axes import not_yet
+from polycnc.control.word_address.block.rules import Rule
+from polycnc.control.word_address.transformations.tool_center_point import plan_with_direction
+from polycnc.deferred.records import dataclass
+from polycnc.geometry.vectors import dot, minus, times
+
+if TYPE_CHECKING:
+    from polycnc.control.word_address.block.codes import Step
+    from polycnc.control.word_address.block.plan import Builder, Plan
+    from polycnc.control.word_address.block.words import Words
+    from polycnc.control.word_address.family import WordAddressChannel
+    from polycnc.geometry.frames import Vector
+
+#: Modal group: "Q" while the tool leans.
+GROUP = "tip_lean"
+#: Ways and directions that are shorter (mm) are none.
+SHORTEST = 1e-9
+
+
+@dataclass(slots=True)
+class LeanState(State, lifetime=Lifetime.RESET):
+    """Q of G43.5, degrees."""
+
+    angle: float = 0.0
+
+
+def begin(channel: WordAddressChannel, words: Words) -> None:
+    """Q beside G43.5; PC0001 for I J K and axis words beside it: where the tip goes is not known for sure there."""
+    angle = words.angle("Q") or 0.0
+    if angle and (words.axes() or any(letter in words for letter in "IJK")):
+        raise not_yet("G43.5 Q")
+    LeanState.of(channel).angle = angle
+    channel.mode = channel.mode.with_code(GROUP, "Q" if angle else "")
+
+
+def end(channel: WordAddressChannel) -> None:
+    """The tool leans no more."""
+    channel.mode = channel.mode.with_code(GROUP, "")
+
+
+def _leaned(channel: WordAddressChannel, vector: Vector, position: list[float]) -> Vector:
+    """The direction towards where the tip goes, by the angle from the programmed one."""
+    c = channel.coordinates
+    if not c.direct:
+        raise not_yet("G43.5 Q: G51.1")
+    ways = (position[axis] - c.position[axis] for axis in c.geometry)
+    x, y, z = ways
+    size = sqrt(dot(vector, vector))
+    if size < SHORTEST:
+        return vector
+    if x * x + y * y + z * z < SHORTEST:
+        raise not_yet("G43.5 Q")
+    normal = times(vector, 1.0 / size)
+    flat = minus((x, y, z), times(normal, dot(normal, (x, y, z))))
+    length = sqrt(dot(flat, flat))
+    if length < SHORTEST:
+        return vector  # along the tool there is no way to lean to
+    angle = radians(LeanState.of(channel).angle)
+    i, j, k = (cos(angle) * a + sin(angle) * b / length for a, b in zip(normal, flat, strict=True))
+    return (i, j, k)
+
+
+def _plan(builder: Builder, plan: Plan) -> Step | None:
+    """A straight block that leans the tool; without I J K which direction it leans from is not known for sure."""
+    if builder.mode["length"] != "G43.5" or not plan.axis_words:
+        return None
+    step = plan_with_direction(builder, plan, _leaned)
+    if step is None:
+        raise not_yet("G43.5 Q")
+    return step
+
+
+#: Straight blocks while the tool leans.
+RULE = Rule("tool that leans towards its way", modes={GROUP: ("Q",)}, motion=_plan)

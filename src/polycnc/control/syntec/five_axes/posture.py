@@ -1,0 +1,85 @@
+"""G43.4 in a work system that G54.4 turns, with directions that refer to it (Q1, Pr3057 = 1; manual 2.28.3, note 8).
+
+Rotary words say how the axes would stand the tool if the work system were not turned, first axis first; the tool stands
+so in the system as it is turned. An axis without a word keeps its program coordinate (2.28.4, second sample). The axes
+go to the positions that are nearest to the way of the words. In between they go evenly and the tip goes straight: the
+manual does not say how the tool turns there.
+"""
+
+from __future__ import annotations
+
+from math import nan
+from typing import TYPE_CHECKING
+
+from polycnc.control.syntec.coordinates.turns import POSTURE, PostureState, TurnState
+from polycnc.control.word_address.block.rules import Rule
+from polycnc.control.word_address.motion.path import reach
+from polycnc.control.word_address.transformations.tilted_plane import nearest_angles
+from polycnc.messages import AlarmError
+from polycnc.toolpath import Kind
+
+if TYPE_CHECKING:
+    from polycnc.control.syntec.family import SyntecChannel
+    from polycnc.control.word_address.block.codes import Step
+    from polycnc.control.word_address.block.plan import Builder, Plan
+
+STRAIGHT = {"G0": Kind.RAPID, "G1": Kind.FEED}
+
+
+def _plan(builder: Builder, plan: Plan) -> Step | None:
+    """A straight block with rotary words: its end stands the tool in the work system as they say."""
+    words = plan.axis_words
+    rotary = [word for word in words if builder.channel.axis_data[word.axis].rotary]
+    if not rotary or builder.mode["length"] != "G43.4":
+        return None
+    motion = builder.mode["motion"]
+    if motion not in STRAIGHT or builder.mode["polar"] == "G16":
+        raise not_yet(f"G43.4 Q1: {motion}")
+    kind = STRAIGHT[motion]
+
+    def move(channel: SyntecChannel, values: list[float]) -> None:
+        c, state = channel.coordinates, PostureState.of(channel)
+        kinematics = channel.control.kinematics(channel)
+        here = dict(zip(channel.axes, c.machine, strict=True))
+        before, goal = c.programmed, reach(channel, words, values)
+        told = state.told or {name: here[name] for name in kinematics.axes}
+        state.told = told.copy()
+        for word in rotary:
+            name, value = channel.axes[word.axis], goal[word.axis]
+            way = value - before[word.axis]
+            state.told[name] = told[name] + way if word.incremental else value + c.offsets[word.axis]
+        near = {name: here[name] + state.told[name] - told[name] for name in told}
+        wanted = TurnState.of(channel).work.direct(*kinematics.tool_on_work(state.told))
+        angles = nearest_angles(channel, wanted, near)
+        if angles is None:
+            raise channel.control.fail("tilt_unreachable", address=rotary[0].address)
+        for name, angle in angles.items():
+            axis = channel.axis_index[name]
+            goal[axis] = angle - c.offsets[axis]
+            c.pending[axis] = 0.0
+        channel.straight(kind, c.to_position(goal), nan if kind == Kind.RAPID else channel.feed, goal)
+
+    return move
+
+
+def _wrap(builder: Builder, _plan: Plan, step: Step | None) -> Step | None:
+    """Nothing moves before rotary words have told how the tool stands in the work system."""
+    if step is None or builder.mode["length"] != "G43.4":
+        return step
+
+    def move(channel: SyntecChannel, values: list[float]) -> None:
+        before = channel.coordinates.position
+        step(channel, values)
+        if channel.coordinates.position != before and not PostureState.of(channel).told:
+            raise not_yet("G43.4 Q1: G54.4")
+
+    return move
+
+
+def not_yet(code: str) -> AlarmError:
+    """PC0001 for what the manual does not say."""
+    return AlarmError("PC0001", hint="hint.not-supported", code=code)
+
+
+#: Rotary words while directions refer to a work system that is turned.
+RULE = Rule("tool direction in a turned work system", modes={POSTURE: ("work",)}, motion=_plan, wrap=_wrap)
