@@ -61,7 +61,7 @@ def thread_of_plane(moves: Moves, a: Arguments) -> None:
             without number or depth of cuts; PC0001 for what is not executed.
     """
     kind = a.digit("_VARI", 0)
-    if kind not in KINDS:
+    if kind not in KINDS or a.integer("_VARI") < 0:
         raise AlarmError("61002")
     lead = abs(a["_PIT"])
     if not lead:
@@ -113,7 +113,7 @@ def _thread(
             raise not_supported(f"{a.cycle}: face thread")
     if kind not in INSIDE_KINDS and min(radius for _, radius in corners) < abs(a[f"{prefix}TDEP"]):
         raise AlarmError("61601")
-    cuts, degressive = max(a.integer(f"{prefix}NRC"), 1), kind in (3, 4)
+    cuts, degressive = max(abs(a.integer(f"{prefix}NRC")), 1), kind in (3, 4)
     if a.has("_MID") and a["_MID"]:
         rough = max(abs(a["_TDEP"]) - abs(a["_FAL"]), 0.0)
         cuts = thread_turning.cuts_of_first(rough, abs(a["_MID"]), degressive=degressive)
@@ -125,7 +125,7 @@ def _thread(
         depth=abs(a[f"{prefix}TDEP"]),
         allowance=abs(a[f"{prefix}FAL"]),
         cuts=cuts,
-        idle=max(a.integer(f"{prefix}NID"), 0),
+        idle=abs(a.integer(f"{prefix}NID")),
         inside=kind in INSIDE_KINDS,
         degressive=degressive,
         flank_deg=a[f"{prefix}IANG"] if flank is None else flank,
