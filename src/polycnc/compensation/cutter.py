@@ -249,7 +249,8 @@ class CutterCompensation(Stage):
     def block(self) -> None:
         """A block has been read: look-ahead counts blocks, with or without motion."""
         place, self._place = self._place, None
-        if place is not None and (self.policy.shifts_without_motion or self._forced is not None):
+        shifts = self.policy.shifts_without_motion and self._role is not Role.CONTOUR
+        if place is not None and (shifts or self._forced is not None):
             point = self.plane.point(place.end)
             place.feed = nan if place.kind is Kind.RAPID else place.feed
             self._take(place, offset.Edge(point, point, NO_VECTOR, NO_VECTOR))
