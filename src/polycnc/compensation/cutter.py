@@ -27,7 +27,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from itertools import pairwise
-from math import hypot
+from math import hypot, nan
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.path import END_OF_BLOCK, Item, Move, PlacedEvent, Rank, Stage
@@ -41,6 +41,7 @@ from polycnc.geometry import arcs, offset
 from polycnc.geometry.offset import Corner
 from polycnc.geometry.tolerances import NO_WAY, ROUNDED_MM, SAME_POINT_MM
 from polycnc.toolpath.context import PROGRAMMED
+from polycnc.toolpath.kinds import Kind
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -211,6 +212,8 @@ class CutterCompensation(Stage):
         """Take the next move; see `Stage`."""
         if self._role is Role.PLAIN or not self.plane.moves(move):
             self._in_order(move)
+            if self._place is not None:
+                self._place = self._place.between(move.end, move.end)
             return
         edge = self.plane.edge(move)
         if edge is None:
@@ -246,8 +249,10 @@ class CutterCompensation(Stage):
     def block(self) -> None:
         """A block has been read: look-ahead counts blocks, with or without motion."""
         place, self._place = self._place, None
-        if place is not None and (self.policy.shifts_without_motion or self._forced is not None):
+        shifts = self.policy.shifts_without_motion and self._role is not Role.CONTOUR
+        if place is not None and (shifts or self._forced is not None):
             point = self.plane.point(place.end)
+            place.feed = nan if place.kind is Kind.RAPID else place.feed
             self._take(place, offset.Edge(point, point, NO_VECTOR, NO_VECTOR))
         self._is_bare = self._role is Role.CANCEL and self.policy.bare_cancel_is_square
         self._in_order(END_OF_BLOCK)
