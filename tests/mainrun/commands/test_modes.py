@@ -449,14 +449,14 @@ def test_block_search_says_that_a_block_belongs_to_the_shape_of_a_cycle(how: str
 
 @pytest.mark.parametrize("how", ["contour", "end-point", "program-test"])
 def test_a_search_for_where_g70_was_given_up_is_refused(how: str) -> None:
-    shape = "N100 G0 X20.\nN105 G1 Z-10. F50\nN110 X62.\n"
+    shape = "N100 G0 X20.\nN105 G1 Z-10. F6000\nN110 X62.\n"
     virtual = power_on(f"G98 G0 X100. Z10.\n{shape}G70 P100 Q110\nM30\n", "fanuc-0i-tf")
     virtual.cycle_start()
-    assert virtual.run_until(lambda control: [line for _, line in control.snapshot.interrupted] == [5, 3])
+    assert virtual.run_until(lambda control: [line for _, line in control.snapshot.interrupted] == [5, 4])
     virtual.reset()
     virtual.run()
     levels = virtual.snapshot.interrupted
-    told = "block 3 runs only as a part of the block in line 5"
+    told = "block 4 runs only as a part of the block in line 5"
     if how == "program-test":
         virtual.block_search(levels, how=how)
         virtual.run(limit_s=600.0)
