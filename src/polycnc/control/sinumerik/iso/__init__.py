@@ -5,7 +5,7 @@ the table of the functions here, `running` is the block while it runs and what t
 
     holes       drilling cycles G73 to G89, G98, G99
     frames      G50, G51 (scale), G50.1, G51.1 (mirror), G52 (shift), G68, G69 (rotation), G92 (position), G10 L2
-    offsets     G43, G49 with H, D
+    offsets     G43, G44, G49 with H, D
     reference   G28, G30, G53
     subprograms M98, M99, G65 to G67
     macro_words what programs of G65 and G66 read

@@ -22,6 +22,7 @@ FUNCTIONS: dict[str, Callable[[IsoRun, IsoWord], None]] = {
     "G30": reference.return_to,
     "G31": reference.to_probe,
     "G43": offsets.select,
+    "G44": offsets.select,
     "G49": offsets.cancel,
     "G50": frames.unscale,
     "G51": frames.scale,
@@ -47,7 +48,7 @@ FUNCTIONS: dict[str, Callable[[IsoRun, IsoWord], None]] = {
 
 #: Functions of which a block may hold one; the words told in the control's own language have its groups.
 GROUPS = (
-    frozenset(("G43", "G49")),
+    frozenset(("G43", "G44", "G49")),
     frozenset(("G50", "G51")),
     frozenset(("G50.1", "G51.1")),
     frozenset(("G68", "G69")),
