@@ -16,6 +16,7 @@ DATA: dict[str, tuple[int, bool | float | str]] = {
     "$MN_M_NO_FCT_CYCLE_NAME": (10716, ""),
     "$MN_T_NO_FCT_CYCLE_NAME": (10717, ""),
     "$MN_M_NO_FCT_CYCLE_PAR": (10718, -1),
+    "$MN_EXTERN_GCODE_SYSTEM": (10881, 0),
     "$MN_INDEX_AX_LENGTH_POS_TAB_1": (10900, 0),
     "$MN_INDEX_AX_POS_TAB_1": (10910, 0.0),
     "$MN_INDEX_AX_LENGTH_POS_TAB_2": (10920, 0),

@@ -1,4 +1,4 @@
-"""The ISO dialect (G291): functions of ISO code M that the control's own language has no word for.
+"""The ISO dialect (G291): functions of ISO code (M, on a lathe T) that the control's own language has no word for.
 
 `language/sinumerik/iso_dialect` reads the words of a block and knows the counterparts; `dialect` runs a block and has
 the table of the functions here, `running` is the block while it runs and what the dialect remembers.
@@ -9,6 +9,8 @@ the table of the functions here, `running` is the block while it runs and what t
     reference   G28, G30, G53
     subprograms M98, M99, G65 to G67
     macro_words what programs of G65 and G66 read
+    systems     on a lathe: codes by code system A, B or C, increments U, V, W, H
+    turning     on a lathe: G33, G77, G79, T, G92 S
 
-Source: general knowledge of the control's ISO milling; the manuals at hand name G290 and G291 alone.
+Source: general knowledge of the control's ISO milling and turning; the manuals at hand name G290 and G291 alone.
 """
