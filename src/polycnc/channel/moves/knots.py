@@ -1,9 +1,14 @@
-"""Moves cut at parts of their way, where axes beside the path or the feed change their course within one motion."""
+"""One motion that becomes several rows: a curve as chords, a move cut where axes beside it or the feed change course.
+
+Whatever makes rows of one block asks here. Nothing rests between them, under inverse time they last as long as the
+motion, and the main run counts them as one block.
+"""
 
 from __future__ import annotations
 
 from dataclasses import replace
-from math import hypot
+from itertools import pairwise
+from math import dist, hypot
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.move_path import MovePath
@@ -11,10 +16,11 @@ from polycnc.toolpath.kinds import ARC_KINDS, Kind
 from polycnc.toolpath.modes import CornerMode, FeedMode
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Iterable, Sequence
 
     from polycnc.channel.channel import Channel
     from polycnc.channel.moves.path import Move
+    from polycnc.toolpath.context import Context
 
 #: Kinds of moves that pieces can make up; a thread or a rapid stays whole.
 DIVISIBLE = frozenset((Kind.FEED, *ARC_KINDS))
@@ -54,42 +60,75 @@ def cut(channel: Channel, move: Move, parts: Sequence[float]) -> list[Move]:
     return pieces
 
 
-def passing_context(channel: Channel, context: int) -> int:
-    """The context of rows that another one of their block follows, where displays show each of them."""
+def write_chords(
+    channel: Channel,
+    points: Iterable[list[float]],
+    feed: float,
+    put: Callable[[list[float], float], object],
+) -> None:
+    """Write one motion as chords to some points (positions of all axes), which displays show.
+
+    Args:
+        channel: The channel that moves.
+        points: Ends of the chords, the last one that of the motion.
+        feed: Of the motion, in internal units.
+        put: Writes a chord to its end with its feed.
+    """
+    ends, held = list(points), channel.context
+    shares = [1.0] * len(ends)
+    if held.feed_mode is FeedMode.INVERSE_TIME:
+        shares = _shares(channel, list(pairwise((channel.coordinates.position, *ends))))
+    for end, share in zip(ends[:-1], shares, strict=False):
+        with channel.under(passing(held, share)):
+            put(end, feed / share)
+    for end, share in zip(ends[-1:], shares[-1:], strict=True):
+        with channel.under(replace(held, share=held.share * share)):
+            put(end, feed / share)
+
+
+def join(channel: Channel, pieces: Sequence[Move], *, shows: bool = False) -> None:
+    """Pieces that make up a move, each with its feed and context, become one motion; displays may show every piece."""
     toolpath = channel.toolpath
-    held = toolpath.contexts[context]
-    if held.corner_mode is not CornerMode.EXACT_STOP:
-        return context
-    return toolpath.context_number(replace(held, corner_mode=CornerMode.CONTINUOUS))
-
-
-def join(channel: Channel, pieces: Sequence[Move]) -> None:
-    """Pieces become one motion: nothing rests within it, and it takes the time of the whole."""
     for piece in pieces[:-1]:
-        piece.context = knot_context(channel, piece.context)
+        within = passing(toolpath.contexts[piece.context], shows=shows)
+        piece.context = toolpath.context_number(within)
     share_time(channel, pieces)
 
 
 def share_time(channel: Channel, pieces: Sequence[Move]) -> None:
     """Pieces that make up a move of inverse time take their part of it each; displays show the feed of the whole."""
     toolpath = channel.toolpath
-    held = toolpath.contexts[pieces[-1].context]
-    if held.feed_mode is not FeedMode.INVERSE_TIME or len(pieces) < 2:
+    if len(pieces) < 2 or toolpath.contexts[pieces[-1].context].feed_mode is not FeedMode.INVERSE_TIME:
         return
-    columns = [column for column in channel.coordinates.geometry if column >= 0]
-    ways = [hypot(*(piece.end[i] - piece.start[i] for i in columns)) for piece in pieces]
-    whole = sum(ways)
-    for piece, way in zip(pieces, ways, strict=True):
-        if way > 0.0:
-            piece.feed *= whole / way
-    if ways[-1] > 0.0:
-        share = held.share * ways[-1] / whole
-        pieces[-1].context = toolpath.context_number(replace(held, share=share))
+    shares = _shares(channel, [(piece.start, piece.end) for piece in pieces])
+    by_radius = channel.control.motion_settings(channel).inverse_time_by_radius
+    for piece, share in zip(pieces, shares, strict=True):
+        if not (piece.is_arc and by_radius):
+            held = toolpath.contexts[piece.context]
+            piece.feed /= share
+            piece.context = toolpath.context_number(replace(held, share=held.share * share))
+
+
+def _shares(channel: Channel, ways: Sequence[tuple[list[float], list[float]]]) -> list[float]:
+    """Parts that straight ways have of their sum on the geometry axes, or where those stand on all; 1 for one without.
+
+    Of an arc its chord counts.
+    """
+    columns: Iterable[int] = [column for column in channel.coordinates.geometry if column >= 0]
+    lengths = [hypot(*(b[i] - a[i] for i in columns)) for a, b in ways]
+    if not any(lengths):
+        lengths = [dist(a, b) for a, b in ways]
+    whole = sum(lengths)
+    return [length / whole if length > 0.0 else 1.0 for length in lengths]
+
+
+def passing(held: Context, share: float = 1.0, *, shows: bool = True) -> Context:
+    """The context of a piece within a motion of another one: nothing rests at its end."""
+    mode = CornerMode.CONTINUOUS if held.corner_mode is CornerMode.EXACT_STOP else held.corner_mode
+    return replace(held, corner_mode=mode, knot=True, shows_knot=shows, share=held.share * share)
 
 
 def knot_context(channel: Channel, context: int) -> int:
-    """The context of pieces within a motion: nothing rests or rounds a corner at their ends."""
+    """The context of pieces within a motion: nothing rests at their ends, and displays show them as one."""
     toolpath = channel.toolpath
-    held = toolpath.contexts[context]
-    mode = CornerMode.CONTINUOUS if held.corner_mode is CornerMode.EXACT_STOP else held.corner_mode
-    return toolpath.context_number(replace(held, corner_mode=mode, knot=True))
+    return toolpath.context_number(passing(toolpath.contexts[context], 1.0, shows=False))

@@ -12,7 +12,7 @@ from functools import partial
 from math import nan
 from typing import TYPE_CHECKING
 
-from polycnc.channel.moves.knots import join, passing_context
+from polycnc.channel.moves.knots import join
 from polycnc.compensation.corner import CornerPolicy, CornerStage, CornerViolation, Shape
 from polycnc.compensation.cutter import CutterCompensation
 from polycnc.compensation.plane import Plane
@@ -114,7 +114,7 @@ def spline(channel: SinumerikChannel) -> SplineStage:
     """The stage that collects control points, in the path."""
     change_plane(channel)
     return channel.path.find(SplineStage) or channel.path.put(
-        SplineStage(plane(channel), partial(passing_context, channel))
+        SplineStage(plane(channel), partial(join, channel, shows=True))
     )
 
 
