@@ -86,24 +86,32 @@ def write_chords(
             put(end, feed / share)
 
 
-def join(channel: Channel, pieces: Sequence[Move], *, shows: bool = False) -> None:
-    """Pieces that make up a move, each with its feed and context, become one motion; displays may show every piece."""
+def join(channel: Channel, pieces: Sequence[Move], *, shows: bool = False, counted: float = 1.0) -> None:
+    """Pieces that make up a move, each with its feed and context, become one motion.
+
+    Args:
+        channel: The channel that moves.
+        pieces: The pieces.
+        shows: Displays show every piece.
+        counted: Of the chords of an arc its radius over its length: inverse time may count that.
+    """
     toolpath = channel.toolpath
     for piece in pieces[:-1]:
         within = passing(toolpath.contexts[piece.context], shows=shows)
         piece.context = toolpath.context_number(within)
-    share_time(channel, pieces)
+    share_time(channel, pieces, counted)
 
 
-def share_time(channel: Channel, pieces: Sequence[Move]) -> None:
+def share_time(channel: Channel, pieces: Sequence[Move], counted: float = 1.0) -> None:
     """Pieces that make up a move of inverse time take their part of it each; displays show the feed of the whole."""
     toolpath = channel.toolpath
     if len(pieces) < 2 or toolpath.contexts[pieces[-1].context].feed_mode is not FeedMode.INVERSE_TIME:
         return
     shares = _shares(channel, [(piece.start, piece.end) for piece in pieces])
     by_radius = channel.control.motion_settings(channel).inverse_time_by_radius
-    for piece, share in zip(pieces, shares, strict=True):
+    for piece, part in zip(pieces, shares, strict=True):
         if not (piece.is_arc and by_radius):
+            share = part / counted if by_radius else part
             held = toolpath.contexts[piece.context]
             piece.feed /= share
             piece.context = toolpath.context_number(replace(held, share=held.share * share))

@@ -115,6 +115,6 @@ class StandingStage(Stage):
             chords.append(
                 replace(move, kind=Kind.SPLINE, center=None, turns=0.0, start=chords[-1].end, end=point)
             )
-        join(self._channel, chords[1:], shows=True)
+        join(self._channel, chords[1:], shows=True, counted=begin / (0.5 * (begin + finish) * abs(sweep)))
         for chord in chords[1:]:
             self._straight(chord, chord.start, chord.end)
