@@ -77,7 +77,7 @@ def write_chords(
     ends, held = list(points), channel.context
     shares = [1.0] * len(ends)
     if held.feed_mode is FeedMode.INVERSE_TIME:
-        shares = _shares(channel, list(pairwise((channel.coordinates.position, *ends))))
+        shares = _parts(channel, list(pairwise((channel.coordinates.position, *ends))))
     for end, share in zip(ends[:-1], shares, strict=False):
         with channel.under(passing(held, share)):
             put(end, feed / share)
@@ -103,31 +103,59 @@ def join(channel: Channel, pieces: Sequence[Move], *, shows: bool = False, count
 
 
 def share_time(channel: Channel, pieces: Sequence[Move], counted: float = 1.0) -> None:
-    """Pieces that make up a move of inverse time take their part of it each; displays show the feed of the whole."""
+    """Pieces of inverse time, the first one the move itself, last as long together as that; displays show its feed."""
     toolpath = channel.toolpath
-    if len(pieces) < 2 or toolpath.contexts[pieces[-1].context].feed_mode is not FeedMode.INVERSE_TIME:
+    if len(pieces) < 2 or toolpath.contexts[pieces[0].context].feed_mode is not FeedMode.INVERSE_TIME:
         return
-    shares = _shares(channel, [(piece.start, piece.end) for piece in pieces])
-    by_radius = channel.control.motion_settings(channel).inverse_time_by_radius
-    for piece, part in zip(pieces, shares, strict=True):
-        if not (piece.is_arc and by_radius):
-            share = part / counted if by_radius else part
-            held = toolpath.contexts[piece.context]
-            piece.feed /= share
-            piece.context = toolpath.context_number(replace(held, share=held.share * share))
+    parts = _parts(channel, [(piece.start, piece.end) for piece in pieces])
+    if any(piece.is_arc for piece in pieces):
+        lengths = [MovePath(piece, channel.coordinates.geometry).length for piece in pieces]
+        parts = [length / sum(lengths) if length > 0.0 else 1.0 for length in lengths]
+    for piece, share in zip(pieces, _counted(channel, pieces, parts, counted), strict=True):
+        held = toolpath.contexts[piece.context]
+        piece.feed /= share
+        piece.context = toolpath.context_number(replace(held, share=held.share * share))
 
 
-def _shares(channel: Channel, ways: Sequence[tuple[list[float], list[float]]]) -> list[float]:
-    """Parts that straight ways have of their sum on the geometry axes, or where those stand on all; 1 for one without.
+def _counted(channel: Channel, pieces: Sequence[Move], parts: list[float], counted: float) -> list[float]:
+    """What inverse time counts of pieces that have some parts of a move: of arcs on some controls the radius."""
+    if not channel.control.motion_settings(channel).inverse_time_by_radius:
+        return parts
+    geometry, whole = channel.coordinates.geometry, counted
+    paths = [MovePath(piece, geometry) if piece.is_arc else None for piece in pieces]
+    by_radius = [1.0 if path is None else path.radius / path.length for path in paths]
+    if paths[0] is not None:
+        whole = parts[0] * by_radius[0]
+    return [part * factor / whole for part, factor in zip(parts, by_radius, strict=True)]
 
-    Of an arc its chord counts.
-    """
+
+def _parts(channel: Channel, ways: Sequence[tuple[list[float], list[float]]]) -> list[float]:
+    """Parts that straight ways have of their sum on the geometry axes, or where those stand on all; 1 without way."""
     columns: Iterable[int] = [column for column in channel.coordinates.geometry if column >= 0]
     lengths = [hypot(*(b[i] - a[i] for i in columns)) for a, b in ways]
     if not any(lengths):
         lengths = [dist(a, b) for a, b in ways]
     whole = sum(lengths)
     return [length / whole if length > 0.0 else 1.0 for length in lengths]
+
+
+class Motions:
+    """Motions of several rows, for stages that know no channel."""
+
+    def __init__(self, channel: Channel) -> None:
+        self._channel = channel
+
+    def join(self, pieces: Sequence[Move]) -> None:
+        """Pieces that make up a move become one motion."""
+        join(self._channel, pieces)
+
+    def share_time(self, pieces: Sequence[Move]) -> None:
+        """A move and what lies at its end last as long together as the move would by inverse time."""
+        share_time(self._channel, pieces)
+
+    def is_timed(self, context: int) -> bool:
+        """Whether moves of a context last a time that the program says."""
+        return self._channel.toolpath.contexts[context].feed_mode is FeedMode.INVERSE_TIME
 
 
 def passing(held: Context, share: float = 1.0, *, shows: bool = True) -> Context:
