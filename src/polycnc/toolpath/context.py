@@ -169,6 +169,11 @@ class Context:
         return self.spindle_rpm * FOOT_M if self.inch else self.spindle_rpm
 
     @property
+    def stops(self) -> bool:
+        """Whether the axes come to rest at the end of a row: where a motion goes on they do not."""
+        return self.corner_mode is CornerMode.EXACT_STOP and not self.knot
+
+    @property
     def is_hidden(self) -> bool:
         """Whether displays show a row with the one that goes on behind it."""
         return self.knot and not self.shows_knot

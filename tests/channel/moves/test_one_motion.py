@@ -9,7 +9,6 @@ import pytest
 from polycnc.session import open_session
 from polycnc.toolpath import Kind, Row
 from polycnc.toolpath.kinds import ARC_KINDS
-from polycnc.toolpath.modes import CornerMode
 
 #: F in revolutions of the block a minute: a block takes two seconds.
 RATE, SECONDS = 30, 2.0
@@ -96,8 +95,7 @@ def test_an_exact_stop_is_at_the_end_alone(name: str) -> None:
     motion = MOTIONS[name]
     rows = rows_of(motion, "G60" if motion.control[:2] == "si" else "G61")
     assert len(rows) > 1
-    modes = [row.context.corner_mode is CornerMode.EXACT_STOP for row in rows]
-    assert modes == [False] * (len(rows) - 1) + [True]
+    assert [row.context.stops for row in rows] == [False] * (len(rows) - 1) + [True]
     assert [row.context.knot for row in rows] == [True] * (len(rows) - 1) + [False]
 
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.toolpath.kinds import ARC_KINDS, Kind
-from polycnc.toolpath.modes import CornerMode, FeedMode
+from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
@@ -160,8 +160,7 @@ class Motions:
 
 def passing(held: Context, share: float = 1.0, *, shows: bool = True) -> Context:
     """The context of a piece within a motion of another one: nothing rests at its end."""
-    mode = CornerMode.CONTINUOUS if held.corner_mode is CornerMode.EXACT_STOP else held.corner_mode
-    return replace(held, corner_mode=mode, knot=True, shows_knot=shows, share=held.share * share)
+    return replace(held, knot=True, shows_knot=shows, share=held.share * share)
 
 
 def knot_context(channel: Channel, context: int) -> int:
