@@ -44,8 +44,9 @@ from polycnc.toolpath.context import PROGRAMMED
 from polycnc.toolpath.kinds import Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Mapping
 
+    from polycnc.channel.moves.knots import Motions
     from polycnc.channel.moves.path import Run
     from polycnc.compensation.plane import Plane
     from polycnc.compensation.policy import Policy
@@ -60,7 +61,7 @@ class CutterCompensation(Stage):
         policy: The control's behaviour; may be replaced between blocks.
         violations: The control's alarm code for each violation that it checks; one without a code is let
             pass.
-        join: Makes one motion of the chords of a lead.
+        motions: Makes one motion of rows of a block; without it they stand by themselves.
 
     Attributes:
         suspended: Contour blocks keep the vector that stands square at the end of the last compensated one
@@ -75,11 +76,11 @@ class CutterCompensation(Stage):
         plane: Plane,
         policy: Policy,
         violations: Mapping[Violation, str],
-        join: Callable[[list[Move]], object] = len,
+        motions: Motions | None = None,
     ) -> None:
         self.plane = plane
         self.policy = policy
-        self._rows = RowWriter(plane, self, join)
+        self._rows, self._motions = RowWriter(plane, self, motions), motions
         self._violations = Objections(violations)
         self._role = Role.PLAIN
         self._side = 1
@@ -226,7 +227,15 @@ class CutterCompensation(Stage):
         """Take many moves at once, where all that wait and all that follow are ordinary lines (`runs`)."""
         window = self._window
         waits = self._place is not None or self._forced is not None or self._holds
-        if waits or self.suspended or self._starts_square or self._role is not Role.CONTOUR or not window:
+        timed = self._motions is not None and self._motions.is_timed(run.context)
+        if (
+            waits
+            or timed
+            or self.suspended
+            or self._starts_square
+            or self._role is not Role.CONTOUR
+            or not window
+        ):
             return 0
         from polycnc.compensation.runs.window import Window, fits  # for long programs only
 

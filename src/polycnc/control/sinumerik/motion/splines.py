@@ -13,6 +13,7 @@ from math import hypot
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from polycnc.channel.moves.chord_path import ChordPath
+from polycnc.channel.moves.knots import write_chords
 from polycnc.channel.moves.path import Recorder
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.block import arguments
@@ -21,7 +22,6 @@ from polycnc.control.sinumerik.block.positions import AxisTerm, axis_term, numbe
 from polycnc.control.sinumerik.curve_tables.recorder import recorder_of
 from polycnc.control.sinumerik.feed.pace import Overrides
 from polycnc.control.sinumerik.motion import moves
-from polycnc.control.sinumerik.motion.chords import write_chords
 from polycnc.control.sinumerik.motion.points_stage import POINT, PointsStage, direction_before
 from polycnc.control.sinumerik.motion.polynomial_groups import AXES, PolynomialGroups
 from polycnc.control.sinumerik.motion.spline_stage import TOLERANCE_MM

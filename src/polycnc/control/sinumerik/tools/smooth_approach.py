@@ -14,6 +14,7 @@ As its direction is that of the contour's first move, an approach waits for that
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import isnan, nan
 from typing import TYPE_CHECKING
 
@@ -196,7 +197,7 @@ def retract(draft: Draft) -> Step | None:
         if third >= 0 and not shape.in_plane:
             point[third] = height
         center = shape.center(touch, direction)
-        with channel.intermediate(shape.origin):
+        with channel.under(replace(channel.context, origin=shape.origin)):
             if center is None:
                 moves.line(channel, Kind.FEED, point, moves.checked_feed(old))
             else:
