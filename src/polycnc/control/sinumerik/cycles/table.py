@@ -112,7 +112,8 @@ CYCLES: dict[str, Cycle] = {
     ),
     "LONGHOLE": Cycle(f"{_HOLE} NUM LENG CPA CPO RAD STA1 INDA FFD FFP1 MID {_SL_MILL}", milling.long_hole),
     "CYCLE60": Cycle(
-        f"_TEXT {_HOLE} _PA _PO _STA _CP1 _CP2 _WID _DF _FFD _FFP1 _VARI _CODEP {_SL}", engraving.engrave
+        f"_TEXT {_HOLE} _PA _PO _STA _CP1 _CP2 _WID _DF _FFD _FFP1 _VARI _CODEP _UMODE {_SL}",
+        engraving.engrave,
     ),
     "CYCLE61": Cycle(
         f"{_MILL} _PA _PO _LENG _WID _MID _MIDA _FALD _FFP1 _VARI _LIM _DMODE _AMODE", surfaces.face
