@@ -184,7 +184,8 @@ CYCLES: dict[str, Cycle] = {
         "PIT MPIT SPL FPL DM1 DM2 APP ROP TDEP FAL IANG NSP NRC NID VARI NUMT _VRT", threads.thread
     ),
     "CYCLE98": Cycle(
-        "PO1 DM1 PO2 DM2 PO3 DM3 PO4 DM4 APP ROP TDEP FAL IANG NSP NRC NID PP1 PP2 PP3 VARI NUMT _VRT",
+        "PO1 DM1 PO2 DM2 PO3 DM3 PO4 DM4 APP ROP TDEP FAL IANG NSP NRC NID PP1 PP2 PP3 VARI NUMT _VRT"
+        " _MID _GDEP _IFLANK _PITA _PITM1:text _PITM2:text _PITM3:text _DMODE _AMODE",
         threads.thread_chain,
     ),
     "CYCLE99": Cycle(
