@@ -59,7 +59,7 @@ class CutterCompensation(Stage):
         policy: The control's behaviour; may be replaced between blocks.
         violations: The control's alarm code for each violation that it checks; one without a code is let
             pass.
-        within: Gives the context of a chord that another one of the same motion follows, for that of the motion.
+        join: Makes one motion of the chords of a lead.
 
     Attributes:
         suspended: Contour blocks keep the vector that stands square at the end of the last compensated one
@@ -74,11 +74,11 @@ class CutterCompensation(Stage):
         plane: Plane,
         policy: Policy,
         violations: Mapping[Violation, str],
-        within: Callable[[int], int] = int,
+        join: Callable[[list[Move]], object] = len,
     ) -> None:
         self.plane = plane
         self.policy = policy
-        self._rows = RowWriter(plane, self, within)
+        self._rows = RowWriter(plane, self, join)
         self._violations = Objections(violations)
         self._role = Role.PLAIN
         self._side = 1

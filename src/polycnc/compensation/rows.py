@@ -33,17 +33,17 @@ class RowWriter:
     Args:
         plane: The plane of compensation.
         stage: The stage whose next one gets the rows.
-        within: Gives the context of a chord that another one of the same motion follows, for that of the motion.
+        join: Makes one motion of the chords of a lead.
 
     Attributes:
         vector: The vector at the end of the last compensated move.
         displacement: How far the tool stands beside the programmed point: the vector, and the tip's shift with it.
     """
 
-    def __init__(self, plane: Plane, stage: Stage, within: Callable[[int], int] = int) -> None:
+    def __init__(self, plane: Plane, stage: Stage, join: Callable[[list[Move]], object] = len) -> None:
         self.plane = plane
         self._stage = stage
-        self._within = within
+        self._join_chords = join
         self.vector = NO_VECTOR
         self.displacement = NO_VECTOR
 
@@ -132,16 +132,18 @@ class RowWriter:
         if not leaves:
             points = [(1.0 - share, point) for share, point in reversed(points)]
         kind = Kind.RAPID if row.kind is Kind.RAPID else Kind.SPLINE
-        context = self._within(row.context) if len(points) > 2 else row.context
-        before = row.start
+        chords, before = [], row.start
         for share, point in points[1:-1]:
             place = [first + (last - first) * share for first, last in zip(u, v, strict=True)]
             for axis, value in zip(in_order, point, strict=True):
                 if plane.columns[axis] >= 0:
                     place[plane.columns[axis]] = value
-            self._stage.after.move(replace(row, kind=kind, start=before, end=place, context=context))
+            chords.append(replace(row, kind=kind, start=before, end=place))
             before = place
-        self._stage.after.move(replace(row, kind=kind, start=before))
+        chords.append(replace(row, kind=kind, start=before))
+        self._join_chords(chords)
+        for chord in chords:
+            self._stage.after.move(chord)
 
     def _join(self, template: Move, step: Step, joint: Joint, vector: Point) -> Move:
         """One row from the place of the last one to the next vector."""

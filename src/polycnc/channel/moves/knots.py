@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from math import hypot
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.move_path import MovePath
@@ -51,6 +52,39 @@ def cut(channel: Channel, move: Move, parts: Sequence[float]) -> list[Move]:
         held = toolpath.contexts[move.context]
         pieces[-1].context = toolpath.context_number(replace(held, share=held.share * share))
     return pieces
+
+
+def passing_context(channel: Channel, context: int) -> int:
+    """The context of rows that another one of their block follows, where displays show each of them."""
+    toolpath = channel.toolpath
+    held = toolpath.contexts[context]
+    if held.corner_mode is not CornerMode.EXACT_STOP:
+        return context
+    return toolpath.context_number(replace(held, corner_mode=CornerMode.CONTINUOUS))
+
+
+def join(channel: Channel, pieces: Sequence[Move]) -> None:
+    """Pieces become one motion: nothing rests within it, and it takes the time of the whole."""
+    for piece in pieces[:-1]:
+        piece.context = knot_context(channel, piece.context)
+    share_time(channel, pieces)
+
+
+def share_time(channel: Channel, pieces: Sequence[Move]) -> None:
+    """Pieces that make up a move of inverse time take their part of it each; displays show the feed of the whole."""
+    toolpath = channel.toolpath
+    held = toolpath.contexts[pieces[-1].context]
+    if held.feed_mode is not FeedMode.INVERSE_TIME or len(pieces) < 2:
+        return
+    columns = [column for column in channel.coordinates.geometry if column >= 0]
+    ways = [hypot(*(piece.end[i] - piece.start[i] for i in columns)) for piece in pieces]
+    whole = sum(ways)
+    for piece, way in zip(pieces, ways, strict=True):
+        if way > 0.0:
+            piece.feed *= whole / way
+    if ways[-1] > 0.0:
+        share = held.share * ways[-1] / whole
+        pieces[-1].context = toolpath.context_number(replace(held, share=share))
 
 
 def knot_context(channel: Channel, context: int) -> int:

@@ -17,6 +17,7 @@ from polycnc.control.sinumerik.block import plain
 from polycnc.control.sinumerik.block.outside_feeds import take_block_feed
 from polycnc.control.sinumerik.block.positions import Dimension, is_diameter, number, target
 from polycnc.control.sinumerik.motion import contour_reading, moves
+from polycnc.control.sinumerik.motion.chords import write_chords
 from polycnc.control.sinumerik.motion.last_move import ArcOfMove, LastMove
 from polycnc.control.sinumerik.motion.polar import Polar
 from polycnc.control.sinumerik.tables import length_factor
@@ -291,9 +292,9 @@ def _follow(channel: SinumerikChannel, move: Move, feed: float) -> None:
     largest = max(hypot(*column) for column in zip(*c.zero.m, strict=True))
     path = MovePath(move, c.geometry)
     points = list(path.chords(CHORD_ERROR_MM / largest))
-    chords = [(k / len(points), point) for k, point in enumerate(points, 1)]
-    for point in ChordPath(move.start, chords, path.direction, c.geometry).led(channel):
-        channel.curve(Kind.SPLINE, point, feed)
+    parts = [(k / len(points), point) for k, point in enumerate(points, 1)]
+    way = ChordPath(move.start, parts, path.direction, c.geometry)
+    write_chords(channel, way.led(channel), feed, partial(channel.curve, Kind.SPLINE))
 
 
 # ---- CIP

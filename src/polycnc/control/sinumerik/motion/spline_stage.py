@@ -15,7 +15,7 @@ from polycnc.geometry.tolerances import NO_WAY
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
     from polycnc.channel.moves.path import Move, PlacedEvent
     from polycnc.compensation.plane import Plane
@@ -28,6 +28,10 @@ _LEAST_WEIGHT = 1e-6
 class SplineStage(Stage):
     """Collects moves to control points: their parameters are weight, degree and knot distance.
 
+    Args:
+        plane: The plane in which the spline began.
+        passing: Gives the context of a chord that another one of its block follows, for that of the block.
+
     Attributes:
         plane: The plane in which the spline began; another one ends it.
         columns: Axes of the spline group; the others move evenly from point to point. None for all.
@@ -35,8 +39,8 @@ class SplineStage(Stage):
 
     rank = Rank.SPLINE
 
-    def __init__(self, plane: Plane) -> None:
-        self.plane = plane
+    def __init__(self, plane: Plane, passing: Callable[[int], int] = int) -> None:
+        self.plane, self._passing = plane, passing
         self.columns: frozenset[int] | None = None
         self._held: list[Move] = []
         self._events: list[tuple[int, PlacedEvent]] = []
@@ -72,12 +76,15 @@ class SplineStage(Stage):
         if not held:
             return
         done, before = 0, held[0].start
-        for place, point in self._curve(held):
+        points = list(self._curve(held))
+        behind = [place for place, _ in points[1:]] + [-1]
+        for (place, point), following in zip(points, behind, strict=True):
             while events and events[0][0] <= min(done, place):
                 self.after.event(events.pop(0)[1])
             move = held[min(place, len(held) - 1)]
             if any(abs(a - b) > NO_WAY for a, b in zip(before, point, strict=True)):
-                self.after.move(replace(move, start=before, end=point, parameters=()))
+                context = self._passing(move.context) if following == place else move.context
+                self.after.move(replace(move, start=before, end=point, context=context, parameters=()))
             before, done = point, place + 1
         for _, event in events:
             self.after.event(event)

@@ -7,6 +7,7 @@ spline and the coefficients of a polynomial give curves of their own. All are cu
 from __future__ import annotations
 
 from dataclasses import field
+from functools import partial
 from itertools import pairwise
 from math import hypot
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -20,6 +21,7 @@ from polycnc.control.sinumerik.block.positions import AxisTerm, axis_term, numbe
 from polycnc.control.sinumerik.curve_tables.recorder import recorder_of
 from polycnc.control.sinumerik.feed.pace import Overrides
 from polycnc.control.sinumerik.motion import moves
+from polycnc.control.sinumerik.motion.chords import write_chords
 from polycnc.control.sinumerik.motion.points_stage import POINT, PointsStage, direction_before
 from polycnc.control.sinumerik.motion.polynomial_groups import AXES, PolynomialGroups
 from polycnc.control.sinumerik.motion.spline_stage import TOLERANCE_MM
@@ -235,8 +237,7 @@ def polynomial(draft: Draft) -> Step | None:
         path = _path(channel, points, lambda part: _point(curves, below, start, interval * part))
         if lead is not None:
             points[-1][:] = lead(channel, values, end, path)
-        for point in path.led(channel):
-            moves.line(channel, kind, point, feed)
+        write_chords(channel, path.led(channel), feed, partial(moves.line, channel, kind))
 
     return run
 

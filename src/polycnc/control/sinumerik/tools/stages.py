@@ -12,7 +12,7 @@ from functools import partial
 from math import nan
 from typing import TYPE_CHECKING
 
-from polycnc.channel.moves.knots import knot_context
+from polycnc.channel.moves.knots import join, passing_context
 from polycnc.compensation.corner import CornerPolicy, CornerStage, CornerViolation, Shape
 from polycnc.compensation.cutter import CutterCompensation
 from polycnc.compensation.plane import Plane
@@ -77,7 +77,7 @@ def cutter(channel: SinumerikChannel) -> CutterCompensation:
     stage = channel.path.find(CutterCompensation)
     if stage is None:
         stage = channel.path.put(
-            CutterCompensation(plane(channel), _G450, VIOLATIONS, partial(knot_context, channel))
+            CutterCompensation(plane(channel), _G450, VIOLATIONS, partial(join, channel))
         )
         suspend(channel)
     return stage
@@ -113,7 +113,9 @@ def approach(channel: SinumerikChannel) -> SmoothApproach:
 def spline(channel: SinumerikChannel) -> SplineStage:
     """The stage that collects control points, in the path."""
     change_plane(channel)
-    return channel.path.find(SplineStage) or channel.path.put(SplineStage(plane(channel)))
+    return channel.path.find(SplineStage) or channel.path.put(
+        SplineStage(plane(channel), partial(passing_context, channel))
+    )
 
 
 def plane(channel: SinumerikChannel) -> Plane:

@@ -24,10 +24,10 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import WordAddressChannel
 
-#: Codes by the side of the path on which the tool stands; G41.4 to G42.5 are the forms of FANUC 16i.
-SIDES = {
-    "G41.2": 1, "G42.2": -1, "G41.6": 1, "G42.6": -1, "G41.4": 1, "G42.4": -1, "G41.5": 1, "G42.5": -1,
-}  # fmt: skip
+#: Codes that every control with this compensation has, by the side of the path on which the tool stands.
+COMMON_SIDES = {"G41.2": 1, "G42.2": -1, "G41.6": 1, "G42.6": -1}
+#: All codes by that side; G41.4 to G42.5 are the forms of FANUC 16i.
+SIDES = {**COMMON_SIDES, "G41.4": 1, "G42.4": -1, "G41.5": 1, "G42.5": -1}
 #: Codes that name the tool's direction by I J K.
 BY_VECTOR = ("G41.6", "G42.6")
 #: Codes that mirror and scale what the program says.
