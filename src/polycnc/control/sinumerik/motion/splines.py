@@ -7,11 +7,13 @@ spline and the coefficients of a polynomial give curves of their own. All are cu
 from __future__ import annotations
 
 from dataclasses import field
+from functools import partial
 from itertools import pairwise
 from math import hypot
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from polycnc.channel.moves.chord_path import ChordPath
+from polycnc.channel.moves.knots import write_chords
 from polycnc.channel.moves.path import Recorder
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.block import arguments
@@ -235,8 +237,7 @@ def polynomial(draft: Draft) -> Step | None:
         path = _path(channel, points, lambda part: _point(curves, below, start, interval * part))
         if lead is not None:
             points[-1][:] = lead(channel, values, end, path)
-        for point in path.led(channel):
-            moves.line(channel, kind, point, feed)
+        write_chords(channel, path.led(channel), feed, partial(moves.line, channel, kind))
 
     return run
 
@@ -302,18 +303,23 @@ def straight_to_ends(draft: Draft) -> Step | None:
 
 
 def _take_polynomials(draft: Draft) -> tuple[list[Polynomial], int | None]:
-    """The words `PO[axis]=` and `axis=PO(…)`, and the place of `PO[]=`."""
+    """The words `PO[axis]=` and `axis=PO(…)`, and the place of `PO[]=`.
+
+    The end points beside a denominator do not depend on G90 and G91 (job planning 4.5).
+    """
     found: list[Polynomial] = []
-    denominator = None
-    for position, word in draft.open_words():
+    words = list(draft.open_words())
+    denominator = next((k for k, word in words if word.address == "PO" and word.index == ""), None)
+    usual = "" if denominator is None else "AC"
+    for position, word in words:
         name = word.index.name if isinstance(word.index, Axis) else ""
-        if word.address == "PO" and word.index == "":
-            denominator = position
+        if position == denominator:
+            pass
         elif word.address == "PO" or (word.modifier == "PO" and word.address in draft.memory.columns):
             if word.address == "PO" and not name:
                 raise WordAlarm("12040", position, text=str(word.index or ""))
             column = draft.memory.column(name or word.address)
-            way = word.modifier if word.address == "PO" else ""
+            way = (word.modifier if word.address == "PO" else "") or usual
             found.append(Polynomial(position, axis_term(draft.channel, draft.mode, position, column, way)))
         else:
             continue

@@ -12,7 +12,7 @@ from polycnc.control.sinumerik.cycles.turning.work import LIFT_MM, Work, onwards
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tools import stages
 from polycnc.cycles.turning.contour import Contour, Piece, turned_round
-from polycnc.cycles.turning.groove import Corner, GrooveError, with_corner
+from polycnc.cycles.turning.groove import SHARP, Corner, GrooveError, with_corner
 from polycnc.cycles.turning.stock_removal import Removal, remove
 from polycnc.cycles.turning.stroke import PlaneStroke
 from polycnc.geometry import arcs, offset
@@ -99,7 +99,9 @@ def corner(moves: Moves, a: Arguments) -> None:
 
 
 def _corners(a: Arguments) -> tuple[Corner, Corner, Corner]:
-    """The corner at the front, the inner one, and the one at the other edge."""
+    """The corner at the front, the inner one, and the one at the other edge; the sharp form has none of them."""
+    if a.integer("_NR") == SHARP_FORM:
+        return SHARP, SHARP, SHARP
     first, inner, last = (
         Corner(leg=size) if a.digit("_AMODE", place) else Corner(radius=size)
         for size, place in zip((abs(a[f"_RF{i}"]) for i in (1, 2, 3)), CORNERS, strict=True)
@@ -121,12 +123,8 @@ def _refuse(a: Arguments, broken: tuple[Corner, Corner, Corner], signs: Point) -
     form = a.integer("_NR")
     unknown = {
         "_VARI": a.integer("_VARI") >= 100,
-        "_NR": not SHARP_FORM <= form <= SLANTED_FORM
-        or (form == SHARP_FORM and not all(each.is_sharp for each in broken))
-        or broken[0] != broken[2],
+        "_NR": not SHARP_FORM <= form <= SLANTED_FORM or broken[0] != broken[2],
         "_DMODE": form == SLANTED_FORM and a.digit("_DMODE", BY_ANGLES) != 0,
-        "_ZPD": form != SLANTED_FORM and a["_ZPD"] not in (0.0, a["_EPD"]),
-        "_ZPL": form != SLANTED_FORM and a["_ZPL"] not in (0.0, a["_EPL"]),
         "_AMODE": any(a.digit("_AMODE", place) > 1 for place in (END_X, END_Z, MIDDLE_X, MIDDLE_Z, *CORNERS)),
         "_LAGE": CORNER_PLACES.get(a.integer("_LAGE")) != signs,
     }

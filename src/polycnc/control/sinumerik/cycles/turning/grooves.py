@@ -229,7 +229,8 @@ def grooves(moves: Moves, a: Arguments) -> None:
 
 def _of_mask(moves: Moves, a: Arguments, seat: Seat, stage: int) -> Groove:
     """The groove of a call; 61603 for one without width or depth, or leaning walls beyond upright."""
-    if not all(0.0 <= a[name] < UPRIGHT for name in ("_ANG1", "_ANG2")):
+    form = _form(a)
+    if form != RECTANGLE and not all(0.0 <= a[name] < UPRIGHT for name in ("_ANG1", "_ANG2")):
         raise AlarmError("61603")
     depth = abs(a["_DIAG"])
     if a.digit("_AMODE", _DEPTH) == 0:
@@ -242,7 +243,8 @@ def _of_mask(moves: Moves, a: Arguments, seat: Seat, stage: int) -> Groove:
     sides = [
         Side(a[f"_ANG{number}"], _broken(a, *rim), _broken(a, *base))
         for number, (rim, base) in enumerate(CORNERS, 1)
-    ]
+        if form != RECTANGLE
+    ] or [Side(), Side()]
     return Groove(
         abs(a["_WIDG"]),
         depth,
@@ -257,8 +259,13 @@ def _of_mask(moves: Moves, a: Arguments, seat: Seat, stage: int) -> Groove:
         alternates=True,
         roughs=roughs,
         finishes=None if stage == COMPLETE else not roughs,
-        slope=_slope(seat, a["_STA"]),
+        slope=_slope(seat, a["_STA"]) if form == ON_CONE else 0.0,
     )
+
+
+def _form(a: Arguments) -> int:
+    """Which mask the call is from; what another one shows may be left over from it, and does not count."""
+    return a.integer("_NR") if a.given("_NR") else ON_CONE
 
 
 def _broken(a: Arguments, name: str, digit: int) -> Corner:
@@ -269,7 +276,6 @@ def _broken(a: Arguments, name: str, digit: int) -> Corner:
 
 def _refuse(a: Arguments, shape: Groove, seat: Seat) -> None:
     """What is not executed, or contradicts itself."""
-    form = a.integer("_NR") if a.given("_NR") else ON_CONE
     even, odd = abs(a["_FAL"]), (abs(a["_FALX"]), abs(a["_FALZ"]))
     depth = abs(a["_DIAG"])
     # Told as a position, the base lies elsewhere at the other end of a slope.
@@ -282,9 +288,7 @@ def _refuse(a: Arguments, shape: Groove, seat: Seat) -> None:
         "_VARI": a.digit("_VARI", 0) != 0
         or a.digit("_VARI", _REFERENCE) != 0
         or a.integer("_VARI") >= (ODD + 1) * 10**_ALLOWANCES,
-        "_NR": not RECTANGLE <= form <= ON_CONE
-        or (form == RECTANGLE and not all(side.is_plain for side in shape.sides))
-        or (form != ON_CONE and shape.is_slanted),
+        "_NR": not RECTANGLE <= _form(a) <= ON_CONE,
         "_AMODE": a.digit("_AMODE", _DEPTH) > 1
         or a.digit("_AMODE", _OTHER_DEPTH) > 1
         or (a.digit("_AMODE", _WIDTH) != 0 and any(shape.feet) and not a["_WIDG2"])
