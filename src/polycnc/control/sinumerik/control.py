@@ -429,9 +429,12 @@ class Sinumerik:
         )
 
     def select_iso(self, channel: SinumerikChannel) -> None:
-        """G291 acts; PC0001 on a lathe, whose dialect is another one, in a subprogram, and with MCALL active."""
+        """G291 acts; PC0001 in a subprogram, with MCALL active, and under G91 where the dialect has no G90 (code A)."""
+        is_code_a = (
+            channel.memory.transverse >= 0 and channel.memory.data.integer("$MN_EXTERN_GCODE_SYSTEM") == 1
+        )
         if (
-            channel.memory.transverse >= 0
+            (is_code_a and channel.mode["distance"] == "G91")
             or len(channel.stack) > 1
             or LanguageMemory.of(channel).modal_call is not None
         ):

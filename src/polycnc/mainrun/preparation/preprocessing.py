@@ -324,7 +324,7 @@ class Preprocessing:
             key = level.program_number, line
             self._blocks.note(
                 key, code or (str(line) if halts else ""), channel.mode.codes, channel.takes_back,
-                _callers(channel.stack),
+                _callers(channel.stack), is_part=level.kind is LevelKind.SHAPE,
             )  # fmt: skip
             channel.takes_back = NOTHING_BACK
         self._stopped = self._rows.skips = self.has_caught_up = False

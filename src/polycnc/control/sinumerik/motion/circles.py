@@ -10,6 +10,7 @@ from math import cos, hypot, pi, radians, sin
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.chord_path import ChordPath
+from polycnc.channel.moves.knots import write_chords
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move
 from polycnc.control.sinumerik import tables
@@ -291,9 +292,9 @@ def _follow(channel: SinumerikChannel, move: Move, feed: float) -> None:
     largest = max(hypot(*column) for column in zip(*c.zero.m, strict=True))
     path = MovePath(move, c.geometry)
     points = list(path.chords(CHORD_ERROR_MM / largest))
-    chords = [(k / len(points), point) for k, point in enumerate(points, 1)]
-    for point in ChordPath(move.start, chords, path.direction, c.geometry).led(channel):
-        channel.curve(Kind.SPLINE, point, feed)
+    parts = [(k / len(points), point) for k, point in enumerate(points, 1)]
+    way = ChordPath(move.start, parts, path.direction, c.geometry)
+    write_chords(channel, way.led(channel), feed, partial(channel.curve, Kind.SPLINE))
 
 
 # ---- CIP

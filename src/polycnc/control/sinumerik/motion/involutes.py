@@ -6,10 +6,12 @@ the angle round the centre, positive away from the base circle. The curve is wri
 
 from __future__ import annotations
 
+from functools import partial
 from math import atan, hypot, radians, sqrt
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.chord_path import ChordPath
+from polycnc.channel.moves.knots import write_chords
 from polycnc.control.sinumerik.block.positions import number, target
 from polycnc.control.sinumerik.motion import moves
 from polycnc.control.sinumerik.motion.circles import RoundACentre
@@ -139,9 +141,9 @@ def _go(
     """Write the chords. CT goes on in the direction of the end."""
     u, v, _ = columns
     before = end = channel.coordinates.position
-    for point in path.led(channel):
-        before, end = end, point
-        channel.curve(Kind.SPLINE, point, feed)
+    points = list(path.led(channel))
+    before, end = [before, *points][-2], points[-1]
+    write_chords(channel, points, feed, partial(channel.curve, Kind.SPLINE))
     leads_away = curve.last > curve.first
     bearing = arcs.angle_at(curve.center, (end[u], end[v]))
     touch = bearing + (1.0 if leads_away is curve.ccw else -1.0) * atan(curve.last)

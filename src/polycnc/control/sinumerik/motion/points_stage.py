@@ -12,7 +12,7 @@ from itertools import pairwise
 from math import hypot
 from typing import TYPE_CHECKING
 
-from polycnc.channel.moves.knots import knot_context
+from polycnc.channel.moves.knots import join
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Rank, Stage
 from polycnc.control.sinumerik.motion.last_move import LastMove
@@ -123,17 +123,19 @@ class PointsStage(Stage):
 
     def _along(self, move: Move, course: list[tuple[float, list[float]]]) -> None:
         """Pass on the chords of a block."""
-        within = knot_context(self._channel, move.context) if len(course) > 1 else move.context
         start = move.start
+        pieces: list[Move] = []
         for share, point in course:
-            end, context = move.end, move.context
+            end = move.end
             if share < 1.0:
                 end = [a + (b - a) * share for a, b in zip(move.start, move.end, strict=True)]
                 for column, value in zip(self.columns, point, strict=True):
                     end[column] = value
-                context = within
-            self.after.move(replace(move, start=start, end=end, context=context, parameters=()))
+            pieces.append(replace(move, start=start, end=end, parameters=()))
             start = end
+        join(self._channel, pieces)
+        for piece in pieces:
+            self.after.move(piece)
 
     def _direction(self, move: Move) -> list[float] | None:
         """The direction in which a move begins, on the axes of the spline; None where they stand."""

@@ -7,6 +7,8 @@ The curve begins at the first and ends at the last control point, and touches th
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import groupby
+from operator import itemgetter
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.path import Rank, Stage
@@ -15,7 +17,7 @@ from polycnc.geometry.tolerances import NO_WAY
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
     from polycnc.channel.moves.path import Move, PlacedEvent
     from polycnc.compensation.plane import Plane
@@ -28,6 +30,10 @@ _LEAST_WEIGHT = 1e-6
 class SplineStage(Stage):
     """Collects moves to control points: their parameters are weight, degree and knot distance.
 
+    Args:
+        plane: The plane in which the spline began.
+        join: Makes one motion of the chords of a block.
+
     Attributes:
         plane: The plane in which the spline began; another one ends it.
         columns: Axes of the spline group; the others move evenly from point to point. None for all.
@@ -35,8 +41,8 @@ class SplineStage(Stage):
 
     rank = Rank.SPLINE
 
-    def __init__(self, plane: Plane) -> None:
-        self.plane = plane
+    def __init__(self, plane: Plane, join: Callable[[list[Move]], object] = len) -> None:
+        self.plane, self._join = plane, join
         self.columns: frozenset[int] | None = None
         self._held: list[Move] = []
         self._events: list[tuple[int, PlacedEvent]] = []
@@ -72,13 +78,19 @@ class SplineStage(Stage):
         if not held:
             return
         done, before = 0, held[0].start
-        for place, point in self._curve(held):
+        for place, points in groupby(self._curve(held), key=itemgetter(0)):
             while events and events[0][0] <= min(done, place):
                 self.after.event(events.pop(0)[1])
-            move = held[min(place, len(held) - 1)]
-            if any(abs(a - b) > NO_WAY for a, b in zip(before, point, strict=True)):
-                self.after.move(replace(move, start=before, end=point, parameters=()))
-            before, done = point, place + 1
+            chords = []
+            for _, point in points:
+                if any(abs(a - b) > NO_WAY for a, b in zip(before, point, strict=True)):
+                    chords.append(replace(held[place], start=before, end=point, parameters=()))
+                before = point
+            if chords:
+                self._join(chords)
+            for chord in chords:
+                self.after.move(chord)
+            done = place + 1
         for _, event in events:
             self.after.event(event)
 

@@ -7,11 +7,13 @@ spline and the coefficients of a polynomial give curves of their own. All are cu
 from __future__ import annotations
 
 from dataclasses import field
+from functools import partial
 from itertools import pairwise
 from math import hypot
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from polycnc.channel.moves.chord_path import ChordPath
+from polycnc.channel.moves.knots import write_chords
 from polycnc.channel.moves.path import Recorder
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.block import arguments
@@ -235,8 +237,7 @@ def polynomial(draft: Draft) -> Step | None:
         path = _path(channel, points, lambda part: _point(curves, below, start, interval * part))
         if lead is not None:
             points[-1][:] = lead(channel, values, end, path)
-        for point in path.led(channel):
-            moves.line(channel, kind, point, feed)
+        write_chords(channel, path.led(channel), feed, partial(moves.line, channel, kind))
 
     return run
 

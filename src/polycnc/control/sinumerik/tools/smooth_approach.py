@@ -17,6 +17,7 @@ As its direction is that of the contour's first move, an approach waits for that
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import isnan, nan
 from typing import TYPE_CHECKING
 
@@ -206,7 +207,7 @@ def retract(draft: Draft) -> Step | None:
         center = shape.center(touch, direction)
         infeed = words.infeed_speed(draft, channel, values)
         feed = moves.checked_feed(old if shape.in_plane or isnan(infeed) else infeed)
-        with channel.intermediate(shape.origin):
+        with channel.under(replace(channel.context, origin=shape.origin)):
             if center is None:
                 moves.line(channel, Kind.FEED, point, feed)
             else:

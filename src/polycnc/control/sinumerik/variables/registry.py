@@ -149,7 +149,7 @@ class SystemVariables:
         if name in VARIABLES:
             return VARIABLES[name]
         # `$$` reads machine and setting data in the main run (job planning 1.1.2).
-        if name.startswith(("$M", "$S", "$$M", "$$S")) and name.lstrip("$")[1:3] in ("N_", "C_", "A_"):
+        if _DATUM.match(name) is not None:
             return _machine_datum("$" + name.lstrip("$"), live=name.startswith("$$"))
         if is_known(name):
             raise not_supported(name)
@@ -184,6 +184,8 @@ def _spindle_of(channel: SinumerikChannel, axis: str) -> Spindle | None:
 
 # ---- machine and setting data
 
+#: Machine and setting data of the control, a channel or an axis; those of cycles have an S behind it (`$SCS_`).
+_DATUM = regex(r"\$\$?[MS][NCA]S?_")
 #: Data that polycnc knows by their names alone: these are texts.
 _TEXT_DATUM = regex(r"_(NAME|NAME_TAB|PATH|SERIAL_NUMBER|VERSION)$")
 

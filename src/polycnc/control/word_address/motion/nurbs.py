@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import field
+from functools import partial
 from itertools import pairwise
 from math import dist
 from typing import TYPE_CHECKING
 
+from polycnc.channel.moves.knots import write_chords
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion import path
@@ -121,8 +123,8 @@ def _cut(channel: WordAddressChannel, curve: Curve) -> None:
     inside = curve.knots[order - 1 : len(poles) + 1]
     if len(poles) < order or not any(a < b for a, b in pairwise(inside)):
         raise channel.control.fail("curve_knot", address="K")
-    for point in nurbs_chords(order, curve.knots, poles, curve.weights, CHORD_TOLERANCE_MM):
-        channel.straight(Kind.SPLINE, list(point), channel.feed)
+    points = nurbs_chords(order, curve.knots, poles, curve.weights, CHORD_TOLERANCE_MM)
+    write_chords(channel, map(list, points), channel.feed, partial(channel.straight, Kind.SPLINE))
 
 
 def _behind(builder: Builder, _plan: Plan, step: Step | None) -> Step | None:
