@@ -430,17 +430,30 @@ class Sinumerik:
         )
 
     def select_iso(self, channel: SinumerikChannel) -> None:
-        """G291 acts; PC0001 in a subprogram, with MCALL active, and under G91 where the dialect has no G90 (code A)."""
-        is_code_a = (
-            channel.memory.transverse >= 0 and channel.memory.data.integer("$MN_EXTERN_GCODE_SYSTEM") == 1
-        )
-        if (
-            (is_code_a and channel.mode["distance"] == "G91")
-            or len(channel.stack) > 1
-            or LanguageMemory.of(channel).modal_call is not None
-        ):
+        """G291 acts; PC0001 in a subprogram, and what `_check_iso` raises."""
+        if len(channel.stack) > 1:
             raise not_supported("G291")
+        self._check_iso(channel)
         channel.mode = channel.mode.with_code("language", "G291")
+
+    def calls_iso(self, channel: SinumerikChannel) -> bool:
+        """MD18800: 1 for code M, 2 for code T of a lathe; PC0001 for the code of the other kind of machine."""
+        chosen = MachineData.of(channel).integer("$MN_MM_EXTERN_LANGUAGE")
+        if chosen:
+            if chosen != (2 if channel.memory.transverse >= 0 else 1):
+                raise not_supported("ISOCALL")
+            self._check_iso(channel)
+        return bool(chosen)
+
+    def _check_iso(self, channel: SinumerikChannel) -> None:
+        """PC0001 with MCALL active, and under G91 where the dialect has no G90 (code A of a lathe)."""
+        code_a = (
+            channel.memory.transverse >= 0 and MachineData.of(channel).integer("$MN_EXTERN_GCODE_SYSTEM") == 1
+        )
+        if (code_a and channel.mode["distance"] == "G91") or LanguageMemory.of(
+            channel
+        ).modal_call is not None:
+            raise not_supported("G291")
 
     def run_iso(self, channel: SinumerikChannel, block: IsoBlock, perform: Callable[[str], None]) -> None:
         """A block of the ISO dialect comes: PC0001 where the program has come there without G291."""
