@@ -35,7 +35,6 @@ from polycnc.control.sinumerik.limits import working_area
 from polycnc.control.sinumerik.m_functions import PROGRAM_ENDS
 from polycnc.control.sinumerik.memory import Memory
 from polycnc.control.sinumerik.modal_state import ModalState
-from polycnc.control.sinumerik.motion.chords import corner_mode as at_chords
 from polycnc.control.sinumerik.punching import block as punching
 from polycnc.control.sinumerik.reset import reset, start_codes
 from polycnc.control.sinumerik.signals import interrupts, measuring, sections
@@ -528,10 +527,8 @@ def _names_kept(channel: SinumerikChannel) -> set[str]:
 def _corner_mode(channel: SinumerikChannel, mode: Mode) -> CornerMode:
     """G9 holds for its block, else group 10; with strokes every block ends in an exact stop."""
     if ExactStop.of(channel).block or mode[punching.GROUP] != punching.OFF:
-        own = CornerMode.EXACT_STOP
-    else:
-        own = smoothing.corner_mode(mode, tables.CORNER_MODES[mode["path"]])
-    return at_chords(channel, own)
+        return CornerMode.EXACT_STOP
+    return smoothing.corner_mode(mode, tables.CORNER_MODES[mode["path"]])
 
 
 def _tolerance(channel: SinumerikChannel, path_mode: str) -> float:

@@ -88,7 +88,10 @@ G_CODES = table(
     GCode("G40", "compensation", cycles.cancel_compensation, takes="I J K", order=Order.COMPENSATION),
     GCode("G41", "compensation", cycles.compensate_left, takes="D", order=Order.COMPENSATION),
     GCode("G42", "compensation", cycles.compensate_right, takes="D", order=Order.COMPENSATION),
-    *(GCode(code, "compensation", spatial.start, takes="D", order=Order.COMPENSATION) for code in base_spatial.SIDES),
+    *(
+        GCode(code, "compensation", spatial.start, takes="D", order=Order.COMPENSATION)
+        for code in base_spatial.COMMON_SIDES
+    ),
     GCode("G43", "length", tip_control.compensate_length, takes="H", order=Order.LENGTH),
     GCode("G44", "length", tip_control.compensate_length, takes="H", order=Order.LENGTH),
     GCode("G43.4", "length", tip_control.start, takes="H Q L I", order=Order.LENGTH),

@@ -453,6 +453,13 @@ def finish_edges(pocket: ContourPocket, levels: Sequence[float]) -> Iterator[Mil
     yield rapid(w=pocket.retract)
 
 
+def rising_to(pocket: ContourPocket, strokes: Sequence[MillStroke], level: float) -> list[MillStroke]:
+    """The same strokes, but between two insertions the cutter rises to a level instead of the retraction plane."""
+    up = rapid(w=pocket.retract)
+    inner = [rapid(w=level) if stroke == up else stroke for stroke in strokes[1:-1]]
+    return [*strokes[:1], *inner, *strokes[-1:]]
+
+
 def _beside_wall(pocket: ContourPocket, point: Point) -> Point:
     """A place off the wall from which the cutter can go straight onto it; the point itself where it has no room."""
     wall = region.nearest(pocket.walls, point)

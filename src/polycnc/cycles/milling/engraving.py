@@ -66,6 +66,7 @@ class Inscription:
         shift: Parts of length and height by which it lies before the reference point: 0, a half, or 1.
         infeed, feed: Feeds into the work and in it.
         safe, retract, depth: Levels.
+        mirrored: The text is written backwards, its letters the wrong way round, in the place where it would stand.
     """
 
     text: str
@@ -78,6 +79,7 @@ class Inscription:
     safe: float
     retract: float
     depth: float
+    mirrored: bool = False
 
     @property
     def scale(self) -> float:
@@ -95,7 +97,10 @@ class Inscription:
         for number, letter in enumerate(self.text):
             begin = number * (WIDTH * self.scale + self.gap) - left
             for line in drawn(letter) or ():
-                yield [self.path.at(begin + x * self.scale, y * self.scale - down) for x, y in line]
+                along = (begin + x * self.scale for x, _ in line)
+                if self.mirrored:
+                    along = (self.length - 2.0 * left - x for x in along)
+                yield [self.path.at(x, y * self.scale - down) for x, (_, y) in zip(along, line, strict=True)]
 
 
 def gap_of_width(count: int, height: float, width: float) -> float:

@@ -52,7 +52,7 @@ SHARP_DEG = 90.0
 
 
 def compensate(channel: WordAddressChannel, words: Words) -> None:
-    """G41.2, G42.2, G41.6, G42.6, G41.4 … [D]: left or right of the path, across path and tool."""
+    """G41.2, G41.4 to G41.6, G42.2, G42.4 to G42.6 [D]: left or right of the path, across path and tool."""
     code, parameters = channel.mode["compensation"], _parameters(channel)
     begins = spatial.stage_of(channel) is None
     if RadiusState.of(channel).side:

@@ -70,7 +70,8 @@ def pecks(
     mode = partial(a.digit, "_AMODE")
     below = [total]
     if variant != AT_ONCE:
-        first, by = _first_depth(moves, a, found, total), _degression(a, mode(5))
+        first = _first_depth(moves, a, found, total)
+        by = _degression(a, mode(5), first)
         below = deep.degressive_depths(first, total, by, abs(a["_MDEP"]))
     below = [depth for depth in below if depth > begin + deep.SAME_MM]
     down = found.down
@@ -79,7 +80,7 @@ def pecks(
             [found.reference + down * depth for depth in below[:-1]] + [found.depth],
             clearance,
             found.retract,
-            first_factor=_first_feed(a["FRF"], percent=mode(6) == 1),
+            first_factor=_first_feed(a["FRF"], percent=mode(6) > 0 or not a.has("FDPR")),
             dwell=pause(a["DTB"], mode(1)),
             dwell_at_bottom=pause(a["_DTD"], mode(3)) or pause(a["DTB"], mode(1)),
             retract=None if variant == SWARF else a["_VRT"] if a["_VRT"] > 0.0 else CHIP_BREAKING_MM,
@@ -106,13 +107,15 @@ def _first_depth(moves: Moves, a: Arguments, found: Levels, total: float) -> flo
     return min(first, total)
 
 
-def _degression(a: Arguments, mode: int) -> float:
+def _degression(a: Arguments, mode: int, first: float) -> float:
     """Amount above 0, factor below, 0 for none; as a percentage where _AMODE says so (100: none)."""
     name = "DAM" if a.has("DAM") else "_DAM"
     value = a.plain(name)
-    if mode == 2 or (mode == 0 and value < 0.0):
-        factor = abs(value) / 100.0 if mode == 2 else min(abs(value), 1.0)
-        return 0.0 if factor in (0.0, 1.0) and mode == 2 else -factor
+    # Nobody shortens strokes of CYCLE830 by more than the first one: such an amount is a percentage.
+    is_percent = mode == 2 or (mode == 0 and a.cycle == "CYCLE830" and a[name] > first)
+    if is_percent or (mode == 0 and value < 0.0):
+        factor = abs(value) / 100.0 if is_percent else min(abs(value), 1.0)
+        return 0.0 if factor in (0.0, 1.0) and is_percent else -factor
     return abs(a[name])
 
 
@@ -170,8 +173,8 @@ def _refuse(moves: Moves, a: Arguments) -> None:
     unknown = {
         "_AMODE2": a.integer("S_AMODE2") != 0,
         "_AMODE3": a.integer("S_AMODE3") != 0,
-        # More than the first stroke: nobody shortens strokes by that, it is a share of them in some calls.
-        "_DAM": a.digit("_AMODE", 5) == 0 and a["FDEP"] != 0.0 and a["_DAM"] > abs(a["FDEP"] - a["RFP"]),
+        # Neither an amount nor a percentage: strokes do not grow.
+        "_DAM": a.digit("_AMODE", 5) == 0 and a["FDEP"] != 0.0 and a.plain("_DAM") > 100.0,
         "S_SPOS": bool(a["S_SPOS"]),
         "S_SV": any(speeds) and tables.feed_type(moves.channel.mode).surface_speed,
     }

@@ -30,6 +30,8 @@ ON = {
 SET = ("dynamics", *ON)
 #: A second argument above this is the code of the older cycle.
 LARGEST_KIND = 99
+#: Millions of the second argument: the option Top Surface, without smoothing from track to track and with it.
+TOP_SURFACE, MOST_OF_TOP_SURFACE = 1_000_000, 2
 #: Digits of that code: path mode, feedforward and acceleration, compressor.
 OLD_PATH_MODES = {0: "G64", 1: "G641", 2: "G642"}
 OLD_DYNAMICS = {0: ("FFWOF", "SOFT"), 1: ("FFWON", "SOFT"), 2: ("FFWOF", "BRISK")}
@@ -43,7 +45,9 @@ def high_speed(moves: Moves, a: Arguments) -> None:
 
 
 def _set(channel: SinumerikChannel, a: Arguments) -> None:
-    kind = abs(a.integer("S_TOLM"))
+    top_surface, kind = divmod(abs(a.integer("S_TOLM")), TOP_SURFACE)
+    if top_surface > MOST_OF_TOP_SURFACE:
+        raise AlarmError("61002")
     if kind > LARGEST_KIND:
         _older(channel, a)
     elif kind % 10 == 0:

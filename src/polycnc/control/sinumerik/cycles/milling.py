@@ -318,19 +318,45 @@ def older_pocket(moves: Moves, a: Arguments) -> None:
 
 # ---- patterns of slots
 
+#: Where the reference point of a straight slot lies, by the thousands of _GMODE: its middle, the middle of its first or
+#: last half circle, its first or last edge; as parts of the length between the half circles and of the width by which
+#: the first half circle's middle lies behind it.
+PLACES_OF_REFERENCE = {
+    0: (0.0, 0.5), 1: (-0.5, 0.0), 2: (0.0, 0.0), 3: (-1.0, 0.0), 4: (0.0, 0.5), 5: (-1.0, -0.5)
+}  # fmt: skip
+#: Thousands of VARI of SLOT2: the slots lie on all of the circle, whatever INDA says, or on a part of it by INDA.
+ALL_OF_CIRCLE, PART_OF_CIRCLE = 1, 2
+
+
+def _first_middle(a: Arguments, length: float, width: float) -> float:
+    """How far along a slot from the reference point its first half circle's middle lies, RAD included.
+
+    Raises:
+        AlarmError: PC0001 for a reference point that is not known.
+    """
+    place = PLACES_OF_REFERENCE.get(a.digit("_GMODE", _DIMENSIONING_PLACE))
+    if place is None:
+        raise not_supported(f"{a.cycle} _GMODE")
+    return abs(a["RAD"]) + place[0] * length + place[1] * width
+
 
 def _angles(a: Arguments) -> list[float]:
     """Directions of the elements on their circle; 61106 for none, or a pattern beyond one turn."""
-    count, pitch = checked(abs(a.integer("NUM"))), a["INDA"]
+    count, pitch = checked(abs(a.integer("NUM"))), _pitch(a)
     if count == 0 or abs(pitch) * (count - 1) >= TURN:
         raise AlarmError("61106")
     pitch = pitch or TURN / count
     return [a["STA1"] + k * pitch for k in range(count)]
 
 
+def _pitch(a: Arguments) -> float:
+    """INDA; 0 where the elements lie on all of the circle."""
+    return 0.0 if a.cycle == "SLOT2" and a.digit("VARI", 3) == ALL_OF_CIRCLE else a["INDA"]
+
+
 def _apart(a: Arguments, count: int) -> float:
     """The angle between neighbours, at most half a turn."""
-    pitch = abs(a["INDA"]) or TURN / count
+    pitch = abs(_pitch(a)) or TURN / count
     return min(pitch, 180.0)
 
 
@@ -363,11 +389,11 @@ def _slotting(moves: Moves, a: Arguments, found: Levels, insertion: Insertion) -
 
 def _mill_slot(moves: Moves, a: Arguments, slotting: slots.Slotting, shape: slots.Shape) -> None:
     """One slot: roughing, finishing, or complete."""
-    kind = variant(a, "VARI", (COMPLETE, ROUGHING, FINISHING))
+    kind = variant(a, "VARI", (COMPLETE, ROUGHING, FINISHING, EDGE), digits=4 if a.cycle == "SLOT2" else 2)
     if kind in (COMPLETE, ROUGHING):
         perform(moves, slots.rough(slotting, shape))
-    if kind == CHAMFER:
-        perform(moves, slots.finish(slotting, shape))
+    if kind in (CHAMFER, EDGE):
+        perform_at_speed(moves, 0.0 if kind == CHAMFER else a["SSF"], slots.finish(slotting, shape))
     elif kind == FINISHING or (kind == COMPLETE and slotting.leaves_allowance):
         perform_at_speed(moves, a["SSF"], slots.finish(slotting, shape))
     moves.rapid(w=slotting.retract)
@@ -388,29 +414,39 @@ def slot1(moves: Moves, a: Arguments) -> None:
     if found is None:
         return
     slotting = _slotting(moves, a, found, insertion)
-    angles = _angles(a)
-    if len(angles) > 1 and 2.0 * abs(a["RAD"]) * sin(radians(_apart(a, len(angles)) / 2.0)) < abs(a["WID"]):
+    angles, width = _angles(a), abs(a["WID"])
+    length = abs(a["LENG"]) - width
+    first = _first_middle(a, length, width)
+    inner = max(first - width / 2.0, 0.0)
+    if len(angles) > 1 and 2.0 * inner * sin(radians(_apart(a, len(angles)) / 2.0)) < width:
         raise AlarmError("61104")
-    length = abs(a["LENG"]) - abs(a["WID"])
     if length < 0.0:
         raise AlarmError("61105")
     center = reference_point(moves, a)
     for angle in angles:
-        start = Place(center, angle)(abs(a["RAD"]) + abs(a["WID"]) / 2.0, 0.0)
+        start = Place(center, angle)(first, 0.0)
         _mill_slot(moves, a, slotting, slots.Straight(Place(start, angle), length))
 
 
 def slot2(moves: Moves, a: Arguments) -> None:
-    """SLOT2: slots along a circle; from one to the next straight, or along the circle (tens of VARI)."""
+    """SLOT2: slots along a circle; from one to the next straight, or along the circle (tens of VARI).
+
+    Raises:
+        AlarmError: As the other milling cycles; 61118 for slots without length, which would be the whole circle.
+    """
     require_tool(moves)
-    if a.digit("VARI", 1) not in (0, 1):
+    if a.digit("VARI", 1) not in (0, 1) or a.digit("VARI", 3) > PART_OF_CIRCLE:
         raise AlarmError("61002")
+    if a.digit("VARI", 2):
+        raise not_supported("SLOT2 VARI")
     found = chamfer(moves, a).levels if is_chamfer(a, "VARI") else levels(moves, a)
     if found is None:
         return
     slotting = _slotting(moves, a, found, Insertion.FEED)
     angles = _angles(a)
     size, center = abs(a["RAD"]), reference_point(moves, a)
+    if not a.plain("AFSL"):
+        raise AlarmError("61118")
     if size <= abs(a["WID"]) / 2.0:
         raise AlarmError("61105")
     if len(angles) > 1 and slots.angle_of(abs(a["WID"]), size) + abs(a["AFSL"]) > _apart(a, len(angles)):
@@ -434,7 +470,8 @@ def long_hole(moves: Moves, a: Arguments) -> None:
     if length < 2.0 * radius:
         raise AlarmError("61105")
     angles = _angles(a)
-    inner, outer = abs(a["RAD"]) + radius, abs(a["RAD"]) + length - radius
+    inner = _first_middle(a, length - 2.0 * radius, 2.0 * radius)
+    outer = inner + length - 2.0 * radius
     if len(angles) > 1 and inner * sin(radians(_apart(a, len(angles)) / 2.0)) < radius:
         raise AlarmError("61104")
     feed, depth_feed = feed_of(a, "FFP1"), feed_of(a, "FFD")

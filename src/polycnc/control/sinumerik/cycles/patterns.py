@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import hypot
 from typing import TYPE_CHECKING
 
-from polycnc.control.sinumerik.errors import not_supported
+from polycnc.control.sinumerik import tables
 from polycnc.cycles.count import checked
 from polycnc.cycles.drilling import patterns
 from polycnc.geometry.frames import cos_sin_deg
@@ -24,8 +24,16 @@ TURN = 360.0
 MOST_POINTS = 9
 
 
-def visit(moves: Moves, a: Arguments, points: Iterable[Point]) -> None:
+#: Thousands of _VARI of HOLES2: the holes lie on all of the circle, whatever INDA says. Tens: the ways between them.
+ALL_OF_CIRCLE, ALONG_CIRCLE = 1, 1
+#: Feed along the circle, mm/min, as setting datum 55230 is delivered.
+FEED_ALONG_CIRCLE = 5000.0
+
+
+def visit(moves: Moves, a: Arguments, points: Iterable[Point], arc: tuple[Point, bool] | None = None) -> None:
     """Rapid from point to point; the modal cycle follows at each. Without one: message 62100 and M0 first.
+
+    `arc` is the centre of a circle along which the tool goes from the first point on, and whether counter-clockwise.
 
     `_HIDE` leaves positions out, by number from 1; `_NSP` is the first one.
     """
@@ -34,10 +42,15 @@ def visit(moves: Moves, a: Arguments, points: Iterable[Point]) -> None:
         moves.stop()
         moves.end_block()
     hidden = {int(part) for part in a.text("_HIDE").replace(",", " ").split() if part.isdigit()}
+    first = True
     for number, (u, v) in enumerate(points, 1):
         if number in hidden or number < a.integer("_NSP"):
             continue
-        moves.rapid(u, v)
+        if arc is None or first:
+            moves.rapid(u, v)
+        else:
+            moves.arc(FEED_ALONG_CIRCLE / tables.MINUTE, (u, v), *arc)
+        first = False
         moves.act(call_modal, moves.channel)
         moves.end_block()
 
@@ -60,20 +73,23 @@ def row(moves: Moves, a: Arguments) -> None:
 
 
 def circle(moves: Moves, a: Arguments) -> None:
-    """HOLES2: holes on a circle, on all of it where INDA is 0.
+    """HOLES2: holes on a circle, on all of it where INDA is 0 or _VARI says so; the way to the next may follow it.
 
     Raises:
-        AlarmError: 61103 without holes, 61106 for more than a turn; PC0001 for ways from hole to hole along the circle.
+        AlarmError: 61002 for _VARI, 61103 without holes, 61106 for more than a turn.
     """
-    if a.digit("_VARI", 1):
-        raise not_supported("HOLES2 _VARI")
+    if a.digit("_VARI", 1) > ALONG_CIRCLE:
+        raise AlarmError("61002")
     count, pitch = checked(abs(a.integer("NUM"))), a["INDA"]
+    if a.digit("_VARI", 3) == ALL_OF_CIRCLE:
+        pitch = 0.0
     if count == 0:
         raise AlarmError("61103")
     if abs(pitch) * (count - 1) >= TURN:
         raise AlarmError("61106")
     center = (a["CPA"], a["CPO"])
-    visit(moves, a, patterns.arc(center, abs(a["RAD"]), a["STA1"], pitch or TURN / count, count))
+    arc = (center, pitch >= 0.0) if a.digit("_VARI", 1) == ALONG_CIRCLE else None
+    visit(moves, a, patterns.arc(center, abs(a["RAD"]), a["STA1"], pitch or TURN / count, count), arc)
 
 
 def grid(moves: Moves, a: Arguments) -> None:

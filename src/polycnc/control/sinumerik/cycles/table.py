@@ -112,7 +112,8 @@ CYCLES: dict[str, Cycle] = {
     ),
     "LONGHOLE": Cycle(f"{_HOLE} NUM LENG CPA CPO RAD STA1 INDA FFD FFP1 MID {_SL_MILL}", milling.long_hole),
     "CYCLE60": Cycle(
-        f"_TEXT {_HOLE} _PA _PO _STA _CP1 _CP2 _WID _DF _FFD _FFP1 _VARI _CODEP {_SL}", engraving.engrave
+        f"_TEXT {_HOLE} _PA _PO _STA _CP1 _CP2 _WID _DF _FFD _FFP1 _VARI _CODEP _UMODE {_SL}",
+        engraving.engrave,
     ),
     "CYCLE61": Cycle(
         f"{_MILL} _PA _PO _LENG _WID _MID _MIDA _FALD _FFP1 _VARI _LIM _DMODE _AMODE", surfaces.face
@@ -183,7 +184,8 @@ CYCLES: dict[str, Cycle] = {
         "PIT MPIT SPL FPL DM1 DM2 APP ROP TDEP FAL IANG NSP NRC NID VARI NUMT _VRT", threads.thread
     ),
     "CYCLE98": Cycle(
-        "PO1 DM1 PO2 DM2 PO3 DM3 PO4 DM4 APP ROP TDEP FAL IANG NSP NRC NID PP1 PP2 PP3 VARI NUMT _VRT",
+        "PO1 DM1 PO2 DM2 PO3 DM3 PO4 DM4 APP ROP TDEP FAL IANG NSP NRC NID PP1 PP2 PP3 VARI NUMT _VRT"
+        " _MID _GDEP _IFLANK _PITA _PITM1:text _PITM2:text _PITM3:text _DMODE _AMODE",
         threads.thread_chain,
     ),
     "CYCLE99": Cycle(

@@ -9,7 +9,7 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING
 
-from polycnc.channel.moves.knots import knot_context
+from polycnc.channel.moves.knots import join
 from polycnc.compensation.spatial import SpatialStage
 from polycnc.control.word_address.coordinates.systems import work_zero
 from polycnc.control.word_address.coordinates.tip import TipState
@@ -24,10 +24,10 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import WordAddressChannel
 
-#: Codes by the side of the path on which the tool stands; G41.4 to G42.5 are the forms of FANUC 16i.
-SIDES = {
-    "G41.2": 1, "G42.2": -1, "G41.6": 1, "G42.6": -1, "G41.4": 1, "G42.4": -1, "G41.5": 1, "G42.5": -1,
-}  # fmt: skip
+#: Codes that every control with this compensation has, by the side of the path on which the tool stands.
+COMMON_SIDES = {"G41.2": 1, "G42.2": -1, "G41.6": 1, "G42.6": -1}
+#: All codes by that side; G41.4 to G42.5 are the forms of FANUC 16i.
+SIDES = {**COMMON_SIDES, "G41.4": 1, "G42.4": -1, "G41.5": 1, "G42.5": -1}
 #: Codes that name the tool's direction by I J K.
 BY_VECTOR = ("G41.6", "G42.6")
 #: Codes that mirror and scale what the program says.
@@ -67,15 +67,15 @@ def _stage(
     channel: WordAddressChannel, amount: float, side: int, corners: Corners, rules: Rules
 ) -> SpatialStage:
     c, kinematics = channel.coordinates, channel.control.kinematics(channel)
-    within = partial(knot_context, channel)
+    unite = partial(join, channel)
     if TipState.of(channel).active is not None or not kinematics.work:
-        return SpatialStage(c.geometry, posture_of(channel), amount, side, corners, rules, within)
+        return SpatialStage(c.geometry, posture_of(channel), amount, side, corners, rules, unite)
     from polycnc.control.word_address.tools.spatial_axes import AxesStage
     from polycnc.transformation.orientation.unled import Unled
 
     zero = work_zero(channel, c.offsets)
     table = Unled(kinematics, channel.axes, tuple(c.offsets), c.geometry, zero)
-    return AxesStage(c.geometry, table, amount, side, corners, rules, within)
+    return AxesStage(c.geometry, table, amount, side, corners, rules, unite)
 
 
 def end(channel: WordAddressChannel) -> None:

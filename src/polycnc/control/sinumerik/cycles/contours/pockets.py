@@ -48,8 +48,12 @@ REST, BASE, EDGE = FINISHING, 3, 4
 ALONG_WALLS = (EDGE, CHAMFER)
 #: Tens of VARI: into what is predrilled, straight down, on a helix, to and fro.
 INSERTIONS = {0: Insertion.FEED, 1: Insertion.FEED, 2: Insertion.HELIX, 3: Insertion.OSCILLATION}
-#: Places of the digits of VARI: insertion, where the tool rises to, who chooses the start point.
-_INSERTION_PLACE, _START_PLACE = 1, 4
+#: Places of the digits of VARI: insertion, where the tool rises to between two, who chooses the start point.
+_INSERTION_PLACE, _RISE_PLACE, _START_PLACE = 1, 3, 4
+#: How far the tool rises between two insertions: to the retraction plane, or to the safety plane.
+TO_RETRACT, TO_SAFE = 0, 1
+#: No digit of VARI is known from here on, nor in its hundreds.
+HIGHEST_VARI = 100_000
 #: Hundreds of _DMODE: pocket (0 in older calls) or spigot; those of _GMODE may ask for the start point alone.
 _HUNDREDS = 2
 POCKETS, SPIGOT = (0, 1), 2
@@ -137,11 +141,15 @@ def _refuse(a: Arguments, kind: int) -> None:
     """What no call may ask for, and what is not executed."""
     if kind not in (ROUGHING, REST, BASE, EDGE, CHAMFER):
         raise AlarmError("61002")
+    if a.integer("_VARI") < 0 or a.digit("_VARI", _RISE_PLACE) not in (TO_RETRACT, TO_SAFE):
+        raise AlarmError("61002")
     if a.integer("_CDIR") not in (0, 1):
         raise AlarmError("61109")
     unknown = {
         "_TR": a.cycle == "CYCLE63" and kind not in (ROUGHING, REST) and bool(a.text("_TR").strip()),
-        "_VARI": _start_is_unknown(a, kind),
+        "_VARI": _start_is_unknown(a, kind)
+        or a.digit("_VARI", _HUNDREDS) != 0
+        or a.integer("_VARI") >= HIGHEST_VARI,
         "_GMODE": a.digit("_GMODE", _HUNDREDS) >= ONLY_START,
         "_DMODE": a.digit("_DMODE", _HUNDREDS) not in (*POCKETS, SPIGOT),
     }
@@ -211,7 +219,8 @@ def _mill(
         raise AlarmError("61108") from None
     except StartError:
         raise AlarmError("61607") from None
-    perform(moves, strokes)
+    rises_less = a.digit("_VARI", _RISE_PLACE) == TO_SAFE
+    perform(moves, contour_pocket.rising_to(shape, strokes, shape.safe) if rises_less else strokes)
 
 
 # ---- predrilling
@@ -268,12 +277,13 @@ def _drill(moves: Moves, a: Arguments, found: Levels, shape: ContourPocket, cont
     bottom = found.reference + found.down * _above_allowance(found, abs(a["_UZ"]))
     moves.rapid(w=found.retract)
     moves.end_block()
-    for place in places:
+    between = found.safe if a.digit("_VARI", _RISE_PLACE) == TO_SAFE else found.retract
+    for number, place in enumerate(places, 1):
         moves.rapid(*place)
         moves.end_block()
         moves.rapid(w=found.safe)
         moves.end_block()
         moves.feed(shape.feed, w=bottom)
         moves.end_block()
-        moves.rapid(w=found.retract)
+        moves.rapid(w=found.retract if number == len(places) else between)
         moves.end_block()

@@ -12,7 +12,7 @@ from polycnc.control.sinumerik.cycles.turning.work import LIFT_MM, Work, onwards
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tools import stages
 from polycnc.cycles.turning.contour import Contour, Piece, turned_round
-from polycnc.cycles.turning.groove import Corner, GrooveError, with_corner
+from polycnc.cycles.turning.groove import SHARP, Corner, GrooveError, with_corner
 from polycnc.cycles.turning.stock_removal import Removal, remove
 from polycnc.cycles.turning.stroke import PlaneStroke
 from polycnc.geometry import arcs, offset
@@ -50,10 +50,8 @@ def corner(moves: Moves, a: Arguments) -> None:
     """
     require_tool(moves)
     direction, stage = a.digit("_VARI", 0), a.digit("_VARI", 1)
-    if direction not in (CORNER_LENGTHWISE, CORNER_ACROSS) or stage not in (
-        CORNER_ROUGHING,
-        CORNER_FINISHING,
-    ):
+    known = direction in (CORNER_LENGTHWISE, CORNER_ACROSS) and stage in (CORNER_ROUGHING, CORNER_FINISHING)
+    if not known or a.integer("_VARI") < 0:
         raise AlarmError("61002")
     start = (a["_SPL"], a["_SPD"])
     end = (
@@ -74,7 +72,6 @@ def corner(moves: Moves, a: Arguments) -> None:
     work = Work(moves, across=across, towards=signs[0] if across else signs[1])
     work.require_point(0.0 if stage == CORNER_FINISHING else work.pair(*signs)[0])
     free = (start[0] - signs[0] * lift, start[1] - signs[1] * lift)
-    work.perform(PlaneStroke(Kind.RAPID, work.pair(*free)), feed)
     if stage == CORNER_ROUGHING:
         if not a["_MID"] > 0.0:
             raise AlarmError("61610")
@@ -82,11 +79,13 @@ def corner(moves: Moves, a: Arguments) -> None:
         if any(abs(way) >= abs(m - s) for way, s, m in zip(off, start, middle, strict=True)):
             raise AlarmError("61606")
         path = _corner_path(work, start, arcs.minus(middle, off), lean, broken)
+        work.perform(PlaneStroke(Kind.RAPID, work.pair(*free)), feed)
         top, front = work.touching(work.pair(*start)[1]), work.front(work.pair(*start)[0], onwards(path))
         for cut in remove(path, Removal(a["_MID"], lift, work.towards, front=front, top=top)):
             work.perform(cut.stroke, feed)
     else:
         path = _corner_path(work, start, middle, lean, broken)
+        work.perform(PlaneStroke(Kind.RAPID, work.pair(*free)), feed)
         before, after = path[0].edge.start, path[-1].edge.end
         work.perform(PlaneStroke(Kind.RAPID, (before[0] - onwards(path) * lift, before[1])), feed)
         work.perform(PlaneStroke(Kind.FEED, before), feed)
@@ -100,7 +99,9 @@ def corner(moves: Moves, a: Arguments) -> None:
 
 
 def _corners(a: Arguments) -> tuple[Corner, Corner, Corner]:
-    """The corner at the front, the inner one, and the one at the other edge."""
+    """The corner at the front, the inner one, and the one at the other edge; the sharp form has none of them."""
+    if a.integer("_NR") == SHARP_FORM:
+        return SHARP, SHARP, SHARP
     first, inner, last = (
         Corner(leg=size) if a.digit("_AMODE", place) else Corner(radius=size)
         for size, place in zip((abs(a[f"_RF{i}"]) for i in (1, 2, 3)), CORNERS, strict=True)
@@ -122,12 +123,8 @@ def _refuse(a: Arguments, broken: tuple[Corner, Corner, Corner], signs: Point) -
     form = a.integer("_NR")
     unknown = {
         "_VARI": a.integer("_VARI") >= 100,
-        "_NR": not SHARP_FORM <= form <= SLANTED_FORM
-        or (form == SHARP_FORM and not all(each.is_sharp for each in broken))
-        or broken[0] != broken[2],
+        "_NR": not SHARP_FORM <= form <= SLANTED_FORM or broken[0] != broken[2],
         "_DMODE": form == SLANTED_FORM and a.digit("_DMODE", BY_ANGLES) != 0,
-        "_ZPD": form != SLANTED_FORM and a["_ZPD"] not in (0.0, a["_EPD"]),
-        "_ZPL": form != SLANTED_FORM and a["_ZPL"] not in (0.0, a["_EPL"]),
         "_AMODE": any(a.digit("_AMODE", place) > 1 for place in (END_X, END_Z, MIDDLE_X, MIDDLE_Z, *CORNERS)),
         "_LAGE": CORNER_PLACES.get(a.integer("_LAGE")) != signs,
     }

@@ -58,9 +58,9 @@ def groove(moves: Moves, a: Arguments) -> None:
     """CYCLE93: a groove, with the two edges of a parting tool: the active one and `_DN` or the next D.
 
     Raises:
-        AlarmError: 61000 without tool offset, 61002 for VARI, 61602 for a tool without width or one that does not fit,
-            61603 for a groove without width or depth or whose corners do not fit, 61608 for an edge that looks
-            another way.
+        AlarmError: 61000 without tool offset, 61002 for VARI, 61003 without feed, 61602 for a tool without width or one
+            that does not fit, 61603 for a groove without width or depth or whose corners do not fit, 61608 for an edge
+            that looks another way.
     """
     require_tool(moves)
     if a.integer("VARI") not in GROOVES:
@@ -83,9 +83,11 @@ def groove(moves: Moves, a: Arguments) -> None:
         nose_radius=stages.radius(moves.channel),
         slope=_slope(seat, a["STA1"]),
     )
-    home, feed = moves.point, moves.channel.feed
+    home, feed, way = moves.point, moves.channel.feed, _strokes(shape)
+    if not feed > 0.0:
+        raise AlarmError("61003")
     start = (a["SPD"], a["SPL"]) if seat.across else (a["SPL"], a["SPD"])
-    _cut(moves, _strokes(shape), Placing(shape, seat, start), feed, a["DTB"])
+    _cut(moves, way, Placing(shape, seat, start), feed, a["DTB"])
     moves.rapid(*home)
     moves.end_block()
 
@@ -207,7 +209,7 @@ def grooves(moves: Moves, a: Arguments) -> None:
     """
     require_tool(moves)
     number, stage = a.digit("_VARI", _SEAT), a.digit("_VARI", _STAGE)
-    if number not in SEATS or not ROUGHING <= stage <= COMPLETE:
+    if number not in SEATS or not ROUGHING <= stage <= COMPLETE or a.integer("_VARI") < 0:
         raise AlarmError("61002")
     seat, feed = SEATS[number], abs(a["_FF1"])
     if not feed:
@@ -227,7 +229,8 @@ def grooves(moves: Moves, a: Arguments) -> None:
 
 def _of_mask(moves: Moves, a: Arguments, seat: Seat, stage: int) -> Groove:
     """The groove of a call; 61603 for one without width or depth, or leaning walls beyond upright."""
-    if not all(0.0 <= a[name] < UPRIGHT for name in ("_ANG1", "_ANG2")):
+    form = _form(a)
+    if form != RECTANGLE and not all(0.0 <= a[name] < UPRIGHT for name in ("_ANG1", "_ANG2")):
         raise AlarmError("61603")
     depth = abs(a["_DIAG"])
     if a.digit("_AMODE", _DEPTH) == 0:
@@ -240,7 +243,8 @@ def _of_mask(moves: Moves, a: Arguments, seat: Seat, stage: int) -> Groove:
     sides = [
         Side(a[f"_ANG{number}"], _broken(a, *rim), _broken(a, *base))
         for number, (rim, base) in enumerate(CORNERS, 1)
-    ]
+        if form != RECTANGLE
+    ] or [Side(), Side()]
     return Groove(
         abs(a["_WIDG"]),
         depth,
@@ -255,8 +259,13 @@ def _of_mask(moves: Moves, a: Arguments, seat: Seat, stage: int) -> Groove:
         alternates=True,
         roughs=roughs,
         finishes=None if stage == COMPLETE else not roughs,
-        slope=_slope(seat, a["_STA"]),
+        slope=_slope(seat, a["_STA"]) if form == ON_CONE else 0.0,
     )
+
+
+def _form(a: Arguments) -> int:
+    """Which mask the call is from; what another one shows may be left over from it, and does not count."""
+    return a.integer("_NR") if a.given("_NR") else ON_CONE
 
 
 def _broken(a: Arguments, name: str, digit: int) -> Corner:
@@ -267,7 +276,6 @@ def _broken(a: Arguments, name: str, digit: int) -> Corner:
 
 def _refuse(a: Arguments, shape: Groove, seat: Seat) -> None:
     """What is not executed, or contradicts itself."""
-    form = a.integer("_NR") if a.given("_NR") else ON_CONE
     even, odd = abs(a["_FAL"]), (abs(a["_FALX"]), abs(a["_FALZ"]))
     depth = abs(a["_DIAG"])
     # Told as a position, the base lies elsewhere at the other end of a slope.
@@ -280,9 +288,7 @@ def _refuse(a: Arguments, shape: Groove, seat: Seat) -> None:
         "_VARI": a.digit("_VARI", 0) != 0
         or a.digit("_VARI", _REFERENCE) != 0
         or a.integer("_VARI") >= (ODD + 1) * 10**_ALLOWANCES,
-        "_NR": not RECTANGLE <= form <= ON_CONE
-        or (form == RECTANGLE and not all(side.is_plain for side in shape.sides))
-        or (form != ON_CONE and shape.is_slanted),
+        "_NR": not RECTANGLE <= _form(a) <= ON_CONE,
         "_AMODE": a.digit("_AMODE", _DEPTH) > 1
         or a.digit("_AMODE", _OTHER_DEPTH) > 1
         or (a.digit("_AMODE", _WIDTH) != 0 and any(shape.feet) and not a["_WIDG2"])
