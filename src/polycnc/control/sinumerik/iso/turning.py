@@ -21,6 +21,7 @@ from polycnc.toolpath import Kind
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.cycles.arguments import Arguments
     from polycnc.control.sinumerik.cycles.moves import Moves
+    from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.iso.running import IsoRun
     from polycnc.geometry.arcs import Point
     from polycnc.language.sinumerik.iso_dialect import IsoWord
@@ -55,6 +56,12 @@ class IsoTurning(State, lifetime=Lifetime.RESET):
     corner: dict[str, float] | None = None
     taper: float = 0.0
     lead: str = ""
+
+
+def begin(channel: SinumerikChannel) -> None:
+    """The dialect begins: no cycle is modal, and no lead known, from an earlier part of a program in it."""
+    state = IsoTurning.of(channel)
+    state.cycle = state.lead = ""
 
 
 def limit_speed(running: IsoRun, word: IsoWord) -> None:
