@@ -177,6 +177,9 @@ def check_start_point(a: Arguments) -> None:
 
 # ---- pockets
 
+#: Digit of _DMODE of POCKET4: what tells its size.
+_SIZE_PLACE, DIAMETER = 2, 1
+
 
 def pocket3(moves: Moves, a: Arguments) -> None:
     """POCKET3: rectangular pocket about its middle or from a corner."""
@@ -193,8 +196,9 @@ def pocket3(moves: Moves, a: Arguments) -> None:
 
 
 def pocket4(moves: Moves, a: Arguments) -> None:
-    """POCKET4: circular pocket."""
-    radius, size = radius_of(moves, a, "_VARI"), abs(a["_PRAD"])
+    """POCKET4: circular pocket; its size is a radius, or a diameter where hundreds of _DMODE say so."""
+    radius = radius_of(moves, a, "_VARI")
+    size = abs(a["_PRAD"]) * (0.5 if a.digit("_DMODE", _SIZE_PLACE) == DIAMETER else 1.0)
     _pocket(moves, a, (2.0 * size, 2.0 * size, size), (abs(a["_AP1"]), abs(a["_AP1"])), radius)
 
 
