@@ -75,10 +75,10 @@ def test_numbers_and_bits_of_a_setup_that_the_control_does_not_have_are_named(
 
 def test_a_run_names_parameters_of_the_setup_that_have_no_effect(console: Console) -> None:
     console.file("part.nc", "G90 G01 X1. F100.\nM30\n")
-    console.file("setup.yaml", 'parameters: {"405": 1000, "401": 50, "3836": 1}\n')
+    console.file("setup.yaml", 'parameters: {"405": 1000, "402": 50, "3836": 1}\n')
     said = console("run", "part.nc", "--control", "syntec-mill", "--setup", "setup.yaml")
     assert said.status == 0
-    assert said.err == "syntec-mill: polycnc knows no parameter 401\n"
+    assert said.err == "syntec-mill: polycnc knows no parameter 402\n"
 
 
 @pytest.mark.parametrize("datum", ["35100", "$MA_SPIND_VELO_LIMIT"])
@@ -124,7 +124,7 @@ def test_machine_data_are_listed_by_number_with_their_identifier(console: Consol
     lines = console("parameters", "list", *SINUMERIK).out.splitlines()
     largest = "largest difference of the radii at start and end of a circle"
     assert f"21000     0.01         $MC_CIRCLE_ERROR_CONST: {largest} [mm]" in lines
-    assert next(line for line in lines if line.startswith("21010")).endswith(
+    assert next(line for line in lines if line.startswith("35100")).endswith(
         "(kept only: nothing acts on it)"
     )
     assert "現用" in console("parameters", "show", "42940", *SINUMERIK, "--lang", "zh-TW").out

@@ -30,7 +30,7 @@ MILL, LATHE, MELDAS, SYNTEC, SINUMERIK = "fanuc-m", "fanuc-0i-tf", "meldas-m", "
 CONTROLS = (MILL, LATHE, MELDAS, SYNTEC)
 #: Folders of SINUMERIK's handlers, which read data by identifier.
 BY_IDENTIFIER = (FOLDER / "sinumerik", FOLDER.parent / "language/sinumerik")
-_IDENTIFIER = re.compile(r"""(?<=["`])\$(?:[MS][NCA]|MM)_[A-Z0-9_{}a-z(), ]+(?=["`])""")
+_IDENTIFIER = re.compile(r"""(?<=["`])\$(?:[MS][NCA]S?|MM)_[A-Z0-9_{}a-z(), ]+(?=["`])""")
 #: Where the handlers of each control stand.
 HANDLERS = {MILL: ("fanuc", "word_address"), LATHE: ("fanuc", "word_address"),
             MELDAS: ("meldas", "word_address"), SYNTEC: ("syntec",)}  # fmt: skip

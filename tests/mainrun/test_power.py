@@ -69,6 +69,22 @@ def test_variables_that_outlive_the_power_stay_and_others_go() -> None:
     assert virtual.read_variable("#5241") == 5.0  # G55 X
 
 
+@pytest.mark.parametrize("control", ["fanuc-m", "meldas-m", "syntec-mill"])
+def test_the_zone_of_g22_is_over_with_the_code(control: str) -> None:
+    virtual = VirtualControl(control)
+    inside = "" if control == "syntec-mill" else "O1\n"
+    virtual.load(f"{inside}G22 X100. I50.\nM30\n")
+    virtual.cycle_start()
+    virtual.run()
+    again(virtual)
+    assert virtual.modal["stroke"] == "G23"
+    for x in (75.0, 0.0):  # into a zone that is forbidden, and out of one that is not to be left
+        virtual.load(f"{inside}G0 X{x}\nM30\n")
+        virtual.cycle_start()
+        assert virtual.run() is State.READY
+        assert virtual.positions.machine["X"] == x
+
+
 def test_power_may_come_back_before_the_axes_stand() -> None:
     virtual = VirtualControl("sinumerik-840d")
     virtual.load("G55 G91\nR1=7\nG1 X500 F5000\nM30\n")

@@ -24,6 +24,7 @@ from polycnc.toolpath.modes import AccelerationMode, CornerMode
 from tests.examples import examples
 from tests.kernels.strict import strict
 from tests.motion.paths import MILL, Build
+from tests.motion.test_limits import UNEVEN
 
 if TYPE_CHECKING:
     from polycnc.toolpath.table import Chunk
@@ -77,6 +78,26 @@ def test_the_room_for_pieces_does_not_change_the_result(monkeypatch: pytest.Monk
     whole = varied(1500).plan(compiled=False)
     monkeypatch.setattr(planner_module, "FULL_ROOM", 256)
     assert bits(varied(1500).plan(compiled=False)) == bits(whole)
+
+
+def test_rows_that_are_faster_than_all_before_reach_back_no_farther_than_the_room_keeps(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The joints of the last rows are fast enough to reach over all slow ones, to where the path slows down."""
+    lead, angle = Settings(acceleration=AccelerationMode.JERK_LIMITED), 0.3
+    build = Build(context=Context(corner_mode=CornerMode.CONTINUOUS))
+    for rows, way, turn, feed in (
+        (100, 0.3, 0.0005, 20.0),
+        (110, 0.05, 0.0005, 2.0),
+        (100, 5.0, 0.002, 500.0),
+    ):
+        for _ in range(rows):
+            angle += turn
+            x, y, _z = build.end
+            build.feed(x + way * cos(angle), y + way * sin(angle), 0.0, feed=feed)
+    whole = build.plan(UNEVEN, settings=lead, compiled=False)
+    monkeypatch.setattr(planner_module, "FULL_ROOM", 256)
+    assert bits(build.plan(UNEVEN, settings=lead, compiled=False)) == bits(whole)
 
 
 def test_kernels_square_by_products() -> None:

@@ -8,7 +8,6 @@ language compiled, and what differs between controls lies behind `Control`.
 from __future__ import annotations
 
 from contextlib import contextmanager
-from dataclasses import replace
 from math import nan
 from typing import TYPE_CHECKING, ClassVar, Generic
 
@@ -480,10 +479,9 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         self._context_changed = True
 
     @contextmanager
-    def intermediate(self, origin: int) -> Iterator[None]:
-        """Moves meanwhile are intermediate blocks, of an origin as `Context` says."""
-        held = self.toolpath.contexts[self.context_number()]
-        self._context = self.toolpath.context_number(replace(held, origin=origin))
+    def under(self, context: Context) -> Iterator[None]:
+        """Moves meanwhile have a context of their own."""
+        self._context, self._context_changed = self.toolpath.context_number(context), False
         yield
         self._context_changed = True
 

@@ -2,7 +2,8 @@
 
 `app` finds the command; `options` are those that they share, `usage` is the language of help and refusals.
 `diagnostics` says what a run found, `formats` and `sarif` how that is written, `report` what `run` tells, `told`
-what of a setup has no effect; `console` and `output` write, `progress` tells those who wait how far a command is.
+what of a setup has no effect; `console` and `output` write, `progress` tells those who wait how far a command is;
+`freed` is about memory.
 """
 
 from __future__ import annotations

@@ -100,8 +100,10 @@ class Opening:
         memory: Path | None = None,
     ) -> Session:
         """Open a session of a file, or of a text that has no file; `session.open_session` has the errors."""
+        from polycnc.cli.freed import keep_freed_memory
         from polycnc.session import open_session
 
+        keep_freed_memory()
         return open_session(
             source, name=name, control=self.control, machine=self.machine, setup=self.setup,
             search=self.search or (), encoding=self.encoding, block_limit=self.block_limit,

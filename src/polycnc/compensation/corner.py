@@ -26,6 +26,7 @@ from polycnc.toolpath.kinds import Kind
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from polycnc.channel.moves.knots import Motions
     from polycnc.compensation.plane import Plane
     from polycnc.geometry.arcs import Point
 
@@ -116,12 +117,19 @@ class CornerStage(Stage):
         plane: Working plane.
         policy: The control's behaviour.
         violations: The control's alarm codes.
+        motions: Makes a shape part of the time of its block; without it the shape takes its own.
     """
 
     rank = Rank.CORNERS
 
-    def __init__(self, plane: Plane, policy: CornerPolicy, violations: Mapping[CornerViolation, str]) -> None:
-        self.plane = plane
+    def __init__(
+        self,
+        plane: Plane,
+        policy: CornerPolicy,
+        violations: Mapping[CornerViolation, str],
+        motions: Motions | None = None,
+    ) -> None:
+        self.plane, self._motions = plane, motions
         self.policy = policy
         self._violations = violations
         self._modal: _Request | None = None
@@ -340,9 +348,12 @@ class CornerStage(Stage):
             inserted.center, inserted.normal = plane.lift(cuts.center, leaving), plane.normal
             inserted.origin = origins.CORNER_ARC
         held.move = _rest(_cut_short(first, end=own_end, turning=turned[0]), cuts.part_a > 0.0)
-        self._let_go(held, inserted)
         start = plane.at(move.start, cuts.entering) if moved else entering
-        return _rest(_cut_short(move, start=start, turning=turned[1]), cuts.part_b < 1.0)
+        second = _rest(_cut_short(move, start=start, turning=turned[1]), cuts.part_b < 1.0)
+        if self._motions is not None and isnan(held.request.feed) and not is_rapid:
+            self._motions.share_time([second if self.policy.belongs_to_next else held.move, inserted])
+        self._let_go(held, inserted)
+        return second
 
 
 def _cuts(shape: Shape, a: offset.Edge, b: offset.Edge, size: float) -> offset.Cuts | None:

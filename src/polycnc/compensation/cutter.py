@@ -27,7 +27,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from itertools import pairwise
-from math import hypot
+from math import hypot, nan
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.path import END_OF_BLOCK, Item, Move, PlacedEvent, Rank, Stage
@@ -41,10 +41,12 @@ from polycnc.geometry import arcs, offset
 from polycnc.geometry.offset import Corner
 from polycnc.geometry.tolerances import NO_WAY, ROUNDED_MM, SAME_POINT_MM
 from polycnc.toolpath.context import PROGRAMMED
+from polycnc.toolpath.kinds import Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Mapping
 
+    from polycnc.channel.moves.knots import Motions
     from polycnc.channel.moves.path import Run
     from polycnc.compensation.plane import Plane
     from polycnc.compensation.policy import Policy
@@ -59,7 +61,7 @@ class CutterCompensation(Stage):
         policy: The control's behaviour; may be replaced between blocks.
         violations: The control's alarm code for each violation that it checks; one without a code is let
             pass.
-        join: Makes one motion of the chords of a lead.
+        motions: Makes one motion of rows of a block; without it they stand by themselves.
 
     Attributes:
         suspended: Contour blocks keep the vector that stands square at the end of the last compensated one
@@ -74,11 +76,11 @@ class CutterCompensation(Stage):
         plane: Plane,
         policy: Policy,
         violations: Mapping[Violation, str],
-        join: Callable[[list[Move]], object] = len,
+        motions: Motions | None = None,
     ) -> None:
         self.plane = plane
         self.policy = policy
-        self._rows = RowWriter(plane, self, join)
+        self._rows, self._motions = RowWriter(plane, self, motions), motions
         self._violations = Objections(violations)
         self._role = Role.PLAIN
         self._side = 1
@@ -211,6 +213,8 @@ class CutterCompensation(Stage):
         """Take the next move; see `Stage`."""
         if self._role is Role.PLAIN or not self.plane.moves(move):
             self._in_order(move)
+            if self._place is not None:
+                self._place = self._place.between(move.end, move.end)
             return
         edge = self.plane.edge(move)
         if edge is None:
@@ -223,7 +227,15 @@ class CutterCompensation(Stage):
         """Take many moves at once, where all that wait and all that follow are ordinary lines (`runs`)."""
         window = self._window
         waits = self._place is not None or self._forced is not None or self._holds
-        if waits or self.suspended or self._starts_square or self._role is not Role.CONTOUR or not window:
+        timed = self._motions is not None and self._motions.is_timed(run.context)
+        if (
+            waits
+            or timed
+            or self.suspended
+            or self._starts_square
+            or self._role is not Role.CONTOUR
+            or not window
+        ):
             return 0
         from polycnc.compensation.runs.window import Window, fits  # for long programs only
 
@@ -246,8 +258,10 @@ class CutterCompensation(Stage):
     def block(self) -> None:
         """A block has been read: look-ahead counts blocks, with or without motion."""
         place, self._place = self._place, None
-        if place is not None and (self.policy.shifts_without_motion or self._forced is not None):
+        shifts = self.policy.shifts_without_motion and self._role is not Role.CONTOUR
+        if place is not None and (shifts or self._forced is not None):
             point = self.plane.point(place.end)
+            place.feed = nan if place.kind is Kind.RAPID else place.feed
             self._take(place, offset.Edge(point, point, NO_VECTOR, NO_VECTOR))
         self._is_bare = self._role is Role.CANCEL and self.policy.bare_cancel_is_square
         self._in_order(END_OF_BLOCK)

@@ -14,8 +14,7 @@ from polycnc.geometry.tolerances import NO_WAY
 from polycnc.toolpath.kinds import Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
+    from polycnc.channel.moves.knots import Motions
     from polycnc.channel.moves.path import Move, Stage
     from polycnc.compensation.plane import Plane
     from polycnc.compensation.step import Contact, Step
@@ -33,17 +32,17 @@ class RowWriter:
     Args:
         plane: The plane of compensation.
         stage: The stage whose next one gets the rows.
-        join: Makes one motion of the chords of a lead.
+        motions: Makes one motion of rows of a block; without it they stand by themselves.
 
     Attributes:
         vector: The vector at the end of the last compensated move.
         displacement: How far the tool stands beside the programmed point: the vector, and the tip's shift with it.
     """
 
-    def __init__(self, plane: Plane, stage: Stage, join: Callable[[list[Move]], object] = len) -> None:
+    def __init__(self, plane: Plane, stage: Stage, motions: Motions | None = None) -> None:
         self.plane = plane
         self._stage = stage
-        self._join_chords = join
+        self._motions = motions
         self.vector = NO_VECTOR
         self.displacement = NO_VECTOR
 
@@ -111,12 +110,17 @@ class RowWriter:
                 row = replace(row, center=plane.moved_center(move, along))
         if step.contact is not None and way > NO_WAY:
             self._bend(row, step.contact, leaves=step.role is Role.CANCEL)
-        elif row.center is not None or way > NO_WAY or plane.moves_elsewhere(move):
-            self._stage.after.move(row)
+        made = [row] if step.contact is None or way <= NO_WAY else []
+        if row.center is None and way <= NO_WAY and not plane.moves_elsewhere(move):
+            made.clear()
         if len(corner.vectors) > 1:
             template = (step.corner_arc[0] if step.corner_arc else move).between(row.end, row.end)
             for vector in corner.vectors[1:]:
-                template = self._join(template, step, corner.joint, vector)
+                template = self._join(template, step, corner.joint, vector, made)
+        if self._motions is not None and made[:1] == [row] and not step.corner_arc:
+            self._motions.share_time(made)
+        for each in made:
+            self._stage.after.move(each)
         self.vector = corner.vectors[-1]
         self.displacement = arcs.plus(self.vector, step.shift)
 
@@ -141,12 +145,13 @@ class RowWriter:
             chords.append(replace(row, kind=kind, start=before, end=place))
             before = place
         chords.append(replace(row, kind=kind, start=before))
-        self._join_chords(chords)
+        if self._motions is not None:
+            self._motions.join(chords)
         for chord in chords:
             self._stage.after.move(chord)
 
-    def _join(self, template: Move, step: Step, joint: Joint, vector: Point) -> Move:
-        """One row from the place of the last one to the next vector."""
+    def _join(self, template: Move, step: Step, joint: Joint, vector: Point, made: list[Move]) -> Move:
+        """Add one row from the place of the last one to the next vector."""
         plane = self.plane
         target = arcs.plus(step.edge.end, arcs.plus(vector, step.shift))
         end = plane.at(template.end, target)
@@ -163,7 +168,7 @@ class RowWriter:
         )  # fmt: skip
         u, v = plane.point(template.end)
         if hypot(target[0] - u, target[1] - v) > NO_WAY:
-            self._stage.after.move(row)
+            made.append(row)
         return replace(row, kind=template.kind)
 
 

@@ -74,7 +74,7 @@ class SpatialStage(Stage):
         corners: What happens at outer corners.
         rules: How the control does it.
 
-        within: Gives the context of a chord that another one of the same motion follows, for that of the motion.
+        join: Makes one motion of the chords of a move.
 
     Attributes:
         depth: How far down the tool its tip lies from the programmed point, from the next block on, mm.
@@ -91,10 +91,10 @@ class SpatialStage(Stage):
         side: int,
         corners: Corners,
         rules: Rules,
-        within: Callable[[int], int] = int,
+        join: Callable[[list[Move]], object] = len,
     ) -> None:
         self.side = side
-        self._within = within
+        self._unite = join
         self.corners = corners
         self.rules = rules
         self.depth = 0.0
@@ -150,16 +150,14 @@ class SpatialStage(Stage):
         """An arc that has no parallel arc, in chords; between them the parallels meet."""
         path = MovePath(move, self._geometry)
         error = CHORD_ERROR_MM * path.radius / (path.radius + abs(self.radius))
-        points, before = list(path.chords(error)), move.start
-        for k, point in enumerate(points, 1):
-            chord = replace(
-                move, kind=Kind.SPLINE, start=before, end=point, center=None, turns=0.0, turning=None
-            )
-            if k < len(points):
-                chord.context = self._within(move.context)
-            departing, arriving = (path.direction(part / len(points)) for part in (k - 1, k))
-            self._take(chord, self._posture.tool_at(point), departing, arriving, self.corners)
-            before = point
+        chords = [
+            replace(move, kind=Kind.SPLINE, start=start, end=end, center=None, turns=0.0, turning=None)
+            for start, end in pairwise((move.start, *path.chords(error)))
+        ]
+        self._unite(chords)
+        for k, chord in enumerate(chords, 1):
+            departing, arriving = (path.direction(part / len(chords)) for part in (k - 1, k))
+            self._take(chord, self._posture.tool_at(chord.end), departing, arriving, self.corners)
 
     def _take(
         self, move: Move, tool: Vector, departing: Vector | None, arriving: Vector | None, corners: Corners
@@ -368,14 +366,17 @@ class SpatialStage(Stage):
             share = way / total
             radius = max(abs(self.radius), PARALLEL)
             count = parts_for_chord_error(radius, sweep * share, CHORD_ERROR_MM)
-            for k in range(1, count + 1):
-                part = k / count
-                place = [a + part * (b - a) for a, b in zip(item.start, item.end, strict=True)]
-                normal = between(held.normal, second, sweep, done + share * part)
-                chord = replace(item, kind=Kind.SPLINE, end=place)
-                if k < count:
-                    chord.context = self._within(item.context)
-                self._emit(chord, self._beside(normal, self._posture.tool_at(place)))
+            places = [
+                [a + k / count * (b - a) for a, b in zip(item.start, item.end, strict=True)]
+                for k in range(count + 1)
+            ]
+            chords = [
+                replace(item, kind=Kind.SPLINE, start=start, end=end) for start, end in pairwise(places)
+            ]
+            self._unite(chords)
+            for k, chord in enumerate(chords, 1):
+                normal = between(held.normal, second, sweep, done + share * k / count)
+                self._emit(chord, self._beside(normal, self._posture.tool_at(chord.end)))
             done += share
 
     def _angle_of(self, move: Move) -> float:
@@ -419,16 +420,17 @@ class SpatialStage(Stage):
         if count == 1:
             self._emit(move, shift)
             return
-        for k in range(1, count + 1):
+        pieces = [path.between(k / count, (k + 1) / count) for k in range(count)]
+        self._unite(pieces)
+        for k, piece in enumerate(pieces, 1):
             part, place = k / count, path.at(k / count)
             tool = self._posture.tool_at(place)
             normal = self._normal(tool, tangent) or last
             # What corners ask for at both ends fades along the block.
             rest = rests[0].fading(rests[1], part).at(tangent, tool)
             x, y, z = (a + b for a, b in zip(self._beside(normal, tool), rest, strict=True))
-            piece = path.between((k - 1) / count, part)
             if k < count:
-                piece.kind, piece.context = Kind.SPLINE, self._within(move.context)
+                piece.kind = Kind.SPLINE
             self._emit(piece, (x, y, z))
 
     def _check_sense(self, move: Move, shift: Vector) -> None:

@@ -98,21 +98,34 @@ class Continuation:
             before = self._clock.time
             loop.run(LOOK_S)
             if execution.halt in OVER:
+                if execution.halt == "end" and runs.first.preprocessing.last_block:
+                    self.halts.append(runs.first.preprocessing.last_block)
                 break
             now_done = len(toolpath), len(execution.preprocessing.items), execution.machine
             if now_done != done or execution.knows_when:
                 since, done = self._clock.time, now_done
             longest = LONGEST_WAIT_S if runs.move_beside_path else LONGEST_REST_S
             if operation.status.state is State.STOPPED:
+                self._note_halt()
                 operation.resume()
             elif not loop.is_busy:
                 break
+            elif any(run.is_active and run.execution.halt not in {"", *OVER} for run in runs):
+                self._note_halt()
+                operation.go_on_halted()  # while other channels run or wait
             elif self._clock.time == before or self._clock.time - since >= longest:
                 self._give_up(AlarmError("PC0013"))
             elif first.blocks + self._clock.visits >= first.block_limit:
                 self._give_up(first.control.block_limit())
         self._end_by_machine()
         self._stand()
+
+    def _note_halt(self) -> None:
+        """Where single block has halted the first channel, and inside the block in front of that."""
+        run = self._operation.runs.first
+        if run.execution.halt == "single-block":
+            self.halts += [*run.channel.inner_halts, run.execution.halted_behind]
+            run.channel.inner_halts.clear()
 
     def _give_up(self, error: AlarmError) -> None:
         """Nothing that is waited for comes, or too late: the program ends with an alarm where it stands."""

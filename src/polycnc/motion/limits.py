@@ -156,7 +156,7 @@ def context_fields(
         surface,
         highest,
         spindle.acceleration_rpm_s / 60.0 if spindle else inf,
-        context.corner_mode is CornerMode.EXACT_STOP,
+        context.stops,
         ANY_MM
         if after or (behind_s(context, settings) > 0.0 and context.tolerance_mm == 0.0)
         else (_kept_tolerance if averages[0] > 0.0 else _tolerance)(context, settings),

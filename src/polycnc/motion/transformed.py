@@ -61,7 +61,7 @@ from polycnc.motion.reach import looked_at, shares_of
 from polycnc.motion.time_constants import Use
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS, RAPID_KINDS
-from polycnc.toolpath.modes import AccelerationMode, CornerMode, FeedMode
+from polycnc.toolpath.modes import AccelerationMode, FeedMode
 from polycnc.toolpath.row_path import arc_path, line_path
 from polycnc.toolpath.table import CURVE_WIDTH
 from polycnc.transformation.orientation.linked import linkage_of
@@ -392,7 +392,7 @@ class RealAxes:
         even = not uneven or (len(limits.linkage) > 0 and not any(rests))
         if kind in ARC_KINDS and even and self._may_reach(context):
             seen = looked_at(context, self._axes, limits.acceleration, path, length, kind)
-            shares = shares_of(seen, length, angle, stops=context.corner_mode is CornerMode.EXACT_STOP)
+            shares = shares_of(seen, length, angle, stops=context.stops)
             return self._corners(context, length, look, shares, rests)
         if kind in ARC_KINDS and not uneven:
             inside = [look(k / count, lateral=False) for k in range(count + 1)]

@@ -106,7 +106,8 @@ class Context:
             (point to point, SINUMERIK PTP). None where rows hold what is shown.
         names: What the work display calls the columns where a transformation makes other axes of them (Y of TRANSMIT);
             empty where the channel's names hold, an empty one for a column that it uses up.
-        knot: Rows end at a knot within a motion, which the next row goes on with: displays show the motion as one.
+        knot: Rows end at a knot within a motion, which the next row goes on with; displays show the motion as one, if
+            not each point of a curve (`shows_knot`).
         share: Part of its motion that a row of inverse time makes: displays show the feed of the whole.
         finishes: The move belongs to strokes that a hold and a reset let come to their end (SYNTEC taps).
         origin: What has made a row of the program's blocks: `PROGRAMMED` nothing, `SHORTENED` one that a chamfer or the
@@ -156,6 +157,7 @@ class Context:
     shown_by: Transformation | None = None
     names: tuple[str, ...] = ()
     knot: bool = False
+    shows_knot: bool = False
     share: float = 1.0
     finishes: bool = False
     dwell_signal: str = ""
@@ -165,6 +167,16 @@ class Context:
     def surface_m_min(self) -> float:
         """Programmed surface speed under constant surface speed, m/min."""
         return self.spindle_rpm * FOOT_M if self.inch else self.spindle_rpm
+
+    @property
+    def stops(self) -> bool:
+        """Whether the axes come to rest at the end of a row: where a motion goes on they do not."""
+        return self.corner_mode is CornerMode.EXACT_STOP and not self.knot
+
+    @property
+    def is_hidden(self) -> bool:
+        """Whether displays show a row with the one that goes on behind it."""
+        return self.knot and not self.shows_knot
 
     def begins_early(self, before: Context, *, rapid: bool) -> bool:
         """Whether a move, `rapid` or not, begins before the axes rest behind one in the context `before`."""

@@ -175,7 +175,7 @@ class _Rows:
         key = (context.astype(np.int64) << 16 | shown.columns.program) << 8 | kind
         for number in self.numbers[:, self.width - len(self._arcs) - 1 :].T:
             key = key << 1 | ~np.isnan(number)
-        knots = np.array([each.knot for each in self._display.toolpath.contexts], bool)
+        knots = np.array([each.is_hidden for each in self._display.toolpath.contexts], bool)
         alone = (kind == Kind.EVENT) | ((curve >= 0) & ~np.isin(kind, tuple(ARC_KINDS)))
         left_out = knots[context] & (kind != Kind.EVENT) & self._goes_on(shown)
         forms = np.full(len(key), LEFT_OUT, np.int32)

@@ -155,7 +155,7 @@ class Display:
                 row.event is not None or (row.program, row.line) != (held.program, held.line)
             ):
                 yield self.record(held)
-            held = row if row.context.knot and row.event is None else None
+            held = row if row.context.is_hidden and row.event is None else None
             if held is None:
                 yield self.record(row)
         if held is not None:
@@ -164,7 +164,7 @@ class Display:
     def records_of(self, chunk: Chunk) -> Iterator[Record]:
         """The records of one chunk. Long chunks go by whole columns, which gives the same values."""
         contexts = self.toolpath.contexts
-        single = any(each.names or each.shown_by is not None or each.knot for each in contexts)
+        single = any(each.names or each.shown_by is not None or each.is_hidden for each in contexts)
         if len(chunk) >= COLUMN_ROWS and not single and find_spec("numpy") is not None:
             yield from self._records_by_column(chunk)
         else:

@@ -20,7 +20,7 @@ def test_pieces_go_on_from_each_other() -> None:
     assert last.start is first.end
     assert last.end is move.end
     assert (last.context, channel.toolpath.contexts[first.context].knot) == (context, True)
-    assert channel.toolpath.contexts[first.context].corner_mode is CornerMode.CONTINUOUS
+    assert [channel.toolpath.contexts[each.context].stops for each in (first, last)] == [False, True]
 
 
 def test_inverse_time_counts_the_piece() -> None:

@@ -447,6 +447,28 @@ def test_block_search_says_that_a_block_belongs_to_the_shape_of_a_cycle(how: str
         virtual.block_search("N105", how=how)
 
 
+@pytest.mark.parametrize("how", ["contour", "end-point", "program-test"])
+def test_a_search_for_where_g70_was_given_up_is_refused(how: str) -> None:
+    shape = "N100 G0 X20.\nN105 G1 Z-10. F6000\nN110 X62.\n"
+    virtual = power_on(f"G98 G0 X100. Z10.\n{shape}G70 P100 Q110\nM30\n", "fanuc-0i-tf")
+    virtual.cycle_start()
+    assert virtual.run_until(lambda control: [line for _, line in control.snapshot.interrupted] == [5, 4])
+    virtual.reset()
+    virtual.run()
+    levels = virtual.snapshot.interrupted
+    told = "block 4 runs only as a part of the block in line 5"
+    if how == "program-test":
+        virtual.block_search(levels, how=how)
+        virtual.run(limit_s=600.0)
+        assert any(told in message for message in virtual.messages)
+    else:
+        with pytest.raises(CommandRefused, match=told):
+            virtual.block_search(levels, how=how)
+    virtual.reset()
+    virtual.block_search(levels[:1])
+    assert virtual.state is State.STOPPED
+
+
 def test_block_search_that_comes_to_an_alarm_tells_it() -> None:
     virtual = power_on("O1\nG1 X10. F600\nX[1/0]\nN40 X5.\nM30\n")
     with pytest.raises(CommandRefused) as refused:

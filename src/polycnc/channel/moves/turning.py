@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from polycnc.channel.moves.knots import share_time
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move, Rank, Stage
 from polycnc.toolpath.modes import CornerMode
@@ -45,13 +46,16 @@ class TurningStage(Stage):
         if turning.course is not None:
             turning = turning.paced([move.start[column] for column in turning.columns], path.length)
         within = self._through(move)
-        before, start = 0.0, move.start
+        before, start, pieces = 0.0, move.start, []
         for share, places in zip(turning.shares, turning.places, strict=True):
             piece = path.between(before, share)
             piece.start, piece.end = start, placed(piece.end, turning, places)
             piece.context = move.context if share == 1.0 else within
-            self.after.move(piece)
+            pieces.append(piece)
             before, start = share, piece.end
+        share_time(self._channel, pieces)
+        for piece in pieces:
+            self.after.move(piece)
 
     def _through(self, move: Move) -> int:
         """The context in which the axes go through the knots within a move.

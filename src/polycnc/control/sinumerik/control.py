@@ -35,7 +35,6 @@ from polycnc.control.sinumerik.limits import working_area
 from polycnc.control.sinumerik.m_functions import PROGRAM_ENDS
 from polycnc.control.sinumerik.memory import Memory
 from polycnc.control.sinumerik.modal_state import ModalState
-from polycnc.control.sinumerik.motion.chords import corner_mode as at_chords
 from polycnc.control.sinumerik.punching import block as punching
 from polycnc.control.sinumerik.reset import reset, start_codes
 from polycnc.control.sinumerik.signals import interrupts, measuring, sections
@@ -430,9 +429,12 @@ class Sinumerik:
         )
 
     def select_iso(self, channel: SinumerikChannel) -> None:
-        """G291 acts; PC0001 on a lathe, whose dialect is another one, in a subprogram, and with MCALL active."""
+        """G291 acts; PC0001 in a subprogram, with MCALL active, and under G91 where the dialect has no G90 (code A)."""
+        is_code_a = (
+            channel.memory.transverse >= 0 and channel.memory.data.integer("$MN_EXTERN_GCODE_SYSTEM") == 1
+        )
         if (
-            channel.memory.transverse >= 0
+            (is_code_a and channel.mode["distance"] == "G91")
             or len(channel.stack) > 1
             or LanguageMemory.of(channel).modal_call is not None
         ):
@@ -512,10 +514,8 @@ def _names_kept(channel: SinumerikChannel) -> set[str]:
 def _corner_mode(channel: SinumerikChannel, mode: Mode) -> CornerMode:
     """G9 holds for its block, else group 10; with strokes every block ends in an exact stop."""
     if ExactStop.of(channel).block or mode[punching.GROUP] != punching.OFF:
-        own = CornerMode.EXACT_STOP
-    else:
-        own = smoothing.corner_mode(mode, tables.CORNER_MODES[mode["path"]])
-    return at_chords(channel, own)
+        return CornerMode.EXACT_STOP
+    return smoothing.corner_mode(mode, tables.CORNER_MODES[mode["path"]])
 
 
 def _tolerance(channel: SinumerikChannel, path_mode: str) -> float:

@@ -235,6 +235,7 @@ class SyntecMill(WordAddressControl):
         self.begin(channel)
         if memory.parameters.travel_2_at_start == 1:
             channel.mode = channel.mode.with_code("stroke", "G22")
+            systems.set_zone(channel, systems.limits_in(channel, memory.parameters.second_travel))
 
     def travel_by_parameters(self, channel: SyntecChannel) -> Mapping[int, tuple[float, float]]:
         """First travel limits, Pr2401 on."""

@@ -235,6 +235,7 @@ class WordAddressControl:
         ParameterTable.of(channel).put_into(channel)
         channel.memory = self.make_memory(channel)
         channel.mode = channel.modes.mode(self.start_codes(channel))
+        channel.boundary = None
         channel.skip_levels = channel.setup.switches.block_skip_mask(plain=1)
         channel.memory.tool.number = channel.memory.tool.next = int(
             channel.setup.tool_at_start(channel.number)

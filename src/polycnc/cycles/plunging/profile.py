@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 
 #: Places nearer to each other are one; what is so much higher is higher, mm.
 _HAIR = 1e-7
+#: Curves and gaps that are no longer are what rounding has left of a crossing: nobody cuts them, mm.
+_SLIVER = 1e-5
 #: A tool as wide as a groove goes into it: so much narrower it counts, mm.
 SNUG_MM = 2e-5
 
@@ -81,8 +83,9 @@ class Profile:
     def between(self, low: float, high: float) -> Contour:
         """The profile from place to place, with its walls."""
         result: list[Piece] = []
-        for edge in cropped(self, low, high).curves:
-            if result and abs(result[-1].edge.end[1] - edge.start[1]) > _HAIR:
+        curves = cropped(self, low, high).curves
+        for edge in [curve for curve in curves if curve.length > _SLIVER] or curves:
+            if result and abs(result[-1].edge.end[1] - edge.start[1]) > _SLIVER:
                 result.append(Piece(offset.line(result[-1].edge.end, edge.start)))
             result.append(Piece(edge))
         return result
@@ -162,9 +165,8 @@ def envelope(curves: Iterable[Edge]) -> tuple[Edge, ...]:
     Raises:
         ValueError: There is a gap between them.
     """
-    found = [curve for curve in curves if curve.end[0] - curve.start[0] > _HAIR]
+    found = _bridged(curve for curve in curves if curve.end[0] - curve.start[0] > _HAIR)
     places = {a for curve in found for a in (curve.start[0], curve.end[0])}
-    found.sort(key=lambda curve: curve.start[0])
     for number, first in enumerate(found):
         for second in found[number + 1 :]:
             if second.start[0] >= first.end[0]:
@@ -182,6 +184,19 @@ def envelope(curves: Iterable[Edge]) -> tuple[Edge, ...]:
         else:
             result.append((best, low, high))
     return tuple(part(curve, low, high) for curve, low, high in result)
+
+
+def _bridged(curves: Iterable[Edge]) -> list[Edge]:
+    """Curves by where they begin, with a line over every gap that is no wider than rounding makes one."""
+    result: list[Edge] = []
+    reached: Edge | None = None
+    for curve in sorted(curves, key=lambda curve: curve.start[0]):
+        if reached is not None and _HAIR < curve.start[0] - reached.end[0] <= _SLIVER:
+            result.append(offset.line(reached.end, curve.start))
+        if reached is None or curve.end[0] > reached.end[0]:
+            reached = curve
+        result.append(curve)
+    return result
 
 
 def _meetings(first: Edge, second: Edge) -> list[Point]:

@@ -33,6 +33,8 @@ OFF_WALL_MM = 1.0
 _WHOLE = 1e-9
 #: A corner that is broken by less is sharp.
 BROKEN_MM = 1e-6
+#: Edges that turn by less than this, radians, have no corner between them.
+STRAIGHT_ON = 1e-9
 #: A contour that slopes by less lies along its axis.
 LEVEL = 1e-9
 #: Steps that plunges leave on a slanted base are at most this share of the tool's width high.
@@ -212,7 +214,7 @@ class Groove:
         u -= self.flank_allowance / cos(radians(self.sides[number].angle_deg))
         contour = self.contours[number]
         before, rim = contour[0].edge.start
-        if u < before:
+        if u < before - NO_WAY:
             # A rim that rises towards the groove keeps the tool's front off up to its highest point.
             return rim + max(self.slope if number == 0 else -self.slope, 0.0) * (u - before)
         return _depth_at(contour, u)
@@ -247,9 +249,9 @@ def _taken(side: Side) -> float:
 
 def with_corner(before: list[Piece], piece: Piece, corner: Corner) -> list[Piece]:
     """A contour that goes on with a piece, the corner between broken or rounded; `GrooveError` if that does not fit."""
-    if corner.is_sharp:
-        return [*before, piece]
     a, b = before[-1].edge, piece.edge
+    if corner.is_sharp or abs(offset.turn(a, b)) <= STRAIGHT_ON:
+        return [*before, piece]
     if corner.radius:
         cuts = offset.rounded(a, b, corner.radius)
     else:

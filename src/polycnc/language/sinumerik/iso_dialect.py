@@ -48,12 +48,13 @@ _MILLI = 1000.0
 
 
 class IsoWord(NamedTuple):
-    """A word of a block: letter, value, number as written, column from 1."""
+    """A word of a block: letter, value, number as written, column from 1, and whether it is an increment (U, W)."""
 
     letter: str
     value: float
     number: str
     column: int
+    incremental: bool = False
 
     @property
     def name(self) -> str:
@@ -146,7 +147,7 @@ def parsed(line: str) -> IsoBlock:
 
 
 def _told(word: IsoWord, codes: Sequence[str], motion: str) -> str:
-    letter, value, number, column = word
+    letter, value, number, column, incremental = word
     if word.code:
         if word.code not in G_FUNCTIONS:
             raise not_supported(column, f"G291 {word.code}")
@@ -157,4 +158,4 @@ def _told(word: IsoWord, codes: Sequence[str], motion: str) -> str:
         return f"CR={number}"
     if letter not in SAME or (letter == "M" and value in CALLS) or (_DWELL in codes and letter != "M"):
         raise not_supported(column, f"G291 {letter}{number}")
-    return f"{letter}{number}"
+    return f"{letter}=IC({number})" if incremental else f"{letter}{number}"

@@ -72,7 +72,8 @@ class Wanted:
 
     def is_met_by(self, block: Block) -> bool:
         """Whether it is this one, or one of the subprogram that it calls."""
-        if block.levels[: len(self.levels)] == self.levels:
+        lies_in_part = block.is_part and len(self.levels) == len(block.levels)
+        if block.levels[: len(self.levels)] == self.levels and not lies_in_part:
             return True
         if block.callers and (block.program, block.line) == self.levels[-1]:
             self.part_of = self.part_of or block.callers[-1][1]

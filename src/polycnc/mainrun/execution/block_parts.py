@@ -11,7 +11,7 @@ from math import hypot
 from typing import TYPE_CHECKING
 
 from polycnc.channel.interpolator import BlockKind
-from polycnc.mainrun.preparation.items import Block, Move
+from polycnc.mainrun.preparation.items import Block, BlockEnd, Move
 from polycnc.toolpath.context import PROGRAMMED, SHORTENED
 from polycnc.toolpath.modes import CornerMode
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence
 
     from polycnc.mainrun.motion.geometry import Segment
-    from polycnc.mainrun.preparation.items import Item
+    from polycnc.mainrun.preparation.items import Item, Row
 
 #: A share of a way over which its direction is taken.
 _NEAR = 1e-6
@@ -36,12 +36,14 @@ class BlockParts:
     Attributes:
         number: How many blocks have begun.
         kind: What the block in execution is.
+        passed: Way of the rows in front of the one in execution that make one motion with it, mm.
     """
 
     def __init__(self, geometry: Sequence[int]) -> None:
         self._axes = [column for column in geometry if column >= 0]
         self.number = 0
         self.kind = BlockKind()
+        self.passed = 0.0
         self._move: Move | None = None
         self._own: Move | None = None
         self._modal: Mapping[str, str] = {}
@@ -71,12 +73,14 @@ class BlockParts:
         before, counted = self._move, self._is_counted
         if before is move:
             return
+        goes_on = before is not None and before.context.knot and not counted
+        self.passed = self.passed + before.total if before is not None and goes_on else 0.0
         rounds = not counted and self._rounds(move)
         rounded_by = self._modal
         self._move, self._modal, self._is_counted = move, modal, False
         self._own = move
         origin, was = move.context.origin, before.context.origin if before is not None else PROGRAMMED
-        goes_on = before is None or before.context.knot or max(origin, was) <= SHORTENED
+        goes_on = before is None or goes_on or max(origin, was) <= SHORTENED
         if counted or (goes_on and not rounds):
             self.kind = BlockKind(origin)
             return
@@ -86,6 +90,16 @@ class BlockParts:
         self._begin(BlockKind(origin))
         self._is_cut = rounds
         yield False
+
+    def coming(self, row: Row, ahead: Iterable[Item]) -> float:
+        """Way of the rows behind the one in execution that make one motion with it, mm; `ahead` comes."""
+        way, goes_on = 0.0, row.context.knot
+        for item in ahead:
+            if not goes_on or isinstance(item, BlockEnd):
+                break
+            if isinstance(item, Move) and item is not row and item is not self._move:
+                way, goes_on = way + item.total, item.context.knot
+        return way
 
     def _begin(self, kind: BlockKind) -> None:
         self.number, self.kind, self._is_cut = self.number + 1, kind, False

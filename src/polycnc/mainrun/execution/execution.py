@@ -14,15 +14,7 @@ from polycnc.mainrun.execution.beside_path import beyond_limits, stops_beside, t
 from polycnc.mainrun.motion.follower import Follower
 from polycnc.mainrun.motion.piece_motion import NO_WAYS, AxesMotion, Motion, PathMotion
 from polycnc.mainrun.motion.speed import FREE, Calm
-from polycnc.mainrun.preparation.items import (
-    Block,
-    BlockEnd,
-    ChannelRates,
-    Happening,
-    Move,
-    Rates,
-    Standing,
-)
+from polycnc.mainrun.preparation.items import Block, BlockEnd, ChannelRates, Happening, Move, Rates, Standing
 from polycnc.motion.frames import with_axis
 from polycnc.motion.kernels.columns import UNEVEN_FORMS, PieceRecord
 from polycnc.toolpath import Context, Kind
@@ -60,6 +52,7 @@ class Execution:
     Attributes:
         running: Cycle start has been given, and nothing has halted the run since.
         halt: Why it has halted: `single-block`, `M00`, `M01`, `alarm`, `end`; empty while it runs.
+        halted_behind: The block behind which single block has halted last, as `BlockEnd.code`.
         attention: Somebody else has to act on what has just happened.
         single_block: Halt behind every block.
         block: The block in execution.
@@ -88,7 +81,7 @@ class Execution:
         self.on_row: Callable[[Move], None] | None = None
         self._awaits: Callable[[], bool] | None = None
         self.clock, self.axes = clock, axes
-        self.running, self.halt = False, ""
+        self.running, self.halt, self.halted_behind = False, "", ""
         self.attention = self.single_block = False
         self.block: Block | None = None
         self.context = self.place = Context()
@@ -378,6 +371,7 @@ class Execution:
         elif isinstance(item, BlockEnd):
             halts = self.single_block and not self.context.stop_delay
             if halts and self._x2 == 0.0 and not self.preprocessing.typed_blocks_end:
+                self.halted_behind = item.code
                 self.stop("single-block")
         elif isinstance(item, Standing):
             self.context = item.context

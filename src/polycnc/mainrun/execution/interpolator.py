@@ -250,14 +250,17 @@ class ChannelInterpolator:
         """Where the block in execution is."""
         execution, time = self._run.execution, self._clock.time
         seconds, motion = time - self._block_since, execution.motion
+        row, parts = self._current_row, self._parts
+        passed = coming = 0.0
+        if row is not None and parts is not None:
+            passed, coming = parts.passed, parts.coming(row, execution.preprocessing.items)
         if motion is None:
-            coming = self._current_row
-            left = coming.total * (1.0 - coming.done) if isinstance(coming, Move) else 0.0
-            return OnPath(seconds, 0.0, left, 0.0)
+            left = row.total * (1.0 - row.done) if isinstance(row, Move) else 0.0
+            return OnPath(seconds, 0.0, left + coming, 0.0)
         piece = motion.piece
         length = piece.length / piece.share if piece.share else piece.length
         done = motion.done(time) + piece.first * length
-        return OnPath(seconds, done, max(length - done, 0.0), execution.speed)
+        return OnPath(seconds, passed + done, max(length - done, 0.0) + coming, execution.speed)
 
     @property
     def block_number(self) -> int:

@@ -36,6 +36,7 @@ class Block:
         takes_back: What it takes back of a manual intervention.
         is_silent: It does nothing on the machine, but for beginning and ending synchronised actions.
         callers: Program and line of the blocks that have called its program, from the main program on.
+        is_part: It runs as a part of the block that has called it: the shape of a turning cycle.
     """
 
     program: str
@@ -44,6 +45,7 @@ class Block:
     takes_back: TakesBack = NOTHING_BACK
     is_silent: bool = False
     callers: Places = ()
+    is_part: bool = False
 
     @property
     def levels(self) -> Places:

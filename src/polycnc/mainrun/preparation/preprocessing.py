@@ -95,6 +95,7 @@ class Preprocessing:
         finished: The program is at its end, or none runs.
         revised: The speeds ahead have to be worked out again.
         has_caught_up: Everything that the channel has written is executed.
+        last_block: The block that has ended the program, where it counts for single block operation; else empty.
         queue: Takes pieces from the items, and lays them out again for other overrides.
         on_step: Called when the channel has run a block; None where nobody asks.
         stop_behind_next: Preparation waits behind the next block that does something on the machine.
@@ -107,6 +108,7 @@ class Preprocessing:
         self.toolpath = Toolpath(machine.channel_axes(number)) if toolpath is None else toolpath
         self.toolpath.hand_on_blocks(self._take, keep=toolpath is not None)
         self.on_step: Callable[[], None] | None = None
+        self.last_block = ""
         self.stop_behind_next, self._is_noting, self._cut = False, False, -1
         self.items: deque[Item] = deque()
         self.channel: Channel
@@ -313,6 +315,8 @@ class Preprocessing:
         channel, is_next = self.channel, self.stop_behind_next
         wait = next(self._run, None) if self._run is not None else None
         level = channel.stack[-1] if channel.stack else None
+        if wait is not None and wait.reason is Why.SINGLE_BLOCK:
+            self.last_block = wait.code if channel.finished else ""
         is_block = len(channel.toolpath.chunk) > 0 or (wait is not None and wait.reason in BEHIND_A_BLOCK)
         if level is not None and (is_block or self._is_sought(level)):
             halts = wait is not None and wait.reason is Why.SINGLE_BLOCK and not channel.finished
@@ -320,7 +324,7 @@ class Preprocessing:
             key = level.program_number, line
             self._blocks.note(
                 key, code or (str(line) if halts else ""), channel.mode.codes, channel.takes_back,
-                _callers(channel.stack),
+                _callers(channel.stack), is_part=level.kind is LevelKind.SHAPE,
             )  # fmt: skip
             channel.takes_back = NOTHING_BACK
         self._stopped = self._rows.skips = self.has_caught_up = False

@@ -42,7 +42,7 @@ class RunBlocks:
 
     def __init__(self, items: deque[Item], programs: list[str]) -> None:
         self._items, self._programs = items, programs
-        self._run: deque[tuple[Key, str, Mapping[str, str], TakesBack, tuple[Key, ...]]] = deque()
+        self._run: deque[tuple[Key, str, Mapping[str, str], TakesBack, tuple[Key, ...], bool]] = deque()
         self._open: tuple[Key, str] | None = None
 
     def clear(self) -> None:
@@ -51,10 +51,17 @@ class RunBlocks:
         self._open = None
 
     def note(
-        self, key: Key, code: str, modal: Mapping[str, str], takes_back: TakesBack, callers: tuple[Key, ...]
+        self,
+        key: Key,
+        code: str,
+        modal: Mapping[str, str],
+        takes_back: TakesBack,
+        callers: tuple[Key, ...],
+        *,
+        is_part: bool,
     ) -> None:
         """The channel has run a block; `code` where single block halts behind it, as `BlockEnd` has it."""
-        self._run.append((key, code, modal, takes_back, callers))
+        self._run.append((key, code, modal, takes_back, callers, is_part))
 
     def enter(self, key: Key, *, is_silent: bool = False) -> None:
         """A row of a block comes: every block run before that one is over."""
@@ -64,10 +71,10 @@ class RunBlocks:
             return  # a row that a stage has added counts for the block before it
         self._end()
         while self._run:
-            found, code, modal, back, called_from = self._run.popleft()
+            found, code, modal, back, called_from, is_part = self._run.popleft()
             silent, names = is_silent and found == key, self._programs
             callers = tuple((names[program], line) for program, line in called_from)
-            self._items.append(Block(names[found[0]], found[1], modal, back, silent, callers))
+            self._items.append(Block(names[found[0]], found[1], modal, back, silent, callers, is_part))
             self._open = (found, code)
             if found == key:
                 return

@@ -69,17 +69,26 @@ def hold(pieces: Floats, first: int, n: int, state: State) -> None:
 
 
 def hold_behind(pieces: Floats, p: int, n: int, state: State) -> int:
-    """Spread the bounds of the joint before piece p backwards; the number of cuts made there."""
+    """Spread the bounds of the joint before piece p backwards; the number of cuts made there.
+
+    Pieces that are slower than the joint take more of the half window than their length says: so no joint reaches
+    farther than `run.top2` over rows before it says, however fast it is, and those that lie farther are final.
+    """
     width, cuts, joint = piece_width(n), 0, p * piece_width(n)
     left, cap2, pull = (
         pieces[joint + PieceRecord.HOLD_WAY],
         pieces[joint + PieceRecord.HOLD2],
         pieces[joint + PieceRecord.HOLD_PULL],
     )
-    q = p - 1
+    q, pace2 = p - 1, cap2
     while q >= 0 and left > SLIVER_MM and pieces[q * width + PieceRecord.FORM] != Form.TIMED:
         at = q * width
-        length = pieces[at + PieceRecord.LENGTH]
+        length, own2 = pieces[at + PieceRecord.LENGTH], min(cap2, pieces[at + PieceRecord.CAP2])
+        if own2 != pace2:
+            left *= sqrt(own2 / pace2)
+            pace2 = own2
+            if left <= SLIVER_MM:
+                break
         bounds = cap2 < pieces[at + PieceRecord.CAP2] or pull < pieces[at + PieceRecord.PULL]
         if bounds and worth_cutting(pieces, at, left) and cut(pieces, q, n, state, length - left):
             cuts += 1

@@ -21,7 +21,6 @@ from polycnc.toolpath.events import (
     ToolSelection,
 )
 from polycnc.toolpath.kinds import RAPID_KINDS
-from polycnc.toolpath.modes import CornerMode
 from polycnc.toolpath.table import CURVE_WIDTH
 
 if TYPE_CHECKING:
@@ -358,7 +357,7 @@ class Waits:
         return self.contexts[number].begins_early(self.contexts[before], rapid=rapid)
 
     def _exact(self, number: int) -> bool:
-        return self.contexts[number].corner_mode is CornerMode.EXACT_STOP
+        return self.contexts[number].stops
 
 
 def _nobody(_step: Begins | Awaits) -> None:

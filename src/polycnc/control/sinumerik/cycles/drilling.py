@@ -88,6 +88,7 @@ class Acts(NamedTuple):
         is_rigid: Stops wait for the end of TAP strokes that follow each other, as in blocks of G331 and G332.
         spindle: SPINDLE strokes.
         shift: Way of SHIFT strokes along u, v and w.
+        angle: Where ORIENT strokes let the spindle stand, degrees.
     """
 
     feed: float
@@ -95,6 +96,7 @@ class Acts(NamedTuple):
     is_rigid: bool = False
     spindle: Callable[[float], None] = lambda _value: None
     shift: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    angle: float = 0.0
 
 
 def perform(moves: Moves, strokes: Iterator[Stroke], acts: Acts) -> None:
@@ -118,9 +120,14 @@ def perform(moves: Moves, strokes: Iterator[Stroke], acts: Acts) -> None:
             case Action.SPINDLE:
                 acts.spindle(value)
             case Action.SHIFT:
-                u, v = moves.point
-                du, dv, dw = (value * way for way in acts.shift)
-                moves.rapid(u + du if du else None, v + dv if dv else None, moves.level + dw)
+                du, dv, dw = acts.shift
+                moves.rapid(
+                    center[0] + value * du if du else None,
+                    center[1] + value * dv if dv else None,
+                    moves.level + value * dw,
+                )
+            case Action.ORIENT:
+                moves.orient(acts.angle)
             case Action.HALT:
                 moves.stop()
         moves.end_block()

@@ -16,6 +16,7 @@ DATA: dict[str, tuple[int, bool | float | str]] = {
     "$MN_M_NO_FCT_CYCLE_NAME": (10716, ""),
     "$MN_T_NO_FCT_CYCLE_NAME": (10717, ""),
     "$MN_M_NO_FCT_CYCLE_PAR": (10718, -1),
+    "$MN_EXTERN_GCODE_SYSTEM": (10881, 0),
     "$MN_INDEX_AX_LENGTH_POS_TAB_1": (10900, 0),
     "$MN_INDEX_AX_POS_TAB_1": (10910, 0.0),
     "$MN_INDEX_AX_LENGTH_POS_TAB_2": (10920, 0),
@@ -229,6 +230,7 @@ DATA: dict[str, tuple[int, bool | float | str]] = {
     "$SA_SPIND_MIN_VELO_G25": (43210, 0.0),
     "$SA_SPIND_MAX_VELO_G26": (43220, 100000000.0),
     "$SA_SPIND_MAX_VELO_LIMS": (43230, 100000000.0),
+    "$SA_M19_SPOS": (43240, 0.0),
     "$SA_ASSIGN_FEED_PER_REV_SOURCE": (43300, 0),
     "$SA_AA_OFF_LIMIT": (43350, 100000000.0),
     "$SA_WORKAREA_PLUS_ENABLE": (43400, False),
@@ -249,6 +251,7 @@ DATA: dict[str, tuple[int, bool | float | str]] = {
     "$SA_OSCILL_CTRL_MASK": (43770, 0),
     "$SA_OSCILL_IS_ACTIVE": (43780, 0),
     "$SA_OSCILL_START_POS": (43790, 0.0),
+    "$SCS_ISO_M_RETRACTION_DIR": (55806, 0),
 }
 
 #: Data that are lengths, or feeds; those of an axis where it is no rotary one.

@@ -160,11 +160,12 @@ class ProfileStage(Stage):
         width = last - first
         timed = self._channel.toolpath.contexts[move.context].feed_mode is FeedMode.INVERSE_TIME
         if not knots.is_divisible(move):
-            move.feed = course.at(last) if last >= 1.0 else course.mean(first, last)
+            feed = course.at(last) if last >= 1.0 else course.mean(first, last)
+            move.feed = feed / width if timed else feed
             self.after.move(move)
             return
         mean = course.mean(first, last)
-        seconds = 1.0 / mean if timed else length / mean
+        seconds = width / mean if timed else length / mean
         ends = course.slices(most=max(int(seconds / _LEAST_S), 1))
         parts = [(end - first) / width for end in ends if first < end < last - 1e-12] + [1.0]
         move.feed = course.at(last)
@@ -172,6 +173,6 @@ class ProfileStage(Stage):
         for piece, part in zip(knots.cut(self._channel, move, parts), parts, strict=True):
             a, b = first + width * before, first + width * part
             feed = course.mean(a, b) if b < 1.0 else course.at(1.0)
-            piece.feed = feed / (part - before) if timed else feed
+            piece.feed = feed / (b - a) if timed else feed
             self.after.move(piece)
             before = part

@@ -112,7 +112,8 @@ def wheel_speed(on: bool) -> Callable[[SinumerikChannel, Arguments], None]:
         number = arguments.whole(args[0]) if args and args[0] is not None else tools.active
         if on and number != tools.active:
             raise not_supported(f"GWPSON({number})")
-        if on and (not number or radius(channel, tools.tools[number]) <= 0.0):
+        tool = tools.tools.get(number)
+        if on and (tool is None or radius(channel, tool) <= 0.0):
             raise AlarmError("10750")
         memory.spindles.get().has_wheel_speed = on
 

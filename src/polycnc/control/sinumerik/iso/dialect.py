@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.sinumerik.iso import frames, holes, offsets, reference, subprograms
+from polycnc.control.sinumerik.iso import frames, holes, offsets, reference, subprograms, systems, turning
 from polycnc.control.sinumerik.iso.running import IsoRun
 from polycnc.language.sinumerik.errors import NcSyntaxError
 from polycnc.language.sinumerik.iso_dialect import MOTIONS
@@ -22,6 +22,7 @@ FUNCTIONS: dict[str, Callable[[IsoRun, IsoWord], None]] = {
     "G30": reference.return_to,
     "G31": reference.to_probe,
     "G43": offsets.select,
+    "G44": offsets.select,
     "G49": offsets.cancel,
     "G50": frames.unscale,
     "G51": frames.scale,
@@ -45,9 +46,20 @@ FUNCTIONS: dict[str, Callable[[IsoRun, IsoWord], None]] = {
     "M99": subprograms.return_,
 }
 
+#: Those of a lathe, in the names of code system B.
+TURNING_FUNCTIONS = {
+    **{
+        name: FUNCTIONS[name]
+        for name in ("G28", "G30", "G31", "G54", "G54.1", "G65", "G66", "G67", "M98", "M99")
+    },
+    "G33": turning.thread,
+    **dict.fromkeys(turning.CYCLES, turning.choose),
+    "G92": turning.limit_speed,
+}
+
 #: Functions of which a block may hold one; the words told in the control's own language have its groups.
 GROUPS = (
-    frozenset(("G43", "G49")),
+    frozenset(("G43", "G44", "G49")),
     frozenset(("G50", "G51")),
     frozenset(("G50.1", "G51.1")),
     frozenset(("G68", "G69")),
@@ -57,7 +69,22 @@ GROUPS = (
     frozenset(("G54", "G54.1", "G55", "G56", "G57", "G58", "G59")),
     # They read the axis words.
     frozenset(
-        ("G10", "G28", "G30", "G31", "G50.1", "G51", "G51.1", "G52", "G53", "G65", "G66", "G68", "G92")
+        (
+            "G10",
+            "G28",
+            "G30",
+            "G31",
+            "G50.1",
+            "G51",
+            "G51.1",
+            "G52",
+            "G53",
+            "G65",
+            "G66",
+            "G68",
+            "G92",
+            *turning.CYCLES,
+        )
     ),
 )
 #: Letters that a block may hold several times.
@@ -96,15 +123,21 @@ def run(channel: SinumerikChannel, block: IsoBlock, perform: Callable[[str], Non
         AlarmError: PC0001 for a word of the dialect that is not executed; what `check`, the functions and the told
             words raise.
     """
+    is_lathe = channel.memory.transverse >= 0
+    if is_lathe:
+        block = systems.of_system(block, channel.memory.data.integer("$MN_EXTERN_GCODE_SYSTEM"))
     check(block)
     running = IsoRun(channel, block)
+    functions = TURNING_FUNCTIONS if is_lathe else FUNCTIONS
     for word in block.words:
-        function = FUNCTIONS.get(word.name)
+        function = functions.get(word.name)
         if function is not None:
             running.taken.append(word)
             function(running, word)
     if any(code in MOTIONS for code in block.codes):
         holes.end(running)
+    if is_lathe:
+        turning.act(running)
     holes.drill(running)
     offsets.check(running)
     motion = channel.mode["motion"]

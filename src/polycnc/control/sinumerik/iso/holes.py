@@ -1,4 +1,4 @@
-"""Drilling cycles of the ISO dialect: G73, G74, G81 to G86, G88 and G89 (strokes: `polycnc.cycles.drilling`).
+"""Drilling cycles of the ISO dialect: G73, G74, G76 and G81 to G89 (strokes: `polycnc.cycles.drilling`).
 
 A cycle is modal: it drills behind every block with words of axes or R until G80 or a motion function. The tool comes at
 rapid over the hole, then to R; it ends where it began (G98) or at R (G99). R and the depth are absolute, or under G91 R
@@ -45,23 +45,33 @@ def _peck(hole: Hole) -> Iterator[Stroke]:
 
 
 class HoleKind(NamedTuple):
-    """A row of the table of cycles: its strokes, the words beside R and the depth, the hand of its tap (0 for none)."""
+    """A row of the table of cycles: its strokes, the words beside R and the depth, the hand of its tap (0 for none).
+
+    One that `shifts` lets the spindle stand and leads the tool off the wall.
+    """
 
     strokes: Callable[[Hole], Iterator[Stroke]]
     words: str = ""
     hand: int = 0
+    shifts: bool = False
 
 
-#: Drilling cycles by code. Q is the depth of a peck, P the time at the bottom in milliseconds.
+#: SD55806: the way off the wall in the plane (G17: X, Y; G18: Z, X; G19: Y, Z); 0 is as 2.
+SHIFTS = {0: (-1.0, 0.0), 1: (1.0, 0.0), 2: (-1.0, 0.0), 3: (0.0, 1.0), 4: (0.0, -1.0)}
+#: It comes from below, and ends where it began (G98).
+BACK_BORING = "G87"
+#: Drilling cycles by code. Q is the depth of a peck or the way off the wall, P the time at the bottom in milliseconds.
 KINDS = {
     "G73": HoleKind(holes.peck_breaking_chips, "QP"),
     "G74": HoleKind(holes.tap, "P", -1),
+    "G76": HoleKind(holes.bore_and_shift, "QP", shifts=True),
     "G81": HoleKind(holes.drill),
     "G82": HoleKind(holes.drill, "P"),
     "G83": HoleKind(_peck, "QP"),
     "G84": HoleKind(holes.tap, "P", 1),
     "G85": HoleKind(holes.bore),
     "G86": HoleKind(holes.bore_and_stop, "P"),
+    "G87": HoleKind(holes.bore_back, "QP", shifts=True),
     "G88": HoleKind(holes.bore_and_halt, "P"),
     "G89": HoleKind(holes.bore, "P"),
 }
@@ -119,7 +129,7 @@ def drill(running: IsoRun) -> None:
     """While a cycle is modal: take its words, and drill behind a block with words of axes or R.
 
     Raises:
-        AlarmError: PC0001 for words that the cycle does not have, and for repeats with further axes.
+        AlarmError: PC0001 for words that the cycle does not have, for repeats with further axes, and for G87 in G99.
     """
     cycle = running.state.cycle
     if cycle is None or running.positions or "G4" in running.block.codes:
@@ -129,6 +139,8 @@ def drill(running: IsoRun) -> None:
     axes = running.axis_words()
     depth = running.take(third) if running.block.find(third) is not None else None
     kind = KINDS[cycle.code]
+    if cycle.code == BACK_BORING and running.state.to_r:
+        raise running.refused_block(f"{BACK_BORING} G99")
     for letter in "QP":
         if letter in words and letter not in kind.words:
             raise running.refused(words[letter])
@@ -186,8 +198,19 @@ def _go_on(
     if not count:
         return
     u, v = (position[column] - start[column] if incremental else 0.0 for column in columns[:2])
-    plan = partial(_plan, hole_of(cycle, to_r=running.state.to_r), KINDS[cycle.code], count, (u, v))
+    hole = hole_of(cycle, to_r=running.state.to_r)
+    plan = partial(_plan, hole, KINDS[cycle.code], _shift(running, cycle), count, (u, v))
     calls.begin(channel, f"G291 {cycle.code}", Cycle("", plan), (), 0)
+
+
+def _shift(running: IsoRun, cycle: HoleCycle) -> Point:
+    """The way off the wall in the plane, mm: Q, as SD55806 directs it; PC0001 for another direction."""
+    if not KINDS[cycle.code].shifts:
+        return 0.0, 0.0
+    direction = SHIFTS.get(running.channel.memory.data.integer("$SCS_ISO_M_RETRACTION_DIR"))
+    if direction is None:
+        raise running.refused_block("SD55806")
+    return cycle.peck * direction[0], cycle.peck * direction[1]
 
 
 def hole_of(cycle: HoleCycle, *, to_r: bool) -> Hole:
@@ -218,17 +241,19 @@ def hole_of(cycle: HoleCycle, *, to_r: bool) -> Hole:
 # ---- the strokes
 
 
-def _plan(hole: Hole, kind: HoleKind, count: int, step: Point, moves: Moves, _a: Arguments) -> None:
+def _plan(
+    hole: Hole, kind: HoleKind, shift: Point, count: int, step: Point, moves: Moves, _a: Arguments
+) -> None:
     """One hole after the other, each a step further."""
     first = moves.point
     for number in range(count):
         if number:
             moves.rapid(first[0] + number * step[0], first[1] + number * step[1])
             moves.end_block()
-        drilling.perform(moves, kind.strokes(hole), _acts(moves, kind))
+        drilling.perform(moves, kind.strokes(hole), _acts(moves, kind, shift))
 
 
-def _acts(moves: Moves, kind: HoleKind) -> drilling.Acts:
+def _acts(moves: Moves, kind: HoleKind, shift: Point) -> drilling.Acts:
     """What the strokes mean: a tap turns its own way, other tools as they turn now."""
     feed, direction = moves.channel.feed, kind.hand or moves.spindle.direction
 
@@ -243,4 +268,5 @@ def _acts(moves: Moves, kind: HoleKind) -> drilling.Acts:
 
     if kind.hand:
         drilling.turning(moves, direction)
-    return drilling.Acts(feed, tap=tap, spindle=spindle)
+    angle = moves.memory.data.number("$SA_M19_SPOS", f"S{moves.spindle.number}")
+    return drilling.Acts(feed, tap=tap, spindle=spindle, shift=(*shift, 0.0), angle=angle)

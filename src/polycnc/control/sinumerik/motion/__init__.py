@@ -1,7 +1,6 @@
 """Motion of a block.
 
 `moves` (G0, G1, G33, G4 …), `polar` words, `circles`, `involutes`, `splines` with `points_stage` (A, C),
-`spline_stage` (B) and `polynomial_groups`, `chords` of a curve, `indexing`, `repositioning`; `last_move` is where a
-move came from, for CT;
+`spline_stage` (B) and `polynomial_groups`, `indexing`, `repositioning`; `last_move` is where a move came from, for CT;
 `contour_reading` catches the moves of blocks that describe a contour.
 """

@@ -10,6 +10,7 @@ from math import cos, hypot, pi, radians, sin
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.chord_path import ChordPath
+from polycnc.channel.moves.knots import write_chords
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move
 from polycnc.control.sinumerik import tables
@@ -17,7 +18,6 @@ from polycnc.control.sinumerik.block import plain
 from polycnc.control.sinumerik.block.outside_feeds import take_block_feed
 from polycnc.control.sinumerik.block.positions import Dimension, is_diameter, number, target
 from polycnc.control.sinumerik.motion import contour_reading, moves
-from polycnc.control.sinumerik.motion.chords import write_chords
 from polycnc.control.sinumerik.motion.last_move import ArcOfMove, LastMove
 from polycnc.control.sinumerik.motion.polar import Polar
 from polycnc.control.sinumerik.tables import length_factor

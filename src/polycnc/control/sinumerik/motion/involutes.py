@@ -11,9 +11,9 @@ from math import atan, hypot, radians, sqrt
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.chord_path import ChordPath
+from polycnc.channel.moves.knots import write_chords
 from polycnc.control.sinumerik.block.positions import number, target
 from polycnc.control.sinumerik.motion import moves
-from polycnc.control.sinumerik.motion.chords import write_chords
 from polycnc.control.sinumerik.motion.circles import RoundACentre
 from polycnc.control.sinumerik.motion.last_move import ArcOfMove, LastMove
 from polycnc.control.sinumerik.tools.tool_plane import CHORD_ERROR_MM

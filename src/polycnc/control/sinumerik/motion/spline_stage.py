@@ -7,6 +7,8 @@ The curve begins at the first and ends at the last control point, and touches th
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import groupby
+from operator import itemgetter
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.path import Rank, Stage
@@ -30,7 +32,7 @@ class SplineStage(Stage):
 
     Args:
         plane: The plane in which the spline began.
-        passing: Gives the context of a chord that another one of its block follows, for that of the block.
+        join: Makes one motion of the chords of a block.
 
     Attributes:
         plane: The plane in which the spline began; another one ends it.
@@ -39,8 +41,8 @@ class SplineStage(Stage):
 
     rank = Rank.SPLINE
 
-    def __init__(self, plane: Plane, passing: Callable[[int], int] = int) -> None:
-        self.plane, self._passing = plane, passing
+    def __init__(self, plane: Plane, join: Callable[[list[Move]], object] = len) -> None:
+        self.plane, self._join = plane, join
         self.columns: frozenset[int] | None = None
         self._held: list[Move] = []
         self._events: list[tuple[int, PlacedEvent]] = []
@@ -76,16 +78,19 @@ class SplineStage(Stage):
         if not held:
             return
         done, before = 0, held[0].start
-        points = list(self._curve(held))
-        behind = [place for place, _ in points[1:]] + [-1]
-        for (place, point), following in zip(points, behind, strict=True):
+        for place, points in groupby(self._curve(held), key=itemgetter(0)):
             while events and events[0][0] <= min(done, place):
                 self.after.event(events.pop(0)[1])
-            move = held[min(place, len(held) - 1)]
-            if any(abs(a - b) > NO_WAY for a, b in zip(before, point, strict=True)):
-                context = self._passing(move.context) if following == place else move.context
-                self.after.move(replace(move, start=before, end=point, context=context, parameters=()))
-            before, done = point, place + 1
+            chords = []
+            for _, point in points:
+                if any(abs(a - b) > NO_WAY for a, b in zip(before, point, strict=True)):
+                    chords.append(replace(held[place], start=before, end=point, parameters=()))
+                before = point
+            if chords:
+                self._join(chords)
+            for chord in chords:
+                self.after.move(chord)
+            done = place + 1
         for _, event in events:
             self.after.event(event)
 

@@ -13,6 +13,7 @@ from math import hypot
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from polycnc.channel.moves.chord_path import ChordPath
+from polycnc.channel.moves.knots import write_chords
 from polycnc.channel.moves.path import Recorder
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.block import arguments
@@ -21,7 +22,6 @@ from polycnc.control.sinumerik.block.positions import AxisTerm, axis_term, numbe
 from polycnc.control.sinumerik.curve_tables.recorder import recorder_of
 from polycnc.control.sinumerik.feed.pace import Overrides
 from polycnc.control.sinumerik.motion import moves
-from polycnc.control.sinumerik.motion.chords import write_chords
 from polycnc.control.sinumerik.motion.points_stage import POINT, PointsStage, direction_before
 from polycnc.control.sinumerik.motion.polynomial_groups import AXES, PolynomialGroups
 from polycnc.control.sinumerik.motion.spline_stage import TOLERANCE_MM
@@ -303,18 +303,23 @@ def straight_to_ends(draft: Draft) -> Step | None:
 
 
 def _take_polynomials(draft: Draft) -> tuple[list[Polynomial], int | None]:
-    """The words `PO[axis]=` and `axis=PO(…)`, and the place of `PO[]=`."""
+    """The words `PO[axis]=` and `axis=PO(…)`, and the place of `PO[]=`.
+
+    The end points beside a denominator do not depend on G90 and G91 (job planning 4.5).
+    """
     found: list[Polynomial] = []
-    denominator = None
-    for position, word in draft.open_words():
+    words = list(draft.open_words())
+    denominator = next((k for k, word in words if word.address == "PO" and word.index == ""), None)
+    usual = "" if denominator is None else "AC"
+    for position, word in words:
         name = word.index.name if isinstance(word.index, Axis) else ""
-        if word.address == "PO" and word.index == "":
-            denominator = position
+        if position == denominator:
+            pass
         elif word.address == "PO" or (word.modifier == "PO" and word.address in draft.memory.columns):
             if word.address == "PO" and not name:
                 raise WordAlarm("12040", position, text=str(word.index or ""))
             column = draft.memory.column(name or word.address)
-            way = word.modifier if word.address == "PO" else ""
+            way = (word.modifier if word.address == "PO" else "") or usual
             found.append(Polynomial(position, axis_term(draft.channel, draft.mode, position, column, way)))
         else:
             continue

@@ -10,10 +10,11 @@ Source: job planning 7.5.1 to 7.5.4.
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 from math import acos, hypot, radians, sin, sqrt
 from typing import TYPE_CHECKING
 
-from polycnc.channel.moves.knots import knot_context
+from polycnc.channel.moves.knots import join
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move, Rank, Stage
 from polycnc.compensation.spatial import CHORD_ERROR_MM, Directions
@@ -175,13 +176,16 @@ class FaceStage(Stage):
         count = self._pieces(move, first, last)
         if move.is_arc:
             count = max(count, parts_for_chord_error(path.radius, path.sweep, CHORD_ERROR_MM))
-        for k in range(1, count + 1):
-            piece = move
-            if k < count or move.is_arc:
-                piece = replace(move, kind=Kind.SPLINE, center=None, turns=0.0, turning=None)
-            if k < count:  # displays show one motion
-                piece.context = knot_context(self._channel, move.context)
-            self._emit(piece, path.at(k / count), unit(_between(first, last, k / count)))
+        places = [path.at(k / count) for k in range(count + 1)]
+        chords = [
+            replace(move, kind=Kind.SPLINE, center=None, turns=0.0, turning=None, start=start, end=end)
+            for start, end in pairwise(places)
+        ]
+        if not move.is_arc:
+            chords[-1].kind, chords[-1].turning = move.kind, move.turning
+        join(self._channel, chords)
+        for k, chord in enumerate(chords, 1):
+            self._emit(chord, chord.end, unit(_between(first, last, k / count)))
 
     def _check_square(self, path: MovePath, first: Vector, last: Vector) -> None:
         """10769 for a normal that lies along the path, at its start or end (6.2.5)."""

@@ -64,6 +64,7 @@ class Rules(NamedTuple):
         system: Function of group 56.
         mirrored: Axes that the frame mirrors.
         work: From the work to the basic coordinate system, without scale.
+        against: G44 of ISO code: the lengths count against the tool.
     """
 
     plane: str = "G17"
@@ -78,6 +79,7 @@ class Rules(NamedTuple):
     system: str = WITH_TOOL
     mirrored: tuple[bool, bool, bool] = (False, False, False)
     work: Frame = IDENTITY
+    against: bool = False
 
 
 class Lengths(NamedTuple):
@@ -109,9 +111,10 @@ def along_axes(edge: Edge, rules: Rules, plane: str, location: int, added: Seque
     for i, axis in enumerate(axes_of(edge, rules, plane)):
         mirrored = rules.mirrored[axis]
         measured = edge.values[DP_LENGTH + i] + edge.values[DP_BASE_LENGTH + i]
+        measured = -measured if rules.against else measured
         turning[axis] += (-measured if mirrored and rules.mirrors_lengths else measured) + added[i]
         sign = -1.0 if mirrored and rules.mirrors_wear else 1.0
-        sign = -sign if rules.inverts_wear else sign
+        sign = -sign if rules.inverts_wear != rules.against else sign
         if rules.sign_by_tip and edge.is_turning and i < 2 and edge.values[DP_TIP] in TURNED_BY_TIP[i]:
             turning_sign = -sign
         else:
@@ -133,7 +136,7 @@ def _wear(edge: Edge, i: int, location: int) -> tuple[float, float, float]:
 def _sign_apart(rules: Rules, axis: int) -> float:
     """Sign of wear in a system of its own: edge positions do not count, a mirror not where the frame leads it."""
     mirrored = rules.mirrored[axis] and rules.mirrors_wear and rules.system != OF_WORK
-    return -1.0 if mirrored != rules.inverts_wear else 1.0
+    return -1.0 if mirrored != (rules.inverts_wear != rules.against) else 1.0
 
 
 def _sorted(rules: Rules, turning: list[float], apart: list[float]) -> Lengths:

@@ -5,7 +5,9 @@ from __future__ import annotations
 from math import hypot
 from typing import TYPE_CHECKING
 
+from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.tools.lengths import Rules
+from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import Frame
 
 if TYPE_CHECKING:
@@ -13,6 +15,17 @@ if TYPE_CHECKING:
 
 #: SD42950: the lengths of every tool are those of a turning tool.
 AS_TURNING = 2
+
+
+@dataclass(slots=True)
+class LengthSign(State, lifetime=Lifetime.RESET):
+    """How ISO code chooses lengths.
+
+    Attributes:
+        against: G44: those of edges that are selected from here on count against the tool.
+    """
+
+    against: bool = False
 
 
 def rules_of(channel: SinumerikChannel) -> Rules:
@@ -35,6 +48,7 @@ def rules_of(channel: SinumerikChannel) -> Rules:
         channel.mode["wear_system"],
         total.mirrored,
         unscaled(total.frame),
+        channel.mode["language"] == "G291" and LengthSign.of(channel).against,
     )
 
 

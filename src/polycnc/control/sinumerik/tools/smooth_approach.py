@@ -7,6 +7,9 @@ A contour is reached and left along a straight line, a quarter or a half circle 
 P2 lies DISCL above the machining plane. With G341 the way P2 to P3 goes down to the plane and P3 to P4 lies in it;
 with G340 P3 is P2, and P3 to P4 is a slope or a helix. A retraction is the same backwards.
 
+Up to P2 the speed of the block before holds (rapid under G0), from there on the block's own F. FAD is the speed of
+P2 to P3, with G340 that of P3 to P4.
+
 DISR is the distance of the tool's edge from the contour for lines, and the radius of the tool centre's path for arcs.
 What is handed on is the contour P3 to P4 of the programmed side; radius compensation moves it as any other contour.
 As its direction is that of the contour's first move, an approach waits for that move.
@@ -14,6 +17,7 @@ As its direction is that of the contour's first move, an approach waits for that
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import isnan, nan
 from typing import TYPE_CHECKING
 
@@ -136,6 +140,7 @@ def approach(draft: Draft) -> Step | None:
     third = columns[2]
     names_point = any(term.column in columns[:2] for term in terms)
     names_depth = any(term.column == third for term in terms)
+    tells_feed = any(word.address == "F" for word in draft.block.words)
     draft.steps.append(_remember_feed)
 
     def run(channel: SinumerikChannel, values: Values) -> None:
@@ -155,6 +160,10 @@ def approach(draft: Draft) -> Step | None:
         touch = end if names_point else None
         deep = end[third] if names_depth else nan
         infeed = words.infeed_speed(draft, channel, values)
+        if isnan(infeed):
+            infeed = feed if tells_feed else nan
+        elif not shape.in_plane:
+            feed = infeed
         waiting = Approach(shape, place, start, touch, clearance, deep, feed, infeed)
         LastMove.of(channel).start = None
         channel.coordinates.arrive(end)
@@ -196,15 +205,17 @@ def retract(draft: Draft) -> Step | None:
         if third >= 0 and not shape.in_plane:
             point[third] = height
         center = shape.center(touch, direction)
-        with channel.intermediate(shape.origin):
+        infeed = words.infeed_speed(draft, channel, values)
+        feed = moves.checked_feed(old if shape.in_plane or isnan(infeed) else infeed)
+        with channel.under(replace(channel.context, origin=shape.origin)):
             if center is None:
-                moves.line(channel, Kind.FEED, point, moves.checked_feed(old))
+                moves.line(channel, Kind.FEED, point, feed)
             else:
-                circles.arc(channel, columns, axes, point, center, moves.checked_feed(old), shape.ccw)
+                circles.arc(channel, columns, axes, point, center, feed, shape.ccw)
         if draft.codes.get("compensation") == "G40":
             stages.leave_contour(channel)
             channel.context_changed()
-        _away(channel, draft, third, point, end if names_point else None, height, end, words, values)
+        _away(channel, draft, third, point, end if names_point else None, height, end, infeed)
 
     return run
 
@@ -217,14 +228,12 @@ def _away(
     goal: list[float] | None,
     height: float,
     end: list[float],
-    words: Words,
-    values: Values,
+    infeed: float,
 ) -> None:
     """From the end of the line or arc up to the height of P0, and to P0 in the plane."""
     is_rapid = draft.mode["motion"] == "G0"
     kind, feed = (Kind.RAPID, nan) if is_rapid else (Kind.FEED, moves.checked_feed(channel.feed))
     if third >= 0:
-        infeed = words.infeed_speed(draft, channel, values)
         slow = (kind, feed) if isnan(infeed) else (Kind.FEED, infeed)
         moves.line(channel, slow[0], with_value(point, third, height), slow[1])
         moves.line(channel, kind, with_value(point, third, end[third]), feed)

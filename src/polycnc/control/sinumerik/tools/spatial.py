@@ -13,7 +13,7 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, NamedTuple, Protocol, runtime_checkable
 
-from polycnc.channel.moves.knots import knot_context
+from polycnc.channel.moves.knots import join
 from polycnc.compensation.limiting_surface import Mill, across, infeed
 from polycnc.compensation.spatial import SpatialStage
 from polycnc.compensation.spatial_rules import (
@@ -172,7 +172,7 @@ def select_side(channel: SinumerikChannel) -> None:
                 side,
                 _corners(channel),
                 _rules(channel),
-                partial(knot_context, channel),
+                partial(join, channel),
             )
         )
     stage.depth = Contour.of(channel).depth_mm

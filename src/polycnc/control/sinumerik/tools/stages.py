@@ -12,7 +12,7 @@ from functools import partial
 from math import nan
 from typing import TYPE_CHECKING
 
-from polycnc.channel.moves.knots import join, passing_context
+from polycnc.channel.moves.knots import Motions, join
 from polycnc.compensation.corner import CornerPolicy, CornerStage, CornerViolation, Shape
 from polycnc.compensation.cutter import CutterCompensation
 from polycnc.compensation.plane import Plane
@@ -76,9 +76,7 @@ def cutter(channel: SinumerikChannel) -> CutterCompensation:
     change_plane(channel)
     stage = channel.path.find(CutterCompensation)
     if stage is None:
-        stage = channel.path.put(
-            CutterCompensation(plane(channel), _G450, VIOLATIONS, partial(join, channel))
-        )
+        stage = channel.path.put(CutterCompensation(plane(channel), _G450, VIOLATIONS, Motions(channel)))
         suspend(channel)
     return stage
 
@@ -93,7 +91,9 @@ def corner(channel: SinumerikChannel) -> CornerStage:
     """The stage of chamfers and roundings, in the path."""
     change_plane(channel)
     stage = channel.path.find(CornerStage)
-    return stage or channel.path.put(CornerStage(plane(channel), _corners(channel), CORNER_VIOLATIONS))
+    return stage or channel.path.put(
+        CornerStage(plane(channel), _corners(channel), CORNER_VIOLATIONS, Motions(channel))
+    )
 
 
 def _corners(channel: SinumerikChannel) -> CornerPolicy:
@@ -114,7 +114,7 @@ def spline(channel: SinumerikChannel) -> SplineStage:
     """The stage that collects control points, in the path."""
     change_plane(channel)
     return channel.path.find(SplineStage) or channel.path.put(
-        SplineStage(plane(channel), partial(passing_context, channel))
+        SplineStage(plane(channel), partial(join, channel, shows=True))
     )
 
 

@@ -9,9 +9,11 @@ system of the tool in front of compensation, and back behind it.
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 from math import hypot
 from typing import TYPE_CHECKING, NamedTuple
 
+from polycnc.channel.moves.knots import join
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move, Rank, Stage
 from polycnc.compensation.cutter import CutterCompensation
@@ -168,15 +170,29 @@ class OutOfToolPlane(_Led):
 
     rank = Rank.OUT_OF_TOOL_PLANE
 
+    def __init__(
+        self,
+        channel: SinumerikChannel,
+        frame: Frame,
+        geometry: tuple[int, int, int],
+        cutter: CutterCompensation,
+    ) -> None:
+        super().__init__(frame, geometry, cutter)
+        self._channel = channel
+
     def move(self, move: Move) -> None:
         """Pass a move on as the program names it."""
         if move.center is None or circle_image(self.frame, move.normal) is not None:
             super().move(move)
             return
-        at = move.start
-        for end in MovePath(move, self._geometry).chords(CHORD_ERROR_MM):
-            super().move(replace(move, kind=Kind.SPLINE, start=at, end=end, center=None, turns=0.0))
-            at = end
+        ends = list(MovePath(move, self._geometry).chords(CHORD_ERROR_MM))
+        chords = [
+            replace(move, kind=Kind.SPLINE, start=start, end=end, center=None, turns=0.0)
+            for start, end in pairwise((move.start, *ends))
+        ]
+        join(self._channel, chords, shows=True)
+        for chord in chords:
+            super().move(chord)
 
 
 def lead(channel: SinumerikChannel, cutter: CutterCompensation, frame: Frame) -> None:
@@ -190,4 +206,4 @@ def lead(channel: SinumerikChannel, cutter: CutterCompensation, frame: Frame) ->
     if frame is not IDENTITY:
         geometry = channel.coordinates.geometry
         channel.path.put(IntoToolPlane(frame, geometry, cutter))
-        channel.path.put(OutOfToolPlane(frame.inverse(), geometry, cutter))
+        channel.path.put(OutOfToolPlane(channel, frame.inverse(), geometry, cutter))

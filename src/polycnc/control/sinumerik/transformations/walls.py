@@ -12,7 +12,7 @@ from dataclasses import replace
 from math import ceil, degrees, hypot, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
-from polycnc.channel.moves.knots import knot_context
+from polycnc.channel.moves.knots import cut
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import END_OF_BLOCK, Item, Move, PlacedEvent, Rank, Stage
 from polycnc.toolpath.kinds import CCW_KINDS
@@ -155,11 +155,9 @@ class WallStage(Stage):
         path = MovePath(move, self._channel.coordinates.geometry)
         count = max(1, ceil(abs(degrees(path.sweep)) / PIECE_DEG))
         first, last = self._off_arc(move, path, 0.0), self._off_arc(move, path, 1.0)
-        at, within = start, knot_context(self._channel, move.context)
-        for k in range(count):
-            share = (k + 1) / count
-            piece = path.between(k / count, share)
-            piece.context = within if k + 1 < count else move.context
+        at, pieces = start, cut(self._channel, move, [(k + 1) / count for k in range(count)])
+        for k, piece in enumerate(pieces, 1):
+            share = k / count
             goal = self._off_arc(move, path, share) + (1.0 - share) * (start - first) + share * (end - last)
             piece.start, piece.end = _with(piece.start, column, at), _with(piece.end, column, goal)
             self.after.move(piece)

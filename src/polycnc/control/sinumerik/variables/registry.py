@@ -149,7 +149,7 @@ class SystemVariables:
         if name in VARIABLES:
             return VARIABLES[name]
         # `$$` reads machine and setting data in the main run (job planning 1.1.2).
-        if name.startswith(("$M", "$S", "$$M", "$$S")) and name.lstrip("$")[1:3] in ("N_", "C_", "A_"):
+        if _DATUM.match(name) is not None:
             return _machine_datum("$" + name.lstrip("$"), live=name.startswith("$$"))
         if is_known(name):
             raise not_supported(name)
@@ -184,6 +184,8 @@ def _spindle_of(channel: SinumerikChannel, axis: str) -> Spindle | None:
 
 # ---- machine and setting data
 
+#: Machine and setting data of the control, a channel or an axis; those of cycles have an S behind it (`$SCS_`).
+_DATUM = regex(r"\$\$?[MS][NCA]S?_")
 #: Data that polycnc knows by their names alone: these are texts.
 _TEXT_DATUM = regex(r"_(NAME|NAME_TAB|PATH|SERIAL_NUMBER|VERSION)$")
 
@@ -232,6 +234,21 @@ def _inner_frame(channel: SinumerikChannel, _indices: Indices, *, settable: bool
     return inner
 
 
+def _stands(channel: SinumerikChannel) -> tuple[list[float], list[float]]:
+    """Machine and work position now: beside a compensated contour not where its blocks are programmed."""
+    actual, c, toolpath = channel.actual, channel.coordinates, channel.toolpath
+    machine, work = list(actual.machine), list(actual.work)
+    context = toolpath.last_context()
+    if actual.clocked is not None or context is None or channel.mode["compensation"] == "G40":
+        return machine, work
+    real = toolpath.to_machine(toolpath.last_end(), context, c.geometry)
+    seen = c.from_machine(real)
+    for column in c.geometry:  # other axes may have moved without a row
+        if column >= 0:
+            machine[column], work[column] = real[column], seen[column]
+    return machine, work
+
+
 #: The frames between the work and a system: SZS, BZS.
 _INNER: dict[str, Reader] = {
     "settable": in_force.live("$AA_IEN", partial(_inner_frame, settable=False)),
@@ -243,7 +260,7 @@ def _below_the_work(channel: SinumerikChannel, system: str) -> list[float]:
     """Positions of all axes now in a system between the work and the basic one."""
     memory = channel.memory
     inner: NcFrame = _INNER[system](channel, ())
-    point = channel.coordinates.image(inner.frame, links.shown(channel, channel.actual.work))
+    point = channel.coordinates.image(inner.frame, links.shown(channel, _stands(channel)[1]))
     for axis, part in inner.others.items():
         if axis not in memory.columns:  # a spindle
             continue
@@ -254,20 +271,20 @@ def _below_the_work(channel: SinumerikChannel, system: str) -> list[float]:
 
 def _basic(channel: SinumerikChannel) -> list[float]:
     """Positions of all axes now in the basic system: those of the machine, but for what a transformation leads."""
-    machine, seated = list(channel.actual.machine), Transformations.of(channel).seated
+    (machine, work), seated = _stands(channel), Transformations.of(channel).seated
     if seated is None:
         return machine
-    point = seated.basic(list(channel.actual.work))
+    point = seated.basic(work)
     led = {column for column in channel.coordinates.geometry if column >= 0}
     return [point[i] if i in led else value for i, value in enumerate(machine)]
 
 
 _SYSTEMS: dict[str, Callable[[SinumerikChannel], list[float]]] = {
-    "machine": lambda channel: list(channel.actual.machine),
+    "machine": lambda channel: _stands(channel)[0],
     "basic": _basic,
     "base": partial(_below_the_work, system="base"),
     "settable": partial(_below_the_work, system="settable"),
-    "actual": lambda channel: links.shown(channel, channel.actual.work),
+    "actual": lambda channel: links.shown(channel, _stands(channel)[1]),
     "programmed": lambda channel: channel.coordinates.position,
 }
 #: Systems in which positions are no diameters.

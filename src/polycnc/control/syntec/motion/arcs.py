@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import hypot
 from typing import TYPE_CHECKING
 
+from polycnc.channel.moves.knots import passing
 from polycnc.channel.states.state import Lifetime, State, lasting
 from polycnc.control.syntec.coordinates.systems import ScaleState
 from polycnc.control.word_address.block.rules import Rule
@@ -260,7 +261,8 @@ def _three_point_moves(channel: SyntecChannel, mid: list[float], end: list[float
     try:
         center, normal = arcs.three_point_circle(*points)  # type: ignore[arg-type]
     except ValueError:
-        channel.straight(Kind.FEED, places[0], feed, mid)
+        with channel.under(passing(channel.context)):
+            channel.straight(Kind.FEED, places[0], feed, mid)
         channel.straight(Kind.FEED, places[1], feed, end)
         return
     kind = Kind.CCW
@@ -268,7 +270,8 @@ def _three_point_moves(channel: SyntecChannel, mid: list[float], end: list[float
         kind, normal = Kind.CW, (-normal[0], -normal[1], -normal[2])
     others = [i for i in range(len(end)) if i not in c.geometry]
     if any(mid[i] != c.programmed[i] or end[i] != c.programmed[i] for i in others):
-        channel.curve(kind, places[0], feed, center=center, normal=normal, programmed=mid)
+        with channel.under(passing(channel.context)):
+            channel.curve(kind, places[0], feed, center=center, normal=normal, programmed=mid)
     channel.curve(kind, places[1], feed, center=center, normal=normal, programmed=end)
 
 

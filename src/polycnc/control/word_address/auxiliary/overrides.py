@@ -75,9 +75,11 @@ def fixed_feed(channel: WordAddressChannel) -> Iterator[None]:
     state = OverrideState.of(channel)
     before, state.cancelled = state.cancelled, state.cancelled | {FEED}
     channel.context_changed()
-    yield
-    state.cancelled = before
-    channel.context_changed()
+    try:
+        yield
+    finally:
+        state.cancelled = before
+        channel.context_changed()
 
 
 def _taps(channel: WordAddressChannel) -> bool:

@@ -8,15 +8,18 @@ axis (FANUC macro B reference 10.5).
 
 from __future__ import annotations
 
-from math import hypot
+from math import dist, hypot
 from typing import TYPE_CHECKING
 
+from polycnc.channel.moves.knots import passing
 from polycnc.geometry import arcs
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.geometry.vectors import axis_vector
 from polycnc.toolpath import Kind
 from polycnc.toolpath.kinds import arc_kind
+from polycnc.toolpath.modes import FeedMode
+from polycnc.toolpath.table import is_way
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.family import WordAddressChannel
@@ -166,12 +169,13 @@ def write_with_rest(
     middle[u], middle[v] = center
     third = c.geometry[w]
     helix = third >= 0 and abs(on_circle[third] - c.position[third]) > NO_WAY
-    normal = axis_vector(w)
-    channel.curve(
-        arc_kind(ccw=ccw, helix=helix),
-        on_circle,
-        feed,
-        center=(middle[0], middle[1], middle[2]),
-        normal=normal,
-    )
+    held, x, y, z = channel.context, *middle
+    is_whole = not is_way(on_circle, position)
+    with channel.under(held if is_whole else passing(held)):
+        channel.curve(
+            arc_kind(ccw=ccw, helix=helix), on_circle, feed, center=(x, y, z), normal=axis_vector(w)
+        )
+    if held.feed_mode is FeedMode.INVERSE_TIME and not is_whole:
+        # F counts the radius: the tool goes on as fast as on the arc.
+        feed *= arcs.radius_of(center, begin) / dist(on_circle, position)
     channel.straight(Kind.FEED, position, feed, programmed)

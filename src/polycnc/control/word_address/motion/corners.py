@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.channel.moves.knots import Motions
 from polycnc.compensation.corner import CornerStage, CornerViolation, Shape
 from polycnc.compensation.plane import Plane
 from polycnc.control.word_address.block.rules import Rule
@@ -54,7 +55,7 @@ def corner_stage(channel: WordAddressChannel) -> CornerStage:
     alarms = channel.control.alarms
     codes = {violation: alarms[mistake] for violation, mistake in MISTAKES.items()}
     plane = Plane(u, v, w, channel.coordinates.geometry)
-    return channel.path.put(CornerStage(plane, channel.control.CORNER_POLICY, codes))
+    return channel.path.put(CornerStage(plane, channel.control.CORNER_POLICY, codes, Motions(channel)))
 
 
 def refuse_start_up(channel: WordAddressChannel) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import atan2, degrees, nan, radians, sin, tan
+from math import cos, hypot, nan, radians, sin, tan
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.block.numbers import angle_converter
@@ -20,13 +20,15 @@ if TYPE_CHECKING:
 ANGLE = ",A"
 #: A line that runs nearer than this to an axis does not say where it reaches a coordinate of the other one.
 LEAST_ANGLE_DEG = 1.0
+#: How far an end beside an angle may lie off the line: both ends are rounded, to 0.0001 inch at worst.
+ROUNDING_MM = 0.005
 _STRAIGHT = {"G0": Kind.RAPID, "G1": Kind.FEED}
 
 
 def leaves_line(first: float, second: float, angle_deg: float) -> bool:
     """Whether a way says another line than an angle beside its end does; nobody knows which of the two is meant."""
-    turn = degrees(atan2(second, first)) - angle_deg
-    return bool(first or second) and min(turn % 180.0, -turn % 180.0) > LEAST_ANGLE_DEG
+    beside = abs(first * sin(radians(angle_deg)) - second * cos(radians(angle_deg)))
+    return beside > max(hypot(first, second) * sin(radians(LEAST_ANGLE_DEG)), ROUNDING_MM)
 
 
 def plan_line_by_angle(builder: Builder, plan: Plan) -> Step | None:

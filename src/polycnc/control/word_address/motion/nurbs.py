@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import field
+from functools import partial
 from itertools import pairwise
 from math import dist
 from typing import TYPE_CHECKING
 
+from polycnc.channel.moves.knots import write_chords
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.block.rules import Rule
-from polycnc.control.word_address.motion import path, path_modes
+from polycnc.control.word_address.motion import path
 from polycnc.deferred.records import dataclass
 from polycnc.toolpath import Kind
 
@@ -121,10 +123,8 @@ def _cut(channel: WordAddressChannel, curve: Curve) -> None:
     inside = curve.knots[order - 1 : len(poles) + 1]
     if len(poles) < order or not any(a < b for a, b in pairwise(inside)):
         raise channel.control.fail("curve_knot", address="K")
-    points = list(nurbs_chords(order, curve.knots, poles, curve.weights, CHORD_TOLERANCE_MM))
-    for k, point in enumerate(points):
-        path_modes.pass_on(channel, passes=k < len(points) - 1)
-        channel.straight(Kind.SPLINE, list(point), channel.feed)
+    points = nurbs_chords(order, curve.knots, poles, curve.weights, CHORD_TOLERANCE_MM)
+    write_chords(channel, map(list, points), channel.feed, partial(channel.straight, Kind.SPLINE))
 
 
 def _behind(builder: Builder, _plan: Plan, step: Step | None) -> Step | None:

@@ -22,12 +22,10 @@ class PathModeState(State, lifetime=Lifetime.RESET):
     Attributes:
         contour_control: A high-speed mode is on.
         exact_stop: G09 stands in the running block.
-        passes: Another chord of the same curve follows.
     """
 
     contour_control: bool = False
     exact_stop: bool = lasting(Lifetime.BLOCK, default=False)
-    passes: bool = lasting(Lifetime.BLOCK, default=False)
 
 
 #: What the codes of group 15 make of corners; under all others the path is continuous.
@@ -36,21 +34,10 @@ HIGH_ACCURACY = "G61.1"
 
 
 def corner_mode(channel: WordAddressChannel) -> CornerMode:
-    """How the path goes through the end of the running block, or chord: G09, G61, or on."""
-    state = PathModeState.of(channel)
-    if state.passes:
-        return CornerMode.CONTINUOUS
-    if state.exact_stop:
+    """How the path goes through the end of the running block: G09, G61, or on."""
+    if PathModeState.of(channel).exact_stop:
         return CornerMode.EXACT_STOP
     return CORNER_MODES.get(channel.mode.codes.get("path", ""), CornerMode.CONTINUOUS)
-
-
-def pass_on(channel: WordAddressChannel, *, passes: bool) -> None:
-    """Whether another chord of the same curve follows: nothing rests in front of it."""
-    state = PathModeState.of(channel)
-    if state.passes is not passes:
-        state.passes = passes
-        channel.context_changed()
 
 
 def looks_ahead(channel: WordAddressChannel, context: Context) -> Context:

@@ -228,13 +228,16 @@ def compensation_stage(channel: WordAddressChannel) -> CutterCompensation:
         return stage
     if stage is not None:
         stage.flush()
+    from polycnc.channel.moves.knots import Motions
     from polycnc.compensation.cutter import CutterCompensation
     from polycnc.compensation.plane import Plane
 
     policy = channel.control.compensation_policy(channel)
     plane = Plane(u, v, w, geometry)
     corners.refuse_start_up(channel)
-    return channel.path.put(CutterCompensation(plane, policy, violation_codes(channel.control.alarms)))
+    return channel.path.put(
+        CutterCompensation(plane, policy, violation_codes(channel.control.alarms), Motions(channel))
+    )
 
 
 def place_of_block(channel: WordAddressChannel) -> Move:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING
 
-from polycnc.channel.moves.knots import knot_context
+from polycnc.channel.moves.knots import join
 from polycnc.compensation.spatial import SpatialStage
 from polycnc.control.word_address.coordinates.systems import work_zero
 from polycnc.control.word_address.coordinates.tip import TipState
@@ -67,15 +67,15 @@ def _stage(
     channel: WordAddressChannel, amount: float, side: int, corners: Corners, rules: Rules
 ) -> SpatialStage:
     c, kinematics = channel.coordinates, channel.control.kinematics(channel)
-    within = partial(knot_context, channel)
+    unite = partial(join, channel)
     if TipState.of(channel).active is not None or not kinematics.work:
-        return SpatialStage(c.geometry, posture_of(channel), amount, side, corners, rules, within)
+        return SpatialStage(c.geometry, posture_of(channel), amount, side, corners, rules, unite)
     from polycnc.control.word_address.tools.spatial_axes import AxesStage
     from polycnc.transformation.orientation.unled import Unled
 
     zero = work_zero(channel, c.offsets)
     table = Unled(kinematics, channel.axes, tuple(c.offsets), c.geometry, zero)
-    return AxesStage(c.geometry, table, amount, side, corners, rules, within)
+    return AxesStage(c.geometry, table, amount, side, corners, rules, unite)
 
 
 def end(channel: WordAddressChannel) -> None:

@@ -15,6 +15,7 @@ from polycnc.compensation.spatial import Directions, SpatialStage
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
+    from polycnc.channel.moves.path import Move
     from polycnc.compensation.spatial_rules import Corners, Rules
     from polycnc.geometry.frames import Vector
 
@@ -39,7 +40,7 @@ class AxesStage(SpatialStage):
         side: 1 left, -1 right.
         corners: What happens at outer corners.
         rules: How the control does it.
-        within: As for `SpatialStage`.
+        join: As for `SpatialStage`.
     """
 
     def __init__(
@@ -50,9 +51,9 @@ class AxesStage(SpatialStage):
         side: int,
         corners: Corners,
         rules: Rules,
-        within: Callable[[int], int] = int,
+        join: Callable[[list[Move]], object] = len,
     ) -> None:
-        super().__init__(geometry, table, radius, side, corners, rules, within)
+        super().__init__(geometry, table, radius, side, corners, rules, join)
         self._table = table
 
     def _point(self, position: list[float]) -> Vector:

@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from polycnc.channel.moves.knots import join
 from polycnc.channel.moves.path import Rank, Stage
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.tools.radius import RadiusState
@@ -52,7 +53,7 @@ def switch(channel: WordAddressChannel, words: Words) -> None:
     end(channel)
     if standing:
         state.standing = c.transformation = StandingAxes(tuple(standing.items()), c.geometry)
-        channel.path.put(StandingStage(state.standing))
+        channel.path.put(StandingStage(channel, state.standing))
 
 
 def end(channel: WordAddressChannel) -> None:
@@ -72,8 +73,8 @@ class StandingStage(Stage):
     rank = Rank.AXES
     lasts = True
 
-    def __init__(self, standing: StandingAxes) -> None:
-        self._standing = standing
+    def __init__(self, channel: WordAddressChannel, standing: StandingAxes) -> None:
+        self._channel, self._standing = channel, standing
 
     def move(self, move: Move) -> None:
         """Take the next move; see `Stage`."""
@@ -105,12 +106,15 @@ class StandingStage(Stage):
         ccw = move.kind in CCW_KINDS
         sweep = arcs.sweep_angle(first, last, center, ccw) + move.turns * (arcs.TAU if ccw else -arcs.TAU)
         count = arcs.parts_for_chord_error(max(begin, finish), abs(sweep), CHORD_TOLERANCE_MM)
-        angle, at = arcs.angle_at(center, first), move.start
+        angle, chords = arcs.angle_at(center, first), [replace(move, end=move.start)]
         for i in range(1, count + 1):
             part = i / count
             point = [a + (b - a) * part for a, b in zip(move.start, move.end, strict=True)]
             radius = begin + (finish - begin) * part
             point[u], point[v] = last if i == count else arcs.point_at(center, radius, angle + sweep * part)
-            chord = replace(move, kind=Kind.SPLINE, center=None, turns=0.0)
-            self._straight(chord, at, point)
-            at = point
+            chords.append(
+                replace(move, kind=Kind.SPLINE, center=None, turns=0.0, start=chords[-1].end, end=point)
+            )
+        join(self._channel, chords[1:], shows=True, counted=begin / (0.5 * (begin + finish) * abs(sweep)))
+        for chord in chords[1:]:
+            self._straight(chord, chord.start, chord.end)

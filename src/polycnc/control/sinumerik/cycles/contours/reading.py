@@ -240,6 +240,8 @@ class _Reading:
         """The contour runs as a program level, and its moves are caught."""
         moves, channel = self._moves, self._moves.channel
         self._reading = reading_from_here(channel, keeps_modes=True, recorder=ContourRecorder(moves))
+        # A cycle has chosen them for itself; a contour may change them.
+        channel.mode = channel.mode.with_code("distance", "G90").with_code("motion", "G1")
         _call(channel, self._place)
         self._reading.begin(channel, moves.columns[:2])
 

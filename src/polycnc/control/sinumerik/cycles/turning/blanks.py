@@ -193,9 +193,14 @@ def _swollen(work: Work, a: Arguments, direction: float, part: Contour) -> Conto
     """The part with an allowance along both axes; 61606 where that leaves nothing between two walls."""
     off_a, off_b = work.pair(abs(a["_ZD"]), abs(a["_XD"]))
     try:
-        return with_stock(part, (-direction * off_a, -work.towards * off_b), work.towards)
+        stock = with_stock(part, (-direction * off_a, -work.towards * off_b), work.towards)
     except ValueError:
         raise AlarmError("61606") from None
+    # In front of a wall at the end it is as thick as along the cuts, and reaches up to there.
+    end, last = stock[-1].edge.end, part[-1].edge.end[0]
+    return (
+        stock if direction * (last - end[0]) <= _HAIR else [*stock, Piece(offset.line(end, (last, end[1])))]
+    )
 
 
 def limited(work: Work, a: Arguments, direction: float, turning: Turning) -> Turning:

@@ -131,9 +131,9 @@ def _all(
     turning = blanks.of_call(work, a, direction, found)
     over = blanks.home(work, a, (0.0, height(work, _top(work, a, turning) + turning.lift)), turning.top)[1]
     begin = (turning.front - direction * turning.lift, over)
-    blanks.to_corner(work, turning, turning.front, turning.top, begin)
     groove = _Groove(work, a, turning, tool, height(work, over))
     finishing = feed_of(a, "_FS") if groove.stage == COMPLETE else feeds[Use.FOLLOW]
+    blanks.to_corner(work, turning, turning.front, turning.top, begin)
     for number in range(count):
         away = number * pitch
         if groove.stage != FINISHING:

@@ -125,6 +125,8 @@ def _turn(work: Work, a: Arguments, direction: float, found: list[Contour]) -> N
     turning = blanks.limited(work, a, direction, turning)
     part, lift, stage = turning.part, turning.lift, a.digit("_VARI", STAGE)
     work.require_point(0.0 if stage == FINISHING else direction)
+    for name in ("_F", "_FS") if stage == COMPLETE else ("_F",):
+        feed_of(a, name)  # one that is missing is told before the tool moves
     front, top = work.front(turning.front, direction), work.touching(turning.top)
     home = blanks.home(work, a, (front - direction * lift, top - work.towards * lift), turning.top)
     blanks.to_corner(work, turning, front, top, home)

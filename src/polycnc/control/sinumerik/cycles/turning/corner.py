@@ -50,10 +50,8 @@ def corner(moves: Moves, a: Arguments) -> None:
     """
     require_tool(moves)
     direction, stage = a.digit("_VARI", 0), a.digit("_VARI", 1)
-    if direction not in (CORNER_LENGTHWISE, CORNER_ACROSS) or stage not in (
-        CORNER_ROUGHING,
-        CORNER_FINISHING,
-    ):
+    known = direction in (CORNER_LENGTHWISE, CORNER_ACROSS) and stage in (CORNER_ROUGHING, CORNER_FINISHING)
+    if not known or a.integer("_VARI") < 0:
         raise AlarmError("61002")
     start = (a["_SPL"], a["_SPD"])
     end = (
@@ -74,7 +72,6 @@ def corner(moves: Moves, a: Arguments) -> None:
     work = Work(moves, across=across, towards=signs[0] if across else signs[1])
     work.require_point(0.0 if stage == CORNER_FINISHING else work.pair(*signs)[0])
     free = (start[0] - signs[0] * lift, start[1] - signs[1] * lift)
-    work.perform(PlaneStroke(Kind.RAPID, work.pair(*free)), feed)
     if stage == CORNER_ROUGHING:
         if not a["_MID"] > 0.0:
             raise AlarmError("61610")
@@ -82,11 +79,13 @@ def corner(moves: Moves, a: Arguments) -> None:
         if any(abs(way) >= abs(m - s) for way, s, m in zip(off, start, middle, strict=True)):
             raise AlarmError("61606")
         path = _corner_path(work, start, arcs.minus(middle, off), lean, broken)
+        work.perform(PlaneStroke(Kind.RAPID, work.pair(*free)), feed)
         top, front = work.touching(work.pair(*start)[1]), work.front(work.pair(*start)[0], onwards(path))
         for cut in remove(path, Removal(a["_MID"], lift, work.towards, front=front, top=top)):
             work.perform(cut.stroke, feed)
     else:
         path = _corner_path(work, start, middle, lean, broken)
+        work.perform(PlaneStroke(Kind.RAPID, work.pair(*free)), feed)
         before, after = path[0].edge.start, path[-1].edge.end
         work.perform(PlaneStroke(Kind.RAPID, (before[0] - onwards(path) * lift, before[1])), feed)
         work.perform(PlaneStroke(Kind.FEED, before), feed)

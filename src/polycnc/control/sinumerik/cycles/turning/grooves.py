@@ -58,9 +58,9 @@ def groove(moves: Moves, a: Arguments) -> None:
     """CYCLE93: a groove, with the two edges of a parting tool: the active one and `_DN` or the next D.
 
     Raises:
-        AlarmError: 61000 without tool offset, 61002 for VARI, 61602 for a tool without width or one that does not fit,
-            61603 for a groove without width or depth or whose corners do not fit, 61608 for an edge that looks
-            another way.
+        AlarmError: 61000 without tool offset, 61002 for VARI, 61003 without feed, 61602 for a tool without width or one
+            that does not fit, 61603 for a groove without width or depth or whose corners do not fit, 61608 for an edge
+            that looks another way.
     """
     require_tool(moves)
     if a.integer("VARI") not in GROOVES:
@@ -83,9 +83,11 @@ def groove(moves: Moves, a: Arguments) -> None:
         nose_radius=stages.radius(moves.channel),
         slope=_slope(seat, a["STA1"]),
     )
-    home, feed = moves.point, moves.channel.feed
+    home, feed, way = moves.point, moves.channel.feed, _strokes(shape)
+    if not feed > 0.0:
+        raise AlarmError("61003")
     start = (a["SPD"], a["SPL"]) if seat.across else (a["SPL"], a["SPD"])
-    _cut(moves, _strokes(shape), Placing(shape, seat, start), feed, a["DTB"])
+    _cut(moves, way, Placing(shape, seat, start), feed, a["DTB"])
     moves.rapid(*home)
     moves.end_block()
 
@@ -207,7 +209,7 @@ def grooves(moves: Moves, a: Arguments) -> None:
     """
     require_tool(moves)
     number, stage = a.digit("_VARI", _SEAT), a.digit("_VARI", _STAGE)
-    if number not in SEATS or not ROUGHING <= stage <= COMPLETE:
+    if number not in SEATS or not ROUGHING <= stage <= COMPLETE or a.integer("_VARI") < 0:
         raise AlarmError("61002")
     seat, feed = SEATS[number], abs(a["_FF1"])
     if not feed:

@@ -47,7 +47,7 @@ def _remove(work: Work, a: Arguments, kind: int, rounding: int, read_: Contour) 
     work.require_point()
     stock: Contour | None = None
     if kind != FINISHING:
-        stock = _rough(work, a, contour, follows=rounding != WITHOUT_ROUNDING)
+        stock = _rough(work, a, contour, follows=rounding != WITHOUT_ROUNDING, finishes=kind == COMPLETE)
     if kind != ROUGHING:
         _finish(work, a, contour, stock)
         stock = None
@@ -60,7 +60,7 @@ def _lift(a: Arguments) -> float:
     return a["_VRT"] if a["_VRT"] > 0.0 else LIFT_MM
 
 
-def _rough(work: Work, a: Arguments, contour: Contour, *, follows: bool) -> Contour:
+def _rough(work: Work, a: Arguments, contour: Contour, *, follows: bool, finishes: bool) -> Contour:
     """Cuts down to the allowances, from the open end of the contour; gives what they leave."""
     if not a["MID"] > 0.0:
         raise AlarmError("61610")
@@ -75,6 +75,8 @@ def _rough(work: Work, a: Arguments, contour: Contour, *, follows: bool) -> Cont
         raise AlarmError("61606") from None
     straight = feed_of(a, "FF1")
     relief = a["FF2"] or straight
+    if finishes:
+        feed_of(a, "FF3")  # one that is missing is told before the tool cuts
     top = work.touching(farthest(contour, 1, -work.towards))
     front = work.front(contour[0].edge.start[0], onwards(contour))
     before = blank(path, work.towards, top)

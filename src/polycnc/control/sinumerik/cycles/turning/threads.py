@@ -135,7 +135,7 @@ def _thread(
         corners = [(radius, along) for along, radius in corners]
     elif kind not in INSIDE_KINDS and min(radius for _, radius in corners) < abs(a[f"{prefix}TDEP"]):
         raise AlarmError("61601")
-    cuts, degressive = max(a.integer(f"{prefix}NRC"), 1), kind in (3, 4)
+    cuts, degressive = max(abs(a.integer(f"{prefix}NRC")), 1), kind in (3, 4)
     if a.has("_MID") and a["_MID"]:
         rough = max(abs(a[f"{prefix}TDEP"]) - abs(a[f"{prefix}FAL"]), 0.0)
         cuts = thread_turning.cuts_of_first(rough, abs(a["_MID"]), degressive=degressive)
@@ -147,7 +147,7 @@ def _thread(
         depth=abs(a[f"{prefix}TDEP"]),
         allowance=abs(a[f"{prefix}FAL"]),
         cuts=cuts,
-        idle=max(a.integer(f"{prefix}NID"), 0),
+        idle=abs(a.integer(f"{prefix}NID")),
         inside=kind in INSIDE_KINDS,
         degressive=degressive,
         flank_deg=flank,

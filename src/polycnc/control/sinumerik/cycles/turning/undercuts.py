@@ -174,7 +174,7 @@ def undercut_of_mask(moves: Moves, a: Arguments) -> None:
     feed, lift = feed_of(a, "_FFP"), abs(a["_SDIS"]) or LIFT_MM
     shape, surface = _shape(a, form, onwards, towards)
     stage = FINISHING if form in ON_SHAFTS else a.digit("_VARI", _STAGE)
-    if not ROUGHING <= stage <= COMPLETE:
+    if not ROUGHING <= stage <= COMPLETE or a.integer("_VARI") < 0:
         raise AlarmError("61002")
     work = Work(moves, across=False, towards=towards)
     place = Placing(a["_SPL"], surface, onwards, towards)
