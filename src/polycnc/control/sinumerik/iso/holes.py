@@ -134,9 +134,8 @@ def drill(running: IsoRun) -> None:
     cycle = running.state.cycle
     if cycle is None or running.positions or "G4" in running.block.codes:
         return
-    for word in running.block.words:
-        if word.letter in CORNERS:
-            raise running.refused(word)
+    for corner in (each for each in running.block.words if each.letter in CORNERS):
+        raise running.refused(corner)
     words = {letter: word for letter in "RQPK" if (word := running.take(letter)) is not None}
     third = "XYZ"[PLANES[_plane(running)][2]]
     axes = running.axis_words()
