@@ -406,6 +406,8 @@ def percentage(_draft: Draft, position: int, shape: WordShape) -> Step:
         value = number(values, position)
         if not (least <= value <= most and value > 0.0):
             raise WordAlarm("12560", position, text=shape.address)
+        if shape.address == "JERKLIMA" and value != 100.0:
+            raise not_supported("JERKLIMA")
         Overrides.of(channel).percent[shape.address, name] = value
         if shape.address == "OVRA" and isinstance(shape.index, Axis):
             _override(channel, shape.index, value / 100.0)
