@@ -86,3 +86,9 @@ def test_levels_of_one_axis_are_none_of_another() -> None:
     assert codes(result) == []
     assert [to["Y"] for _, to in moves(result)[-4:]] == [20.0, 2.0, -3.0, 20.0]
     assert codes(run(*lines, "G18 X5")) == [("61101", 4)]
+
+
+def test_a_hole_has_no_corner() -> None:
+    assert codes(run("G1 X1 F100", "G291", "G81 X5 R2 Z-9 ,R1")) == [("PC0001", 3)]
+    assert codes(run("G0 X1", "G291", "X5 ,R1")) == [("PC0001", 3)]
+    assert codes(run("G1 X1 F100", "G291", "X5 ,C-1")) == [("PC0001", 3)]

@@ -19,7 +19,7 @@ from polycnc.cycles.drilling import deep_hole, holes
 from polycnc.cycles.drilling.holes import Hole
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY
-from polycnc.language.sinumerik.iso_dialect import MOTIONS
+from polycnc.language.sinumerik.iso_dialect import CORNERS, MOTIONS
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
@@ -134,6 +134,8 @@ def drill(running: IsoRun) -> None:
     cycle = running.state.cycle
     if cycle is None or running.positions or "G4" in running.block.codes:
         return
+    for corner in (each for each in running.block.words if each.letter in CORNERS):
+        raise running.refused(corner)
     words = {letter: word for letter in "RQPK" if (word := running.take(letter)) is not None}
     third = "XYZ"[PLANES[_plane(running)][2]]
     axes = running.axis_words()
