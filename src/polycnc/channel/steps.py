@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 
 Step: TypeAlias = Callable[["Channel"], None]
 #: Programs with more steps keep only those that are there.
-MANY_STEPS = 2_000_000
+MANY_STEPS = 250_000
 
 
 class FewSteps(dict[int, Step | None]):

@@ -135,8 +135,9 @@ def test_what_rounding_leaves_of_a_crossing_is_no_curve_and_no_gap() -> None:
     curves = [offset.line((0.0, 5.0), (4.0, 5.0)), offset.line((4.0, 5.0), (4.0 + sliver, 5.0))]
     split = Profile((*curves, offset.line((4.0 + sliver, 5.0), end)))
     assert [piece.edge.end for piece in split.between(0.0, 10.0)] == [(4.0, 5.0), end]
-    bridged = Profile(envelope([curves[0], offset.line((4.0 + sliver, 5.0), end)]))
-    assert (bridged.begin, bridged.end) == (0.0, 10.0)
-    assert bridged.height(4.0 + 0.5 * sliver) == pytest.approx(5.0)
+    for gap in (sliver, 5e-5):
+        bridged = Profile(envelope([curves[0], offset.line((4.0 + gap, 5.0), end)]))
+        assert (bridged.begin, bridged.end) == (0.0, 10.0)
+        assert bridged.height(4.0 + 0.5 * gap) == pytest.approx(5.0)
     with pytest.raises(ValueError, match="gap"):
         envelope([curves[0], offset.line((4.1, 5.0), end)])

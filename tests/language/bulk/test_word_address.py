@@ -8,8 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from polycnc.language.bulk.settings import Bulk
+from polycnc.toolpath import Toolpath
 from tests.examples import examples
-from tests.language.bulk.both_ways import differences, plain_scan
+from tests.language.bulk.both_ways import differences, machine, plain_scan, scanned
 from tests.language.bulk.programs import CODES, REPEATED, REPEATED_LATHE, any_arc, arc, number, plain, program
 
 FANUC_COMMENTS = (" (PASS 2)", "(a;b", ";", " ; (X)", ";  ", "(1)(2)")
@@ -50,6 +51,16 @@ FANUC = program(
     "O0001\nG90 G54 G1 F1000.",
     "N9999 M30",
 )
+
+
+def test_no_block_behind_a_full_chunk_is_the_interpreters(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It would be looked up in its page, line by line."""
+    for module in ("channel.channel", "language.bulk.scanner"):
+        monkeypatch.setattr(f"polycnc.{module}.CHUNK_ROWS", 50)
+    toolpath = Toolpath(machine("mill3").channel_axes(1), chunk_rows=50)
+    text = "\n".join(["G90 G54 G1 F1000.", *(f"X{i}." for i in range(1, 301)), "M30"])
+    assert scanned(text, "fanuc-m", toolpath=toolpath) >= 300
+    assert [len(chunk) for chunk in toolpath.chunks[:6]] == [50] * 6
 
 
 @settings(max_examples=examples(30), deadline=None)

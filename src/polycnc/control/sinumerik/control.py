@@ -429,17 +429,32 @@ class Sinumerik:
         )
 
     def select_iso(self, channel: SinumerikChannel) -> None:
-        """G291 acts; PC0001 in a subprogram, with MCALL active, and under G91 where the dialect has no G90 (code A)."""
-        is_code_a = (
-            channel.memory.transverse >= 0 and channel.memory.data.integer("$MN_EXTERN_GCODE_SYSTEM") == 1
-        )
-        if (
-            (is_code_a and channel.mode["distance"] == "G91")
-            or len(channel.stack) > 1
-            or LanguageMemory.of(channel).modal_call is not None
-        ):
+        """G291 acts; PC0001 in a subprogram, and what `_begin_iso` raises."""
+        if len(channel.stack) > 1:
             raise not_supported("G291")
+        self._begin_iso(channel)
         channel.mode = channel.mode.with_code("language", "G291")
+
+    def calls_iso(self, channel: SinumerikChannel) -> bool:
+        """MD18800: 1 for code M, 2 for code T of a lathe; PC0001 for the code of the other kind of machine."""
+        chosen = MachineData.of(channel).integer("$MN_MM_EXTERN_LANGUAGE")
+        if chosen:
+            if chosen != (2 if channel.memory.transverse >= 0 else 1):
+                raise not_supported("ISOCALL")
+            self._begin_iso(channel)
+        return bool(chosen)
+
+    def _begin_iso(self, channel: SinumerikChannel) -> None:
+        """The dialect begins: PC0001 with MCALL active, and under G91 where it has no G90 (code A of a lathe)."""
+        from polycnc.control.sinumerik.iso import systems, turning
+
+        is_lathe, modal = channel.memory.transverse >= 0, LanguageMemory.of(channel).modal_call
+        has_g90 = (
+            not is_lathe or MachineData.of(channel).integer("$MN_EXTERN_GCODE_SYSTEM") != systems.SYSTEM_A
+        )
+        if modal is not None or (channel.mode["distance"] == "G91" and not has_g90):
+            raise not_supported("G291")
+        turning.begin(channel)
 
     def run_iso(self, channel: SinumerikChannel, block: IsoBlock, perform: Callable[[str], None]) -> None:
         """A block of the ISO dialect comes: PC0001 where the program has come there without G291."""

@@ -99,6 +99,36 @@ def rough(pocket: Pocket) -> Iterator[MillStroke]:
     yield rapid(w=pocket.retract)
 
 
+def rough_on_helices(pocket: Pocket) -> Iterator[MillStroke]:
+    """Clear a round pocket from its middle outwards, ring by ring: on a helix down to the allowances, once round.
+
+    Behind each ring the tool leaves wall and base on a quarter circle. Pre-machined cores are not left out.
+    """
+    middle, reach = pocket.place(0.0, 0.0), pocket.path(pocket.allowance)[0]
+    first = min(reach, pocket.radius)
+    more = parts(reach - first, pocket.width, 1e-6) if reach - first > NO_WAY else 0
+    depth, up = pocket.level(pocket.total - pocket.base_allowance), pocket.safe - pocket.reference
+    yield rapid(pocket.place(first, 0.0))
+    yield rapid(w=pocket.safe)
+    for k in range(more + 1):
+        size = first + (reach - first) * (k / more if more else 0.0)
+        start = pocket.place(size, 0.0)
+        if k:
+            yield rapid(start)
+        if size <= NO_WAY:
+            yield cut(pocket.depth_feed, w=depth)
+            continue
+        way = depth - pocket.safe
+        for part in steps(abs(way), pocket.infeed):
+            yield arc(pocket.feed, start, middle, pocket.ccw, pocket.safe + way * part / abs(way))
+        yield arc(pocket.feed, start, middle, pocket.ccw)
+        off = size / 2.0
+        end = pocket.place(size - off, off if pocket.ccw else -off)
+        yield arc(pocket.feed, end, pocket.place(size - off, 0.0), pocket.ccw, depth + up)
+        yield rapid(w=pocket.safe)
+    yield rapid(w=pocket.retract)
+
+
 def finish(pocket: Pocket) -> Iterator[MillStroke]:
     """Follow the finished edge in steps, then clear the base where it has an allowance."""
     yield from begin(pocket)

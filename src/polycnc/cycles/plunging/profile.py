@@ -27,8 +27,10 @@ if TYPE_CHECKING:
 
 #: Places nearer to each other are one; what is so much higher is higher, mm.
 _HAIR = 1e-7
-#: Curves and gaps that are no longer are what rounding has left of a crossing: nobody cuts them, mm.
+#: Curves that are no longer are what rounding has left of a crossing: nobody cuts them, mm.
 _SLIVER = 1e-5
+#: So far apart may curves end that touch each other: arcs cross badly where they are nearly tangent, mm.
+_GAP = 1e-4
 #: A tool as wide as a groove goes into it: so much narrower it counts, mm.
 SNUG_MM = 2e-5
 
@@ -191,7 +193,7 @@ def _bridged(curves: Iterable[Edge]) -> list[Edge]:
     result: list[Edge] = []
     reached: Edge | None = None
     for curve in sorted(curves, key=lambda curve: curve.start[0]):
-        if reached is not None and _HAIR < curve.start[0] - reached.end[0] <= _SLIVER:
+        if reached is not None and _HAIR < curve.start[0] - reached.end[0] <= _GAP:
             result.append(offset.line(reached.end, curve.start))
         if reached is None or curve.end[0] > reached.end[0]:
             reached = curve

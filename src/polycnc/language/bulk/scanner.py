@@ -162,7 +162,7 @@ class Scanner:
         """Work off plain blocks; gives as many numbers as blocks are the interpreter's before the next try.
 
         Where hardly any block is plain, tries become rare: also from call to call, for a program whose blocks call
-        is entered again behind each of them.
+        is entered again behind each of them. Behind a full chunk, which is handed on first, the next try comes at once.
         """
         ahead, level = self._next_try - channel.blocks, channel.level
         if not 0 < ahead <= self._patience:  # behind it, or counted in another run
@@ -170,6 +170,8 @@ class Scanner:
             self._patience = 1 if taken >= WORTHWHILE else min(2 * self._patience, self._most_patience)
             self._next_try = channel.blocks + self._patience
             ahead = self._patience
+            if taken and len(channel.toolpath.chunk) >= CHUNK_ROWS and channel.path.head is None:
+                self._next_try, ahead = channel.blocks, 0
         # Where a program has been called and not left, none of the caller's blocks is next.
         return range(ahead if channel.level is level else 0)
 

@@ -117,6 +117,9 @@ class LanguageControl(Protocol):
     def select_iso(self, channel: Channel) -> None:
         """G291 acts: blocks of the ISO dialect come."""
 
+    def calls_iso(self, channel: Channel) -> bool:
+        """Whether ISOCALL calls programs of the ISO dialect; PC0001 where that is not executed."""
+
     def run_iso(self, channel: Channel, block: IsoBlock, perform: Callable[[str], None]) -> None:
         """A block of the ISO dialect comes; PC0001 where G291 does not act. `perform` runs one of the language here."""
 

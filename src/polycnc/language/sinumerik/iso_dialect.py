@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 #: Blocks that change the language; they hold nothing else.
 _SWITCH = regex(r"[ \t]*G[ \t]*(29[01])[ \t\r\x00]*(?:;.*)?$", re.IGNORECASE | re.ASCII)
 _COMMENT = regex(r"\([^()]*\)|;.*$")
-_WORD = regex(r"[ \t\r\x00]*([A-Z])[ \t]*([+-]?(?:\d+(?:\.\d*)?|\.\d+))", re.IGNORECASE | re.ASCII)
+_WORD = regex(r"[ \t\r\x00]*(,?[A-Z])[ \t]*([+-]?(?:\d+(?:\.\d*)?|\.\d+))", re.IGNORECASE | re.ASCII)
 #: G functions and what they are called in the control's own language; an empty text for what is so in any case.
 G_FUNCTIONS = {
     **{
@@ -40,9 +40,12 @@ G_FUNCTIONS = {
 }
 #: Words that mean the same.
 SAME = frozenset("XYZABCUVWIJKFSTM")
+#: Words of corners: between a straight move or an arc and the next one.
+CORNERS = {",R": "RND", ",C": "CHR"}
 #: M functions of subprograms.
 CALLS = frozenset((98.0, 99.0))
 MOTIONS = ("G0", "G1", "G2", "G3")
+CONTOUR = frozenset(("G1", "G2", "G3"))
 _CIRCLES, _DWELL = frozenset(("G2", "G3")), "G4"
 _MILLI = 1000.0
 
@@ -154,6 +157,8 @@ def _told(word: IsoWord, codes: Sequence[str], motion: str) -> str:
         return G_FUNCTIONS[word.code]
     if _DWELL in codes and letter in "XP":
         return f"F{value if letter == 'X' else value / _MILLI!r}"
+    if letter in CORNERS and motion in CONTOUR and value >= 0.0:
+        return f"{CORNERS[letter]}={number}"
     if letter == "R" and motion in _CIRCLES:
         return f"CR={number}"
     if letter not in SAME or (letter == "M" and value in CALLS) or (_DWELL in codes and letter != "M"):

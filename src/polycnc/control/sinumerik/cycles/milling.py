@@ -177,6 +177,11 @@ def check_start_point(a: Arguments) -> None:
 
 # ---- pockets
 
+#: Digit of _DMODE of POCKET4: what tells its size.
+_SIZE_PLACE, DIAMETER = 2, 1
+#: Digit of _VARI of POCKET4: level by level (0), or ring by ring on helices.
+_STRATEGY_PLACE, ON_HELICES = 3, 1
+
 
 def pocket3(moves: Moves, a: Arguments) -> None:
     """POCKET3: rectangular pocket about its middle or from a corner."""
@@ -193,15 +198,22 @@ def pocket3(moves: Moves, a: Arguments) -> None:
 
 
 def pocket4(moves: Moves, a: Arguments) -> None:
-    """POCKET4: circular pocket."""
-    radius, size = radius_of(moves, a, "_VARI"), abs(a["_PRAD"])
+    """POCKET4: circular pocket; its size is a radius, or a diameter where hundreds of _DMODE say so."""
+    radius = radius_of(moves, a, "_VARI")
+    size = abs(a["_PRAD"]) * (0.5 if a.digit("_DMODE", _SIZE_PLACE) == DIAMETER else 1.0)
+    strategy = a.digit("_VARI", _STRATEGY_PLACE)
+    if strategy > ON_HELICES:
+        raise AlarmError("61002")
+    if a.digit("_VARI", 2) or (strategy == ON_HELICES and a.digit("_VARI", 0) != ROUGHING):
+        raise not_supported("POCKET4 _VARI")
     _pocket(moves, a, (2.0 * size, 2.0 * size, size), (abs(a["_AP1"]), abs(a["_AP1"])), radius)
 
 
 def _pocket(
     moves: Moves, a: Arguments, size: tuple[float, float, float], core: tuple[float, float], radius: float
 ) -> None:
-    kind = variant(a, "_VARI", (ROUGHING, FINISHING, EDGE))
+    is_round = a.has("_PRAD")
+    kind = variant(a, "_VARI", (ROUGHING, FINISHING, EDGE), digits=_STRATEGY_PLACE + 1 if is_round else 2)
     if a.digit("_GMODE", _PREMACHINED_PLACE) == WHOLE:
         core = (0.0, 0.0)
     base_allowance = 0.0 if kind in (EDGE, CHAMFER) else abs(a["_FALD"])
@@ -215,11 +227,15 @@ def _pocket(
     helix, pitch = abs(a["_RAD1"]), abs(a["_DP1"])
     if way is Insertion.OSCILLATION:
         helix = abs(a.plain("_RAD1"))
-    if kind == ROUGHING and (
-        (way is Insertion.HELIX and not (helix and pitch)) or (way is Insertion.OSCILLATION and not helix)
+    on_helices = is_round and a.digit("_VARI", _STRATEGY_PLACE) == ON_HELICES
+    if (
+        kind == ROUGHING
+        and not on_helices
+        and (
+            (way is Insertion.HELIX and not (helix and pitch)) or (way is Insertion.OSCILLATION and not helix)
+        )
     ):
         raise AlarmError("61108")
-    is_round = a.has("_PRAD")
     pocket = Pocket(
         Place(reference_point(moves, a)) if is_round else place_of(moves, a, size[0], size[1]),
         size[0] / 2.0,
@@ -244,6 +260,11 @@ def _pocket(
         core_width=core[1],
         core_depth=abs(a["_AD"]),
     )
+    if on_helices:
+        if not pockets.fits(pocket):
+            raise AlarmError("61105")
+        perform(moves, pockets.rough_on_helices(pocket))
+        return
     _mill(moves, along(pocket), kind if kind in (COMPLETE, ROUGHING) else FINISHING)
 
 

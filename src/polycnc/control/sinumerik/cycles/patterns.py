@@ -6,11 +6,14 @@ from math import hypot
 from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik import tables
+from polycnc.control.sinumerik.errors import not_supported
+from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.cycles.count import checked
 from polycnc.cycles.drilling import patterns
 from polycnc.geometry.frames import cos_sin_deg
 from polycnc.language.sinumerik.statements.calls import call_modal
 from polycnc.messages import AlarmError
+from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -49,10 +52,24 @@ def visit(moves: Moves, a: Arguments, points: Iterable[Point], arc: tuple[Point,
         if arc is None or first:
             moves.rapid(u, v)
         else:
-            moves.arc(FEED_ALONG_CIRCLE / tables.MINUTE, (u, v), *arc)
+            moves.arc(_feed_along_circle(moves), (u, v), *arc)
         first = False
         moves.act(call_modal, moves.channel)
         moves.end_block()
+
+
+def _feed_along_circle(moves: Moves) -> float:
+    """The feed from place to place along a circle, in the feed type of the caller.
+
+    Raises:
+        AlarmError: PC0001 for feeds per revolution of a spindle that stands or is not the master, and for inverse time.
+    """
+    feed, speed = PathFeed.of(moves.channel), moves.spindle.speed
+    if feed.mode is FeedMode.PER_MINUTE:
+        return FEED_ALONG_CIRCLE / tables.MINUTE
+    if feed.mode is not FeedMode.PER_REVOLUTION or feed.spindle or feed.axis >= 0 or not speed:
+        raise not_supported("HOLES2 _VARI")
+    return FEED_ALONG_CIRCLE / speed
 
 
 def _nearer_end_first(points: list[Point], tool: Point) -> list[Point]:

@@ -75,6 +75,7 @@ DATA: dict[str, tuple[int, bool | float | str]] = {
     "$MM_NUM_SYNACT_GUD_CHAR": (18664, 0),
     "$MM_NUM_SYNACT_GUD_STRING": (18665, 0),
     "$MN_MM_SIZEOF_LINKVAR_DATA": (18700, 1024),
+    "$MN_MM_EXTERN_LANGUAGE": (18800, 0),
     "$MC_CHAN_NAME": (20000, "CHAN1"),
     "$MC_AXCONF_GEOAX_ASSIGN_TAB": (20050, 0),
     "$MC_AXCONF_GEOAX_NAME_TAB": (20060, ""),

@@ -21,6 +21,7 @@ from polycnc.toolpath import Kind
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.cycles.arguments import Arguments
     from polycnc.control.sinumerik.cycles.moves import Moves
+    from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.iso.running import IsoRun
     from polycnc.geometry.arcs import Point
     from polycnc.language.sinumerik.iso_dialect import IsoWord
@@ -32,6 +33,8 @@ CYCLES = {"G77": single.longitudinal, "G79": single.facing}
 _DIGITS, _OF_OFFSET = 4, 2
 _MILLI = 1000.0
 _PLANE = "G18"
+#: Words of corners without a comma.
+CORNERS = {"R": "RND", "C": "CHR"}
 #: Functions that change what words of axes mean.
 CHANGING = frozenset(
     ("G17", "G18", "G19", "G20", "G21", "G40", "G41", "G42", "G54.1", *(f"G{n}" for n in range(54, 60)))
@@ -53,6 +56,12 @@ class IsoTurning(State, lifetime=Lifetime.RESET):
     corner: dict[str, float] | None = None
     taper: float = 0.0
     lead: str = ""
+
+
+def begin(channel: SinumerikChannel) -> None:
+    """The dialect begins: no cycle is modal, and no lead known, from an earlier part of a program in it."""
+    state = IsoTurning.of(channel)
+    state.cycle = state.lead = ""
 
 
 def limit_speed(running: IsoRun, word: IsoWord) -> None:
@@ -96,10 +105,24 @@ def act(running: IsoRun) -> None:
     if running.positions or "G4" in codes:
         return
     motion = next((code for code in codes if code in (*MOTIONS, THREAD)), running.channel.mode["motion"])
+    if motion == "G1" and not state.cycle:
+        _corner(running)
     if state.cycle:
         _cycle(running, state)
     elif motion == THREAD and running.axis_words():
         _thread(running, state)
+
+
+def _corner(running: IsoRun) -> None:
+    """R rounds the corner behind a straight move, C chamfers it where it is no axis; PC0001 for a negative one."""
+    for letter, told in CORNERS.items():
+        word = running.block.find(letter)
+        if word is None or word.incremental or letter in running.channel.axes:
+            continue
+        if word.value < 0.0:
+            raise running.refused(word)
+        running.taken.append(word)
+        running.extra.append(f"{told}={word.number}")
 
 
 def _tool(running: IsoRun) -> None:

@@ -91,8 +91,9 @@ def corner(channel: SinumerikChannel) -> CornerStage:
     """The stage of chamfers and roundings, in the path."""
     change_plane(channel)
     stage = channel.path.find(CornerStage)
+    motions = None if channel.path.is_diverted else Motions(channel)  # a contour that is read takes no time
     return stage or channel.path.put(
-        CornerStage(plane(channel), _corners(channel), CORNER_VIOLATIONS, Motions(channel))
+        CornerStage(plane(channel), _corners(channel), CORNER_VIOLATIONS, motions)
     )
 
 

@@ -28,6 +28,7 @@ from polycnc.control.syntec.motion.quiet import is_quiet, switch_quiet
 from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
 from polycnc.control.word_address.memory import EXTERNAL, ToolOffsets
 from polycnc.control.word_address.motion.skip import LastSkip
+from polycnc.control.word_address.tools.radius import active_compensation
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.syntec.values import VACANT, Value, number, to_long, whole
 from polycnc.messages import AlarmError
@@ -134,8 +135,15 @@ def _position(memory: SyntecMemory) -> list[float]:
     return memory.channel.coordinates.position
 
 
+def _tool(memory: SyntecMemory) -> list[float]:
+    """Where the tool is: beside a compensated contour not where the block was programmed. Programs WAIT() first."""
+    channel = memory.channel
+    stage, position = active_compensation(channel), channel.coordinates.position
+    return position if stage is None else stage.beside(position)
+
+
 def _machine(memory: SyntecMemory) -> list[float]:
-    return memory.channel.coordinates.machine
+    return memory.channel.coordinates.to_machine(_tool(memory))
 
 
 def _skip(memory: SyntecMemory) -> list[float]:
@@ -322,7 +330,7 @@ SYSTEM_VARIABLES = Registry(
         Space(1080, 1099, stored(lambda state: state.modal_longs)[0], _write_modal_long),
         _by_axis(1301, _position),
         _by_axis(1321, _machine),
-        _by_axis(1341, _position),
+        _by_axis(1341, _tool),
         _by_axis(1361, _skip),
         _by_axis(1381, _length),
         Space(1401, 1403, _center),

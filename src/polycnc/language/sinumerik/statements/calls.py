@@ -8,10 +8,10 @@ from polycnc.channel.stack import LevelKind
 from polycnc.language.expressions.code import Code, assigned, attribute, constant, quoted, sequence
 from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.emitter import provide
-from polycnc.language.sinumerik.errors import NcSyntaxError, not_supported, unknown
+from polycnc.language.sinumerik.errors import NcSyntaxError, unknown
 from polycnc.language.sinumerik.names.places import ElementPlace
 from polycnc.language.sinumerik.names.values import Type
-from polycnc.language.sinumerik.statements.sections import Section, count_levels, leave
+from polycnc.language.sinumerik.statements.sections import LANGUAGE, Section, count_levels, leave
 from polycnc.messages import AlarmError
 from polycnc.program.names import is_too_long, split_stored_path
 from polycnc.program.store import EXTERNAL
@@ -362,12 +362,21 @@ def call_external(channel: Channel, name: str) -> None:
 
 
 def iso_call(compiler: BlockCompiler) -> None:
-    """ISOCALL text: with no ISO dialect set up (MD18800) the program runs as it is (1.25.3.7)."""
-    token = compiler.take()
-    parameters = compiler.channel.setup.parameters
-    if any(parameters.get(name) for name in (18800, "$MN_MM_EXTERN_LANGUAGE")):
-        raise not_supported(token.column, "ISOCALL")
-    compiler.emitter.run(quoted("call_named(channel, {0})", compiler.text()))
+    """ISOCALL text (1.25.3.7)."""
+    compiler.take()
+    compiler.emitter.run(quoted("call_as_iso(channel, {0})", compiler.text()))
+
+
+def call_as_iso(channel: NcChannel, name: str) -> None:
+    """Call a program in the ISO dialect that is set up, to its end; with none (MD18800) it runs as it is."""
+    program = named_program(channel, name)
+    if not channel.control.calls_iso(channel):
+        call_without_arguments(channel, program)
+        return
+    channel.executable(program).whole.become_iso()
+    call_program(channel, program, (), (), 1)
+    channel.level.data[LANGUAGE] = channel.mode["language"]
+    channel.mode = channel.mode.with_code("language", "G291")
 
 
 def search_path(compiler: BlockCompiler) -> None:
@@ -451,6 +460,7 @@ STATEMENTS: dict[str, Callable[[BlockCompiler], None]] = {
 provide(
     call_program=call_program,
     call_named=call_named,
+    call_as_iso=call_as_iso,
     call_section=call_section,
     call_external=call_external,
     call_modal=call_modal,

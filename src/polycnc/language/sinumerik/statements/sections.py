@@ -73,6 +73,8 @@ class Section:
 
 #: Among the data of a level: with it something ends that a context of the toolpath tells of.
 ENDS_CONTEXT = "ends context"
+#: In `data` of a level that ISOCALL has called: the language of its caller.
+LANGUAGE = "language"
 
 
 def count_levels(channel: Channel) -> None:
@@ -85,6 +87,8 @@ def count_levels(channel: Channel) -> None:
 def leave(channel: Channel) -> None:
     """End the running level; a subprogram with SAVE brings back the modal functions of its call."""
     level = channel.pop()
+    if LANGUAGE in level.data:
+        channel.mode = channel.mode.with_code("language", level.data[LANGUAGE])
     if ENDS_CONTEXT in level.data:
         channel.context_changed()
     if level.kind is not LevelKind.SECTION and "saved" in level.data:

@@ -120,12 +120,11 @@ def note_left(work: Work, a: Arguments, turning: Turning, width: float = 0.0) ->
         blank = [
             Piece(offset.line((turning.front, turning.top), (turning.part[-1].edge.end[0], turning.top)))
         ]
+    ways = [piece.edge for cut in work.cuts for piece in upright([Piece(cut)], work.towards)]
     try:
-        stock = profile(upright(blank, work.towards), NOTHING)
+        left = left_by(profile(upright(blank, work.towards), NOTHING), ways, tool)
     except ValueError:
         raise AlarmError("61606") from None
-    ways = [piece.edge for cut in work.cuts for piece in upright([Piece(cut)], work.towards)]
-    left = left_by(stock, ways, tool)
     # Upright once more is as it was.
     contour = upright(left.between(left.begin, left.end), work.towards)
     work.moves.act(_keep, work.moves.channel, name, work.contour(contour))
