@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from tests.control.sinumerik.support import codes, run
@@ -35,8 +35,8 @@ class Part:
         return self.onwards * (z - SHOULDER), self.towards * (x - SURFACE)
 
     def finished(self, place: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The undercut with sharp corners, which no cut passes."""
-        return np.clip((self.width - place) * self.slope, 0.0, self.depth)
+        """The undercut with sharp corners, which no cut passes; an upright side may be met at its very place."""
+        return np.clip((self.width + 1e-9 - place) * self.slope, 0.0, self.depth)
 
     def stroke(self, start: tuple[float, float], end: tuple[float, float], *, is_rapid: bool) -> None:
         """A stroke of the tool's point."""
@@ -53,6 +53,7 @@ class Part:
 
 
 @settings(max_examples=15)
+@example(0, (1.0, 90.0, 0.0, 0.0), 2.0, 1, (1.0, 0.0))
 @given(
     st.sampled_from(sorted(PLACES)),
     st.tuples(st.floats(0.5, 4.0), st.floats(20.0, 90.0), st.floats(0.0, 0.5), st.floats(0.0, 0.5)),
