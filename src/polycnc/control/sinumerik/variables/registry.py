@@ -70,7 +70,7 @@ from polycnc.toolpath.events import ValueWrite
 from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.feed.spindles import Spindle
@@ -234,19 +234,34 @@ def _inner_frame(channel: SinumerikChannel, _indices: Indices, *, settable: bool
     return inner
 
 
-def _stands(channel: SinumerikChannel) -> tuple[list[float], list[float]]:
-    """Machine and work position now: beside a compensated contour not where its blocks are programmed."""
-    actual, c, toolpath = channel.actual, channel.coordinates, channel.toolpath
-    machine, work = list(actual.machine), list(actual.work)
-    context = toolpath.last_context()
-    if actual.clocked is not None or context is None or channel.mode["compensation"] == "G40":
-        return machine, work
-    real = toolpath.to_machine(toolpath.last_end(), context, c.geometry)
-    seen = c.from_machine(real)
-    for column in c.geometry:  # other axes may have moved without a row
-        if column >= 0:
-            machine[column], work[column] = real[column], seen[column]
-    return machine, work
+def _of_tool(channel: SinumerikChannel) -> list[float] | None:
+    """Machine position beside a compensated contour, where blocks are programmed elsewhere; None where they are not."""
+    if channel.actual.clocked is not None or channel.mode["compensation"] == "G40":
+        return None
+    toolpath = channel.toolpath
+    if (context := toolpath.last_context()) is None:
+        return None
+    return toolpath.to_machine(toolpath.last_end(), context, channel.coordinates.geometry)
+
+
+def _with_geometry(channel: SinumerikChannel, values: Sequence[float], tool: Sequence[float]) -> list[float]:
+    """Values of all axes with the tool's own in the geometry axes: others may have moved without a row."""
+    columns = {column for column in channel.coordinates.geometry if column >= 0}
+    return [tool[i] if i in columns else value for i, value in enumerate(values)]
+
+
+def _machine(channel: SinumerikChannel) -> list[float]:
+    """Machine position of all axes now."""
+    values, tool = channel.actual.machine, _of_tool(channel)
+    return list(values) if tool is None else _with_geometry(channel, values, tool)
+
+
+def _work(channel: SinumerikChannel) -> list[float]:
+    """Work position of all axes now."""
+    values, tool = channel.actual.work, _of_tool(channel)
+    if tool is None:
+        return list(values)
+    return _with_geometry(channel, values, channel.coordinates.from_machine(tool))
 
 
 #: The frames between the work and a system: SZS, BZS.
@@ -260,7 +275,7 @@ def _below_the_work(channel: SinumerikChannel, system: str) -> list[float]:
     """Positions of all axes now in a system between the work and the basic one."""
     memory = channel.memory
     inner: NcFrame = _INNER[system](channel, ())
-    point = channel.coordinates.image(inner.frame, links.shown(channel, _stands(channel)[1]))
+    point = channel.coordinates.image(inner.frame, links.shown(channel, _work(channel)))
     for axis, part in inner.others.items():
         if axis not in memory.columns:  # a spindle
             continue
@@ -271,20 +286,20 @@ def _below_the_work(channel: SinumerikChannel, system: str) -> list[float]:
 
 def _basic(channel: SinumerikChannel) -> list[float]:
     """Positions of all axes now in the basic system: those of the machine, but for what a transformation leads."""
-    (machine, work), seated = _stands(channel), Transformations.of(channel).seated
+    machine, seated = _machine(channel), Transformations.of(channel).seated
     if seated is None:
         return machine
-    point = seated.basic(work)
+    point = seated.basic(_work(channel))
     led = {column for column in channel.coordinates.geometry if column >= 0}
     return [point[i] if i in led else value for i, value in enumerate(machine)]
 
 
 _SYSTEMS: dict[str, Callable[[SinumerikChannel], list[float]]] = {
-    "machine": lambda channel: _stands(channel)[0],
+    "machine": _machine,
     "basic": _basic,
     "base": partial(_below_the_work, system="base"),
     "settable": partial(_below_the_work, system="settable"),
-    "actual": lambda channel: links.shown(channel, _stands(channel)[1]),
+    "actual": lambda channel: links.shown(channel, _work(channel)),
     "programmed": lambda channel: channel.coordinates.position,
 }
 #: Systems in which positions are no diameters.
