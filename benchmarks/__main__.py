@@ -42,6 +42,7 @@ BENCHMARKS = (
     planner.optimum,
     mainrun.real_time,
     mainrun.actions,
+    mainrun.couplings,
     snapshots.milling,
     panel.long_program,
     panel.processor,

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import time
+from itertools import pairwise
 from math import cos, sin
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 from benchmarks.measure import Figure, rate
@@ -12,6 +15,8 @@ from polycnc.machine import load_machine
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+
+    from polycnc.machine import Machine
 
 LINES = 10_000
 #: A circle of 50 mm in lines of 0.2 mm.
@@ -36,6 +41,8 @@ ACTING = "\n".join(
 )
 #: Cycles a second of the processor: 20 s of machine time at a cycle of 2 ms.
 CYCLES_A_SECOND = 10_000
+#: Axes that follow one another, what each of them can do, and how near they are to their place in the end.
+CHAIN, LIMITS, PLACE_MM = 64, "acceleration = 2000\nrapid = 30000\nmax_feed = 30000\n", 1e-6
 #: Simulated seconds of the run that is read in every cycle.
 READ_S = 3.0
 
@@ -66,8 +73,27 @@ def actions() -> Iterator[Figure]:
     yield rate(f"main run, {ACTIONS} modal synchronised actions", rated, CYCLES_A_SECOND, "cycles/s")
 
 
-def _started(control: str, text: str) -> VirtualControl:
-    virtual = VirtualControl(control)
+def couplings() -> Iterator[Figure]:
+    """How many times faster than real time a chain of axes runs, each of them coupled to the one before it."""
+    names = ["X", "Y", "Z", *(f"V{k}" for k in range(CHAIN - 3))]
+    chain = "".join(f"TRAILON({after},{before},1)\n" for before, after in pairwise(names))
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "chain.toml"
+        limits = "".join(f"[axis.{name}]\n{LIMITS}" for name in names)
+        path.write_text(f'base = "mill3"\n[channel.1]\naxes = {names}\n{limits}', encoding="utf-8")
+        virtual = _started("sinumerik-840d", f"{chain}G1 X100 F3000\nX0\nX100\nM30\n", load_machine(path))
+    begin = time.process_time()
+    virtual.run()
+    seconds = time.process_time() - begin
+    if any(abs(place - 100.0) > PLACE_MM for place in virtual.machine_position):
+        raise ValueError("an axis of the chain stands elsewhere")
+    yield rate(
+        f"main run, {CHAIN} axes in a chain of couplings", virtual.time / seconds, 1.0, "times real time"
+    )
+
+
+def _started(control: str, text: str, machine: Machine | None = None) -> VirtualControl:
+    virtual = VirtualControl(control, machine=machine)
     virtual.load(text)
     virtual.cycle_start()
     return virtual
