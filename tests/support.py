@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from polycnc.channel.channel import Channel
+from polycnc.channel.group import ChannelGroup
 from polycnc.control.registry import control
 from polycnc.machine import load_machine, parse_setup
 from polycnc.program import Form, ProgramStore
@@ -35,7 +36,7 @@ def run(
     built = load_machine(machine or chosen.default_machine)
     toolpath = Toolpath(built.channel_axes(1), chunk_rows=chunk_rows)
     channel = Channel(chosen, built, parse_setup(setup), store, block_limit=block_limit, toolpath=toolpath)
-    for _ in channel.run(program):
+    for _ in ChannelGroup(channel).run(program):
         pass
     return channel
 
