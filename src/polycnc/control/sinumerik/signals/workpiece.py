@@ -97,72 +97,52 @@ def _column(channel: SinumerikChannel, key: AxisKey) -> int:
     return channel.coordinates.geometry[key] if isinstance(key, int) else channel.axes.index(key)
 
 
-def _place(number: int) -> Row:
-    """$AA_MEAS_POINT1 to 4."""
+def _written(
+    kind: Type,
+    bit: int,
+    values: Callable[[Measurement], dict[Any, Any]],
+    key: Callable[[SinumerikChannel, Indices], Any],
+) -> Row:
+    """A variable that a program writes and reads back, and that counts as valid from then on.
 
-    def read(channel: SinumerikChannel, indices: Indices) -> float:
-        return Measurement.of(channel).points[number].get(_key(channel, indices), 0.0)
+    Args:
+        kind: Of its values.
+        bit: Of `$AC_MEAS_VALID`.
+        values: Where they are kept.
+        key: Under which of these.
+    """
+    nothing = 0 if kind is Type.INT else 0.0
 
-    def write(channel: SinumerikChannel, indices: Indices, value: float) -> None:
+    def read(channel: SinumerikChannel, indices: Indices) -> Any:
+        return values(Measurement.of(channel)).get(key(channel, indices), nothing)
+
+    def write(channel: SinumerikChannel, indices: Indices, value: Any) -> None:
         state = Measurement.of(channel)
-        state.points[number][_key(channel, indices)] = value
-        state.valid |= 1 << number
+        values(state)[key(channel, indices)] = value
+        state.valid |= 1 << bit
 
-    return Type.REAL, read, write
-
-
-def _read_setpoint(channel: SinumerikChannel, indices: Indices) -> float:
-    return Measurement.of(channel).setpoint.get(_key(channel, indices), 0.0)
+    return kind, read, write
 
 
-def _set_setpoint(channel: SinumerikChannel, indices: Indices, value: float) -> None:
-    state = Measurement.of(channel)
-    state.setpoint[_key(channel, indices)] = value
-    state.valid |= 1 << Bit.SETPOINT
+def _of_axes(bit: int, values: Callable[[Measurement], dict[AxisKey, float]]) -> Row:
+    """$AA_MEAS_POINT1 and the like: a length or an angle of each axis."""
+    return _written(Type.REAL, bit, values, _key)
 
 
 def _whole(bit: int) -> Row:
-    def read(channel: SinumerikChannel, _indices: Indices) -> int:
-        return Measurement.of(channel).whole.get(bit, 0)
-
-    def write(channel: SinumerikChannel, _indices: Indices, value: int) -> None:
-        state = Measurement.of(channel)
-        state.whole[bit] = value
-        state.valid |= 1 << bit
-
-    return Type.INT, read, write
-
-
-def _read_setangle(channel: SinumerikChannel, indices: Indices) -> float:
-    return Measurement.of(channel).setangles.get(_key(channel, indices), 0.0)
-
-
-def _set_setangle(channel: SinumerikChannel, indices: Indices, value: float) -> None:
-    state = Measurement.of(channel)
-    state.setangles[_key(channel, indices)] = value
-    state.valid |= 1 << Bit.SETANGLES
+    return _written(Type.INT, bit, lambda state: state.whole, lambda _channel, _indices: bit)
 
 
 def _angle(bit: int) -> Row:
-    def read(channel: SinumerikChannel, _indices: Indices) -> float:
-        return Measurement.of(channel).angles.get(bit, 0.0)
-
-    def write(channel: SinumerikChannel, _indices: Indices, value: float) -> None:
-        state = Measurement.of(channel)
-        state.angles[bit] = value
-        state.valid |= 1 << bit
-
-    return Type.REAL, read, write
+    return _written(Type.REAL, bit, lambda state: state.angles, lambda _channel, _indices: bit)
 
 
-def _read_input(channel: SinumerikChannel, indices: Indices) -> float:
-    return Measurement.of(channel).inputs.get(_index(indices, "$AC_MEAS_INPUT", INPUTS), 0.0)
+def _input(_channel: SinumerikChannel, indices: Indices) -> int:
+    return _index(indices, "$AC_MEAS_INPUT", INPUTS)
 
 
-def _set_input(channel: SinumerikChannel, indices: Indices, value: float) -> None:
-    state = Measurement.of(channel)
-    state.inputs[_index(indices, "$AC_MEAS_INPUT", INPUTS)] = value
-    state.valid |= 1 << Bit.INPUT
+def _points(state: Measurement, *, number: int) -> dict[AxisKey, float]:
+    return state.points[number]
 
 
 def _index(indices: Indices, name: str, count: int) -> int:
@@ -253,7 +233,10 @@ WHOLE = {
     "$AC_MEAS_P2_COORD": Bit.TO,
 }
 WORKPIECE_VARIABLES: dict[str, RowWithStop] = {
-    **{f"$AA_MEAS_POINT{number + 1}": (*_place(number), False) for number in range(POINTS)},
+    **{
+        f"$AA_MEAS_POINT{number + 1}": (*_of_axes(number, partial(_points, number=number)), False)
+        for number in range(POINTS)
+    },
     **{
         f"$AA_MEAS_P{number + 1}_VALID": (
             Type.INT,
@@ -263,7 +246,7 @@ WORKPIECE_VARIABLES: dict[str, RowWithStop] = {
         )
         for number in range(POINTS)
     },
-    "$AA_MEAS_SETPOINT": (Type.REAL, _read_setpoint, _set_setpoint, False),
+    "$AA_MEAS_SETPOINT": (*_of_axes(Bit.SETPOINT, lambda state: state.setpoint), False),
     **{name: (*_whole(bit), False) for name, bit in WHOLE.items()},
     "$AC_MEAS_VALID": (
         Type.INT,
@@ -273,10 +256,10 @@ WORKPIECE_VARIABLES: dict[str, RowWithStop] = {
     ),
     "$AC_MEAS_LATCH": (Type.INT, _read_latch, _set_latch, True),
     "$AC_MEAS_FRAME": (Type.FRAME, _read_frame, None, False),
-    "$AA_MEAS_SETANGLE": (Type.REAL, _read_setangle, _set_setangle, False),
+    "$AA_MEAS_SETANGLE": (*_of_axes(Bit.SETANGLES, lambda state: state.setangles), False),
     "$AC_MEAS_WP_SETANGLE": (*_angle(Bit.SETANGLE), False),
     "$AC_MEAS_CORNER_SETANGLE": (*_angle(Bit.CORNER_SETANGLE), False),
-    "$AC_MEAS_INPUT": (Type.REAL, _read_input, _set_input, False),
+    "$AC_MEAS_INPUT": (*_written(Type.REAL, Bit.INPUT, lambda state: state.inputs, _input), False),
     **{name: (*_found(name), False) for name in kinds.FOUND},
     "$AC_MEAS_RESULTS": (Type.REAL, _read_result, None, False),
 }
