@@ -100,6 +100,31 @@ class Watcher(Protocol):
         """The program has ended, or was given up by a reset."""
 
 
+class PassiveWatcher:
+    """A watcher to which blocks mean nothing, and that neither the end of a program nor a reset waits for.
+
+    Whoever differs in one of these says so.
+    """
+
+    __slots__ = ()
+
+    def block_begins(self) -> None:
+        """It looks in interpolation cycles."""
+
+    def block_ends(self) -> None:
+        """It looks in interpolation cycles."""
+
+    @property
+    def lingers(self) -> bool:
+        """The end of the program does not wait."""
+        return False
+
+    @property
+    def goes_home(self) -> bool:
+        """A reset does not wait."""
+        return False
+
+
 class Commanded(Protocol):
     """An axis that is moved beside the path; positions are of the machine, mm (radius) or degrees."""
 

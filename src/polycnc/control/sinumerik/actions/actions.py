@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
-from polycnc.channel.interpolator import Influence
+from polycnc.channel.interpolator import Influence, PassiveWatcher
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.actions import axes as action_axes
 from polycnc.control.sinumerik.actions import overlay
@@ -56,7 +56,7 @@ _STORED = (
 
 
 @dataclass(slots=True)
-class SynchronisedActions(State, lifetime=Lifetime.POWER):
+class SynchronisedActions(PassiveWatcher, State, lifetime=Lifetime.POWER):
     """The actions of a channel; satisfies the channel's `Watcher`.
 
     Attributes:
@@ -222,11 +222,6 @@ class SynchronisedActions(State, lifetime=Lifetime.POWER):
         action.is_done = True
         action.cycles.clear()
         self.run.clocked.fail(error, program=action.code.program, line=action.code.line)
-
-    @property
-    def goes_home(self) -> bool:
-        """A reset waits for nothing here."""
-        return False
 
     @property
     def is_quiet(self) -> bool:

@@ -11,6 +11,7 @@ from __future__ import annotations
 from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
+from polycnc.channel.interpolator import PassiveWatcher
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.actions import axes as action_axes
 from polycnc.control.sinumerik.actions.axes import ActionAxes
@@ -70,7 +71,7 @@ class Led:
 
 
 @dataclass(slots=True)
-class LedAxes(State, lifetime=Lifetime.RESET):
+class LedAxes(PassiveWatcher, State, lifetime=Lifetime.RESET):
     """Axes that tables lead by LEADON of actions; satisfies the channel's `Watcher`.
 
     Attributes:
@@ -155,19 +156,6 @@ class LedAxes(State, lifetime=Lifetime.RESET):
     def block_begins(self) -> None:
         """An axis waits over the ends of blocks."""
         self.look()
-
-    def block_ends(self) -> None:
-        """The cycles show where the axes are."""
-
-    @property
-    def lingers(self) -> bool:
-        """The end of the program waits for no place."""
-        return False
-
-    @property
-    def goes_home(self) -> bool:
-        """A reset waits for nothing here."""
-        return False
 
     @property
     def is_quiet(self) -> bool:

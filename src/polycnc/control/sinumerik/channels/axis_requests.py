@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
+from polycnc.channel.interpolator import PassiveWatcher
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.actions import axes as action_axes
 from polycnc.control.sinumerik.block import arguments
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(slots=True)
-class AxisRequests(State, lifetime=Lifetime.RESET):
+class AxisRequests(PassiveWatcher, State, lifetime=Lifetime.RESET):
     """What actions of a channel have asked for and not got yet; satisfies the channel's `Watcher`.
 
     Attributes:
@@ -57,19 +58,6 @@ class AxisRequests(State, lifetime=Lifetime.RESET):
     def block_begins(self) -> None:
         """A request waits over the ends of blocks."""
         self.look()
-
-    def block_ends(self) -> None:
-        """The cycles show who has the axes."""
-
-    @property
-    def lingers(self) -> bool:
-        """The end of the program waits for no axis."""
-        return False
-
-    @property
-    def goes_home(self) -> bool:
-        """A reset waits for nothing here."""
-        return False
 
     @property
     def is_quiet(self) -> bool:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import field
 from typing import TYPE_CHECKING
 
+from polycnc.channel.interpolator import PassiveWatcher
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.actions.axes import ActionAxes
@@ -169,7 +170,7 @@ class Strokes:
 
 
 @dataclass(slots=True)
-class Oscillations(State, lifetime=Lifetime.POWER):
+class Oscillations(PassiveWatcher, State, lifetime=Lifetime.POWER):
     """The oscillating axes of a channel; satisfies the channel's `Watcher`.
 
     Attributes:
@@ -219,11 +220,6 @@ class Oscillations(State, lifetime=Lifetime.POWER):
         self.infeeds = [infeed for infeed in self.infeeds if not infeed.is_done(clocked)]
 
     @property
-    def goes_home(self) -> bool:
-        """A reset waits for nothing here."""
-        return False
-
-    @property
     def is_quiet(self) -> bool:
         """Whether another look would find everything as it is, until an axis comes to rest."""
         if self.axes and self.channel.coordinates.transformation is not None:
@@ -234,9 +230,6 @@ class Oscillations(State, lifetime=Lifetime.POWER):
         """The program may have written another feed since the block before."""
         for strokes in self.axes.values():
             strokes.take_speed(self.channel)
-
-    def block_ends(self) -> None:
-        """Oscillation knows no blocks."""
 
     @property
     def lingers(self) -> bool:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
+from polycnc.channel.interpolator import PassiveWatcher
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move
 from polycnc.channel.states.state import Lifetime, State
@@ -43,7 +44,7 @@ WORDS = ("MEAWA", CONTINUOUS)
 
 
 @dataclass(slots=True)
-class ActionProbes(State, lifetime=Lifetime.RESET):
+class ActionProbes(PassiveWatcher, State, lifetime=Lifetime.RESET):
     """Probes as the main run sees them; satisfies the channel's `Watcher`.
 
     Attributes:
@@ -113,19 +114,6 @@ class ActionProbes(State, lifetime=Lifetime.RESET):
     def block_begins(self) -> None:
         """What came in the block before is known first."""
         self.look()
-
-    def block_ends(self) -> None:
-        """A measurement goes on over the ends of blocks."""
-
-    @property
-    def lingers(self) -> bool:
-        """The end of the program does not wait for probes."""
-        return False
-
-    @property
-    def goes_home(self) -> bool:
-        """A reset waits for nothing here."""
-        return False
 
     @property
     def is_quiet(self) -> bool:

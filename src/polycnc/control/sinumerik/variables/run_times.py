@@ -10,6 +10,7 @@ import re
 from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
+from polycnc.channel.interpolator import PassiveWatcher
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.channel.waits import CLOCK
 from polycnc.control.sinumerik.actions.actions import SynchronisedActions
@@ -43,7 +44,7 @@ LONG = 100_000
 
 
 @dataclass(slots=True)
-class RunTimes(State, lifetime=Lifetime.POWER):
+class RunTimes(PassiveWatcher, State, lifetime=Lifetime.POWER):
     """The timers of a channel, by simulated time in seconds; satisfies the channel's `Watcher`.
 
     Attributes:
@@ -156,16 +157,6 @@ class RunTimes(State, lifetime=Lifetime.POWER):
         """`$AC_CUTTING_TIME`, that of the block in execution included."""
         moves = self.place and self._positions() != self.place
         return self.cutting + (self.now - self.since if moves else 0.0)
-
-    @property
-    def lingers(self) -> bool:
-        """The end of the program need not wait."""
-        return False
-
-    @property
-    def goes_home(self) -> bool:
-        """A reset waits for nothing here."""
-        return False
 
     @property
     def is_quiet(self) -> bool:

@@ -10,6 +10,7 @@ from __future__ import annotations
 from enum import Enum
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
+from polycnc.channel.interpolator import PassiveWatcher
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.channel.waits import PreprocessingStop
 from polycnc.deferred.records import dataclass
@@ -47,7 +48,7 @@ class Phase(Enum):
 
 
 @dataclass(slots=True)
-class Oscillator(State, lifetime=Lifetime.POWER):
+class Oscillator(PassiveWatcher, State, lifetime=Lifetime.POWER):
     """The oscillating axis of a channel; satisfies the channel's `Watcher`.
 
     Attributes:
@@ -222,12 +223,6 @@ class Oscillator(State, lifetime=Lifetime.POWER):
         strokes = self.source.read()
         self.speed = strokes.speed
         axis.move_to(strokes.vertices[self.toward], self._speed)
-
-    def block_begins(self) -> None:
-        """Oscillation knows no blocks."""
-
-    def block_ends(self) -> None:
-        """Oscillation knows no blocks."""
 
     @property
     def lingers(self) -> bool:

@@ -10,6 +10,7 @@ from dataclasses import field
 from math import copysign
 from typing import TYPE_CHECKING, NamedTuple
 
+from polycnc.channel.interpolator import PassiveWatcher
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.channel.waits import PreprocessingStop
 from polycnc.deferred.records import dataclass
@@ -31,7 +32,7 @@ class Lead(NamedTuple):
 
 
 @dataclass(slots=True)
-class SpindleLed(State, lifetime=Lifetime.POWER):
+class SpindleLed(PassiveWatcher, State, lifetime=Lifetime.POWER):
     """The axes of a channel that the spindle leads; satisfies the channel's `Watcher`.
 
     Attributes:
@@ -98,12 +99,6 @@ class SpindleLed(State, lifetime=Lifetime.POWER):
         axis = self.channel.on_clock().commanded(column)
         axis.run_on(int(copysign(1.0, speed)) if speed else 0, abs(speed))
 
-    def block_begins(self) -> None:
-        """Blocks mean nothing to it."""
-
-    def block_ends(self) -> None:
-        """Blocks mean nothing to it."""
-
     @property
     def lingers(self) -> bool:
         """The end of the program ends the couplings, and waits until their axes stand."""
@@ -115,11 +110,6 @@ class SpindleLed(State, lifetime=Lifetime.POWER):
             clocked.follow(column, ())
             clocked.commanded(column).stop()
         return any(clocked.commanded(column).moves for column in self.leads)
-
-    @property
-    def goes_home(self) -> bool:
-        """A reset waits for nothing here."""
-        return False
 
     @property
     def is_quiet(self) -> bool:
