@@ -73,7 +73,6 @@ class SpatialStage(Stage):
         side: 1 left, -1 right.
         corners: What happens at outer corners.
         rules: How the control does it.
-
         join: Makes one motion of the chords of a move.
 
     Attributes:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from polycnc.control.syntec.coordinates.turns import POSTURE, PostureState, TurnState
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion.path import reach
-from polycnc.control.word_address.transformations.tilted_plane import nearest_angles
+from polycnc.control.word_address.transformations.tilted_plane import turn_to
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
@@ -50,13 +50,8 @@ def _plan(builder: Builder, plan: Plan) -> Step | None:
             state.told[name] = told[name] + way if word.incremental else value + c.offsets[word.axis]
         near = {name: here[name] + state.told[name] - told[name] for name in told}
         wanted = TurnState.of(channel).work.direct(*kinematics.tool_on_work(state.told))
-        angles = nearest_angles(channel, wanted, near)
-        if angles is None:
+        if not turn_to(channel, wanted, near, goal):
             raise channel.control.fail("tilt_unreachable", address=rotary[0].address)
-        for name, angle in angles.items():
-            axis = channel.axis_index[name]
-            goal[axis] = angle - c.offsets[axis]
-            c.pending[axis] = 0.0
         channel.straight(kind, c.to_position(goal), nan if kind == Kind.RAPID else channel.feed, goal)
 
     return move

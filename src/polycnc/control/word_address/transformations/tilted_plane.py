@@ -302,6 +302,23 @@ def nearest_angles(channel: WordAddressChannel, wanted: Vector, near: Angles) ->
     return choice.nearest([solution for solution in placed if solution is not None], near)
 
 
+def turn_to(channel: WordAddressChannel, wanted: Vector, near: Angles, goal: list[float]) -> bool:
+    """Let the rotary axes of a programmed target stand the tool along a direction; False where they cannot.
+
+    Args:
+        channel: The channel.
+        wanted: The direction on the table.
+        near: Positions of the machine that the nearest ones are looked for from, degrees.
+        goal: Programmed positions of all axes; those of the rotary axes are set.
+    """
+    c, angles = channel.coordinates, nearest_angles(channel, wanted, near)
+    for name, angle in (angles or {}).items():
+        axis = channel.axis_index[name]
+        goal[axis] = angle - c.offsets[axis]
+        c.pending[axis] = 0.0
+    return angles is not None
+
+
 def end_tilt(channel: WordAddressChannel, words: Words) -> None:
     """G69: ends the rotation of G68 and the tilted plane."""
     state = TiltState.of(channel)

@@ -20,7 +20,7 @@ from polycnc.control.word_address.tools import data_input
 from polycnc.control.word_address.transformations.tilted_plane import (
     TiltState,
     check_compensation,
-    nearest_angles,
+    turn_to,
 )
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
@@ -216,13 +216,8 @@ def _plan_posture(builder: Builder, plan: Plan) -> Step | None:
         _check_posture(channel)
         told = channel.control.kinematics(channel).tool_on_work(posture)
         wanted = plane_on_table(channel, c.offsets).direct(*told)
-        angles = nearest_angles(channel, wanted, posture)
-        if angles is None:
+        if not turn_to(channel, wanted, posture, goal):
             raise channel.control.fail("tip_direction", address=rotary[0].address)
-        for name, angle in angles.items():
-            axis = channel.axis_index[name]
-            goal[axis] = angle - c.offsets[axis]
-            c.pending[axis] = 0.0
         channel.straight(kind, c.to_position(goal), feed, goal)
 
     return move
