@@ -235,5 +235,8 @@ def test_a_slanted_groove_is_cut_as_far_as_the_tool_reaches_and_no_rapid_meets_m
         at = stroke.end or at
     coarse = groove.top / stock.COUNT * (2.0 + abs(slope) + 6.0 / max(0.5, depth))
     inside = (stock.places > 0.0) & (stock.places < groove.top)
-    missing = np.count_nonzero((stock.reachable() - stock.rest > 0.05 + 4.0 * coarse)[inside])
+    # A tool between two grid lines reaches as deep at a wall as at one of them.
+    reachable = stock.reachable()
+    nearby = np.minimum(reachable, np.minimum(np.roll(reachable, 1), np.roll(reachable, -1)))
+    missing = np.count_nonzero((nearby - stock.rest > 0.05 + 4.0 * coarse)[inside])
     assert nose or missing <= 6  # walls are steep: a grid line beside one may be off by the whole height
