@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.compensation.policy import Approach, Policy
+from polycnc.control.fanuc import tool_plane
 from polycnc.control.fanuc.acceleration import accelerated
 from polycnc.control.fanuc.alarm_codes import ALARMS
 from polycnc.control.fanuc.code_calls import registered_codes
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.cycles.drilling import Drilling
     from polycnc.control.word_address.macro_b.code_calls import CodeCalls
+    from polycnc.geometry.frames import Frame, Vector
     from polycnc.toolpath.motion_settings import MotionSettings
 
 
@@ -156,6 +158,10 @@ class FanucMilling(MillingControl):
             (parameters.second_rotary_low, parameters.second_rotary_high),
         )
         return {name: span for name, span in zip(names, spans, strict=False) if any(span)}
+
+    def plane_across(self, channel: Channel, tool: Vector) -> Frame:
+        """G68.3 by 12321 and 12322."""
+        return tool_plane.plane_across(channel, _given(channel), tool)
 
     def goes_with_fixture(self, channel: Channel) -> bool:
         """7570#0 FTP = 0."""

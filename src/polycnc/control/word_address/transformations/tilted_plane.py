@@ -76,9 +76,9 @@ def tilt_further(channel: WordAddressChannel, words: Words) -> None:
 def tilt_by_tool(channel: WordAddressChannel, words: Words) -> None:
     """G68.3 X Y Z R: the plane across the tool as it stands; without X Y Z its origin is where the tool is.
 
-    X of the plane is square on the tool and on Z of the machine; R turns it about the tool.
+    X of the plane is square on the tool and on Z of the machine, or as the control has it; R turns it about the tool.
     """
-    from polycnc.transformation.planes.tilted import square_on, table_turn
+    from polycnc.transformation.planes.tilted import table_turn
 
     _check_state(channel, words, "G68.3")
     c, kinematics = channel.coordinates, channel.control.kinematics(channel)
@@ -87,7 +87,8 @@ def tilt_by_tool(channel: WordAddressChannel, words: Words) -> None:
         raise words.fail("tilt_format", "G68.3")
     angles = dict(zip(channel.axes, c.machine, strict=True))
     zero = work_zero(channel, c.offsets)
-    turn = square_on(kinematics.tool_on_machine(angles)) @ rotation(2, words.angle("R") or 0.0)
+    across = channel.control.plane_across(channel, kinematics.tool_on_machine(angles))
+    turn = across @ rotation(2, words.angle("R") or 0.0)
     table, turned = table_turn(kinematics, angles, zero), table_turn(kinematics, angles, MACHINE_ZERO)
     place = table.apply(*named_point(channel, words, "tilt_format"))
     plane = table.inverse() @ translation(*place) @ turn
