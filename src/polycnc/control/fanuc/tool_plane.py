@@ -25,8 +25,8 @@ def plane_across(
 ) -> Frame:
     """The plane across a tool (a unit vector of the machine); PS5459 for an upright axis that there is not.
 
-    12321 names the upright axis that X of the plane is square on. A tool that leans from it by no more than 12322 counts
-    as upright: Z, X and Y of the plane are that axis and the two that follow it.
+    12321 names the upright axis that X of the plane is square on. A tool that leans from it by no more than 12322
+    counts as upright: Z, X and Y of the plane are that axis and the two that follow it.
     """
     number = parameters.upright_axis
     if number == ALONG_TOOL:

@@ -72,8 +72,8 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.single_block import Halts
     from polycnc.control.word_address.cycles.drilling import Drilling
     from polycnc.control.word_address.macro_b.code_calls import CodeCalls
-    from polycnc.language.bulk import Condition
     from polycnc.geometry.frames import Frame, Vector
+    from polycnc.language.bulk import Condition
     from polycnc.messages import AlarmError
     from polycnc.toolpath.motion_settings import MotionSettings
 

@@ -66,6 +66,7 @@ class FanucMilling(MillingControl):
     rules: ClassVar[tuple[Rule, ...]] = (
         five_axes.RULE,
         leading_edge.RULE,
+        standing_system.ARC_RULE,
         standing_system.RULE,
         leaning.RULE,
         *MillingControl.rules,
