@@ -37,6 +37,10 @@ if TYPE_CHECKING:
     from polycnc.toolpath.motion_settings import MotionSettings
 
 
+#: A speed that no axis has.
+UNBOUND = 1e9
+
+
 def _given(channel: Channel) -> FanucMillingParameters:
     """The parameters of a channel, in front of power-on as well."""
     return FanucMillingParameters.naming(channel.setup.parameters)
@@ -176,6 +180,7 @@ class FanucMilling(MillingControl):
     def motion_settings(self, channel: Channel) -> MotionSettings:
         """1401#1 LRP: rapids on a line, else every axis by itself; 7001#0 MIT: manual intervention and return.
 
+        19696#6 RFC: cuts of tip control that turn rotary axes alone run at 1422, or at F.
         1403#5 HTG: F of a helix counts the whole path, else the arc alone. G93 counts the radius of an arc (operator's
         manual B-62764EN, 5.4).
         """
@@ -185,6 +190,7 @@ class FanucMilling(MillingControl):
             rapid_by_axis=not parameters.LRP,
             feed_along_arc=not parameters.HTG,
             inverse_time_by_radius=True,
+            turn_speed=0.0 if parameters.RFC else (parameters.path_feed / 60.0 or UNBOUND),
             returns_to_path=parameters.MIT,
             dry_run=dry_run(parameters),
             slowest_rapid=parameters.rapid_f0 / 60.0,

@@ -26,10 +26,15 @@ from polycnc.toolpath import Kind
 from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.numbers import Convert
     from polycnc.control.word_address.block.plan import AxisWord, Builder, Plan
     from polycnc.control.word_address.family import WordAddressChannel
+
+    #: The programmed end that the axis words of a block name.
+    Reach = Callable[[WordAddressChannel, tuple[AxisWord, ...], list[float]], list[float]]
 
 #: Feed codes of all word-address families to the meaning that the toolpath uses.
 FEED_MODES = {
@@ -136,19 +141,20 @@ def _plan_straight(builder: Builder, plan: Plan, kind: Kind) -> Step | None:
 
 def plan_arc_cw(builder: Builder, plan: Plan) -> Step | None:
     """G02: an arc or a helix, clockwise."""
-    return _plan_arc(builder, plan, ccw=False)
+    return plan_arc(builder, plan, ccw=False)
 
 
 def plan_arc_ccw(builder: Builder, plan: Plan) -> Step | None:
     """G03: an arc or a helix, counter-clockwise."""
-    return _plan_arc(builder, plan, ccw=True)
+    return plan_arc(builder, plan, ccw=True)
 
 
-def _plan_arc(builder: Builder, plan: Plan, *, ccw: bool) -> Step | None:
+def plan_arc(builder: Builder, plan: Plan, *, ccw: bool, reached: Reach | None = None) -> Step | None:
     """An arc, helix or full circle in the active plane.
 
     Centre words are increments from the start. With R the arc is up to 180 degrees, with a negative R longer. R wins
-    over centre words. Neither: what the control has for it.
+    over centre words. Neither: what the control has for it. `reached` gives the end
+    that the axis words name, where `reach` does not.
     """
     control = builder.control
     words = plan.axis_words
@@ -170,6 +176,8 @@ def _plan_arc(builder: Builder, plan: Plan, *, ccw: bool) -> Step | None:
             raise control.fail("plane")
         if polar:
             programmed = control.polar_target(channel, plan, values)
+        elif reached is not None:
+            programmed = reached(channel, words, values)
         else:
             programmed = reach(channel, words, values) if words else c.programmed[:]
         begin = (c.programmed[geometry[u]], c.programmed[geometry[v]])
@@ -188,7 +196,7 @@ def _plan_arc(builder: Builder, plan: Plan, *, ccw: bool) -> Step | None:
             emit_arc(channel, programmed, center, plane, ccw=ccw, feed=feed)
 
     targets = targets_as_data(words)
-    if targets is None or polar or corner is not None:
+    if targets is None or polar or corner is not None or reached is not None:
         return move
     first, second = (word_as_data(*word) for word in told.center)
     return declare(
