@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.compensation.policy import Approach, Policy
+from polycnc.control.fanuc import tool_plane
 from polycnc.control.fanuc.acceleration import accelerated
 from polycnc.control.fanuc.alarm_codes import ALARMS
 from polycnc.control.fanuc.code_calls import registered_codes
@@ -32,7 +33,12 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.cycles.drilling import Drilling
     from polycnc.control.word_address.macro_b.code_calls import CodeCalls
+    from polycnc.geometry.frames import Frame, Vector
     from polycnc.toolpath.motion_settings import MotionSettings
+
+
+#: A speed that no axis has.
+UNBOUND = 1e9
 
 
 def _given(channel: Channel) -> FanucMillingParameters:
@@ -64,6 +70,7 @@ class FanucMilling(MillingControl):
     rules: ClassVar[tuple[Rule, ...]] = (
         five_axes.RULE,
         leading_edge.RULE,
+        standing_system.ARC_RULE,
         standing_system.RULE,
         leaning.RULE,
         *MillingControl.rules,
@@ -157,6 +164,10 @@ class FanucMilling(MillingControl):
         )
         return {name: span for name, span in zip(names, spans, strict=False) if any(span)}
 
+    def plane_across(self, channel: Channel, tool: Vector) -> Frame:
+        """G68.3 by 12321 and 12322."""
+        return tool_plane.plane_across(channel, _given(channel), tool)
+
     def goes_with_fixture(self, channel: Channel) -> bool:
         """7570#0 FTP = 0."""
         return not _given(channel).FTP
@@ -169,6 +180,7 @@ class FanucMilling(MillingControl):
     def motion_settings(self, channel: Channel) -> MotionSettings:
         """1401#1 LRP: rapids on a line, else every axis by itself; 7001#0 MIT: manual intervention and return.
 
+        19696#6 RFC: cuts of tip control that turn rotary axes alone run at 1422, or at F.
         1403#5 HTG: F of a helix counts the whole path, else the arc alone. G93 counts the radius of an arc (operator's
         manual B-62764EN, 5.4).
         """
@@ -178,6 +190,7 @@ class FanucMilling(MillingControl):
             rapid_by_axis=not parameters.LRP,
             feed_along_arc=not parameters.HTG,
             inverse_time_by_radius=True,
+            turn_speed=0.0 if parameters.RFC else (parameters.path_feed / 60.0 or UNBOUND),
             returns_to_path=parameters.MIT,
             dry_run=dry_run(parameters),
             slowest_rapid=parameters.rapid_f0 / 60.0,

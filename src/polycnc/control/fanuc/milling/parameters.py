@@ -60,6 +60,9 @@ class FanucMillingParameters(FanucParameters["FanucMillingAxisParameters"]):
     #: 19696#5: tip control: words name the tip on the table (0) or in the work system, which does not turn
     #: (1).
     WKP = Bit(19696, 5, delivered=False)
+    #: 19696#6: tip control: cuts that turn rotary axes while the tip stands run at the highest feed, 1422
+    #: (0), or at F (1).
+    RFC = Bit(19696, 6, delivered=False)
     #: 19741: G53.1, G53.6, G43.5: highest machine position of the first rotary axis; both 0 for any (19742)
     #: [deg].
     first_rotary_high = Number(19741, delivered=0.0)

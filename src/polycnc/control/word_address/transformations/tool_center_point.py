@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.block.words_as_data import targets_as_data
-from polycnc.control.word_address.coordinates import tip
+from polycnc.control.word_address.coordinates import on_table, tip
 from polycnc.control.word_address.coordinates.on_table import OnTable
 from polycnc.control.word_address.coordinates.systems import ZeroState, frame_on_table, refresh_zero
 from polycnc.control.word_address.motion.path import reach
@@ -23,7 +23,6 @@ from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.tilted_plane import TiltState, nearest_angles
 from polycnc.geometry.frames import IDENTITY
 from polycnc.language.bulk import Straight, declare
-from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 from polycnc.transformation.orientation.standing import StandRecord, stand
 
@@ -83,11 +82,10 @@ def follow_table(channel: WordAddressChannel, words: Words, begun: Frame = IDENT
 
 
 def _check_work_zero(channel: WordAddressChannel) -> None:
-    """PC0001 for a fixture offset; with a workpiece error the tool's direction is to be told anew."""
-    state = OnTable.of(channel)
-    state.posture.clear()
-    if state.fixture:
-        raise AlarmError("PC0001", hint="hint.not-supported", code=f"{channel.mode['length']}: G54.2")
+    """A fixture offset would turn with the table as the tip does; a workpiece error turns the tool."""
+    if OnTable.of(channel).fixture:
+        raise channel.control.fail("tip_mode", address="G54.2")
+    on_table.begin_posture(channel)
 
 
 #: What does not go with tool centre point control (macro B reference §12), beside drilling cycles.
