@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import partial
 from itertools import pairwise
-from math import acos, ceil, degrees, sqrt
+from math import acos, ceil, degrees, dist, sqrt
 from typing import TYPE_CHECKING, Protocol
 
 from polycnc.channel.moves.move_path import MovePath
@@ -34,6 +34,8 @@ PARALLEL = 1e-6
 NOWHERE: Vector = (0.0, 0.0, 0.0)
 #: Chords of an arc along which the tool turns may be this far off it, mm.
 CHORD_ERROR_MM = 0.001
+#: A block is not cut into more chords near a pole.
+MOST_CHORDS = 1024
 
 
 class Directions(Protocol):
@@ -421,22 +423,27 @@ class SpatialStage(Stage):
             Rest.of(minus(at, self._beside(normal, tool)), tangent, tool)
             for at, normal, tool in ((before, first, tools[0]), (shift, last, tools[1]))
         ]
+
+        def beside(part: float) -> Vector:
+            tool = self.posture.tool_at(path.at(part))
+            normal = self._normal(tool, tangent) or last
+            # What corners ask for at both ends fades along the block.
+            rest = rests[0].fading(rests[1], part).at(tangent, tool)
+            x, y, z = (a + b for a, b in zip(self._beside(normal, tool), rest, strict=True))
+            return (x, y, z)
+
         count = self._chords(path, tangent, *rests)
+        while move.turning is not None and count < MOST_CHORDS and bends(beside, count):
+            count *= 2  # near a pole the tool turns along a bent way
         if count == 1:
             self._emit(move, shift)
             return
         pieces = [path.between(k / count, (k + 1) / count) for k in range(count)]
         self._unite(pieces)
         for k, piece in enumerate(pieces, 1):
-            part, place = k / count, path.at(k / count)
-            tool = self.posture.tool_at(place)
-            normal = self._normal(tool, tangent) or last
-            # What corners ask for at both ends fades along the block.
-            rest = rests[0].fading(rests[1], part).at(tangent, tool)
-            x, y, z = (a + b for a, b in zip(self._beside(normal, tool), rest, strict=True))
             if k < count:
                 piece.kind = Kind.SPLINE
-            self._emit(piece, (x, y, z))
+            self._emit(piece, beside(k / count))
 
     def _check_sense(self, move: Move, shift: Vector) -> None:
         """Refuse a block that leads against its programmed direction."""
@@ -546,6 +553,15 @@ class SpatialStage(Stage):
 def _unit(v: Vector) -> Vector | None:
     size = sqrt(dot(v, v))
     return None if size < PARALLEL else (v[0] / size, v[1] / size, v[2] / size)
+
+
+def bends(beside: Callable[[float], Vector], count: int) -> bool:
+    """Whether a vector along a block leaves so many chords of it by more than they may."""
+    places = [beside(0.5 * k / count) for k in range(2 * count + 1)]
+    return any(
+        dist(middle, [0.5 * (a + b) for a, b in zip(first, last, strict=True)]) > CHORD_ERROR_MM
+        for first, middle, last in zip(places[::2], places[1::2], places[2::2], strict=False)
+    )
 
 
 def _turned(directions: Sequence[Vector]) -> float:

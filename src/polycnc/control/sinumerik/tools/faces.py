@@ -10,14 +10,13 @@ Source: job planning 7.5.1 to 7.5.4.
 from __future__ import annotations
 
 from dataclasses import replace
-from itertools import pairwise
 from math import acos, hypot, radians, sin, sqrt
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.knots import join
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move, Rank, Stage
-from polycnc.compensation.spatial import CHORD_ERROR_MM, Directions
+from polycnc.compensation.spatial import CHORD_ERROR_MM, MOST_CHORDS, Directions, bends
 from polycnc.control.sinumerik.tools.edges import DP_CORNER_RADIUS, DP_RADIUS, DP_SIDE_ANGLE
 from polycnc.control.sinumerik.tools.spatial import ToolOnWork
 from polycnc.control.sinumerik.transformations import seat
@@ -179,16 +178,19 @@ class FaceStage(Stage):
         offset = self._offset(first, move.start)
         if max(abs(a - b) for a, b in zip(offset, self._shift, strict=True)) > CHORD_ERROR_MM:
             self._emit(move, move.start, first)
+
+        def beside(part: float) -> Vector:
+            return self._offset(unit(_between(first, last, part)), path.at(part))
+
         count = self._pieces(move, first, last)
         if move.is_arc:
             count = max(count, parts_for_chord_error(path.radius, path.sweep, CHORD_ERROR_MM))
-        places = [path.at(k / count) for k in range(count + 1)]
-        chords = [
-            replace(move, kind=Kind.SPLINE, center=None, turns=0.0, turning=None, start=start, end=end)
-            for start, end in pairwise(places)
-        ]
+        while count < MOST_CHORDS and bends(beside, count):
+            count *= 2
+        pieces = [path.between(k / count, (k + 1) / count) for k in range(count)]
+        chords = [replace(piece, kind=Kind.SPLINE, center=None, turns=0.0) for piece in pieces]
         if not move.is_arc:
-            chords[-1].kind, chords[-1].turning = move.kind, move.turning
+            chords[-1].kind = move.kind
         join(self._channel, chords)
         for k, chord in enumerate(chords, 1):
             self._emit(chord, chord.end, unit(_between(first, last, k / count)))
