@@ -282,6 +282,11 @@ def cylinder(
     return Build(inner, frozenset((rotary,)), bound=frozenset((made[1],)))
 
 
+def walls_of_machine(channel: SinumerikChannel, found: DataSet) -> float:
+    """What TRACYL of type 514 takes where its third argument is left out: MD24808 and MD24858, delivered as 0."""
+    return number_of(channel, f"$MC_TRACYL_DEFAULT_MODE_{order(channel, found)}", 0, 0.0)
+
+
 def inclined(channel: SinumerikChannel, angle: float) -> Build:
     """TRAANG: an oblique axis and the one that it leans on become two that are square.
 

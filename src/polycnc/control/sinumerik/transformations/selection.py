@@ -81,6 +81,8 @@ def _unrolled(
     if length_factor(channel.mode) != 1.0:
         raise not_supported("TRACYL: G70 G700")
     by_type = found.type == data_sets.WITH_WALLS
+    if walls is None and found.type == data_sets.WALLS_BY_ARGUMENT:
+        walls = data_sets.walls_of_machine(channel, found)
     return data_sets.cylinder(channel, found, diameter, walls=by_type or bool(walls), infeed=infeed)
 
 
