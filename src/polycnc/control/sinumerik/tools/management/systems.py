@@ -3,7 +3,7 @@
 From the tool to the work: the tool as it is drawn (TCS), a toolholder turns it (KCS), the head of a transformation
 turns that (MCS), a table turns the work (BCS), frames turn the work (WCS). Without a transformation KCS, MCS and BCS
 are one, and so they are under an inclined axis: only orientation transformations make a system of the machine in which
-a length means something (Function Manual W1, linear transformations). Source: Function Manual W1 (names of the systems).
+a length means something. Source: Function Manual W1 (names of the systems; linear transformations).
 """
 
 from __future__ import annotations
