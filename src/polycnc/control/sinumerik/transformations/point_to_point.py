@@ -13,12 +13,12 @@ from polycnc.control.sinumerik.tools import stages
 from polycnc.control.sinumerik.tools.smooth_stage import APPROACHES, RETRACTIONS
 from polycnc.control.sinumerik.transformations import data_sets, seat
 from polycnc.control.sinumerik.transformations.orientation import is_point_to_point
+from polycnc.control.sinumerik.transformations.pole_sides import plane_of, stand
 from polycnc.control.sinumerik.transformations.posture import Orienting, Posture
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY
 from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError
-from polycnc.transformation.kinematic.polar import PolarPlane
 from polycnc.transformation.orientation.choice import is_within
 from polycnc.transformation.seated import Seated
 
@@ -120,6 +120,7 @@ def go(channel: SinumerikChannel, kind: Kind, end: list[float], feed: float) -> 
         raise AlarmError("14144")
     machine = _configured(channel, transformation, end)
     channel.flush()
+    plane, across = plane_of(channel), _goes_across(channel)
     geometry, width = coordinates.geometry, len(channel.axes)
     coordinates.transform(None, data_sets.native(channel), (IDENTITY, [0.0] * width))
     state.shown_by = bare(transformation)
@@ -134,6 +135,8 @@ def go(channel: SinumerikChannel, kind: Kind, end: list[float], feed: float) -> 
     back = transformation.to_work(machine)
     same = all(abs(a - b) < 1e-6 for a, b in zip(back, end, strict=True))
     coordinates.arrive(end if same else back)
+    if plane is not None:
+        stand(channel, -plane.side if across else plane.side, machine[plane.rotary])
 
 
 def _configured(channel: SinumerikChannel, transformation: Transformation, end: list[float]) -> list[float]:
@@ -143,8 +146,7 @@ def _configured(channel: SinumerikChannel, transformation: Transformation, end: 
     G91, DC, ACP, ACN) holds.
     """
     here, machine = channel.coordinates.machine, transformation.to_machine(end)
-    inner = seat.Transformations.of(channel).build
-    if inner is not None and isinstance(_first(inner.inner), PolarPlane) and Orienting.of(channel).stat & 1:
+    if _goes_across(channel):
         machine = transformation.solutions(end)[1]
     turns = PointToPoint.of(channel).turns
     rotary = [i for i, axis in enumerate(channel.axis_data) if axis.rotary and i in seat.transformed(channel)]
@@ -169,6 +171,12 @@ def _is_told_by_turns(channel: SinumerikChannel, column: int) -> bool:
     return not axis.modulo and all(within)
 
 
+def _goes_across(channel: SinumerikChannel) -> bool:
+    """Whether the infeed axis of TRANSMIT goes to the other side of the centre: STAT asks, MD24911 allows it."""
+    build = seat.Transformations.of(channel).build
+    return build is not None and build.changes_sides and bool(Orienting.of(channel).stat & 1)
+
+
 def _shortest(angle: float, here: float) -> float:
     """The same direction on the turn that is nearest."""
     return here + (angle - here + TURN / 2.0) % TURN - TURN / 2.0
@@ -177,9 +185,3 @@ def _shortest(angle: float, here: float) -> float:
 def _reaches(channel: SinumerikChannel, column: int, angle: float) -> bool:
     """Whether the travel of an orientation axis has a position."""
     return is_within(angle, *Posture.of(channel, channel.mode).travel(channel.axis_data[column].name))
-
-
-def _first(transformation: Transformation) -> Transformation:
-    links = getattr(transformation, "links", (transformation,))
-    first: Transformation = links[0]
-    return first

@@ -226,8 +226,8 @@ def _seated(channel: SinumerikChannel, build: Build, total: NcFrame) -> Seated:
     tools = channel.memory.tools
     x, y, z = lengths = minus(tools.lengths, tools.apart)
     inner, shifts, offsets = build.inner, _shifts(channel, total), [0.0] * len(channel.axes)
-    is_linear = build.lengths in ("tip", "before")
-    on_axes = is_linear and tools.rules is not None and tools.rules.system == OF_MACHINE
+    # Under all but orientation transformations the basic system takes the place of the machine's (Function Manual W1).
+    on_axes = build.lengths == "tip" and tools.rules is not None and tools.rules.system == OF_MACHINE
     in_front, behind = (_NONE, tools.apart) if on_axes else (tools.apart, _NONE)
     if build.lengths == "tip":
         inner = _with_tip(inner, (-x, -y, -z))
