@@ -21,6 +21,7 @@ from polycnc.control.word_address.coordinates.systems import (
     work_zero,
 )
 from polycnc.control.word_address.coordinates.tip import TipState
+from polycnc.control.word_address.motion.planes import choose_basic_axes
 from polycnc.control.word_address.tools import length
 from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.tools.radius import RadiusState
@@ -113,6 +114,7 @@ def _check_state(channel: WordAddressChannel, words: Words, code: str) -> None:
             "PC0001", hint="hint.not-supported", code=f"G54.{'2' if state.fixture else '4'}: {code}"
         )
     check_compensation(channel, words, code)
+    choose_basic_axes(channel)
 
 
 def check_compensation(channel: WordAddressChannel, words: Words, code: str) -> None:
