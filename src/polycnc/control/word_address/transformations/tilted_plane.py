@@ -22,6 +22,7 @@ from polycnc.control.word_address.coordinates.systems import (
     work_zero,
 )
 from polycnc.control.word_address.coordinates.tip import TipState
+from polycnc.control.word_address.motion.planes import choose_basic_axes
 from polycnc.control.word_address.tools import length
 from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.tools.radius import RadiusState
@@ -112,6 +113,7 @@ def _check_state(channel: WordAddressChannel, words: Words, code: str) -> None:
     if OnTable.of(channel).fixture:
         raise words.fail("tilt_mode", code)
     check_compensation(channel, words, code)
+    choose_basic_axes(channel)
 
 
 def check_compensation(channel: WordAddressChannel, words: Words, code: str) -> None:

@@ -18,6 +18,7 @@ from polycnc.control.word_address.coordinates import on_table, tip
 from polycnc.control.word_address.coordinates.on_table import OnTable
 from polycnc.control.word_address.coordinates.systems import ZeroState, frame_on_table, refresh_zero
 from polycnc.control.word_address.motion.path import reach
+from polycnc.control.word_address.motion.planes import choose_basic_axes
 from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.tilted_plane import TiltState, nearest_angles
@@ -61,6 +62,7 @@ def follow_table(channel: WordAddressChannel, words: Words, begun: Frame = IDENT
     """
     from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
 
+    choose_basic_axes(channel)
     state = LengthState.of(channel)
     c = channel.coordinates
     kinematics = channel.control.kinematics(channel)
