@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.vectors import axis_vector, cross, dot
-from polycnc.transformation.planes.tilted import square_on
 
 if TYPE_CHECKING:
     from polycnc.control.fanuc.parameters import FanucAxisParameters, FanucParameters
@@ -28,6 +27,8 @@ def plane_across(
     12321 names the upright axis that X of the plane is square on. A tool that leans from it by no more than 12322
     counts as upright: Z, X and Y of the plane are that axis and the two that follow it.
     """
+    from polycnc.transformation.planes.tilted import square_on
+
     number = parameters.upright_axis
     if number == ALONG_TOOL:
         along = channel.control.kinematics(channel).along

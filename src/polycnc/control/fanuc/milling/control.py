@@ -69,6 +69,7 @@ class FanucMilling(MillingControl):
     )
     rules: ClassVar[tuple[Rule, ...]] = (
         five_axes.RULE,
+        five_axes.VECTOR_RULE,
         leading_edge.RULE,
         standing_system.ARC_RULE,
         standing_system.RULE,

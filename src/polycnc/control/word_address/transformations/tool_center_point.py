@@ -113,12 +113,17 @@ def _check_block(builder: Builder) -> None:
                 raise builder.control.fail("tip_company", address=address)
 
 
+def plan_with_tip(builder: Builder, plan: Plan) -> Step | None:
+    """G43.5: a straight block names the tip, and with I J K the direction of the tool; None without them."""
+    return plan_with_direction(builder, plan) if builder.mode["length"] == "G43.5" else None
+
+
 def plan_with_direction(builder: Builder, plan: Plan, leaning: Leaning | None = None) -> Step | None:
-    """G43.5: a straight block names the tip, and with I J K the direction of the tool; None without them.
+    """A straight block with I J K for the direction of the tool on the work; None without them.
 
     `leaning` gives another direction for that, by the end of the block.
     """
-    if builder.mode["length"] != "G43.5" or builder.mode["motion"] not in ("G0", "G1"):
+    if builder.mode["motion"] not in ("G0", "G1"):
         return None
     letters = [letter for letter in "IJK" if builder.has(letter) and builder.is_free(letter)]
     if not letters:
@@ -203,8 +208,6 @@ def end_following(channel: WordAddressChannel) -> None:
 
 
 #: Straight blocks that name the direction of the tool.
-RULE = Rule(
-    "tool direction by a vector", modes={"length": ("G43.5",)}, in_cycles=False, motion=plan_with_direction
-)
+RULE = Rule("tool direction by a vector", modes={"length": ("G43.5",)}, in_cycles=False, motion=plan_with_tip)
 #: What must not come while words name the tip.
 COMPANY_RULE = Rule("company of tool centre point control", modes={"length": TIP_CODES}, check=_check_block)
