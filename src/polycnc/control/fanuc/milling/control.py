@@ -71,6 +71,7 @@ class FanucMilling(MillingControl):
         five_axes.RULE,
         five_axes.VECTOR_RULE,
         leading_edge.RULE,
+        standing_system.START_RULE,
         standing_system.ARC_RULE,
         standing_system.RULE,
         leaning.RULE,
@@ -172,6 +173,10 @@ class FanucMilling(MillingControl):
     def goes_with_fixture(self, channel: Channel) -> bool:
         """7570#0 FTP = 0."""
         return not _given(channel).FTP
+
+    def turns_tool_with_work(self, channel: Channel) -> bool:
+        """11200#0 RCM."""
+        return _given(channel).RCM
 
     def measuring(self, channel: Channel, _words: Words) -> tuple[float, float, float]:
         """G37: way before the target at feed (6251), allowed difference (6254), feed (6241)."""
