@@ -75,7 +75,13 @@ def _check_machine(channel: WordAddressChannel, words: Words, code: str) -> None
     if code in spatial.BY_VECTOR and length == "G43.4":
         raise words.fail("spatial_motion", code)
     if code in spatial.BY_VECTOR and length not in TIP_CODES and kinematics.work:
-        raise words.fail("tip_direction", code)  # directions are those of a system that the table takes along
+        parameters = _parameters(channel)
+        if not parameters.TBP or parameters.WKP:
+            raise words.fail(
+                "tip_direction", code
+            )  # directions are those of a system that the table takes along
+        if any(letter in words for letter in "IJK"):
+            raise not_yet(f"{code} I J K: 19746#4")  # there is no such system yet
     if code in (*FOR_TABLES, *FOR_MIXED) and length in TIP_CODES:
         raise words.fail("tip_company", code)
     fits = {
@@ -87,12 +93,9 @@ def _check_machine(channel: WordAddressChannel, words: Words, code: str) -> None
 
 
 def check_axes(channel: WordAddressChannel, code: str) -> None:
-    """Without tip control: PC0001 where the work system is turned or goes with the table, and by TBP without WKP."""
+    """Without tip control: PC0001 where the work system is turned or goes with the table."""
     zero = ZeroState.of(channel)
     turned = TiltState.of(channel).plane is not None or not zero.frame.is_identity
-    parameters = _parameters(channel)
-    if parameters.TBP and not parameters.WKP and channel.control.kinematics(channel).work:
-        raise not_yet(f"{code}: 19746#4")
     if turned or OnTable.of(channel).acts or channel.coordinates.transformation is not None:
         raise not_yet(f"{code}: {channel.mode['rotation']}")
 

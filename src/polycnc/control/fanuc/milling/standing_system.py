@@ -47,7 +47,7 @@ def start_following(channel: WordAddressChannel, words: Words) -> None:
     """G43.4, G43.5 H: words name the tip on the table, by 19696#5 WKP in the work system; PS5459 for G43.5 with that.
 
     Where the table turns, directions begin behind the block of G43.5 (PS5421, as in the control's list of alarms).
-    PC0001 by WKP with axis words in the block, with G54.2 and with G54.4.
+    PC0001 by WKP with an arc in the block and with G54.4.
     """
     directed = channel.mode["length"] == "G43.5" and any(letter in words for letter in "IJK")
     if directed and channel.control.kinematics(channel).work:
@@ -55,7 +55,8 @@ def start_following(channel: WordAddressChannel, words: Words) -> None:
     stands = FanucMillingParameters.naming(channel.setup.parameters).WKP
     if stands and channel.mode["length"] == "G43.5":
         raise words.fail("tip_direction", "G43.5")
-    if stands and (OnTable.of(channel).acts or words.axes()):
+    curved = bool(words.axes()) and channel.mode["motion"] not in STRAIGHT
+    if stands and (OnTable.of(channel).error or curved):
         raise not_yet("G43.4: 19696#5")
     tool_center_point.start_following(channel, words)
     leaning.begin(channel, words)

@@ -42,13 +42,18 @@ def start_following(channel: WordAddressChannel, words: Words) -> None:
 
     Positions of the table that the block itself names count (FANUC A-79348E, page 19; 15i, B-63783EN-1, 10.4.14).
     """
+    follow_table(channel, words, channel.control.kinematics(channel).work_turn(angles_named(channel, words)))
+
+
+def angles_named(channel: WordAddressChannel, words: Words) -> dict[str, float]:
+    """Machine positions of the axes, the rotary ones where a block leads them."""
     c = channel.coordinates
     angles = dict(zip(channel.axes, c.machine, strict=True))
     for axis, value, incremental in words.axes():
         if channel.axis_data[axis].rotary:
             name = channel.axes[axis]
             angles[name] = angles[name] + value if incremental else value + c.offsets[axis]
-    follow_table(channel, words, channel.control.kinematics(channel).work_turn(angles))
+    return angles
 
 
 def follow_table(channel: WordAddressChannel, words: Words, begun: Frame = IDENTITY) -> None:
