@@ -10,7 +10,7 @@ from polycnc.control.fanuc import tool_plane
 from polycnc.control.fanuc.acceleration import accelerated
 from polycnc.control.fanuc.alarm_codes import ALARMS
 from polycnc.control.fanuc.code_calls import registered_codes
-from polycnc.control.fanuc.milling import five_axes, leading_edge, leaning, standing_system
+from polycnc.control.fanuc.milling import five_axes, leading_edge, leaning, standing_system, table_system
 from polycnc.control.fanuc.milling.codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
 from polycnc.control.fanuc.milling.cycles import MILLING_DRILLING
 from polycnc.control.fanuc.milling.parameters import FanucMillingParameters
@@ -66,10 +66,14 @@ class FanucMilling(MillingControl):
     context_steps: ClassVar[tuple[ContextStep, ...]] = (
         *MillingControl.context_steps,
         standing_system.displayed,
+        table_system.displayed,
     )
     rules: ClassVar[tuple[Rule, ...]] = (
         five_axes.RULE,
+        table_system.RULE,
+        five_axes.VECTOR_RULE,
         leading_edge.RULE,
+        standing_system.START_RULE,
         standing_system.ARC_RULE,
         standing_system.RULE,
         leaning.RULE,
@@ -171,6 +175,10 @@ class FanucMilling(MillingControl):
     def goes_with_fixture(self, channel: Channel) -> bool:
         """7570#0 FTP = 0."""
         return not _given(channel).FTP
+
+    def turns_tool_with_work(self, channel: Channel) -> bool:
+        """11200#0 RCM."""
+        return _given(channel).RCM
 
     def measuring(self, channel: Channel, _words: Words) -> tuple[float, float, float]:
         """G37: way before the target at feed (6251), allowed difference (6254), feed (6241)."""

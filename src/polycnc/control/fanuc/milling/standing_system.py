@@ -46,12 +46,17 @@ ALLOWED = frozenset(("G4", "G10", "G52", "G65", "G66", "G66.1"))
 def start_following(channel: WordAddressChannel, words: Words) -> None:
     """G43.4, G43.5 H: words name the tip on the table, by 19696#5 WKP in the work system; PS5459 for G43.5 with that.
 
-    PC0001 by WKP with axis words in the block, with G54.2 and with G54.4.
+    Where the table turns, directions begin behind the block of G43.5 (PS5421, as in the control's list of alarms).
+    PC0001 by WKP with an arc in the block and with G54.4.
     """
+    directed = channel.mode["length"] == "G43.5" and any(letter in words for letter in "IJK")
+    if directed and channel.control.kinematics(channel).work:
+        raise words.fail("tip_company", "G43.5")
     stands = FanucMillingParameters.naming(channel.setup.parameters).WKP
     if stands and channel.mode["length"] == "G43.5":
         raise words.fail("tip_direction", "G43.5")
-    if stands and (OnTable.of(channel).acts or words.axes()):
+    curved = bool(words.axes()) and channel.mode["motion"] not in STRAIGHT
+    if stands and (OnTable.of(channel).error or curved):
         raise not_yet("G43.4: 19696#5")
     tool_center_point.start_following(channel, words)
     leaning.begin(channel, words)
@@ -183,6 +188,33 @@ def _arc(builder: Builder, plan: Plan, told: path.CenterWords) -> Step:
     return move
 
 
+def _plan_start(builder: Builder, plan: Plan) -> Step | None:
+    """The block in which tip control begins: the axes go straight to where its words are (B-63944EN/02, page 656)."""
+    motion, words = builder.mode["motion"], plan.axis_words
+    begins = motion in STRAIGHT and builder.before["length"] not in tool_center_point.TIP_CODES
+    if not words or not begins or any(builder.has(letter) for letter in "IJK"):
+        return None
+    if builder.mode["polar"] == "G16" or builder.corner() is not None:
+        return None
+    kind, names_feed = STRAIGHT[motion], builder.has("F")
+
+    def move(channel: WordAddressChannel, values: list[float]) -> None:
+        feed = channel.feed if kind == Kind.FEED or names_feed else nan
+        if kind == Kind.FEED and not feed > 0.0:
+            raise channel.control.fail("no_feed")
+        c, led = channel.coordinates, channel.coordinates.transformation
+        machine = c.to_machine(c.to_position(path.reach(channel, words, values)))
+        channel.flush()
+        c.transform(None)
+        with channel.under(replace(channel.context, shown_by=led)):
+            channel.straight(kind, c.from_machine(machine), feed)
+            channel.flush()
+        c.transform(led)
+        channel.context_changed()
+
+    return move
+
+
 def _refuse_standing_arc(builder: Builder, plan: Plan) -> Step | None:
     """PS5421 for a block of G02 or G03 that turns rotary axes alone: the tip stands (A-79348E, page 14)."""
     motion, words = builder.mode["motion"], plan.axis_words
@@ -232,3 +264,5 @@ ARC_RULE = Rule(
     modes={"length": tool_center_point.TIP_CODES},
     motion=_refuse_standing_arc,
 )
+#: Straight blocks in which tip control begins.
+START_RULE = Rule("block in which tip control begins", codes=tool_center_point.TIP_CODES, motion=_plan_start)

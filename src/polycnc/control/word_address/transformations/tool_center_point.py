@@ -43,13 +43,18 @@ def start_following(channel: WordAddressChannel, words: Words) -> None:
 
     Positions of the table that the block itself names count (FANUC A-79348E, page 19; 15i, B-63783EN-1, 10.4.14).
     """
+    follow_table(channel, words, channel.control.kinematics(channel).work_turn(angles_named(channel, words)))
+
+
+def angles_named(channel: WordAddressChannel, words: Words) -> dict[str, float]:
+    """Machine positions of the axes, the rotary ones where a block leads them."""
     c = channel.coordinates
     angles = dict(zip(channel.axes, c.machine, strict=True))
     for axis, value, incremental in words.axes():
         if channel.axis_data[axis].rotary:
             name = channel.axes[axis]
             angles[name] = angles[name] + value if incremental else value + c.offsets[axis]
-    follow_table(channel, words, channel.control.kinematics(channel).work_turn(angles))
+    return angles
 
 
 def follow_table(channel: WordAddressChannel, words: Words, begun: Frame = IDENTITY) -> None:
@@ -115,12 +120,17 @@ def _check_block(builder: Builder) -> None:
                 raise builder.control.fail("tip_company", address=address)
 
 
+def plan_with_tip(builder: Builder, plan: Plan) -> Step | None:
+    """G43.5: a straight block names the tip, and with I J K the direction of the tool; None without them."""
+    return plan_with_direction(builder, plan) if builder.mode["length"] == "G43.5" else None
+
+
 def plan_with_direction(builder: Builder, plan: Plan, leaning: Leaning | None = None) -> Step | None:
-    """G43.5: a straight block names the tip, and with I J K the direction of the tool; None without them.
+    """A straight block with I J K for the direction of the tool on the work; None without them.
 
     `leaning` gives another direction for that, by the end of the block.
     """
-    if builder.mode["length"] != "G43.5" or builder.mode["motion"] not in ("G0", "G1"):
+    if builder.mode["motion"] not in ("G0", "G1"):
         return None
     letters = [letter for letter in "IJK" if builder.has(letter) and builder.is_free(letter)]
     if not letters:
@@ -205,8 +215,6 @@ def end_following(channel: WordAddressChannel) -> None:
 
 
 #: Straight blocks that name the direction of the tool.
-RULE = Rule(
-    "tool direction by a vector", modes={"length": ("G43.5",)}, in_cycles=False, motion=plan_with_direction
-)
+RULE = Rule("tool direction by a vector", modes={"length": ("G43.5",)}, in_cycles=False, motion=plan_with_tip)
 #: What must not come while words name the tip.
 COMPANY_RULE = Rule("company of tool centre point control", modes={"length": TIP_CODES}, check=_check_block)

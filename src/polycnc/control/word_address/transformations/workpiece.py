@@ -63,6 +63,8 @@ def correct_workpiece(channel: MillingChannel, words: Words) -> None:
     number = _number(channel, words, "G54.4", on_table.ERRORS)
     if number and OnTable.of(channel).fixture:
         raise words.fail("improper_g", "G54.4")
+    if number and channel.control.turns_tool_with_work(channel):
+        raise _not_yet("G54.4: 11200#0")
     OnTable.of(channel).error = number
     channel.mode = channel.mode.with_code(ERROR, "G54.4" if number else "")
     on_table.follow(channel)
