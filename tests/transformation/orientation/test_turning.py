@@ -69,7 +69,7 @@ def test_a_way_that_goes_to_and_fro_is_kept_to_as_well(
     kinematics: Kinematics, a: Vector, b: Vector, within: list[float]
 ) -> None:
     assume(0.05 < angle_between(a, b) < 1.0)
-    way, start = great_circle(a, b, within), start_of(kinematics, a)
+    way, start = great_circle(a, b, tuple(within)), start_of(kinematics, a)
     assert way is not None
     assume(pole_angle(kinematics, start) > 2.0 * CONE)
     knots = follow(kinematics, way, start, anywhere, CONE)

@@ -37,6 +37,7 @@ from polycnc.control.sinumerik.signals import fixed_stop, retraction
 from polycnc.control.sinumerik.tables import length_factor
 from polycnc.control.sinumerik.tools import master_holder, stages
 from polycnc.control.sinumerik.tools.management import lists
+from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.transformations.posture import Orienting
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.bulk import Note, declare
@@ -198,6 +199,7 @@ def spindle_position(_draft: Draft, position: int, shape: WordShape) -> Step:
 
     def run(channel: SinumerikChannel, values: Values) -> None:
         spindle = channel.memory.spindles.get(wanted)
+        seat.check_spindle(channel, spindle.number)
         value = number(values, position)
         modulo = ModuloRange.of(channel.memory.data, f"S{spindle.number}")
         if shape.modifier != "IC":

@@ -113,7 +113,7 @@ def _weights(channel: SinumerikChannel) -> tuple[float, ...]:
 
 
 def _sizes(channel: SinumerikChannel) -> dict[int, float]:
-    """What frames in front of a transformation make of a millimetre along X, Y, Z, by column; none if nothing."""
+    """What frames in front of a transformation make of a millimetre, by column; none where they keep it."""
     coordinates = channel.coordinates
     if coordinates.transformation is None:
         return {}

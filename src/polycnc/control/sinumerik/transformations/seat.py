@@ -362,6 +362,15 @@ def check_positioning(channel: SinumerikChannel, name: str, column: int, *, by_a
         raise AlarmError("17610", axis=channel.axes[column])
 
 
+def check_spindle(channel: SinumerikChannel, number: int) -> None:
+    """17610 for a spindle that turns or is positioned while TRANSMIT or TRACYL uses it up as their rotary axis."""
+    build, spindle = Transformations.of(channel).build, channel.machine.spindle.get(number)
+    if build is None or spindle is None or not spindle.axis:
+        return
+    if any(channel.axis_data[column].name == spindle.axis for column in build.used):
+        raise AlarmError("17610", axis=spindle.axis)
+
+
 def check_named(channel: SinumerikChannel, address: str) -> None:
     """Alarms for a word that no axis takes: 17610 for one that the transformation uses up, 12050 for a virtual one."""
     build = Transformations.of(channel).build

@@ -14,6 +14,7 @@ from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.couplings import switching
 from polycnc.control.sinumerik.couplings.links import Couplings
 from polycnc.control.sinumerik.errors import not_supported
+from polycnc.control.sinumerik.frames.memory import OF_PLANES
 from polycnc.control.sinumerik.limits import protection, working_area
 from polycnc.control.sinumerik.motion import splines
 from polycnc.control.sinumerik.tables import length_factor
@@ -242,8 +243,7 @@ def deselect_frames(channel: SinumerikChannel) -> None:
     channel.mode = channel.mode.with_code("wcs", "G500")
     frames.select(0)
     frames.programmable = NEUTRAL
-    for name in ("$P_PARTFRAME", "$P_TOOLFRAME", "$P_WPFRAME", "$P_TRAFRAME", "$P_CYCFRAME"):
-        frames.system[name] = NEUTRAL
+    frames.system.update(dict.fromkeys(("$P_PARTFRAME", *OF_PLANES), NEUTRAL))
 
 
 PROCEDURES: dict[str, Procedure] = {
