@@ -51,6 +51,8 @@ class PoleStage(Stage):
 
     def __init__(self, channel: Channel) -> None:
         self._channel = channel
+        #: Context and plane that were looked at last, the pole there, and the context with the side that holds.
+        self._seen: tuple[int, PolarPlane | None, Pole | None, int] = (-1, None, None, -1)
 
     @property
     def plane(self) -> PolarPlane | None:
@@ -73,11 +75,14 @@ class PoleStage(Stage):
 
     def move(self, move: Move) -> None:
         """Pass a move on, in pieces from pole to pole."""
-        pole = self._pole(move.context)
+        pole, _ = self._look(move.context)
         if pole is None or move.kind not in LED:
             self._pass(move)
             return
         path, at_pole = self._way(pole, move)
+        if not at_pole:
+            self._pass(move)
+            return
         edges = [0.0, *(share for share in at_pole if 0.0 < share < 1.0), 1.0]
         came: float | None = None
         for k, piece in enumerate(knots.cut(self._channel, move, edges[1:])):
@@ -90,19 +95,25 @@ class PoleStage(Stage):
 
     def run(self, run: Run) -> int:
         """Take the moves in front of the first one that comes to the pole."""
-        pole, run = self._pole(run.context), replace(run, context=self._context(run.context))
+        pole, context = self._look(run.context)
+        run = run if context == run.context else replace(run, context=context)
         count = len(run.kinds) if pole is None else _clear(pole, run)
         return self.after.run(run.part(count)) if count else 0
 
     def _pass(self, move: Move) -> None:
-        move.context = self._context(move.context)
+        move.context = self._look(move.context)[1]
         self.after.move(move)
 
     # ---- at the pole
 
-    def _pole(self, context: int) -> Pole | None:
-        made = self._channel.toolpath.contexts[context].transformation
-        return None if made is None or self.plane is None else made.pole
+    def _look(self, context: int) -> tuple[Pole | None, int]:
+        """The pole of a context, None for none, and the context with the side that holds."""
+        plane = self.plane
+        if self._seen[0] != context or self._seen[1] is not plane:
+            made = self._channel.toolpath.contexts[context].transformation
+            pole = None if made is None or plane is None else made.pole
+            self._seen = (context, plane, pole, self._context(context))
+        return self._seen[2], self._seen[3]
 
     def _way(self, pole: Pole, move: Move) -> tuple[Path, list[float]]:
         """The points of a move, and the shares of its way at which it is at the pole."""
