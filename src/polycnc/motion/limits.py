@@ -182,6 +182,7 @@ def context_fields(
         is_led(context, settings),
         is_ahead(context, settings),
         behind_s(context, settings),
+        settings.turn_speed if settings.turn_speed > 0.0 and _is_tip(context) else 0.0,
         *(a, b, c, d, e, f, g, h, i),
         *context.frame.t,
         *(context.offsets or [0.0] * axes),
@@ -296,10 +297,18 @@ def axis_rapids(ways: Sequence[float], context: Context, limits: Limits, *, soft
 
 
 def rotary_weight(context: Context, settings: Settings) -> float:
-    """Millimetres that a degree counts in the length that the feed refers to."""
-    if not settings.rotary_in_feed:
+    """Millimetres that a degree counts in the length that the feed refers to: that of a tip is its way on the work."""
+    if not settings.rotary_in_feed or _is_tip(context):
         return 0.0
     return INCH_MM if context.inch else 1.0
+
+
+def _is_tip(context: Context) -> bool:
+    if context.transformation is None:
+        return False
+    from polycnc.transformation.orientation.linked import is_tip
+
+    return is_tip(context.transformation)
 
 
 def _kept_tolerance(context: Context, settings: Settings) -> float:

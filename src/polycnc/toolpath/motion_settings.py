@@ -96,6 +96,8 @@ class MotionSettings:
         behind_times: Time constants behind the interpolation of cuts that are planned ahead, seconds, by the axes'
             names in programs (FANUC 1769).
         path_feed: Highest speed of a cut along the path, mm/s (SYNTEC Pr405).
+        turn_speed: Speed of a cut under tip control in which the tip stands and rotary axes turn, degrees/s (FANUC
+            19696#6 RFC = 0); 0 for its feed.
         rapid_caps: Highest rapid traverse of axes by their name in programs, mm/s or degrees/s, where it is below that
             of the machine (SYNTEC Pr461 on).
         feed_caps: The same for cutting (SYNTEC Pr621 on).
@@ -134,6 +136,7 @@ class MotionSettings:
     line_pulls: Mapping[str, float] = field(default_factory=dict)
     line_least: float = 0.0
     path_feed: float = inf
+    turn_speed: float = 0.0
     rapid_caps: Mapping[str, float] = field(default_factory=dict)
     feed_caps: Mapping[str, float] = field(default_factory=dict)
     rapid_ramps: Mapping[str, Ramp] = field(default_factory=dict)

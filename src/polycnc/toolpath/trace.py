@@ -246,7 +246,7 @@ class Display:
             # The F of a thread is its lead, whatever the feed mode.
             factor = scale.length if row.kind == Kind.THREAD else scale.feed
             record["feed"] = _shown(row.feed * factor)
-        return {**record, **self.curve(row.kind, row.curve, row.context)} if row.curve else record
+        return {**record, **self.curve(row)} if row.curve else record
 
     def _event(self, row: Row, event: Event) -> Record:
         place = {"type": event.type, "program": row.program, "line": row.line}
@@ -308,21 +308,31 @@ class Display:
             return self.layout.modulo
         return self.layout.modulo.difference(made.geometry)
 
-    def curve(self, kind: int, curve: Sequence[float], context: Context) -> CurveRecord:
+    def curve(self, row: Row) -> CurveRecord:
         """What the curve parameters of a row add to its record."""
-        scale = self.scale(context)
+        kind, curve = row.kind, row.curve
+        scale = self.scale(row.context)
         if kind == Kind.DWELL:
             seconds, revolutions = curve[0], curve[1]
             return {"revolutions": _shown(revolutions)} if revolutions else {"seconds": _shown(seconds)}
         if kind in (Kind.THREAD, Kind.TAP):
             record: CurveRecord = {"lead": _shown(curve[0] * scale.length), "start_angle": _shown(curve[1])}
             # A circular thread: its centre and normal stand behind lead and angle.
-            return {**record, **self._arc((*curve[2:8], 0.0), context)} if any(curve[5:8]) else record
-        return self._arc(curve, context) if kind in ARC_KINDS else {}
+            return {**record, **self._arc((*curve[2:8], 0.0), row)} if any(curve[5:8]) else record
+        return self._arc(curve, row) if kind in ARC_KINDS else {}
 
-    def _arc(self, curve: Sequence[float], context: Context) -> CurveRecord:
-        """Centre on the axes of the arc's plane (all three where it is tilted), and further turns."""
-        center, normal, turns = curve[0:3], curve[3:6], curve[6]
+    def _arc(self, curve: Sequence[float], row: Row) -> CurveRecord:
+        """Centre on the axes of the arc's plane (all three where it is tilted), and further turns.
+
+        Where displays show the path by a transformation, the centre is shown as the end of the row is.
+        """
+        center, normal, turns, context = curve[0:3], curve[3:6], curve[6], row.context
+        if context.shown_by is not None:
+            columns, point = self._geometry(context), list(row.end)
+            for axis, value in zip(columns, center, strict=True):
+                point[axis] = value
+            point = context.shown_by.to_work(point)
+            center = tuple(point[axis] for axis in columns)
         tilted = sum(1 for component in normal if abs(component) > 1e-9) > 1
         shown: dict[str, float] = {}
         scale = self.scale(context)
@@ -348,12 +358,17 @@ class Display:
             context = self.toolpath.contexts[number]
             rows = np.flatnonzero(is_arc & (columns.context == number))
             curves, scale = columns.curves[columns.curve[rows]], self.scale(context)
+            geometry, center = self._geometry(context), curves[:, :3]
+            if context.shown_by is not None:
+                points = columns.end[rows]
+                points[:, geometry] = center
+                center = work_rows(context.shown_by, points)[:, geometry]
             along = np.abs(curves[:, 3:6]) > 1e-9
             tilted = along.sum(axis=1) > 1
-            for k, i in enumerate(self._geometry(context)):
+            for k, i in enumerate(geometry):
                 if i >= 0:
                     column = found.setdefault(f"center_{self.axes[i]}", np.full(len(is_arc), np.nan))
-                    values = np.rint(curves[:, k] * scale.work[i] * STEPS) / STEPS + 0.0
+                    values = np.rint(center[:, k] * scale.work[i] * STEPS) / STEPS + 0.0
                     column[rows] = np.where(tilted | ~along[:, k], values, np.nan)
             turns = np.rint((curves[:, 6] + 1.0) * STEPS) / STEPS
             found.setdefault("turns", np.full(len(is_arc), np.nan))[rows] = np.where(

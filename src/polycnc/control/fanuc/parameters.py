@@ -194,6 +194,11 @@ class FanucParameters(MacroParameters[A_co]):
     MIT = Bit(7001, 0, delivered=False)
     #: 11304#3: program numbers have four (0) or eight digits (1).
     ON8 = Bit(11304, 3, delivered=False)
+    #: 12321: G68.3: X of the plane is square on the tool and on X (1), Y (2), Z (3) of the machine or the
+    #: tool with its axes at zero (0).
+    upright_axis = Whole(12321, delivered=0)
+    #: 12322: G68.3: a tool that leans from there by no more stands upright; 0 for 1 degree [deg].
+    upright_within = Number(12322, delivered=0.0)
     #: 19501#5: rapids on a line are accelerated after the interpolation (0) or before it, by 1671 and 1672
     #: (1).
     FRP = Bit(19501, 5, delivered=False)

@@ -63,6 +63,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.memory import ToolOffset
     from polycnc.geometry.arcs import Point
+    from polycnc.geometry.frames import Frame, Vector
     from polycnc.language.bulk import Condition
     from polycnc.program import Program
 
@@ -464,6 +465,12 @@ class WordAddressControl:
     def rotary_ranges(self, _channel: Channel) -> Mapping[str, tuple[float, float]]:
         """Lowest and highest machine position of rotary axes that stand the tool, degrees by name; none for any."""
         return {}
+
+    def plane_across(self, _channel: Channel, tool: Vector) -> Frame:
+        """G68.3: the plane across a tool (a unit vector of the machine)."""
+        from polycnc.transformation.planes.tilted import square_on
+
+        return square_on(tool)
 
     def reference_point(self, channel: Channel, axis: int, number: int) -> float:
         """Machine position of a reference point of an axis, from 1."""

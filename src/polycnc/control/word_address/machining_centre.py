@@ -139,6 +139,10 @@ class MillingControl(CustomMacroControl):
         """Whether the tool goes along when the fixture offset of a rotary table changes (G54.2)."""
         return True
 
+    def turns_tool_with_work(self, _channel: Channel) -> bool:
+        """Whether a workpiece error turns the tool without tip control as well (G54.4)."""
+        return False
+
     def overrun(self, channel: MillingChannel, axis: int) -> float:
         """How far and on which side G60 positions past the target of an axis, mm (sign: last direction)."""
         return channel.memory.parameters.of(channel.axes[axis]).overrun

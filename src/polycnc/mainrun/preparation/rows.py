@@ -12,7 +12,7 @@ from polycnc.mainrun.preparation.layout import Before, PreparedRow
 from polycnc.mainrun.preparation.run_blocks import largest_override
 from polycnc.motion.kernels.arcs import asked_on_arc, facing_radius
 from polycnc.motion.kernels.columns import SHARES, ContextRecord, Form, PieceRecord, Rows, piece_width
-from polycnc.motion.kernels.feeds import asked_speed, faster, follows_radius, is_rapid
+from polycnc.motion.kernels.feeds import faster, follows_radius, is_rapid, straight_speed
 from polycnc.motion.time_constants import Use, use_of
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.kinds import ARC_KINDS
@@ -199,7 +199,7 @@ class RowLayer:
             speed = (
                 asked_on_arc(curves, contexts, record, self._buffer.limits, *told)
                 if is_arc
-                else asked_speed(curves, contexts, record, *told)
+                else straight_speed(curves, contexts, record, *told, state.run.metric)
             )
             done += share
             asks.append((done, speed / factor if speed > 0.0 else inf))

@@ -160,6 +160,8 @@ class ContextRecord(Places):
     AHEAD = place()
     #: They are averaged behind that, twice over so many seconds, whatever the tolerance.
     BEHIND_S = place()
+    #: Speed of a cut in which nothing moves but rotary axes, degrees/s (0: its feed).
+    TURN_SPEED = place()
     #: Nine numbers by rows, then the shift.
     FRAME = place(12)
     OFFSETS = place(0)

@@ -113,6 +113,34 @@ def asked_speed(
     return 0.0  # none, zero, or NaN
 
 
+def counted_length(
+    contexts: Floats, record: int, n: int, limits: Limits, state: State
+) -> tuple[float, float]:
+    """Length that the feed of the row at hand counts, and the weight of degrees in it; 1 where nothing else moves."""
+    weight: float = contexts[record + ContextRecord.ROTARY_WEIGHT]
+    length = norm(state.delta, n, limits, weight)
+    if length == 0.0:
+        return norm(state.delta, n, limits, 1.0), 1.0
+    return length, weight
+
+
+def straight_speed(
+    curves: Floats,
+    contexts: Floats,
+    record: int,
+    state: State,
+    length: float,
+    radius_mm: float,
+    weight: float,
+) -> float:
+    """As `asked_speed`; a cut that moves nothing but rotary axes may have a speed of its own, if it names no time."""
+    own: float = contexts[record + ContextRecord.TURN_SPEED]
+    turns = weight != contexts[record + ContextRecord.ROTARY_WEIGHT] and not is_rapid(state)
+    if turns and own > 0.0 and contexts[record + ContextRecord.INVERSE_TIME] == 0.0:
+        return own
+    return asked_speed(curves, contexts, record, state, length, radius_mm)
+
+
 def lagging_pull(contexts: Floats, record: int, speed: float) -> float:
     """Acceleration from rest that is as far behind at a speed as acceleration after interpolation (FANUC 1626, 1627).
 

@@ -40,6 +40,7 @@ from polycnc.motion.kernels.feeds import (
     block_top,
     bound,
     bounded,
+    counted_length,
     drive_factor,
     follows_radius,
     has_room,
@@ -50,6 +51,7 @@ from polycnc.motion.kernels.feeds import (
     norm,
     open_joint,
     place,
+    straight_speed,
 )
 from polycnc.motion.kernels.hold import hold
 from polycnc.motion.kernels.jerk import line_pull, window_s
@@ -283,12 +285,8 @@ def lay_straight(
     curves: Floats, contexts: Floats, record: int, n: int, limits: Limits, pieces: Floats, state: State
 ) -> bool:
     """A line, or a chord of a spline; in parts where the spindle's speed follows the radius."""
-    delta, unit = state.delta, state.unit
-    weight = contexts[record + ContextRecord.ROTARY_WEIGHT]
-    length = norm(delta, n, limits, weight)
-    if length == 0.0:
-        weight = 1.0
-        length = norm(delta, n, limits, weight)
+    unit = state.unit
+    length, weight = counted_length(contexts, record, n, limits, state)
     if length == 0.0:
         return True
     parts, start_x = parts_of_line(contexts, record, limits, state)
@@ -305,7 +303,7 @@ def lay_straight(
         if shared and part > 0:
             pull = whole_pull * state.share_ease[part]
         radius = start_x + (end_x - start_x) * 0.5 * (first + last)
-        asked = asked_speed(curves, contexts, record, state, length, radius)
+        asked = straight_speed(curves, contexts, record, state, length, radius, weight)
         if part == 0:
             speed = min(top, own, bounded(asked, state))
             wanted = min(top, asked) if asked > 0.0 else top

@@ -25,15 +25,15 @@ from polycnc.motion.kernels.columns import (
 from polycnc.motion.kernels.corners import SAME_DIRECTION, join
 from polycnc.motion.kernels.demands import demand, within
 from polycnc.motion.kernels.feeds import (
-    asked_speed,
     block_top,
     bounded,
+    counted_length,
     has_room,
     is_rapid,
     next_piece,
-    norm,
     open_joint,
     place,
+    straight_speed,
 )
 from polycnc.motion.kernels.rounding import BENDS
 from polycnc.transformation.orientation.linkage import (
@@ -63,11 +63,7 @@ def lay_led(
 ) -> bool:
     """Lay the row at hand out; false when the room ends."""
     delta, unit, room = state.delta, state.unit, state.room
-    weight = contexts[record + ContextRecord.ROTARY_WEIGHT]
-    length = norm(delta, n, limits, weight)
-    if length == 0.0:
-        weight = 1.0
-        length = norm(delta, n, limits, weight)
+    length, weight = counted_length(contexts, record, n, limits, state)
     if length == 0.0:
         state.share_ease[AT_END] = state.run.corner_ease
         return True
@@ -81,7 +77,7 @@ def lay_led(
         room[Room.BLOCKS + Block.ORIGIN * n + i] = (
             state.position[i] - contexts[record + ContextRecord.OFFSETS + i]
         )
-    asked = asked_speed(curves, contexts, record, state, length, state.row.facing)
+    asked = straight_speed(curves, contexts, record, state, length, state.row.facing, weight)
     speed = min(bounded(asked, state), led_top(length, limits, state))
     faster = contexts[record + ContextRecord.RAPID_SHARE] if is_rapid(state) else 1.0
     entry2 = meet(contexts, record, n, limits, state, length, weight, speed * speed)

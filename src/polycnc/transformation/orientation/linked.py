@@ -41,6 +41,13 @@ def linkage_of(transformation: Transformation | None) -> array[float]:
     return record
 
 
+def is_tip(transformation: Transformation | None) -> bool:
+    """Whether a transformation is a tool centre point, with a frame in front of it or without."""
+    return isinstance(
+        transformation.inner if isinstance(transformation, Seated) else transformation, ToolCentrePoint
+    )
+
+
 def zero_of(transformation: Transformation | None, n: int) -> tuple[float, ...]:
     """What is added to each of n axes behind the chains of a tool centre point; zero for other transformations.
 

@@ -10,7 +10,7 @@ from math import hypot
 from typing import TYPE_CHECKING
 
 from polycnc.geometry.frames import IDENTITY, Frame, rotation, translation
-from polycnc.geometry.vectors import cross, minus
+from polycnc.geometry.vectors import axis_vector, cross, minus
 from polycnc.machine.kinematics import turn_about
 
 if TYPE_CHECKING:
@@ -89,9 +89,12 @@ def by_directions(origin: Vector, along: Vector, upright: Vector) -> Frame | Non
     return None if x is None or z is None else _of_axes(origin, x, z)
 
 
-def square_on(tool: Vector) -> Frame:
-    """The plane across a tool (a unit vector): its X axis is square on the Z axes of work and tool."""
-    x = _unit(cross((0.0, 0.0, 1.0), tool), UPRIGHT) or (1.0, 0.0, 0.0)
+def square_on(tool: Vector, upright: int = 2) -> Frame:
+    """The plane across a tool (a unit vector): its X axis is square on the tool and on an upright axis, 0 to 2.
+
+    Where both lie along a line X of the plane is the axis that follows the upright one: X follows Z.
+    """
+    x = _unit(cross(axis_vector(upright), tool), UPRIGHT) or axis_vector((upright + 1) % 3)
     return _of_axes((0.0, 0.0, 0.0), x, tool)
 
 

@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.channel.stack import LevelKind
+from polycnc.control.fanuc import tool_plane
 from polycnc.control.fanuc.acceleration import accelerated
 from polycnc.control.fanuc.alarm_codes import ALARMS, HINTED_WORDS
 from polycnc.control.fanuc.code_calls import registered_codes
@@ -71,6 +72,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.single_block import Halts
     from polycnc.control.word_address.cycles.drilling import Drilling
     from polycnc.control.word_address.macro_b.code_calls import CodeCalls
+    from polycnc.geometry.frames import Frame, Vector
     from polycnc.language.bulk import Condition
     from polycnc.messages import AlarmError
     from polycnc.toolpath.motion_settings import MotionSettings
@@ -205,6 +207,10 @@ class FanucTurning(CustomMacroControl):
     def hand_range(self, channel: LatheChannel, axis: int) -> tuple[float, float]:
         """Stored stroke check 1."""
         return limits.hand_range(channel, axis)
+
+    def plane_across(self, channel: LatheChannel, tool: Vector) -> Frame:
+        """G68.3 by 12321 and 12322."""
+        return tool_plane.plane_across(channel, channel.memory.parameters, tool)
 
     def motion_settings(self, channel: LatheChannel) -> MotionSettings:
         """1401#1 LRP: rapids run on a line, else every axis by itself; what acts on a rigid tap (5203#4, 5200#6).

@@ -6,7 +6,7 @@ from functools import wraps
 from typing import TYPE_CHECKING, Any
 
 from polycnc.control.fanuc.dwell import dwell
-from polycnc.control.fanuc.milling import five_axes, leading_edge, leaning, standing_system
+from polycnc.control.fanuc.milling import leading_edge, leaning, standing_system, table_system
 from polycnc.control.fanuc.milling.cycles import MILLING_DRILLING
 from polycnc.control.word_address.auxiliary import functions
 from polycnc.control.word_address.auxiliary.m_codes import MACHINING_CENTRE
@@ -111,10 +111,13 @@ ROWS = table(
     GCode("G40.1", normal_line.GROUP, normal_line.cancel),
     GCode("G41.1", normal_line.GROUP, normal_line.start),
     GCode("G42.1", normal_line.GROUP, normal_line.start),
-    GCode("G40", "compensation", leading_edge.cancel, takes="I J K", order=Order.COMPENSATION),
+    GCode("G40", "compensation", table_system.cancel, takes="I J K", order=Order.COMPENSATION),
     GCode("G41", "compensation", corner_vectors.compensate_left, takes="D I J K", order=Order.COMPENSATION),
     GCode("G42", "compensation", corner_vectors.compensate_right, takes="D I J K", order=Order.COMPENSATION),
-    *(GCode(code, "compensation", five_axes.compensate, takes="D", order=Order.COMPENSATION) for code in spatial.SIDES),
+    *(
+        GCode(code, "compensation", table_system.compensate, takes="D", order=Order.COMPENSATION)
+        for code in spatial.SIDES
+    ),
     GCode("G41.3", "compensation", leading_edge.offset_edge, takes="D", order=Order.COMPENSATION),
     GCode("G43", "length", tool_length(length.compensate_length), takes="H", order=Order.LENGTH),
     GCode("G44", "length", tool_length(length.compensate_length), takes="H", order=Order.LENGTH),
@@ -185,6 +188,7 @@ POWER_ON = MILLING_POWER_ON | {
     workpiece.FIXTURE: "",
     workpiece.ERROR: "",
     standing_system.SYSTEM: "",
+    table_system.SYSTEM: "",
     leaning.GROUP: "",
     "calls": macro_calls.ALL_CALLS,
     "interruption": "M97",

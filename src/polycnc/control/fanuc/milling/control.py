@@ -6,10 +6,11 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.compensation.policy import Approach, Policy
+from polycnc.control.fanuc import tool_plane
 from polycnc.control.fanuc.acceleration import accelerated
 from polycnc.control.fanuc.alarm_codes import ALARMS
 from polycnc.control.fanuc.code_calls import registered_codes
-from polycnc.control.fanuc.milling import five_axes, leading_edge, leaning, standing_system
+from polycnc.control.fanuc.milling import five_axes, leading_edge, leaning, standing_system, table_system
 from polycnc.control.fanuc.milling.codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
 from polycnc.control.fanuc.milling.cycles import MILLING_DRILLING
 from polycnc.control.fanuc.milling.parameters import FanucMillingParameters
@@ -32,7 +33,12 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.cycles.drilling import Drilling
     from polycnc.control.word_address.macro_b.code_calls import CodeCalls
+    from polycnc.geometry.frames import Frame, Vector
     from polycnc.toolpath.motion_settings import MotionSettings
+
+
+#: A speed that no axis has.
+UNBOUND = 1e9
 
 
 def _given(channel: Channel) -> FanucMillingParameters:
@@ -60,10 +66,15 @@ class FanucMilling(MillingControl):
     context_steps: ClassVar[tuple[ContextStep, ...]] = (
         *MillingControl.context_steps,
         standing_system.displayed,
+        table_system.displayed,
     )
     rules: ClassVar[tuple[Rule, ...]] = (
         five_axes.RULE,
+        table_system.RULE,
+        five_axes.VECTOR_RULE,
         leading_edge.RULE,
+        standing_system.START_RULE,
+        standing_system.ARC_RULE,
         standing_system.RULE,
         leaning.RULE,
         *MillingControl.rules,
@@ -157,9 +168,17 @@ class FanucMilling(MillingControl):
         )
         return {name: span for name, span in zip(names, spans, strict=False) if any(span)}
 
+    def plane_across(self, channel: Channel, tool: Vector) -> Frame:
+        """G68.3 by 12321 and 12322."""
+        return tool_plane.plane_across(channel, _given(channel), tool)
+
     def goes_with_fixture(self, channel: Channel) -> bool:
         """7570#0 FTP = 0."""
         return not _given(channel).FTP
+
+    def turns_tool_with_work(self, channel: Channel) -> bool:
+        """11200#0 RCM."""
+        return _given(channel).RCM
 
     def measuring(self, channel: Channel, _words: Words) -> tuple[float, float, float]:
         """G37: way before the target at feed (6251), allowed difference (6254), feed (6241)."""
@@ -169,6 +188,7 @@ class FanucMilling(MillingControl):
     def motion_settings(self, channel: Channel) -> MotionSettings:
         """1401#1 LRP: rapids on a line, else every axis by itself; 7001#0 MIT: manual intervention and return.
 
+        19696#6 RFC: cuts of tip control that turn rotary axes alone run at 1422, or at F.
         1403#5 HTG: F of a helix counts the whole path, else the arc alone. G93 counts the radius of an arc (operator's
         manual B-62764EN, 5.4).
         """
@@ -178,6 +198,7 @@ class FanucMilling(MillingControl):
             rapid_by_axis=not parameters.LRP,
             feed_along_arc=not parameters.HTG,
             inverse_time_by_radius=True,
+            turn_speed=0.0 if parameters.RFC else (parameters.path_feed / 60.0 or UNBOUND),
             returns_to_path=parameters.MIT,
             dry_run=dry_run(parameters),
             slowest_rapid=parameters.rapid_f0 / 60.0,

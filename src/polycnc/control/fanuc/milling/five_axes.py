@@ -20,7 +20,7 @@ from polycnc.control.word_address.coordinates.systems import ZeroState
 from polycnc.control.word_address.tools import radius, spatial
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.tilted_plane import TiltState
-from polycnc.control.word_address.transformations.tool_center_point import TIP_CODES
+from polycnc.control.word_address.transformations.tool_center_point import TIP_CODES, plan_with_direction
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -72,8 +72,16 @@ def compensate(channel: WordAddressChannel, words: Words) -> None:
 def _check_machine(channel: WordAddressChannel, words: Words, code: str) -> None:
     """PS5460 for a form that is not for this machine; those of FANUC 16i do not go with tip control."""
     length, kinematics = channel.mode["length"], channel.control.kinematics(channel)
-    if code in spatial.BY_VECTOR and length != "G43.5":
-        raise not_yet(f"{code}: {length}")
+    if code in spatial.BY_VECTOR and length == "G43.4":
+        raise words.fail("spatial_motion", code)
+    if code in spatial.BY_VECTOR and length not in TIP_CODES and kinematics.work:
+        parameters = _parameters(channel)
+        if not parameters.TBP or parameters.WKP:
+            raise words.fail(
+                "tip_direction", code
+            )  # directions are those of a system that the table takes along
+        if any(letter in words for letter in "IJK"):
+            raise not_yet(f"{code} I J K: 19746#4")  # there is no such system yet
     if code in (*FOR_TABLES, *FOR_MIXED) and length in TIP_CODES:
         raise words.fail("tip_company", code)
     fits = {
@@ -85,11 +93,9 @@ def _check_machine(channel: WordAddressChannel, words: Words, code: str) -> None
 
 
 def check_axes(channel: WordAddressChannel, code: str) -> None:
-    """Without tip control: PC0001 where the work system is turned or goes with the table, and by 19746#4 TBP."""
+    """Without tip control: PC0001 where the work system is turned or goes with the table."""
     zero = ZeroState.of(channel)
     turned = TiltState.of(channel).plane is not None or not zero.frame.is_identity
-    if _parameters(channel).TBP:
-        raise not_yet(f"{code}: 19746#4")
     if turned or OnTable.of(channel).acts or channel.coordinates.transformation is not None:
         raise not_yet(f"{code}: {channel.mode['rotation']}")
 
@@ -114,6 +120,8 @@ def _check_block(builder: Builder) -> None:
     form = next(codes for codes in FORMS if before in codes)
     for row in builder.codes:
         if row.group == "motion" and row.code not in STRAIGHT and (kinematics.work or row.code not in ARCS):
+            raise builder.control.fail("spatial_motion", address=row.code)
+        if row.group == "wcs":
             raise builder.control.fail("spatial_motion", address=row.code)
         if row.code not in ALLOWED and row.code not in form:
             raise not_yet(f"{row.code}: {before}")
@@ -154,6 +162,19 @@ def not_yet(code: str) -> AlarmError:
     return AlarmError("PC0001", hint="hint.not-supported", code=code)
 
 
+def _plan_direction(builder: Builder, plan: Plan) -> Step | None:
+    """I J K of G41.6, G42.6 without tip control, on machines whose tool turns: the tool stands so at the end."""
+    if builder.mode["length"] in TIP_CODES:
+        return None
+    return plan_with_direction(builder, plan)
+
+
+#: Blocks that name the direction of the tool by a vector.
+VECTOR_RULE = Rule(
+    "tool direction by a vector in radius compensation in space",
+    modes={"compensation": spatial.BY_VECTOR},
+    motion=_plan_direction,
+)
 #: What must not come during radius compensation in space.
 RULE = Rule(
     "radius compensation in space", modes={"compensation": spatial.SIDES}, check=_check_block, after=_behind

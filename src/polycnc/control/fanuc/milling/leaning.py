@@ -72,13 +72,10 @@ def _leaned(channel: WordAddressChannel, vector: Vector, position: list[float]) 
 
 
 def _plan(builder: Builder, plan: Plan) -> Step | None:
-    """A straight block that leans the tool; without I J K which direction it leans from is not known for sure."""
-    if builder.mode["length"] != "G43.5" or not plan.axis_words:
+    """A straight block that leans the tool; without I J K it stays as it stands (15i, B-63323EN-1, page 1053)."""
+    if builder.mode["length"] != "G43.5":
         return None
-    step = plan_with_direction(builder, plan, _leaned)
-    if step is None:
-        raise not_yet("G43.5 Q")
-    return step
+    return plan_with_direction(builder, plan, _leaned)
 
 
 #: Straight blocks while the tool leans.

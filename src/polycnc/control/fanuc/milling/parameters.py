@@ -50,6 +50,9 @@ class FanucMillingParameters(FanucParameters["FanucMillingAxisParameters"]):
     SCR = Bit(5400, 7, delivered=False)
     #: 7570#0: G54.2: the tool goes along with the fixture offset (0) or stays (1).
     FTP = Bit(7570, 0, delivered=False)
+    #: 11200#0: G54.4 without tip control: the tool keeps its direction (0) or stands on the work as it lies
+    #: (1, not executed).
+    RCM = Bit(11200, 0, delivered=False)
     #: 11600#5: an axis that the block behind G68 does not name keeps its coordinate from before (0) or its
     #: position (1).
     AX1 = Bit(11600, 5, delivered=True)
@@ -60,6 +63,9 @@ class FanucMillingParameters(FanucParameters["FanucMillingAxisParameters"]):
     #: 19696#5: tip control: words name the tip on the table (0) or in the work system, which does not turn
     #: (1).
     WKP = Bit(19696, 5, delivered=False)
+    #: 19696#6: tip control: cuts that turn rotary axes while the tip stands run at the highest feed, 1422
+    #: (0), or at F (1).
+    RFC = Bit(19696, 6, delivered=False)
     #: 19741: G53.1, G53.6, G43.5: highest machine position of the first rotary axis; both 0 for any (19742)
     #: [deg].
     first_rotary_high = Number(19741, delivered=0.0)

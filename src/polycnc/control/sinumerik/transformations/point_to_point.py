@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import inf
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
@@ -68,6 +69,8 @@ def plan(draft: Draft) -> None:
     moves = draft.lead is not None or bool(draft.axis_terms())
     if draft.mode["point_to_point"] == "PTP" and moves and draft.mode["motion"] not in ("G0", "G1"):
         raise AlarmError("14144")
+    if "TU" in dict(given):
+        draft.behind_motion.append(finish)
     if is_point_to_point(draft.mode):
         draft.by_axes = True
         places = (Dimension.ABSOLUTE, Dimension.MODULO)
@@ -98,6 +101,11 @@ def _noted(places: dict[str, int]) -> Step:
 def finish(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
     """TU holds for its block alone."""
     PointToPoint.of(channel).turns = None
+
+
+def ends_contour(channel: SinumerikChannel) -> bool:
+    """Whether a block under PTPG0 leads the tool back from a compensated contour: it goes with the tip (6.9.1)."""
+    return channel.mode["point_to_point"] == "PTPG0" and stages.active_cutter(channel) is not None
 
 
 def go(channel: SinumerikChannel, kind: Kind, end: list[float], feed: float) -> None:
@@ -134,7 +142,8 @@ def go(channel: SinumerikChannel, kind: Kind, end: list[float], feed: float) -> 
 def _configured(channel: SinumerikChannel, transformation: Transformation, end: list[float]) -> list[float]:
     """Positions of the axes: by STAT of two solutions, by TU on the turn that it names, else the shortest way.
 
-    What a block says of the way itself (IC, G91, DC, ACP, ACN) holds.
+    So they go whatever TU says where more turns are within their travel. What a block says of the way itself (IC,
+    G91, DC, ACP, ACN) holds.
     """
     here, machine = channel.coordinates.machine, transformation.to_machine(end)
     if _goes_across(channel):
@@ -143,13 +152,23 @@ def _configured(channel: SinumerikChannel, transformation: Transformation, end: 
     rotary = [i for i, axis in enumerate(channel.axis_data) if axis.rotary and i in seat.transformed(channel)]
     is_polar = seat.centre_point(channel) is None
     for bit, column in enumerate(rotary[:MOST_AXES]):
-        if turns is not None and not is_polar:
+        if turns is not None and not is_polar and _is_told_by_turns(channel, column):
             angle = machine[column] % TURN
             machine[column] = angle - TURN if turns >> bit & 1 and angle > 0.0 else angle
         elif is_polar or column in PointToPoint.of(channel).placed:
             near = _shortest(machine[column], here[column])
-            machine[column] = near if is_polar or _reaches(channel, column, near) else machine[column]
+            places = (near, machine[column], near - TURN, near + TURN)
+            within = (angle for angle in places if is_polar or _reaches(channel, column, angle))
+            machine[column] = next(within, machine[column])
     return machine
+
+
+def _is_told_by_turns(channel: SinumerikChannel, column: int) -> bool:
+    """Whether TU says where an axis goes: no more than a turn each way is within its travel, or no limit is told."""
+    axis = channel.axis_data[column]
+    low, high = Posture.of(channel, channel.mode).travel(axis.name)
+    within = low >= -TURN or low == -inf, high <= TURN or high == inf
+    return not axis.modulo and all(within)
 
 
 def _goes_across(channel: SinumerikChannel) -> bool:

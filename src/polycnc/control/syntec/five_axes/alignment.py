@@ -154,7 +154,7 @@ def _angles(channel: SyntecChannel, words: Words, code: str) -> Angles:
     check_compensation(channel, words, code)
     state = TurnState.of(channel)
     c = channel.coordinates
-    if channel.mode["rotation"] not in ("G68.2", "G68.3") and not state.by_table:
+    if not state.told_by and not state.by_table:
         raise words.fail("tilt_missing", code)
     way = words.typed("P") if "P" in words else SHORTEST
     if way not in SENSES:

@@ -58,14 +58,16 @@ def start(channel: SyntecChannel, words: Words) -> None:
     """G43.4 H [Q] [L1] [I], G43.5 H: from here on positions are those of the tip; nothing moves.
 
     Q chooses the frame of directions, I the highest speed with which linear axes follow the rotary ones (mm/min, as
-    Pr3091); L1 (smoothness) leaves the path as it is.
+    Pr3091); L1 (smoothness, 2.10.3) leaves the path as it is. Other values of L are refused: the format line of the
+    manual calls L what its notes call I.
     """
     mechanism.check(channel, words, channel.mode["length"])
     state = PostureState.of(channel)
     frame = words.typed("Q")
-    if frame is not None and frame not in (0, 1):
-        raise words.fail("argument", "Q")
-    if channel.mode["rotation"] == "G68.3":
+    for letter in "QL":
+        if words.typed(letter) not in (None, 0, 1):
+            raise words.fail("argument", letter)
+    if TurnState.of(channel).told_by == "G68.3":
         raise words.fail("tip_on_tool_plane", channel.mode["length"])
     renew_work_turn(channel)
     turns, leads = TurnState.of(channel), TipState.of(channel).is_leading(channel)

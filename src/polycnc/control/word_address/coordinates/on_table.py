@@ -26,6 +26,8 @@ COMMON_ERROR = 0
 #: Values of an error: along X, Y, Z (mm), about X, Y, Z, and where the rotary axes of the table stood (degrees).
 ERROR_VALUES, LINEAR, TURNS, TABLE = 8, slice(0, 3), slice(3, 6), slice(6, 8)
 ROUND_X_Y_Z = (0, 1, 2)
+#: An axis that is as near (degrees) to where it was has not moved.
+NOT_MOVED_DEG = 1e-6
 #: The variables of error 0, and how many numbers lie between those of two errors.
 FIRST_VARIABLE, VARIABLES = 26000, 10
 
@@ -35,13 +37,15 @@ class OnTable(State, lifetime=Lifetime.RESET):
     """Which fixture offset (G54.2 P) and which workpiece error (G54.4 P) act; 0 for none.
 
     Attributes:
-        posture: What rotary words under G43.4 have told of the tool on the work as it should lie: machine positions of
-            the rotary axes by name, degrees; empty before the first ones.
+        posture: How the tool stands on the work as it should lie: machine positions of the rotary axes by name,
+            degrees, as words under G43.4 have told them; where none have, where the axes stood when that began.
+        stood: Positions that the rotary axes were led to by that, so that it stands on the work as it lies.
     """
 
     fixture: int = 0
     error: int = 0
     posture: dict[str, float] = field(default_factory=dict)
+    stood: dict[str, float] = field(default_factory=dict)
 
     @property
     def acts(self) -> bool:
@@ -96,6 +100,15 @@ def follow(channel: WordAddressChannel, angles: Angles | None = None) -> None:
         if errors:
             zero.misplaced = Misplaced(errors, turn)
     refresh_zero(channel)
+
+
+def begin_posture(channel: WordAddressChannel) -> None:
+    """Tip control begins: the tool stands as its rotary axes do, unless those are where words had led them before."""
+    state, here = OnTable.of(channel), dict(zip(channel.axes, channel.coordinates.machine, strict=True))
+    axes = channel.control.kinematics(channel).axes
+    led = bool(state.stood) and all(abs(state.stood[name] - here[name]) < NOT_MOVED_DEG for name in axes)
+    if not (state.error and led):
+        state.posture, state.stood = {name: here[name] for name in axes}, {}
 
 
 def _errors(channel: WordAddressChannel, number: int) -> list[tuple[Frame, list[float]]]:

@@ -100,16 +100,16 @@ def frame_on_table(channel: WordAddressChannel, offsets: list[float]) -> Frame:
     if not begun.is_identity:
         shift = translation(*work_zero(channel, offsets))
         inner = shift.inverse() @ begun.inverse() @ shift @ inner
-    frame = zero.frame @ _lies(channel, offsets) @ inner
+    frame = zero.frame @ lies(channel, offsets) @ inner
     return IDENTITY if frame.is_identity else frame
 
 
 def plane_on_table(channel: WordAddressChannel, offsets: list[float]) -> Frame:
     """The tilted plane on the work as that lies on the table, with the table at zero."""
-    return _lies(channel, offsets) @ ZeroState.of(channel).plane
+    return lies(channel, offsets) @ ZeroState.of(channel).plane
 
 
-def _lies(channel: WordAddressChannel, offsets: list[float]) -> Frame:
+def lies(channel: WordAddressChannel, offsets: list[float]) -> Frame:
     """From where the work should lie to where it lies, with the table at zero."""
     misplaced = ZeroState.of(channel).misplaced
     return IDENTITY if misplaced is None else misplaced.on_table(work_zero(channel, offsets))

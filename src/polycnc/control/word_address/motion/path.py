@@ -18,6 +18,7 @@ from polycnc.control.word_address.motion.arcs import (
     is_stretched,
     scales_one_axis,
 )
+from polycnc.deferred.records import dataclass
 from polycnc.geometry import arcs
 from polycnc.geometry.planes import PLANES
 from polycnc.language.bulk import Arc, Straight, declare
@@ -31,6 +32,9 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.numbers import Convert
     from polycnc.control.word_address.block.plan import AxisWord, Builder, Plan
     from polycnc.control.word_address.family import WordAddressChannel
+
+    #: The programmed end that the axis words of a block name.
+    Reach = Callable[[WordAddressChannel, tuple[AxisWord, ...], list[float]], list[float]]
 
 #: Feed codes of all word-address families to the meaning that the toolpath uses.
 FEED_MODES = {
@@ -137,40 +141,30 @@ def _plan_straight(builder: Builder, plan: Plan, kind: Kind) -> Step | None:
 
 def plan_arc_cw(builder: Builder, plan: Plan) -> Step | None:
     """G02: an arc or a helix, clockwise."""
-    return _plan_arc(builder, plan, ccw=False)
+    return plan_arc(builder, plan, ccw=False)
 
 
 def plan_arc_ccw(builder: Builder, plan: Plan) -> Step | None:
     """G03: an arc or a helix, counter-clockwise."""
-    return _plan_arc(builder, plan, ccw=True)
+    return plan_arc(builder, plan, ccw=True)
 
 
-def _plan_arc(builder: Builder, plan: Plan, *, ccw: bool) -> Step | None:
+def plan_arc(builder: Builder, plan: Plan, *, ccw: bool, reached: Reach | None = None) -> Step | None:
     """An arc, helix or full circle in the active plane.
 
     Centre words are increments from the start. With R the arc is up to 180 degrees, with a negative R longer. R wins
-    over centre words. Neither: what the control has for it.
+    over centre words. Neither: what the control has for it. `reached` gives the end
+    that the axis words name, where `reach` does not.
     """
     control = builder.control
     words = plan.axis_words
-    u, v, w = plane = PLANES[builder.mode["plane"]]
-    centers = [CENTER_WORDS[axis] for axis in (u, v, w) if builder.has(CENTER_WORDS[axis])]
-    builder.take("R", *centers)
+    u, v, _ = plane = PLANES[builder.mode["plane"]]
+    told = read_center(builder)
     corner = builder.corner()
-    radius_slot = builder.slot("R")
-    if not words and radius_slot is None and not centers:
-        return corner
-    if CENTER_WORDS[w] in centers and radius_slot is None:
-        raise control.fail("center_off_plane", address=CENTER_WORDS[w])
-    if radius_slot is None and not centers:
-        return control.plan_arc_without_center(builder, plan)
+    if told is None:
+        return control.plan_arc_without_center(builder, plan) if words else corner
     polar = builder.mode.codes.get("polar") == "G16"
-    radius_of = builder.length("R") if radius_slot is not None else None
-    slots = (builder.slot(CENTER_WORDS[u]), builder.slot(CENTER_WORDS[v]))
-    converts = tuple(
-        builder.length(CENTER_WORDS[axis]) if builder.has(CENTER_WORDS[axis]) else None for axis in (u, v)
-    )
-    center_words = _center_words(radius_slot, radius_of, slots, converts)
+    center_words = told.tell
 
     def move(channel: WordAddressChannel, values: list[float]) -> None:
         feed = channel.feed
@@ -182,12 +176,14 @@ def _plan_arc(builder: Builder, plan: Plan, *, ccw: bool) -> Step | None:
             raise control.fail("plane")
         if polar:
             programmed = control.polar_target(channel, plan, values)
+        elif reached is not None:
+            programmed = reached(channel, words, values)
         else:
             programmed = reach(channel, words, values) if words else c.programmed[:]
         begin = (c.programmed[geometry[u]], c.programmed[geometry[v]])
         end = (programmed[geometry[u]], programmed[geometry[v]])
         told_by = center_words(values)
-        center, ends_beside = _center(channel, begin, end, told_by, ccw)
+        center, ends_beside = find_center(channel, begin, end, told_by, ccw)
         if corner is not None:
             corner(channel, values)
         if center is None:
@@ -199,15 +195,16 @@ def _plan_arc(builder: Builder, plan: Plan, *, ccw: bool) -> Step | None:
         else:
             emit_arc(channel, programmed, center, plane, ccw=ccw, feed=feed)
 
-    told = targets_as_data(words)
-    if told is None or polar or corner is not None:
+    targets = targets_as_data(words)
+    if targets is None or polar or corner is not None or reached is not None:
         return move
-    first, second = (word_as_data(slot, convert) for slot, convert in zip(slots, converts, strict=True))
-    radius_word = word_as_data(radius_slot, radius_of)
-    return declare(move, Arc(ccw, plane, told, (first, second), radius_word, line_without_way=True))
+    first, second = (word_as_data(*word) for word in told.center)
+    return declare(
+        move, Arc(ccw, plane, targets, (first, second), word_as_data(*told.radius), line_without_way=True)
+    )
 
 
-def _center(
+def find_center(
     channel: WordAddressChannel, begin: arcs.Point, end: arcs.Point, told_by: float | arcs.Point, ccw: bool
 ) -> tuple[arcs.Point | None, bool]:
     """The centre, None for an arc by R that is a line; and whether the end lies beside the circle about it."""
@@ -221,25 +218,47 @@ def _center(
     return center, abs(arcs.radius_mismatch(begin, end, center)) > control.spiral_tolerance(channel)
 
 
-def _center_words(
-    radius_slot: int | None,
-    radius_of: Convert | None,
-    slots: tuple[int | None, ...],
-    converts: tuple[Convert | None, ...],
-) -> Callable[[list[float]], float | arcs.Point]:
-    """What tells an arc in the values of a block: its radius, or the way from its start to its centre."""
+@dataclass(frozen=True, slots=True)
+class CenterWords:
+    """What tells an arc in a block: slots of the words and what turns their values into lengths.
 
-    def tell(values: list[float]) -> float | arcs.Point:
-        if radius_slot is not None:
-            return radius_of(values[radius_slot]) if radius_of else float(values[radius_slot])
-        shift = [0.0, 0.0]
-        for i, slot in enumerate(slots):
-            if slot is not None:
-                convert = converts[i]
-                shift[i] = convert(values[slot]) if convert else values[slot]
-        return (shift[0], shift[1])
+    Attributes:
+        radius: R; no slot without it.
+        center: The way from the start to the centre along both axes of the plane.
+    """
 
-    return tell
+    radius: tuple[int | None, Convert | None]
+    center: tuple[tuple[int | None, Convert | None], tuple[int | None, Convert | None]]
+
+    def tell(self, values: list[float]) -> float | arcs.Point:
+        """The radius, or the way from the start to the centre."""
+        if self.radius[0] is not None:
+            return _length_of(self.radius, values)
+        return _length_of(self.center[0], values), _length_of(self.center[1], values)
+
+
+def _length_of(word: tuple[int | None, Convert | None], values: list[float]) -> float:
+    slot, convert = word
+    if slot is None:
+        return 0.0
+    return convert(values[slot]) if convert else float(values[slot])
+
+
+def read_center(builder: Builder) -> CenterWords | None:
+    """Take the words that tell an arc in a block; None where there are none."""
+    u, v, w = PLANES[builder.mode["plane"]]
+    letters = [CENTER_WORDS[axis] for axis in (u, v, w) if builder.has(CENTER_WORDS[axis])]
+    builder.take("R", *letters)
+    radius = builder.slot("R")
+    if CENTER_WORDS[w] in letters and radius is None:
+        raise builder.control.fail("center_off_plane", address=CENTER_WORDS[w])
+    if radius is None and not letters:
+        return None
+    first, second = (
+        (builder.slot(letter), builder.length(letter) if builder.has(letter) else None)
+        for letter in (CENTER_WORDS[u], CENTER_WORDS[v])
+    )
+    return CenterWords((radius, None if radius is None else builder.length("R")), (first, second))
 
 
 def _require_feed(builder: Builder, plan: Plan) -> Step | None:

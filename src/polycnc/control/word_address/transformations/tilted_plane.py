@@ -16,17 +16,18 @@ from polycnc.control.word_address.coordinates.on_table import OnTable
 from polycnc.control.word_address.coordinates.systems import (
     ZeroState,
     frame_on_table,
+    lies,
     plane_on_table,
     refresh_zero,
     work_zero,
 )
 from polycnc.control.word_address.coordinates.tip import TipState
+from polycnc.control.word_address.motion.planes import choose_basic_axes
 from polycnc.control.word_address.tools import length
 from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, Frame, rotation, translation
-from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
@@ -76,9 +77,9 @@ def tilt_further(channel: WordAddressChannel, words: Words) -> None:
 def tilt_by_tool(channel: WordAddressChannel, words: Words) -> None:
     """G68.3 X Y Z R: the plane across the tool as it stands; without X Y Z its origin is where the tool is.
 
-    X of the plane is square on the tool and on Z of the machine; R turns it about the tool.
+    X of the plane is square on the tool and on Z of the machine, or as the control has it; R turns it about the tool.
     """
-    from polycnc.transformation.planes.tilted import square_on, table_turn
+    from polycnc.transformation.planes.tilted import table_turn
 
     _check_state(channel, words, "G68.3")
     c, kinematics = channel.coordinates, channel.control.kinematics(channel)
@@ -87,8 +88,10 @@ def tilt_by_tool(channel: WordAddressChannel, words: Words) -> None:
         raise words.fail("tilt_format", "G68.3")
     angles = dict(zip(channel.axes, c.machine, strict=True))
     zero = work_zero(channel, c.offsets)
-    turn = square_on(kinematics.tool_on_machine(angles)) @ rotation(2, words.angle("R") or 0.0)
-    table, turned = table_turn(kinematics, angles, zero), table_turn(kinematics, angles, MACHINE_ZERO)
+    across = channel.control.plane_across(channel, kinematics.tool_on_machine(angles))
+    turn = across @ rotation(2, words.angle("R") or 0.0)
+    turned = table_turn(kinematics, angles, MACHINE_ZERO)
+    table = table_turn(kinematics, angles, zero) @ lies(channel, c.offsets)
     place = table.apply(*named_point(channel, words, "tilt_format"))
     plane = table.inverse() @ translation(*place) @ turn
     _renew(channel, turned, plane, angles)
@@ -107,12 +110,10 @@ def _check_state(channel: WordAddressChannel, words: Words, code: str) -> None:
     """
     if TipState.of(channel).active is not None:
         raise words.fail("tip_company", code)
-    state = OnTable.of(channel)
-    if state.fixture or (state.error and code == "G68.3"):
-        raise AlarmError(
-            "PC0001", hint="hint.not-supported", code=f"G54.{'2' if state.fixture else '4'}: {code}"
-        )
+    if OnTable.of(channel).fixture:
+        raise words.fail("tilt_mode", code)
     check_compensation(channel, words, code)
+    choose_basic_axes(channel)
 
 
 def check_compensation(channel: WordAddressChannel, words: Words, code: str) -> None:

@@ -14,16 +14,16 @@ from typing import TYPE_CHECKING
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.block.words_as_data import targets_as_data
-from polycnc.control.word_address.coordinates import tip
+from polycnc.control.word_address.coordinates import on_table, tip
 from polycnc.control.word_address.coordinates.on_table import OnTable
 from polycnc.control.word_address.coordinates.systems import ZeroState, frame_on_table, refresh_zero
 from polycnc.control.word_address.motion.path import reach
+from polycnc.control.word_address.motion.planes import choose_basic_axes
 from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.tilted_plane import TiltState, nearest_angles
 from polycnc.geometry.frames import IDENTITY
 from polycnc.language.bulk import Straight, declare
-from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 from polycnc.transformation.orientation.standing import StandRecord, stand
 
@@ -43,13 +43,18 @@ def start_following(channel: WordAddressChannel, words: Words) -> None:
 
     Positions of the table that the block itself names count (FANUC A-79348E, page 19; 15i, B-63783EN-1, 10.4.14).
     """
+    follow_table(channel, words, channel.control.kinematics(channel).work_turn(angles_named(channel, words)))
+
+
+def angles_named(channel: WordAddressChannel, words: Words) -> dict[str, float]:
+    """Machine positions of the axes, the rotary ones where a block leads them."""
     c = channel.coordinates
     angles = dict(zip(channel.axes, c.machine, strict=True))
     for axis, value, incremental in words.axes():
         if channel.axis_data[axis].rotary:
             name = channel.axes[axis]
             angles[name] = angles[name] + value if incremental else value + c.offsets[axis]
-    follow_table(channel, words, channel.control.kinematics(channel).work_turn(angles))
+    return angles
 
 
 def follow_table(channel: WordAddressChannel, words: Words, begun: Frame = IDENTITY) -> None:
@@ -62,6 +67,7 @@ def follow_table(channel: WordAddressChannel, words: Words, begun: Frame = IDENT
     """
     from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
 
+    choose_basic_axes(channel)
     state = LengthState.of(channel)
     c = channel.coordinates
     kinematics = channel.control.kinematics(channel)
@@ -83,11 +89,10 @@ def follow_table(channel: WordAddressChannel, words: Words, begun: Frame = IDENT
 
 
 def _check_work_zero(channel: WordAddressChannel) -> None:
-    """PC0001 for a fixture offset; with a workpiece error the tool's direction is to be told anew."""
-    state = OnTable.of(channel)
-    state.posture.clear()
-    if state.fixture:
-        raise AlarmError("PC0001", hint="hint.not-supported", code=f"{channel.mode['length']}: G54.2")
+    """A fixture offset would turn with the table as the tip does; a workpiece error turns the tool."""
+    if OnTable.of(channel).fixture:
+        raise channel.control.fail("tip_mode", address="G54.2")
+    on_table.begin_posture(channel)
 
 
 #: What does not go with tool centre point control (macro B reference §12), beside drilling cycles.
@@ -115,12 +120,17 @@ def _check_block(builder: Builder) -> None:
                 raise builder.control.fail("tip_company", address=address)
 
 
+def plan_with_tip(builder: Builder, plan: Plan) -> Step | None:
+    """G43.5: a straight block names the tip, and with I J K the direction of the tool; None without them."""
+    return plan_with_direction(builder, plan) if builder.mode["length"] == "G43.5" else None
+
+
 def plan_with_direction(builder: Builder, plan: Plan, leaning: Leaning | None = None) -> Step | None:
-    """G43.5: a straight block names the tip, and with I J K the direction of the tool; None without them.
+    """A straight block with I J K for the direction of the tool on the work; None without them.
 
     `leaning` gives another direction for that, by the end of the block.
     """
-    if builder.mode["length"] != "G43.5" or builder.mode["motion"] not in ("G0", "G1"):
+    if builder.mode["motion"] not in ("G0", "G1"):
         return None
     letters = [letter for letter in "IJK" if builder.has(letter) and builder.is_free(letter)]
     if not letters:
@@ -205,8 +215,6 @@ def end_following(channel: WordAddressChannel) -> None:
 
 
 #: Straight blocks that name the direction of the tool.
-RULE = Rule(
-    "tool direction by a vector", modes={"length": ("G43.5",)}, in_cycles=False, motion=plan_with_direction
-)
+RULE = Rule("tool direction by a vector", modes={"length": ("G43.5",)}, in_cycles=False, motion=plan_with_tip)
 #: What must not come while words name the tip.
 COMPANY_RULE = Rule("company of tool centre point control", modes={"length": TIP_CODES}, check=_check_block)

@@ -15,6 +15,7 @@ from polycnc.control.word_address.coordinates.on_table import OnTable
 from polycnc.control.word_address.coordinates.systems import plane_on_table
 from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.cycles import drilling
+from polycnc.control.word_address.motion import path
 from polycnc.control.word_address.motion.path import reach
 from polycnc.control.word_address.tools import data_input
 from polycnc.control.word_address.transformations.tilted_plane import (
@@ -38,13 +39,16 @@ FIXTURE, ERROR = "fixture", "workpiece_error"
 #: L of G10.
 FIXTURE_DATA = 21
 STRAIGHT = {"G0": Kind.RAPID, "G1": Kind.FEED}
+ARCS = ("G2", "G3")
 
 
 def offset_fixture(channel: MillingChannel, words: Words) -> None:
     """G54.2 P: the work zero goes with the fixture on the table, P0 ends it; the tool goes along unless 7570#0 FTP."""
     number = _number(channel, words, "G54.2", on_table.FIXTURES)
-    if number and (TiltState.of(channel).plane is not None or OnTable.of(channel).error):
-        raise _not_yet("G54.2: G54.4, G68.2")
+    if number and TiltState.of(channel).plane is not None:
+        raise words.fail("tilt_mode", "G54.2")
+    if number and OnTable.of(channel).error:
+        raise words.fail("improper_g", "G54.2")
     OnTable.of(channel).fixture = number
     channel.mode = channel.mode.with_code(FIXTURE, "G54.2" if number else "")
     c, programmed = channel.coordinates, channel.coordinates.programmed[:]
@@ -58,7 +62,9 @@ def correct_workpiece(channel: MillingChannel, words: Words) -> None:
     """G54.4 P: the work lies where its error says, P0 ends it; nothing moves."""
     number = _number(channel, words, "G54.4", on_table.ERRORS)
     if number and OnTable.of(channel).fixture:
-        raise _not_yet("G54.4: G54.2")
+        raise words.fail("improper_g", "G54.4")
+    if number and channel.control.turns_tool_with_work(channel):
+        raise _not_yet("G54.4: 11200#0")
     OnTable.of(channel).error = number
     channel.mode = channel.mode.with_code(ERROR, "G54.4" if number else "")
     on_table.follow(channel)
@@ -83,8 +89,8 @@ def _number(channel: MillingChannel, words: Words, code: str, last: int) -> int:
     number = words.integer("P")
     if number is None or not 0 <= number <= last:
         raise words.fail("offset_number", "P" if number is not None else code)
-    if TipState.of(channel).active is not None and number:
-        raise _not_yet(f"{code}: {channel.mode['length']}")
+    if TipState.of(channel).active is not None:
+        raise words.fail("tip_company", code)
     check_compensation(channel, words, code)
     channel.flush()
     return number
@@ -190,60 +196,55 @@ def _plan_posture(builder: Builder, plan: Plan) -> Step | None:
     The positions of the rotary axes nearest to those words are gone to. Vectors of G43.5 are the work's by themselves.
     """
     words, motion = plan.axis_words, builder.mode["motion"]
-    rotary = [word for word in words if builder.channel.axis_data[word.axis].rotary]
-    if not rotary:
+    if builder.mode["length"] != "G43.4" or motion not in (*STRAIGHT, *ARCS):
         return None
-    if (
-        builder.mode["length"] != "G43.4"
-        or motion not in STRAIGHT
-        or builder.mode.codes.get("polar") == "G16"
-    ):
-        raise _not_yet(f"{builder.mode['length']}: {builder.mode[ERROR]}")
-    kind, names_feed = STRAIGHT[motion], builder.has("F")
+    if (words or motion in ARCS) and builder.mode.codes.get("polar") == "G16":
+        raise _not_yet(f"G16: {builder.mode[ERROR]}")
+    if motion in ARCS and any(builder.has(letter) for letter in ("R", *path.CENTER_WORDS)):
+        return path.plan_arc(builder, plan, ccw=motion == "G3", reached=_reach_posed)
+    if not words:
+        return None
+    if motion in ARCS:
+        builder.control.plan_arc_without_center(builder, plan)  # refuses where that is no line
+    kind, names_feed = STRAIGHT.get(motion, Kind.FEED), builder.has("F")
 
-    def move(channel: MillingChannel, values: list[float]) -> None:
-        c, posture = channel.coordinates, OnTable.of(channel).posture
+    def move(channel: WordAddressChannel, values: list[float]) -> None:
         feed = channel.feed if names_feed and kind == Kind.RAPID else _feed(channel, kind)
-        before = c.programmed
-        goal = reach(channel, words, values)
-        for word in rotary:
-            name = channel.axes[word.axis]
-            if word.incremental:
-                _check_posture(channel)
-                posture[name] += goal[word.axis] - before[word.axis]
-            else:
-                posture[name] = goal[word.axis] + c.offsets[word.axis]
-        _check_posture(channel)
-        told = channel.control.kinematics(channel).tool_on_work(posture)
-        wanted = plane_on_table(channel, c.offsets).direct(*told)
-        if not turn_to(channel, wanted, posture, goal):
-            raise channel.control.fail("tip_direction", address=rotary[0].address)
-        channel.straight(kind, c.to_position(goal), feed, goal)
+        goal = _reach_posed(channel, words, values)
+        channel.straight(kind, channel.coordinates.to_position(goal), feed, goal)
 
     return move
 
 
-def _check_posture(channel: WordAddressChannel) -> None:
-    """PC0001 before words have told of all rotary axes: what the control takes for the others is not known here."""
-    told = OnTable.of(channel).posture
-    if any(axis not in told for axis in channel.control.kinematics(channel).axes):
-        raise _not_yet("G54.4: G43.4")
+def _reach_posed(
+    channel: WordAddressChannel, words: tuple[AxisWord, ...], values: list[float]
+) -> list[float]:
+    """The programmed end of a block, its rotary axes where they stand the tool on the work as it lies."""
+    c, state = channel.coordinates, OnTable.of(channel)
+    before, rotary = c.programmed, [word for word in words if channel.axis_data[word.axis].rotary]
+    goal = reach(channel, words, values)
+    for word in rotary:
+        name = channel.axes[word.axis]
+        if word.incremental:
+            state.posture[name] += goal[word.axis] - before[word.axis]
+        else:
+            state.posture[name] = goal[word.axis] + c.offsets[word.axis]
+    if rotary or not state.stood:
+        told = channel.control.kinematics(channel).tool_on_work(state.posture)
+        wanted = plane_on_table(channel, c.offsets).direct(*told)
+        if not turn_to(channel, wanted, state.posture, goal):
+            raise channel.control.fail("tip_direction", address=rotary[0].address if rotary else "G43.4")
+        for name in state.posture:
+            axis = channel.axis_index[name]
+            state.stood[name] = goal[axis] + c.offsets[axis]
+    return goal
 
 
 def _wrap(builder: Builder, plan: Plan, step: Step | None) -> Step | None:
-    """Under G43.4 nothing moves before rotary words have told how the tool stands; cycles with an axis of the table."""
+    """A cycle with an axis of the table."""
     if step is not None and builder.mode["cycle"] != "G80" and _turning(builder, plan):
         return _over_hole(builder, plan, step)
-    if step is None or builder.mode["length"] != "G43.4" or not builder.mode[ERROR]:
-        return step
-
-    def move(channel: MillingChannel, values: list[float]) -> None:
-        before = channel.coordinates.position
-        step(channel, values)
-        if channel.coordinates.position != before:
-            _check_posture(channel)
-
-    return move
+    return step
 
 
 #: What turns of the table do to the work zero.

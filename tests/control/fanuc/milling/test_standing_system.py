@@ -1,0 +1,63 @@
+"""Blocks in which tip control begins, and arcs in a work system that does not turn, seen from the table."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from polycnc.toolpath.kinds import ARC_KINDS
+from tests.support import codes, moves, run
+
+TOOLS = {1: {"length": 50}}
+TURN = st.integers(-120, 120)
+
+
+def turned(angle: float, x: float, y: float) -> tuple[float, float]:
+    """A point of the machine as C turns it."""
+    c, s = np.cos(np.radians(angle)), np.sin(np.radians(angle))
+    return float(c * x - s * y), float(s * x + c * y)
+
+
+def test_the_block_that_begins_tip_control_moves_the_axes_straight() -> None:
+    channel = run(
+        "G90 G01 G43.4 H1 X0 Y50. Z0 A90. F3000\nA0\nM30\n",
+        machine="mill5-ac-table",
+        setup={"tools": TOOLS, "start": {"Z": 50}},
+    )
+    first, second = moves(channel)
+    assert first.context.transformation is None
+    assert second.context.transformation is not None
+    assert codes(channel) == []
+
+
+@settings(max_examples=20, deadline=None)
+@given(begun=TURN, start=TURN, end=TURN, ccw=st.booleans())
+def test_an_arc_in_a_system_that_stands_is_one_of_the_table(
+    begun: int, start: int, end: int, ccw: bool
+) -> None:
+    # On the table, as it stands at zero: a quarter about (40, 10), from (60, 10).
+    zero, center, first, last = (7.0, -3.0), (40.0, 10.0), (60.0, 10.0), (40.0, 30.0 if ccw else -10.0)
+    (x1, y1), (x2, y2), (xc, yc) = (
+        turned(angle, *point) for angle, point in ((start, first), (end, last), (start, center))
+    )
+    channel = run(
+        f"G90 G00 C{begun}.\nG43.4 H1\nG01 X{x1 - zero[0]:.6f} Y{y1 - zero[1]:.6f} Z0 C{start}. F900\n"
+        f"G0{3 if ccw else 2} X{x2 - zero[0]:.6f} Y{y2 - zero[1]:.6f} C{end}. I{xc - x1:.6f} J{yc - y1:.6f}\nM30\n",
+        machine="mill5-ac-table",
+        setup={
+            "tools": TOOLS,
+            "work_offsets": {"G54": {"X": zero[0], "Y": zero[1]}},
+            "parameters": {"19696#5": 1},
+        },
+    )
+    assert codes(channel) == []
+    arc, geometry = moves(channel)[-1], channel.coordinates.geometry
+    assert arc.kind in ARC_KINDS
+    machine = channel.toolpath.to_machine(arc.end, arc.context, geometry)
+    assert machine[:2] == pytest.approx((x2, y2), abs=1e-3)
+    middle = [*arc.curve[:3], *arc.end[3:]]
+    assert channel.toolpath.to_machine(middle, arc.context, geometry)[:2] == pytest.approx(
+        turned(end, *center), abs=1e-3
+    )
