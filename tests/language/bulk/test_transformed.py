@@ -57,6 +57,7 @@ def test_orientation_transformation(machine: str, letters: str, data: st.DataObj
 
 POLAR = (
     "G12.1", "G13.1", "G0 X30.", "G7.1 C20.", "G7.1 C0", "G18", "G17", "G90", "G91", "M3 S100", "G54", "G40 X40.",
+    "X0 C0", "X10. C5.\nX-10. C-5.",
 )  # fmt: skip
 
 

@@ -19,7 +19,8 @@ def places(*lines: str, **parameters: float) -> list[tuple[float, float]]:
 
 
 def test_a_line_past_the_centre_turns_the_rotary_axis() -> None:
-    assert places("X-20 Y1") == [(pytest.approx(20.024984), pytest.approx(177.137595))]
+    (place,) = places("X-20 Y1")
+    assert place == pytest.approx((20.024984, 177.137595))
 
 
 def test_a_helix_goes_through_the_centre_in_every_turn() -> None:
@@ -49,4 +50,4 @@ def test_the_first_move_out_of_the_centre_turns_the_rotary_axis_least() -> None:
 
 def test_the_next_transformation_begins_where_the_infeed_axis_stands() -> None:
     again = places("X-20", "TRANSMIT", "X-10 Y10")
-    assert again[-1] == (pytest.approx(-14.142136), pytest.approx(-45.0))
+    assert again[-1] == pytest.approx((-14.142136, -45.0))

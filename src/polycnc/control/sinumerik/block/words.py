@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from polycnc.compensation.corner import Shape
 from polycnc.control.machine_words import asking, plc_of
 from polycnc.control.sinumerik import auxiliary, replaced, tables
+from polycnc.control.sinumerik.axes import spindles as spindle_axes
 from polycnc.control.sinumerik.block import offset_words, outside_feeds, plain
 from polycnc.control.sinumerik.block.draft import axis_column
 from polycnc.control.sinumerik.block.positions import ModuloRange, number, whole
@@ -200,11 +201,13 @@ def spindle_position(_draft: Draft, position: int, shape: WordShape) -> Step:
     def run(channel: SinumerikChannel, values: Values) -> None:
         spindle = channel.memory.spindles.get(wanted)
         seat.check_spindle(channel, spindle.number)
-        value = number(values, position)
+        value, awaited = number(values, position), shape.address == "SPOS"
         modulo = ModuloRange.of(channel.memory.data, f"S{spindle.number}")
         if shape.modifier != "IC":
             value = modulo.within(value, position)
-        synchronous.position(channel, spindle, value, shape.modifier, awaited=shape.address == "SPOS")
+        spindle_axes.follow_axis(channel, spindle)
+        synchronous.position(channel, spindle, value, shape.modifier, awaited=awaited)
+        spindle_axes.stand(channel, spindle, awaited=awaited)
 
     return run
 

@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 BRIDGED_BLOCKS = 5
 _G450 = Policy(
     outer=Outer(0.0, Joint.ARC), read_blocks=BRIDGED_BLOCKS + 2, avoids=True, leaves_out_arcs=True,
-    approaches_behind_stops=True, side_change_is_square=True,
+    approaches_behind_stops=True, sign_is_side=False, side_change_is_square=True,
 )  # fmt: skip
 #: MD20210 = 100 degrees.
 _G451 = replace(_G450, outer=Outer(100.0, Joint.ARC, extend_as_circles=True))
