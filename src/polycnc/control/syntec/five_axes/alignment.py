@@ -165,8 +165,7 @@ def _angles(channel: SyntecChannel, words: Words, code: str) -> Angles:
     kinematics = channel.control.kinematics(channel)
     if not kinematics.axes and wanted[2] > 1.0 - 1e-9:
         return {}
-    joints = (*kinematics.work, *kinematics.tool) if kinematics.work else kinematics.tool
-    names = [joint.axis for joint in joints if joint.axis in channel.axis_index]
+    names = [axis for axis in kinematics.ordered if axis in channel.axis_index]
     if not names:
         raise words.fail("tilt_unreachable", code)
     master = names[0]

@@ -274,7 +274,7 @@ def _angles(
 ) -> dict[str, float] | None:
     """Positions of the rotary axes: the nearest ones, by P1 and P2 those to which the first axis turns up or down.
 
-    The first axis is the one that carries the other.
+    The first axis is the one that carries the other, or is in the head.
     """
     from polycnc.transformation.orientation import choice
     from polycnc.transformation.orientation.solutions import solutions_for
@@ -285,7 +285,7 @@ def _angles(
         raise words.fail("tilt_format", "P")
     if way == NEAREST or not kinematics.axes:
         return nearest_angles(channel, wanted, near)
-    first, ranges = (kinematics.work or kinematics.tool)[0].axis, channel.control.rotary_ranges(channel)
+    first, ranges = kinematics.ordered[0], channel.control.rotary_ranges(channel)
     led = [
         choice.led(solution, near, first, SENSES[way]) for solution in solutions_for(kinematics, wanted, near)
     ]
