@@ -27,6 +27,7 @@ from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, Frame, rotation, translation
+from polycnc.geometry.vectors import times
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
@@ -256,7 +257,8 @@ def turn_about_tip(channel: WordAddressChannel, angles: Angles, arm: float, abov
         for axis, place in zip(c.geometry, work_zero(channel, offsets), strict=True):
             offsets[axis] = place
     kinematics = channel.control.kinematics(channel)
-    led = ToolCentrePoint(kinematics, channel.axes, c.geometry, tuple(offsets), (0.0, 0.0, above - arm))
+    tip = times(kinematics.along, above - arm)
+    led = ToolCentrePoint(kinematics, channel.axes, c.geometry, tuple(offsets), tip)
     frame = frame_on_table(channel, c.offsets) @ translation(0.0, 0.0, above)
     c.transform(Seated(led, frame), None, (IDENTITY, offsets))
     channel.context_changed()

@@ -23,6 +23,7 @@ from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.tilted_plane import TiltState, nearest_angles
 from polycnc.geometry.frames import IDENTITY
+from polycnc.geometry.vectors import times
 from polycnc.language.bulk import Straight, declare
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
@@ -79,7 +80,8 @@ def follow_table(channel: WordAddressChannel, words: Words, begun: Frame = IDENT
     tip.TipState.of(channel).begun = begun
     ZeroState.of(channel).length = [0.0] * len(channel.axes)
     refresh_zero(channel)
-    following = ToolCentrePoint(kinematics, channel.axes, c.geometry, tuple(c.offsets), (0.0, 0.0, -value))
+    arm = times(kinematics.along, -value)
+    following = ToolCentrePoint(kinematics, channel.axes, c.geometry, tuple(c.offsets), arm)
     tip.lead(channel, following, frame_on_table(channel, c.offsets), c.offsets)
     channel.context_changed()
 
