@@ -153,7 +153,8 @@ def plan_with_direction(builder: Builder, plan: Plan, leaning: Leaning | None = 
         for axis, angle in turned.items():
             end[axis] = programmed[axis] = angle
             c.pending[axis] = 0.0
-        channel.straight(Kind.RAPID if rapid else Kind.FEED, end, nan if rapid else channel.feed, programmed)
+        feed = nan if rapid else channel.control.feed_to(channel, end)
+        channel.straight(Kind.RAPID if rapid else Kind.FEED, end, feed, programmed)
 
     told = targets_as_data(plan.axis_words)
     if told is None or polar or leaning is not None:
