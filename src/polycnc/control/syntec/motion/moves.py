@@ -280,7 +280,8 @@ def _with_inverse_time(builder: Builder, plan: Plan, step: Step | None) -> Step 
         return step
     arc = builder.mode["motion"] in ("G2", "G3")
     u, v, _ = PLANES[builder.mode["plane"]]
-    radius_slot, centers = builder.slot("R"), [builder.slot(CENTER_WORDS[axis]) for axis in (u, v)]
+    radius_slot = builder.slot("R")
+    centers = [(CENTER_WORDS[axis], builder.slot(CENTER_WORDS[axis])) for axis in (u, v)]
     if not builder.has("F"):
         raise builder.control.fail("inverse_time_feed", address="F")
     if _tells_direction(builder, plan):
@@ -292,19 +293,17 @@ def _with_inverse_time(builder: Builder, plan: Plan, step: Step | None) -> Step 
         return lead
 
     def move(channel: SyntecChannel, values: list[float]) -> None:
-        rate = channel.feed
-        if not arc or (radius_slot is None and not any(slot is not None for slot in centers)):
-            channel.feed = rate * _way(channel, channel.coordinates.to_position(_end(channel, plan, values)))
-        elif radius_slot is not None:
-            convert = builder.length("R")
-            channel.feed = rate * abs(convert(values[radius_slot]) if convert else values[radius_slot])
+        rate, c = channel.feed, channel.coordinates
+        if not arc or (radius_slot is None and not any(slot is not None for _, slot in centers)):
+            channel.feed = rate * _way(channel, c.to_position(_end(channel, plan, values)))
         else:
-            shift = [0.0, 0.0]
-            for i, slot in enumerate(centers):
-                if slot is not None:
-                    convert = builder.length(CENTER_WORDS[(u, v)[i]])
-                    shift[i] = convert(values[slot]) if convert else values[slot]
-            channel.feed = rate * hypot(*shift)
+            words = [("R", radius_slot)] if radius_slot is not None else centers
+            told = [
+                convert(values[slot]) if (convert := builder.length(letter)) else values[slot]
+                for letter, slot in words
+                if slot is not None
+            ]
+            channel.feed = rate * hypot(*told) * max(scale_of(channel, c.geometry[i]) for i in (u, v))
         try:
             step(channel, values)
         finally:
