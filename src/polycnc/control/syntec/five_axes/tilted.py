@@ -18,7 +18,7 @@ from polycnc.control.syntec.coordinates.turns import (
 )
 from polycnc.control.syntec.five_axes import alignment, mechanism
 from polycnc.control.word_address.coordinates import frames as base_frames
-from polycnc.control.word_address.coordinates.systems import refresh_zero
+from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
 from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.motion.planes import choose_basic_axes
 from polycnc.control.word_address.tools.length import LengthState
@@ -166,10 +166,11 @@ def _across_tool(channel: SyntecChannel, words: Words) -> Frame:
 
     P1: as the rotary axes turn the tool against the work; with a tool along another axis than Z that gives no plane.
     """
-    kinematics = channel.control.kinematics(channel)
+    kinematics, back = channel.control.kinematics(channel), ZeroState.of(channel).frame.inverse()
     angles = dict(zip(channel.axes, channel.coordinates.machine, strict=True))
     if words.typed("P") != 1:
-        return square_on(kinematics.tool_on_work(angles)) @ rotation(2, words.angle("R") or 0.0)
+        x, y, z = kinematics.tool_on_work(angles)
+        return square_on(back.direct(x, y, z)) @ rotation(2, words.angle("R") or 0.0)
     if kinematics.along[2] < 1.0:
         raise channel.control.not_yet("G68.3 P1: Pr3002", "G68.3")
-    return by_rotary_axes(kinematics, angles)
+    return back @ by_rotary_axes(kinematics, angles)
