@@ -375,6 +375,10 @@ class SyntecMill(WordAddressControl):
         """The rotary joints of the machine, with the holder of Pr3013."""
         return mechanism.kinematics_of(channel)
 
+    def feed_to(self, channel: SyntecChannel, end: list[float]) -> float:
+        """Feed of a straight cut to a position: F, under G93 F times the way."""
+        return moves.feed_to(channel, end)
+
     def reference_point(self, channel: SyntecChannel, axis: int, number: int) -> float:
         """Machine position of a reference point: 1 the machine zero, 2 to 4 by Pr2801 on, in least units."""
         delivered = channel.axis_data[axis].reference_points[number - 1]

@@ -153,6 +153,7 @@ def turn_preset_frame(channel: SyntecChannel, angle: float, axis: list[float], c
     state = TurnState.of(channel)
     if (angle or state.angle) and (angle, axis) != (state.angle, state.axis):
         _refuse_turn(channel, code)
+        refuse_posture(channel, angle)
     state.angle, state.axis = angle, axis
     renew_preset_frame(channel.memory)
 
@@ -177,6 +178,12 @@ def refer_posture(channel: SyntecChannel, turn: Frame) -> None:
     acts = channel.mode["length"] == "G43.4" and state.in_work and not turn.is_identity
     state.told = {}
     channel.mode = channel.mode.with_code(POSTURE, "work" if acts else "")
+
+
+def refuse_posture(channel: SyntecChannel, angle: float) -> None:
+    """PC0001 for directions of G43.4 in the work system where G92.1 turns that: the manual speaks of G54.4 alone."""
+    if angle and channel.mode["length"] == "G43.4" and PostureState.of(channel).in_work:
+        raise channel.control.not_yet("G43.4 Q1: G92.1")
 
 
 def renew_work_turn(channel: SyntecChannel) -> bool:

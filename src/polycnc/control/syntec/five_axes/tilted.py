@@ -18,7 +18,7 @@ from polycnc.control.syntec.coordinates.turns import (
 )
 from polycnc.control.syntec.five_axes import alignment, mechanism
 from polycnc.control.word_address.coordinates import frames as base_frames
-from polycnc.control.word_address.coordinates.systems import refresh_zero
+from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
 from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.motion.planes import choose_basic_axes
 from polycnc.control.word_address.tools.length import LengthState
@@ -28,7 +28,6 @@ from polycnc.control.word_address.transformations.tilted_plane import (
     stand_along,
 )
 from polycnc.geometry.frames import IDENTITY, Frame, rotation, translation
-from polycnc.machine.kinematics import Kinematics
 from polycnc.transformation.planes.tilted import by_euler, by_rotary_axes, square_on
 
 if TYPE_CHECKING:
@@ -100,9 +99,7 @@ def tilt_by_tool(channel: SyntecChannel, words: Words) -> None:
     }
     if given and len(given) != len([axis for axis in channel.coordinates.geometry if axis >= 0]):
         raise words.fail("tool_plane_format", "G68.3")
-    turn = tool_turn(channel)
-    if words.typed("P") != 1:
-        turn = square_on(turn.direct(0.0, 0.0, 1.0)) @ rotation(2, words.angle("R") or 0.0)
+    turn = _across_tool(channel, words)
     plane = translation(*named_point(channel, words, "argument")) @ turn
     _set_stood(channel, plane, "G68.3")
     if not given:
@@ -164,7 +161,16 @@ def set_tilt(channel: SyntecChannel, tilt: Frame, code: str) -> None:
     keep_plane(channel)
 
 
-def tool_turn(channel: SyntecChannel) -> Frame:
-    """How the rotary axes turn the tool against the work: the table's turns undone, then the head's."""
+def _across_tool(channel: SyntecChannel, words: Words) -> Frame:
+    """How the plane of G68.3 is turned on the work; Z of it is the tool.
+
+    P1: as the rotary axes turn the tool against the work; with a tool along another axis than Z that gives no plane.
+    """
+    kinematics, back = channel.control.kinematics(channel), ZeroState.of(channel).frame.inverse()
     angles = dict(zip(channel.axes, channel.coordinates.machine, strict=True))
-    return by_rotary_axes(Kinematics.of(channel.machine), angles)
+    if words.typed("P") != 1:
+        x, y, z = kinematics.tool_on_work(angles)
+        return square_on(back.direct(x, y, z)) @ rotation(2, words.angle("R") or 0.0)
+    if kinematics.along[2] < 1.0:
+        raise channel.control.not_yet("G68.3 P1: Pr3002", "G68.3")
+    return back @ by_rotary_axes(kinematics, angles)

@@ -16,7 +16,7 @@ from polycnc.geometry.planes import PLANES
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.block.words import Words
-    from polycnc.control.word_address.family import MacroChannel
+    from polycnc.control.word_address.family import MacroChannel, WordAddressChannel
     from polycnc.transformation.kinematic.parallel import ParallelAxes
 
 
@@ -27,7 +27,7 @@ class PlaneAxes(State, lifetime=Lifetime.POWER):
     parallel: ParallelAxes | None = None
 
 
-def choose_axes(channel: MacroChannel, geometry: tuple[int, int, int]) -> None:
+def choose_axes(channel: WordAddressChannel, geometry: tuple[int, int, int]) -> None:
     """Let these axes be X, Y and Z of the plane; those of the machine while they lie in space."""
     from polycnc.transformation.kinematic.parallel import ParallelAxes
 
@@ -42,7 +42,7 @@ def choose_axes(channel: MacroChannel, geometry: tuple[int, int, int]) -> None:
     channel.context_changed()
 
 
-def choose_basic_axes(channel: MacroChannel) -> None:
+def choose_basic_axes(channel: WordAddressChannel) -> None:
     """X, Y and Z of the machine are those of the plane again: tip control and tilted planes lead them only."""
     if channel.coordinates.geometry != channel.memory.basic_geometry:
         choose_axes(channel, channel.memory.basic_geometry)
