@@ -33,7 +33,7 @@ def choose_axes(channel: WordAddressChannel, geometry: tuple[int, int, int]) -> 
 
     state = PlaneAxes.of(channel)
     zero = ZeroState.of(channel)
-    if TipState.of(channel).is_leading(channel) or not (zero.frame.is_identity and zero.plane.is_identity):
+    if TipState.of(channel).is_leading(channel) or not (zero.turn.is_identity and zero.plane.is_identity):
         geometry = channel.memory.basic_geometry
     channel.coordinates.geometry = geometry
     if geometry == channel.memory.basic_geometry:
