@@ -100,6 +100,24 @@ def test_rotary_words_tell_the_tool_in_a_turned_work_system(
     assert [machine[axis] for axis in "XYZ"] == pytest.approx(nose, abs=1e-6)
 
 
+@pytest.mark.parametrize(
+    ("blocks", "place"),
+    [
+        ("G52 X10.\nG00 X5. Y0", (15.0, 0.0)),
+        ("G00 X5.\nG92 X0\nG00 X5. Y1.", (10.0, 1.0)),
+        ("G92.1 X10. R90.\nG00 X5. Y0", (10.0, 5.0)),
+        ("G92.1 X10. R90.\nG92.1 X2. R90.\nG00 X5. Y0", (10.0, 7.0)),
+        ("G92.1 X10.\nG54.4 P0\nG54.4 P1\nG00 X5. Y1.", (15.0, 1.0)),
+    ],
+)
+def test_systems_within_a_turned_work_system_turn_with_it(blocks: str, place: tuple[float, float]) -> None:
+    result = turned_work(f"G90 G54.4 P1\n{blocks}\nM30\n", "mill3", [0.0, 0.0, 30.0])
+    assert result.ok, result.alarms
+    c, s, (x, y) = cos(radians(30.0)), sin(radians(30.0)), place
+    machine = [row["machine"] for row in result.rows if "machine" in row][-1]
+    assert (machine["X"], machine["Y"]) == pytest.approx((c * x - s * y, s * x + c * y), abs=1e-6)
+
+
 def test_nothing_moves_before_words_have_told_the_tool_in_a_turned_work_system() -> None:
     text = "G54.4 P1\nG43.4 H1 Q1\nG00 X5.\nM30\n"
     result = turned_work(text, "mill5-bc-head", [0.0, 30.0, 0.0])

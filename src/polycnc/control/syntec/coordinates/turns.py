@@ -141,7 +141,8 @@ def renew_preset_frame(memory: SyntecMemory) -> None:
     turns = state.angle != 0.0 and x * x + y * y + z * z != 0.0
     turn = turn_about((x, y, z), state.angle) if turns else IDENTITY
     zero = ZeroState.of(memory.channel)
-    zero.frame, zero.table, zero.plane = turn, state.table, state.plane
+    zero.turn, zero.frame = state.work, state.work @ turn
+    zero.table, zero.plane = state.table, state.tilt
 
 
 def turn_preset_frame(channel: SyntecChannel, angle: float, axis: list[float], code: str) -> None:

@@ -36,7 +36,8 @@ class ZeroState(State, lifetime=Lifetime.POWER):
         local: G52.
         preset: G92.
         length: The active tool length.
-        frame: Turn of the work coordinate system; identity on most controls.
+        turn: How the work system is turned, in which G52 and G92 shift; identity on most controls.
+        frame: The same with what else turns coordinates within it.
         table: How the table has turned since the tilted plane was told, machine coordinates.
         plane: The tilted plane within the work.
         fixture: Of the fixture on a rotary table; X, Y, Z, mm.
@@ -48,6 +49,7 @@ class ZeroState(State, lifetime=Lifetime.POWER):
     local: list[float] = field(default_factory=list)
     preset: list[float] = field(default_factory=list)
     length: list[float] = lasting(Lifetime.RESET, factory=list)
+    turn: Frame = lasting(Lifetime.RESET, IDENTITY)
     frame: Frame = lasting(Lifetime.RESET, IDENTITY)
     table: Frame = lasting(Lifetime.RESET, IDENTITY)
     plane: Frame = lasting(Lifetime.RESET, IDENTITY)
@@ -129,11 +131,12 @@ def work_zero(channel: WordAddressChannel, offsets: list[float]) -> Vector:
 def zero_offsets(channel: WordAddressChannel) -> list[float]:
     """What lies between display and machine now, for every axis."""
     memory, zero = channel.memory, ZeroState.of(channel)
+    local, preset = (_directed(channel, zero.turn, shifts) for shifts in (zero.local, zero.preset))
     parts = zip(
         memory.work_offset(EXTERNAL),
         memory.work_offset(zero.system),
-        zero.local,
-        zero.preset,
+        local,
+        preset,
         zero.length,
         strict=True,
     )
@@ -142,6 +145,18 @@ def zero_offsets(channel: WordAddressChannel) -> list[float]:
         if axis >= 0:
             offsets[axis] += sum(shifts)
     return offsets
+
+
+def _directed(channel: WordAddressChannel, frame: Frame, shifts: list[float]) -> list[float]:
+    """Shifts of all axes, those of X, Y and Z along others."""
+    if frame.is_identity:
+        return shifts
+    geometry, directed = channel.coordinates.geometry, list(shifts)
+    x, y, z = (shifts[axis] if axis >= 0 else 0.0 for axis in geometry)
+    for axis, part in zip(geometry, frame.direct(x, y, z), strict=True):
+        if axis >= 0:
+            directed[axis] = part
+    return directed
 
 
 def select_work_offset(channel: MacroChannel, words: Words) -> None:
@@ -185,20 +200,13 @@ def set_position(channel: WordAddressChannel, words: Words) -> None:
 def shift_of_zero(channel: WordAddressChannel, way: list[float], code: str) -> list[float]:
     """How far the work zero goes so that all coordinates become smaller by a way; a number for each axis.
 
-    Where the work system is turned, or a plane in it is tilted, X, Y and Z of the way lie along other axes. The work
-    zero lies on the table, so what that has turned since does not count.
+    Where coordinates are turned within the work system, or a plane in it is tilted, X, Y and Z of the way lie along
+    other axes of it. The work zero lies on the table, so what that has turned since does not count.
     """
     if ZeroState.of(channel).misplaced is not None:
         raise AlarmError("PC0001", hint="hint.not-supported", code=f"G54.4: {code}")
-    frame, geometry = frame_on_table(channel, channel.coordinates.offsets), channel.coordinates.geometry
-    shift = list(way)
-    if frame.is_identity:
-        return shift
-    x, y, z = (way[axis] if axis >= 0 else 0.0 for axis in geometry)
-    for axis, part in zip(geometry, frame.direct(x, y, z), strict=True):
-        if axis >= 0:
-            shift[axis] = part
-    return shift
+    frame = ZeroState.of(channel).turn.inverse() @ frame_on_table(channel, channel.coordinates.offsets)
+    return list(_directed(channel, frame, way))
 
 
 def set_position_or_limit(channel: WordAddressChannel, words: Words) -> None:

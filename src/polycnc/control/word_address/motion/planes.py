@@ -32,7 +32,8 @@ def choose_axes(channel: WordAddressChannel, geometry: tuple[int, int, int]) -> 
     from polycnc.transformation.kinematic.parallel import ParallelAxes
 
     state = PlaneAxes.of(channel)
-    if TipState.of(channel).is_leading(channel) or not ZeroState.of(channel).plane.is_identity:
+    zero = ZeroState.of(channel)
+    if TipState.of(channel).is_leading(channel) or not (zero.turn.is_identity and zero.plane.is_identity):
         geometry = channel.memory.basic_geometry
     channel.coordinates.geometry = geometry
     if geometry == channel.memory.basic_geometry:
