@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from polycnc import __version__
-from polycnc.cli.app import COMMANDS
+from polycnc.cli.commands import COMMANDS
 from tests.cli.console import BAD, GOOD
 
 if TYPE_CHECKING:

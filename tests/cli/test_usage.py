@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from polycnc.cli.app import COMMANDS
+from polycnc.cli.commands import COMMANDS
 
 if TYPE_CHECKING:
     from tests.cli.console import Console

@@ -44,3 +44,17 @@ def test_a_turn_about_any_direction_keeps_it() -> None:
 def test_a_turn_about_a_main_axis_is_exact(angle: float) -> None:
     assert turn_about((0.0, 0.0, -3.0), angle) == rotation(2, -angle)
     assert turn_about((5.0, 0.0, 0.0), angle) == rotation(0, angle)
+
+
+@pytest.mark.parametrize(
+    ("machine", "first"),
+    [("mill5-ac-table", ("A", "C")), ("mill5-bc-head", ("C", "B")), ("mixed", ("B", "C"))],
+)
+def test_the_first_rotary_axis_carries_the_other_or_is_in_the_head(
+    machine: str, first: tuple[str, ...]
+) -> None:
+    if machine == "mixed":
+        head, table = (Kinematics.of(load_machine(each)) for each in ("mill5-bc-head", "mill5-ac-table"))
+        assert Kinematics(head.tool[1:], table.work[1:]).ordered == first
+    else:
+        assert Kinematics.of(load_machine(machine)).ordered == first

@@ -23,6 +23,7 @@ CATALOGUES = sorted(
     for path in SOURCE.rglob("*.toml")
     if path.name.endswith(("messages.toml", "alarms.toml")) or path.stem == "fields"
 )
+DECLARED = ("Option", "_option", "Argument", "Commands", "commands.command")
 ERRORS = ("SessionError", "UnreadableError", "CommandRefused")
 OWN = tomllib.loads((SOURCE / "messages" / "messages.toml").read_text(encoding="utf-8"))
 
@@ -45,12 +46,12 @@ def test_every_text_exists_in_both_languages_with_the_same_values_in_it(path: Pa
 
 
 def named_in(path: Path) -> set[str]:
-    """Ids that a module passes to `text(…)` and to the errors with these texts, as they stand."""
+    """Ids that a module passes to `text(…)`, to commands and options, and to errors with these texts."""
     found: set[str] = set()
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.Call) and node.args and isinstance(node.func, ast.Name):
+        if isinstance(node, ast.Call) and node.args and isinstance(node.args[0], ast.Constant):
             first = node.args[0]
-            if node.func.id in ("text", *ERRORS) and isinstance(first, ast.Constant):
+            if ast.unparse(node.func) in ("text", *DECLARED, *ERRORS):
                 found.add(str(first.value))
     return found
 

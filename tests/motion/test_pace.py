@@ -16,7 +16,7 @@ from polycnc.motion.pace import Travel, edge_factor, following_top, pace_of
 from polycnc.motion.settings import Settings
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.context import Pace
-from polycnc.toolpath.modes import AccelerationMode
+from polycnc.toolpath.modes import AccelerationMode, FeedMode
 from polycnc.toolpath.row_path import line_path
 from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
 from tests.motion.paths import Build, mill
@@ -97,6 +97,12 @@ def test_the_edge_of_the_tool_moves_at_the_feed(radius: float, tool: float, ccw:
         pytest.approx(centre / radius) if inside else 1.0
     )
     assert edge_factor(Pace(), context, way) == 1.0
+
+
+def test_a_block_in_a_time_has_no_edge() -> None:
+    way = Travel([0.0] * 3, (0, 1), 40.0, 10.0, ccw=True)
+    context = Context(side=1, radius_mm=5.0, feed_mode=FeedMode.INVERSE_TIME)
+    assert edge_factor(Pace(edge="always"), context, way) == 1.0
 
 
 def test_about_a_corner_the_tool_turns_at_the_feed() -> None:

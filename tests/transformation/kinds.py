@@ -86,6 +86,8 @@ polars = st.builds(
     angles,
     st.tuples(places, places),
     st.sampled_from([1.0, -1.0]),
+    st.just(-1),
+    st.none() | angles,
 )
 cylinders = st.builds(Cylinder.of_radius, st.just(4), st.floats(0.5, 500.0), st.just((0, 4, 2)))
 grooves = st.builds(GrooveCylinder, st.just(4), st.just(1), st.floats(0.05, 10.0), st.just(XYZ))

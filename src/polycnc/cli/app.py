@@ -1,4 +1,4 @@
-"""The entry point: finds the command, and turns what can go wrong into one line and an exit status."""
+"""The entry point: has the words read, and turns what can go wrong into one line and an exit status."""
 
 from __future__ import annotations
 
@@ -7,85 +7,24 @@ import signal
 import sys
 import threading
 from contextlib import contextmanager
-from importlib import import_module
-from typing import TYPE_CHECKING, Annotated, Any, NoReturn
+from typing import TYPE_CHECKING, NoReturn
 
-import typer
-from typer.core import TyperGroup
-
+from polycnc.cli import plain
 from polycnc.cli.console import fail, note
-from polycnc.cli.usage import HELP, help_in_language, language_of, translated
+from polycnc.cli.usage import help_in_language, language_of, translated
 from polycnc.messages import text
-from polycnc.messages.catalogue import LANGUAGES, set_language
+from polycnc.messages.catalogue import set_language
 from polycnc.messages.errors import place_of_failure
 from polycnc.messages.files import reason_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-#: Each command is the module of this name in `polycnc.cli.commands`, which has a Typer `app`.
-COMMANDS = (
-    "run",
-    "check",
-    "test",
-    "plot",
-    "features",
-    "machines",
-    "alarms",
-    "data",
-    "memory",
-    "parameters",
-    "panel",
-)
 BAD_USE, INTERRUPTED = 2, 130
 #: With this variable of the environment a mistake of polycnc shows all of its way.
 TRACEBACK = "POLYCNC_TRACEBACK"
 #: Libraries that polycnc can do without, and the extra that brings each.
 EXTRAS = {"numpy": "tables", "pyarrow": "tables", "resvg_py": "png", "nicegui": "panel", "fastapi": "panel"}
-
-
-class _Commands(TyperGroup):
-    """Imports the module of a command when the command is called."""
-
-    def list_commands(self, ctx: Any) -> list[str]:  # noqa: ARG002
-        return list(COMMANDS)
-
-    def get_command(self, ctx: Any, cmd_name: str) -> Any:  # noqa: ARG002
-        if cmd_name not in COMMANDS:
-            return None
-        command = typer.main.get_command(import_module(f"polycnc.cli.commands.{cmd_name}").app)
-        command.name = cmd_name
-        return command
-
-
-def _root() -> typer.Typer:
-    app = typer.Typer(
-        cls=_Commands,
-        add_completion=True,
-        rich_markup_mode=None,
-        pretty_exceptions_enable=False,
-        context_settings={"help_option_names": list(HELP)},
-    )
-
-    @app.callback(invoke_without_command=True, help=text("help.polycnc"))
-    def root(
-        ctx: typer.Context,
-        version: Annotated[bool, typer.Option("--version", help=text("help.version"), is_eager=True)] = False,
-        lang: Annotated[
-            str | None, typer.Option(metavar="|".join(LANGUAGES), help=text("help.option.lang"))
-        ] = None,
-    ) -> None:
-        if lang is not None and lang not in LANGUAGES:
-            raise typer.BadParameter(f"{lang!r} is not one of {', '.join(map(repr, LANGUAGES))}.")
-        if version:
-            from polycnc import __version__
-
-            typer.echo(f"polycnc {__version__}")
-        elif ctx.invoked_subcommand is None:
-            typer.echo(ctx.get_help())
-            raise typer.Exit(BAD_USE)
-
-    return app
 
 
 def main(arguments: Sequence[str] | None = None) -> NoReturn:
@@ -133,13 +72,18 @@ def _termination_interrupts() -> Iterator[None]:
 def _run(words: list[str]) -> int:
     try:
         set_language(language_of(words))
-        with help_in_language(words):
-            status = _root()(words, prog_name="polycnc", standalone_mode=False)
-    except typer.Exit as leave:
-        return leave.exit_code
+        asked = plain.read(words)
+        status = asked() if asked is not None else _run_by_typer(words)
     except Exception as error:  # noqa: BLE001 - `_told` says what it was
         return fail(_told(error), BAD_USE)
     return status if isinstance(status, int) else 0
+
+
+def _run_by_typer(words: list[str]) -> object:
+    from polycnc.cli import typed
+
+    with help_in_language(words):
+        return typed.run(words)
 
 
 def _told(error: Exception) -> str:

@@ -95,7 +95,7 @@ class CutterCompensation(Stage):
         self._place: Move | None = None
         self._forced: Point | None = None
         self._holds = False
-        self._starts_square = False
+        self._starts_square = self._is_engaged = False
         self._is_bare = False
         self.suspended = False
 
@@ -132,7 +132,7 @@ class CutterCompensation(Stage):
         else:
             self._role = Role.START
         self._side, self._radius, self._tip, self._wall = side, radius, tip, None
-        self._place = place
+        self._place, self._is_engaged = place, True
 
     def cancel(self, wall: Point | None = None, place: Move | None = None) -> None:
         """G40. With motion in the block or without: the next plane motion leads back to the programmed path.
@@ -297,9 +297,9 @@ class CutterCompensation(Stage):
         step.side = self._side
         step.suspended = self.suspended and self._role is Role.CONTOUR
         step.forced, step.holds = self._forced, self._holds or step.suspended
-        step.starts_square = self._starts_square
+        step.starts_square, step.is_engaged = self._starts_square, self._is_engaged
         step.is_bare = self._is_bare
-        self._forced, self._holds, self._starts_square = None, False, False
+        self._forced, self._holds, self._starts_square, self._is_engaged = None, False, False, False
         step.edge = self._checked(step)
         if step.role is Role.CONTOUR and not self._window and step.policy.approaches_behind_stops:
             self._rows.approach(step)
@@ -443,4 +443,5 @@ class CutterCompensation(Stage):
         self._rows.drop_vector()
         self._interference.forget()
         self._wall = self._place = None
-        self._forced, self._holds, self._starts_square, self._is_bare = None, False, False, False
+        self._forced, self._holds = None, False
+        self._starts_square = self._is_engaged = self._is_bare = False

@@ -41,7 +41,9 @@ def end_before(step: Step, following: Step, wall: Point | None) -> Corner | None
         return vectors.approach(edge, following.edge, distance, policy)
     if following.holds or following.starts_square:
         return vectors.square(edge.arriving, distance)
-    if following.distance * distance < 0.0 and (policy.sign_is_side or following.side != step.side):
+    if following.distance * distance < 0.0 and _changes_side(step, following):
+        if following.policy.side_change_is_square:
+            return _across(step, following)
         return vectors.change_of_side(edge, following.edge, distance, following.distance)
     return offset.corner(edge, following.edge, distance, policy.outer)
 
@@ -68,6 +70,18 @@ def square_ends(step: Step, following: Step) -> Corner:
     """Square on both steps: the way where no intersection leads from one to the other."""
     directions = (step.edge.arriving, following.edge.departing)
     return Corner([offset.square(direction, step.distance) for direction in directions])
+
+
+def _changes_side(step: Step, following: Step) -> bool:
+    """Whether an offset of the other sign is another side from the start of the following step on."""
+    again = following.is_engaged and following.policy.side_change_is_square
+    return step.policy.sign_is_side or following.side != step.side or again
+
+
+def _across(step: Step, following: Step) -> Corner:
+    """Square on a step, on its side, and square on the next one, on that one's side."""
+    old = offset.square(step.edge.arriving, step.distance)
+    return Corner([old, offset.square(following.edge.departing, following.distance)])
 
 
 def _forced_end(step: Step, direction: Point) -> Corner:

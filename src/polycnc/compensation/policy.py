@@ -63,6 +63,9 @@ class Policy:
         recommand_is_square: G41 or G42 written again on the same side makes the block in front end square.
         sign_is_side: A radius of the other sign within compensation changes the side where its block begins (FANUC);
             else it holds from the end of its block, as every new radius does (SYNTEC).
+        side_change_is_square: Where the side changes, or is commanded anew with a radius of the other sign, the block
+            in front ends square on its old side and the next one begins square on its new side, with a line between
+            (SINUMERIK); else they meet, or the old one ends square on the next one (FANUC).
         checks_direction: Interference is where a compensated line or arc runs against the programmed (5008).
         checks_arcs: The same for arcs alone.
         avoids: Interference is led round where possible, past any of the blocks read (FANUC 19607#5, 5.4.6.3);
@@ -86,6 +89,7 @@ class Policy:
     start_blocks: int | None = None
     recommand_is_square: bool = False
     sign_is_side: bool = True
+    side_change_is_square: bool = False
     checks_direction: bool = True
     checks_arcs: bool = True
     avoids: bool = False

@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import partial
 from itertools import pairwise
-from math import acos, ceil, degrees, sqrt
+from math import acos, ceil, degrees, dist, sqrt
 from typing import TYPE_CHECKING, Protocol
 
 from polycnc.channel.moves.move_path import MovePath
@@ -34,6 +34,8 @@ PARALLEL = 1e-6
 NOWHERE: Vector = (0.0, 0.0, 0.0)
 #: Chords of an arc along which the tool turns may be this far off it, mm.
 CHORD_ERROR_MM = 0.001
+#: A block is not cut into more chords near a pole.
+MOST_CHORDS = 1024
 
 
 class Directions(Protocol):
@@ -76,6 +78,7 @@ class SpatialStage(Stage):
         join: Makes one motion of the chords of a move.
 
     Attributes:
+        posture: How the tool stands on the work, from the next move on.
         depth: How far down the tool its tip lies from the programmed point, from the next block on, mm.
         leaves: The next move leads back to the programmed path.
     """
@@ -99,7 +102,7 @@ class SpatialStage(Stage):
         self.depth = 0.0
         self._depth = 0.0
         self._geometry = geometry
-        self._posture = posture
+        self.posture = posture
         self.radius = self._next_radius = radius
         self._starts = rules.square_start
         self._held: _Held | None = None
@@ -114,6 +117,11 @@ class SpatialStage(Stage):
     def active(self) -> bool:
         """Whether the move that leads back to the programmed path is still to come."""
         return not self._left
+
+    @property
+    def holds_vector(self) -> bool:
+        """Whether the tool stands beside the path, or a block waits that leads it there."""
+        return self._held is not None or self._at is not None
 
     def beside(self, position: list[float]) -> list[float]:
         """Where the tip stands when the program stands at a position; see `Stage`."""
@@ -132,12 +140,12 @@ class SpatialStage(Stage):
         if self._left:
             self.after.move(move)
             return
-        tool = self._posture.tool_at(move.end)
+        tool = self.posture.tool_at(move.end)
         if not move.is_arc:
             start, end = self._point(move.start), self._point(move.end)
             way = _unit((end[0] - start[0], end[1] - start[1], end[2] - start[2]))
             self._take(move, tool, way, way, self.corners)
-        elif is_across(move, tool) and _near(tool, self._posture.tool_at(move.start)):
+        elif is_across(move, tool) and _near(tool, self.posture.tool_at(move.start)):
             path = MovePath(move, self._geometry)
             self._take(move, tool, path.direction(0.0), path.direction(1.0), self.corners)
         elif self.rules.slanted:
@@ -156,7 +164,7 @@ class SpatialStage(Stage):
         self._unite(chords)
         for k, chord in enumerate(chords, 1):
             departing, arriving = (path.direction(part / len(chords)) for part in (k - 1, k))
-            self._take(chord, self._posture.tool_at(chord.end), departing, arriving, self.corners)
+            self._take(chord, self.posture.tool_at(chord.end), departing, arriving, self.corners)
 
     def _take(
         self, move: Move, tool: Vector, departing: Vector | None, arriving: Vector | None, corners: Corners
@@ -183,7 +191,7 @@ class SpatialStage(Stage):
 
     def shift_at(self, place: Move) -> None:
         """A block without motion starts up: the tool goes beside the next one there (FANUC type C)."""
-        self._hold(place, NOWHERE, self._posture.tool_at(place.end), NOWHERE, self.corners)
+        self._hold(place, NOWHERE, self.posture.tool_at(place.end), NOWHERE, self.corners)
 
     def return_at(self, place: Move) -> None:
         """A block without motion ends the compensation: the tool goes back to the path there (FANUC type C)."""
@@ -290,7 +298,7 @@ class SpatialStage(Stage):
         if held.rules.turns == TURNS_NOT:
             return held.tool
         turned = [move for move in self._queue if isinstance(move, Move)]
-        return self._posture.tool_at(turned[-1].end) if turned else held.tool
+        return self.posture.tool_at(turned[-1].end) if turned else held.tool
 
     def _is_outer(self, held: _Held, second: Vector, turned: Vector, tangent: Vector) -> bool:
         outer = dot(second, held.tangent) * self.radius
@@ -317,7 +325,7 @@ class SpatialStage(Stage):
             if not isinstance(item, Move):
                 self.after.event(item)
                 continue
-            tool = self._posture.tool_at(item.end)
+            tool = self.posture.tool_at(item.end)
             normal = self._normal(tool, held.tangent)
             shift = self._shift if normal is None else self._beside(normal, tool)
             self._emit_turning(item, held.tangent, shift)
@@ -375,12 +383,12 @@ class SpatialStage(Stage):
             self._unite(chords)
             for k, chord in enumerate(chords, 1):
                 normal = between(held.normal, second, sweep, done + share * k / count)
-                self._emit(chord, self._beside(normal, self._posture.tool_at(chord.end)))
+                self._emit(chord, self._beside(normal, self.posture.tool_at(chord.end)))
             done += share
 
     def _angle_of(self, move: Move) -> float:
         """How far a move turns the tool, radians; never quite nothing."""
-        a, b = self._posture.tool_at(move.start), self._posture.tool_at(move.end)
+        a, b = self.posture.tool_at(move.start), self.posture.tool_at(move.end)
         return max(acos(max(-1.0, min(1.0, dot(a, b)))), PARALLEL)
 
     def _beside(self, normal: Vector, tool: Vector) -> Vector:
@@ -405,7 +413,7 @@ class SpatialStage(Stage):
         if self.rules.reverses and self._at is not None and not move.is_arc:
             self._check_sense(move, shift)
         before, path = self._shift, MovePath(move, self._geometry)
-        tools = self._posture.tool_at(move.start), self._posture.tool_at(move.end)
+        tools = self.posture.tool_at(move.start), self.posture.tool_at(move.end)
         first, last = (self._normal(tool, tangent) for tool in tools)
         straight = self._at is None or move.is_arc or not self.rules.follows_turns
         if first is None or last is None or straight:
@@ -415,22 +423,27 @@ class SpatialStage(Stage):
             Rest.of(minus(at, self._beside(normal, tool)), tangent, tool)
             for at, normal, tool in ((before, first, tools[0]), (shift, last, tools[1]))
         ]
+
+        def beside(part: float) -> Vector:
+            tool = self.posture.tool_at(path.at(part))
+            normal = self._normal(tool, tangent) or last
+            # What corners ask for at both ends fades along the block.
+            rest = rests[0].fading(rests[1], part).at(tangent, tool)
+            x, y, z = (a + b for a, b in zip(self._beside(normal, tool), rest, strict=True))
+            return (x, y, z)
+
         count = self._chords(path, tangent, *rests)
+        while move.turning is not None and count < MOST_CHORDS and bends(beside, count):
+            count *= 2  # near a pole the tool turns along a bent way
         if count == 1:
             self._emit(move, shift)
             return
         pieces = [path.between(k / count, (k + 1) / count) for k in range(count)]
         self._unite(pieces)
         for k, piece in enumerate(pieces, 1):
-            part, place = k / count, path.at(k / count)
-            tool = self._posture.tool_at(place)
-            normal = self._normal(tool, tangent) or last
-            # What corners ask for at both ends fades along the block.
-            rest = rests[0].fading(rests[1], part).at(tangent, tool)
-            x, y, z = (a + b for a, b in zip(self._beside(normal, tool), rest, strict=True))
             if k < count:
                 piece.kind = Kind.SPLINE
-            self._emit(piece, (x, y, z))
+            self._emit(piece, beside(k / count))
 
     def _check_sense(self, move: Move, shift: Vector) -> None:
         """Refuse a block that leads against its programmed direction."""
@@ -443,7 +456,7 @@ class SpatialStage(Stage):
         """In how many chords the tip goes round where the tool, and what is square on it, turn along a move."""
         turning = path.move.turning
         parts = (0.0, 1.0) if turning is None else (0.0, *turning.shares)
-        tools = [self._posture.tool_at(path.at(part)) for part in parts]
+        tools = [self.posture.tool_at(path.at(part)) for part in parts]
         normals = [self._normal(tool, tangent) or tool for tool in tools]
         counts = (
             parts_for_chord_error(max(abs(reach), PARALLEL), _turned(directions), CHORD_ERROR_MM / 2.0)
@@ -458,7 +471,7 @@ class SpatialStage(Stage):
 
     def _centre(self, move: Move, center: Vector) -> Vector:
         """The centre of the parallel arc, as far down the tool as its ends."""
-        tool = self._posture.tool_at(move.end)
+        tool = self.posture.tool_at(move.end)
         away = minus(self._point(move.start), center)
         left = self.side * self.radius * (1.0 if turns_left(move, tool) else -1.0)
         flat = minus(away, times(tool, dot(away, tool)))
@@ -540,6 +553,15 @@ class SpatialStage(Stage):
 def _unit(v: Vector) -> Vector | None:
     size = sqrt(dot(v, v))
     return None if size < PARALLEL else (v[0] / size, v[1] / size, v[2] / size)
+
+
+def bends(beside: Callable[[float], Vector], count: int) -> bool:
+    """Whether a vector along a block leaves so many chords of it by more than they may."""
+    places = [beside(0.5 * k / count) for k in range(2 * count + 1)]
+    return any(
+        dist(middle, [0.5 * (a + b) for a, b in zip(first, last, strict=True)]) > CHORD_ERROR_MM
+        for first, middle, last in zip(places[::2], places[1::2], places[2::2], strict=False)
+    )
 
 
 def _turned(directions: Sequence[Vector]) -> float:

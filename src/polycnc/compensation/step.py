@@ -69,6 +69,7 @@ class Step:
         holds: It keeps the vector of its start (G38).
         suspended: It belongs to a stretch that keeps one vector (CUTCONON); arcs are moved by it as they are.
         starts_square: The block in front ends square on itself.
+        is_engaged: The side was commanded anew in front of it.
         is_bare: It leads back behind a cancel block without motion (`Policy.bare_cancel_is_square`).
         straight: Its vectors were left out, so it is a straight move.
         is_chord: The chord of an arc that the tool does not fit into takes its place.
@@ -93,6 +94,7 @@ class Step:
     holds: bool = False
     suspended: bool = False
     starts_square: bool = False
+    is_engaged: bool = False
     is_bare: bool = False
     straight: bool = False
     is_chord: bool = False

@@ -84,6 +84,15 @@ class Kinematics:
         return self.work_turn(angles).inverse().direct(*self.tool_on_machine(angles))
 
     @property
+    def ordered(self) -> tuple[str, ...]:
+        """Names of the rotary axes, first axis first, as controls count them.
+
+        Of two in a head, or in a table, the first one carries the other; of one in each it is that of the head (FANUC
+        19680, 19681).
+        """
+        return tuple(joint.axis for joint in (*self.tool, *self.work))
+
+    @property
     def turns(self) -> tuple[tuple[Joint, float], ...]:
         """Joints whose turns, one after the other, lead from the tool at zero to the tool seen from the work."""
         return (*((joint, -1.0) for joint in reversed(self.work)), *((joint, 1.0) for joint in self.tool))

@@ -90,3 +90,14 @@ def carried(on_path: Sequence[float], last: Context, context: Context, geometry:
 def without_transformation(context: Context) -> Context:
     """The context for displays of real axes."""
     return context if context.transformation is None else replace(context, transformation=None)
+
+
+def shown_by_hand(context: Context) -> Context:
+    """The context for displays of axes that an operator moves one by one.
+
+    The tip that they lead is shown where it is. A transformation with a pole has two places for a position of the axes.
+    """
+    transformation = context.transformation
+    return (
+        context if transformation is None or transformation.pole is None else without_transformation(context)
+    )

@@ -89,8 +89,13 @@ def pace_of(
 
 
 def edge_factor(pace: Pace, context: Context, way: Travel) -> float:
-    """How much faster than the edge of the tool its centre moves on an arc, where F is the speed of the edge."""
+    """How much faster than the edge of the tool its centre moves on an arc, where F is the speed of the edge.
+
+    A time has no edge: the block takes as long as F says.
+    """
     if pace.edge == "never" or not way.plane or context.side == 0:
+        return 1.0
+    if context.feed_mode is FeedMode.INVERSE_TIME:
         return 1.0
     inside = (context.side > 0) == way.ccw
     contour = way.radius + (context.radius_mm if inside else -context.radius_mm)

@@ -20,18 +20,19 @@ from polycnc.motion.frames import machine_of
 from polycnc.motion.kernels.alone import best_ramp
 from polycnc.motion.kernels.columns import PLACES, Form, PieceRecord, Rows, piece_width
 from polycnc.toolpath.row_path import arc_path, line_path
+from polycnc.transformation.pole import is_at, shares_at_pole
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from polycnc.machine import Axis
     from polycnc.toolpath import Context
-    from polycnc.toolpath.row_path import ArcPath, Path
+    from polycnc.toolpath.row_path import Path
     from polycnc.transformation.contract import Geometry, Transformation
     from polycnc.transformation.pole import Pole
 
-#: A path that comes so near to the pole (mm) leads through it; radius of the ring.
-POLE_MM, RING_MM = 1e-3, 1e-4
+#: Radius of the ring, mm.
+RING_MM = 1e-4
 #: A following axis may step by what it can do within its limits in this time: no sample shows it.
 KINK_S = 1e-3
 #: Turns smaller than this (radians) count as none; a turn by half a round, but for this, is one forward.
@@ -100,11 +101,6 @@ class PathLeg(NamedTuple):
         return self.rows._replace(feed=array("d", [feed * self.rows.feed[0]]))
 
 
-def is_at(pole: Pole, point: Sequence[float]) -> bool:
-    """Whether a point counts as the pole."""
-    return pole.distance(point) <= POLE_MM
-
-
 def runs_in_legs(transformation: Transformation) -> bool:
     """Whether rows under a transformation may have to be run in legs."""
     from polycnc.transformation.couplings.kinks import has_kinks  # for paths under a transformation
@@ -134,17 +130,17 @@ def legs_of(
     first, last = (pole.beside(point, 0.0, 0.0) if is_at(pole, point) else point for point in (start, end))
     arc = arc_path(first, last, curve, geometry, ccw=ccw) if len(curve) else None
     path = arc.at if arc is not None else line_path(first, last)
-    knots = _knots(pole, path, arc, first, last)
-    if not knots:
+    places = shares_at_pole(pole, path, arc, first, last)
+    if not places:
         return []
     if arc is None and is_at(pole, start) and is_at(pole, end):
         still = pole.beside(end, _angle(pole, start), RING_MM)
         way = hypot(*(b - a for a, b in zip(start, still, strict=True)))
         return [Leg(start, still, line_path(start, still), way, 1.0, (True, True), None)]
     legs: list[Leg] = []
-    at, edges = start, [*([] if 0.0 in knots else [0.0]), *knots, *([] if 1.0 in knots else [1.0])]
+    at, edges = start, [*([] if 0.0 in places else [0.0]), *places, *([] if 1.0 in places else [1.0])]
     for span in pairwise(edges):
-        leg = _leg(pole, path, span, knots, curve, geometry, ccw=ccw)
+        leg = _leg(pole, path, span, places, curve, geometry, ccw=ccw)
         turn = _turn(pole, at, leg.start) if leg.rests[0] else None
         legs.append(leg._replace(turn=turn))
         at = leg.end
@@ -198,38 +194,18 @@ def kink_legs(
     return legs
 
 
-def _knots(
-    pole: Pole, path: Path, arc: ArcPath | None, start: Sequence[float], end: Sequence[float]
-) -> list[float]:
-    """Shares of the way at which a row is at the pole."""
-    knots = []
-    if arc is not None:
-        turns = (arc.angle_of(pole.beside(start, 0.0, 0.0)), 2.0 * pi)
-        near = min(0.25, 2.0 * POLE_MM / max(arc.length, POLE_MM))
-        knots = [(turns[0] + k * turns[1]) / arc.angle for k in range(ceil(arc.angle / turns[1]) + 1)]
-    else:
-        (a, b), (c, d) = pole.away(start), pole.away(end)
-        square, near = (c - a) ** 2 + (d - b) ** 2, 0.0
-        knots = [(a * (a - c) + b * (b - d)) / square] if square > 0.0 else []
-    ends = [f for f, point in ((0.0, start), (1.0, end)) if is_at(pole, point)]
-    low, high = (near if 0.0 in ends else 0.0), (1.0 - near if 1.0 in ends else 1.0)
-    if arc is None and ends:
-        knots = []
-    return sorted({*ends, *(f for f in knots if low < f < high and is_at(pole, path(f)))})
-
-
 def _leg(
     pole: Pole,
     path: Path,
     edges: tuple[float, float],
-    knots: Sequence[float],
+    places: Sequence[float],
     curve: Sequence[float],
     geometry: Geometry,
     *,
     ccw: bool,
 ) -> Leg:
     """From one edge of a row to the next, the pole at one of them or at both."""
-    rests = (edges[0] in knots, edges[1] in knots)
+    rests = (edges[0] in places, edges[1] in places)
     start, end = (
         pole.beside(path(f), 0.0, 0.0) if rest else path(f) for f, rest in zip(edges, rests, strict=True)
     )

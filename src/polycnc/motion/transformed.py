@@ -50,7 +50,6 @@ from polycnc.motion.pole import (
     RING_MM,
     PathLeg,
     Turn,
-    is_at,
     kink_legs,
     legs_of,
     runs_in_legs,
@@ -65,6 +64,7 @@ from polycnc.toolpath.modes import AccelerationMode, FeedMode
 from polycnc.toolpath.row_path import arc_path, line_path
 from polycnc.toolpath.table import CURVE_WIDTH
 from polycnc.transformation.orientation.linked import linkage_of
+from polycnc.transformation.pole import is_at
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -91,6 +91,15 @@ def kept_off(x: N, y: N, least: float) -> tuple[N, N, N]:
     return np.where(near, least, x), np.where(near, 0.0, y), np.where(near, least, away)
 
 
+def where_less(size: N, least: float, value: float, other: N) -> N:
+    """A number where a size is less than another one, else a third."""
+    if isinstance(size, NUMBER):
+        return value if size < least else other
+    import numpy as np
+
+    return np.where(size < least, value, other)
+
+
 def constant(value: float, like: N) -> N:
     """A number in the shape of another."""
     if isinstance(like, NUMBER):

@@ -6,13 +6,32 @@ while the axis turns: it ends and begins on a small ring round the pole, on whic
 
 from __future__ import annotations
 
-from math import cos, hypot, sin
-from typing import TYPE_CHECKING
+from math import ceil, cos, hypot, pi, sin
+from typing import TYPE_CHECKING, Protocol
 
 from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
+
+#: A path that comes so near to the pole (mm) leads through it.
+POLE_MM = 1e-3
+
+
+class Round(Protocol):
+    """An arc: its whole angle, its length, and the angle from its start at which it comes nearest to a point."""
+
+    @property
+    def angle(self) -> float:
+        """Of the whole way, radians."""
+
+    @property
+    def length(self) -> float:
+        """Of the way, mm."""
+
+    @property
+    def angle_of(self) -> Callable[[Sequence[float]], float]:
+        """Angle from the start at which it comes nearest to a point, radians."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,3 +72,32 @@ class Pole:
         moved = list(axes)
         moved[self.linear] = self.side * radius
         return moved
+
+
+def is_at(pole: Pole, point: Sequence[float]) -> bool:
+    """Whether a point counts as the pole."""
+    return pole.distance(point) <= POLE_MM
+
+
+def shares_at_pole(
+    pole: Pole,
+    path: Callable[[float], Sequence[float]],
+    arc: Round | None,
+    start: Sequence[float],
+    end: Sequence[float],
+) -> list[float]:
+    """Shares of the way of a line (`arc` is None) or an arc at which it is at the pole."""
+    found = []
+    if arc is not None:
+        turns = (arc.angle_of(pole.beside(start, 0.0, 0.0)), 2.0 * pi)
+        near = min(0.25, 2.0 * POLE_MM / max(arc.length, POLE_MM))
+        found = [(turns[0] + k * turns[1]) / arc.angle for k in range(ceil(arc.angle / turns[1]) + 1)]
+    else:
+        (a, b), (c, d) = pole.away(start), pole.away(end)
+        square, near = (c - a) ** 2 + (d - b) ** 2, 0.0
+        found = [(a * (a - c) + b * (b - d)) / square] if square > 0.0 else []
+    ends = [f for f, point in ((0.0, start), (1.0, end)) if is_at(pole, point)]
+    low, high = (near if 0.0 in ends else 0.0), (1.0 - near if 1.0 in ends else 1.0)
+    if arc is None and ends:
+        found = []
+    return sorted({*ends, *(f for f in found if low < f < high and is_at(pole, path(f)))})

@@ -57,6 +57,7 @@ def test_orientation_transformation(machine: str, letters: str, data: st.DataObj
 
 POLAR = (
     "G12.1", "G13.1", "G0 X30.", "G7.1 C20.", "G7.1 C0", "G18", "G17", "G90", "G91", "M3 S100", "G54", "G40 X40.",
+    "X0 C0", "X10. C5.\nX-10. C-5.",
 )  # fmt: skip
 
 
@@ -74,7 +75,10 @@ def test_polar_and_cylindrical_interpolation(text: str) -> None:
     assert differences(text, "fanuc-m", {"machine": "mill4-xyzc"}) == []
 
 
-FACE = ("TRANSMIT", "TRAFOOF", "TRACYL(40)", "G0 X30", "G17", "G19", "G90", "G91", "TRANS X1", "S100 M3")
+FACE = (
+    "TRANSMIT", "TRAFOOF", "TRACYL(40)", "G0 X30", "G17", "G19", "G90", "G91", "TRANS X1", "S100 M3", "X0 Y0", "X10 Y5\nX-10 Y-5",
+    "X0\nX0 Y7",
+)  # fmt: skip
 
 
 @settings(max_examples=examples(12), deadline=None)
@@ -86,6 +90,12 @@ FACE = ("TRANSMIT", "TRAFOOF", "TRACYL(40)", "G0 X30", "G17", "G19", "G90", "G91
 )  # fmt: skip
 def test_face_and_cylinder(text: str) -> None:
     assert differences(text, "sinumerik-840d", {"machine": "lathe-c-transmit"}) == []
+
+
+def test_blocks_off_the_centre_of_turning_are_scanned() -> None:
+    face = "".join(f"N{i} G1 X{i} Y{0.5 * i}\n" for i in range(5, 40))
+    text = f"G0 X60 Z5\nTRANSMIT\nG17 G1 F500 X20 Y5\n{face}X-7 Y-3.5\n{face}M30\n"
+    assert scanned(text, "sinumerik-840d", {"machine": "lathe-c-transmit"}) >= 65
 
 
 BLOCKS = "".join(f"N{i} G1 X{i}. Y{2 * i}. Z-1. B{i * 0.1:.1f} C{i * 0.2:.1f}\n" for i in range(1, 41))

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 from math import cos, degrees, hypot, radians, sin
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -42,6 +43,14 @@ def test_beside_the_pole_the_rotary_axis_keeps_its_direction(angle: float, side:
     again = plane.to_machine(plane.to_work(axes))
     assert again[0] == pytest.approx(side * 1e-4)
     assert (again[2] - angle + 180.0) % 360.0 - 180.0 == pytest.approx(0.0, abs=1e-6)
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_in_the_pole_the_rotary_axis_stands_where_it_is_told(side: float) -> None:
+    plane = PolarPlane(0, 2, (0, 2, 1), 20.0, side=side, pole_deg=75.0)
+    assert plane.to_machine([0.0, 3.0, 0.0]) == [0.0, 3.0, 75.0]
+    table = plane.to_machine([np.array([0.0, 3.0]), np.array([1.0, 1.0]), np.array([0.0, 4.0])])
+    assert table[2].tolist() == [75.0, plane.to_machine([3.0, 1.0, 4.0])[2]]
 
 
 def test_near_the_pole_the_rotary_axis_is_asked_for_ever_more_but_never_for_endless_speed() -> None:

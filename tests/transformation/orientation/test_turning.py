@@ -63,6 +63,24 @@ def test_between_knots_the_tool_keeps_to_the_way_outside_the_cones(
             assert off < radians(2.0 * CONE) + CLOSE
 
 
+@settings(max_examples=100, deadline=None)
+@given(st.sampled_from(MACHINES), vectors, vectors, st.lists(st.floats(-20.0, 20.0), min_size=1, max_size=4))
+def test_a_way_that_goes_to_and_fro_is_kept_to_as_well(
+    kinematics: Kinematics, a: Vector, b: Vector, within: list[float]
+) -> None:
+    assume(0.05 < angle_between(a, b) < 1.0)
+    way, start = great_circle(a, b, tuple(within)), start_of(kinematics, a)
+    assert way is not None
+    assume(pole_angle(kinematics, start) > 2.0 * CONE)
+    knots = follow(kinematics, way, start, anywhere, CONE)
+    assert knots is not None
+    for first, last in pairwise([Knot(0.0, start), *knots]):
+        share = 0.5 * (first.share + last.share)
+        angles = {k: 0.5 * (v + last.angles[k]) for k, v in first.angles.items()}
+        off = angle_between(kinematics.tool_on_work(angles), way(share))
+        assert off < CLOSE or pole_angle(kinematics, angles) < 2.0 * CONE
+
+
 def test_through_the_pole_one_axis_goes_on_and_the_other_one_stays() -> None:
     kinematics = MACHINES[0]
     way = great_circle((0.5, 0.0, 0.8660254037844386), (-0.5, 0.0, 0.8660254037844386))

@@ -68,6 +68,8 @@ class Rank(IntEnum):
     FEED = auto()
     #: Moves that a fit of the path leaves as they are.
     FITTING = auto()
+    #: The side of a pole on which an axis is.
+    POLE = auto()
     #: Positions of the work become those of the axes.
     AXES = auto()
     #: Slave axes, which only their master moves.

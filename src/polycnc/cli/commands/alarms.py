@@ -7,17 +7,16 @@ from enum import StrEnum
 from itertools import chain
 from typing import TYPE_CHECKING, Annotated, Literal
 
-import typer
-
 from polycnc.cli import options
 from polycnc.cli.console import fail, say
+from polycnc.cli.declaration import Argument, Commands, Option
 from polycnc.messages import text
 from polycnc.messages.catalogue import listed
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-app = typer.Typer(add_completion=False, rich_markup_mode=None)
+commands = Commands()
 
 #: What the catalogue may tell about an alarm beside its text.
 NOTES: tuple[Literal["cause", "remedy"], ...] = ("cause", "remedy")
@@ -30,11 +29,11 @@ class Format(StrEnum):
     JSON = "json"
 
 
-@app.command(help=text("help.alarms"))
+@commands.command("help.alarms")
 def alarms(
-    code: Annotated[str | None, typer.Argument(metavar="CODE", help=text("help.alarms.code"))] = None,
+    code: Annotated[str | None, Argument("help.alarms.code", metavar="CODE")] = None,
     control: options.Control = None,
-    form: Annotated[Format, typer.Option("--format", help=text("help.alarms.format"))] = Format.TEXT,
+    form: Annotated[Format, Option("help.alarms.format", "--format")] = Format.TEXT,
     _lang: options.Lang = None,
 ) -> int:
     """Explain one alarm, or list all of a control."""

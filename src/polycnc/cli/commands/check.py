@@ -12,10 +12,9 @@ from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from polycnc.cli import diagnostics, options
 from polycnc.cli.console import note, show
+from polycnc.cli.declaration import Argument, Commands, Option
 from polycnc.deferred.records import dataclass
 from polycnc.messages import UserError, text
 from polycnc.messages.catalogue import language, listed, set_language
@@ -23,7 +22,7 @@ from polycnc.messages.catalogue import language, listed, set_language
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-app = typer.Typer(add_completion=False, rich_markup_mode=None)
+commands = Commands()
 STDIN = "-"
 #: So many files are worth a process of their own.
 SHARED = 16
@@ -41,16 +40,13 @@ class Format(StrEnum):
     JUNIT = "junit"
 
 
-@app.command(help=text("help.check"))
-@options.with_opening
+@commands.command("help.check")
 def check(
-    files: Annotated[list[str], typer.Argument(metavar="FILE…", help=text("help.check.files"))],
-    form: Annotated[Format, typer.Option("--format", help=text("help.option.format"))] = Format.TEXT,
+    files: Annotated[list[str], Argument("help.check.files", metavar="FILE…")],
+    form: Annotated[Format, Option("help.option.format", "--format")] = Format.TEXT,
     output: options.Output = None,
-    exit_zero: Annotated[bool, typer.Option("--exit-zero", help=text("help.check.exit-zero"))] = False,
-    stdin_filename: Annotated[
-        str, typer.Option(metavar="NAME", help=text("help.check.stdin-filename"))
-    ] = "<stdin>",
+    exit_zero: Annotated[bool, Option("help.check.exit-zero", "--exit-zero")] = False,
+    stdin_filename: Annotated[str, Option("help.check.stdin-filename", metavar="NAME")] = "<stdin>",
     *,
     opening: options.Opening,
 ) -> int:

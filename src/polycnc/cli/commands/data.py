@@ -5,10 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from polycnc.cli import options
 from polycnc.cli.console import fail, say, show
+from polycnc.cli.declaration import Argument, Commands, Option
 from polycnc.cli.output import write_whole
 from polycnc.messages import text
 from polycnc.messages.catalogue import listed
@@ -19,20 +18,15 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
 
-app = typer.Typer(add_completion=False, rich_markup_mode=None, help=text("help.data"))
+commands = Commands("help.data")
 
 PROGRAMS = "programs"
-Files = Annotated[list[Path] | None, typer.Argument(metavar="FILE…", help=text("help.data.programs"))]
+Files = Annotated[list[Path] | None, Argument("help.data.programs", metavar="FILE…")]
 
 
-@app.callback()
-def data(_lang: options.Lang = None) -> None:
-    """Data of a control as its text files."""
-
-
-@app.command(name="export", help=text("help.data.export"))
+@commands.command("help.data.export", "export")
 def export(
-    kind: Annotated[str, typer.Argument(metavar="KIND", help=text("help.data.kind"))],
+    kind: Annotated[str, Argument("help.data.kind", metavar="KIND")],
     programs: Files = None,
     control: options.Control = None,
     machine: options.Machine = None,
@@ -54,14 +48,14 @@ def export(
     return _give(files.write(channel, kind), output, [setup])
 
 
-@app.command(name="import", help=text("help.data.import"))
+@commands.command("help.data.import", "import")
 def import_file(
-    file: Annotated[Path, typer.Argument(metavar="FILE", help=text("help.data.file"))],
+    file: Annotated[Path, Argument("help.data.file", metavar="FILE")],
     control: options.Control = None,
     machine: options.Machine = None,
     setup: options.Setup = None,
-    folder: Annotated[Path, typer.Option("--folder", help=text("help.data.folder"))] = Path(),
-    overwrite: Annotated[bool, typer.Option("--overwrite", help=text("help.data.overwrite"))] = False,
+    folder: Annotated[Path, Option("help.data.folder", "--folder")] = Path(),
+    overwrite: Annotated[bool, Option("help.data.overwrite", "--overwrite")] = False,
     _lang: options.Lang = None,
 ) -> int:
     """Read a file into a setup, or its programs into a folder; a damaged one changes nothing."""

@@ -7,10 +7,9 @@ from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from polycnc.cli import options
 from polycnc.cli.console import fail, show
+from polycnc.cli.declaration import Commands, Option
 from polycnc.messages import text
 from polycnc.messages.catalogue import listed
 
@@ -19,7 +18,7 @@ if TYPE_CHECKING:
 
     from polycnc.cases.features import Features
 
-app = typer.Typer(add_completion=False, rich_markup_mode=None)
+commands = Commands()
 
 
 class Format(StrEnum):
@@ -30,16 +29,12 @@ class Format(StrEnum):
     MARKDOWN = "markdown"
 
 
-@app.command(help=text("help.features"))
+@commands.command("help.features")
 def features(
     control: options.Control = None,
-    cases: Annotated[
-        Path | None, typer.Option("--from", metavar="DIR", help=text("help.features.from"))
-    ] = None,
-    tests: Annotated[
-        Path | None, typer.Option("--tests", metavar="FILE", help=text("help.features.tests"))
-    ] = None,
-    form: Annotated[Format, typer.Option("--format", help=text("help.option.format"))] = Format.TEXT,
+    cases: Annotated[Path | None, Option("help.features.from", "--from", metavar="DIR")] = None,
+    tests: Annotated[Path | None, Option("help.features.tests", "--tests", metavar="FILE")] = None,
+    form: Annotated[Format, Option("help.option.format", "--format")] = Format.TEXT,
     output: options.Output = None,
     _lang: options.Lang = None,
 ) -> int:

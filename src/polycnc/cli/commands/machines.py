@@ -4,20 +4,13 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
 from polycnc.cli import options
 from polycnc.cli.console import say, show
-from polycnc.messages import text
-
-app = typer.Typer(add_completion=False, rich_markup_mode=None, help=text("help.machines"))
+from polycnc.cli.declaration import Argument, Commands
 
 
-@app.callback(invoke_without_command=True)
-def machines(ctx: typer.Context, _lang: options.Lang = None) -> None:
-    """List the built-in machines."""
-    if ctx.invoked_subcommand is not None:
-        return
+def list_machines() -> None:
+    """One machine a line: its id, the axes of its channels, its name."""
     from polycnc.machine import builtin_ids, load_machine
 
     built = [load_machine(machine_id) for machine_id in builtin_ids()]
@@ -27,9 +20,12 @@ def machines(ctx: typer.Context, _lang: options.Lang = None) -> None:
         say(f"{machine.id:{width}}  {axes:28}  {machine.name}")
 
 
-@app.command(name="show", help=text("help.machines.show"))
+commands = Commands("help.machines", alone=list_machines)
+
+
+@commands.command("help.machines.show", "show")
 def show_machine(
-    machine: Annotated[str, typer.Argument(metavar="ID|FILE", help=text("help.option.machine"))],
+    machine: Annotated[str, Argument("help.option.machine", metavar="ID|FILE")],
     _lang: options.Lang = None,
 ) -> None:
     """Write one machine as a TOML file, complete with all defaults."""

@@ -5,10 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from polycnc.cli import options
 from polycnc.cli.console import fail, note, say, show
+from polycnc.cli.declaration import Argument, Commands, Option
 from polycnc.cli.output import write_whole
 from polycnc.messages import text
 from polycnc.messages.catalogue import listed
@@ -17,19 +16,14 @@ from polycnc.messages.files import refuse_inputs
 if TYPE_CHECKING:
     from polycnc.memory.file import FileStore
 
-app = typer.Typer(add_completion=False, rich_markup_mode=None, help=text("help.memory"))
+commands = Commands("help.memory")
 
-File = Annotated[Path, typer.Argument(metavar="FILE", help=text("help.memory.file"))]
+File = Annotated[Path, Argument("help.memory.file", metavar="FILE")]
 #: What SQLite may leave beside a memory.
 _BESIDE = ("-wal", "-shm", "-journal")
 
 
-@app.callback()
-def memory(_lang: options.Lang = None) -> None:
-    """The memory of a control in a file."""
-
-
-@app.command(help=text("help.memory.new"))
+@commands.command("help.memory.new")
 def new(
     file: File,
     control: options.Control = None,
@@ -69,7 +63,7 @@ def new(
     return 0
 
 
-@app.command(name="show", help=text("help.memory.show"))
+@commands.command("help.memory.show", "show")
 def show_memory(file: File, _lang: options.Lang = None) -> int:
     """What a memory is of, and what it holds."""
     from polycnc.memory.file import FileStore
@@ -83,16 +77,14 @@ def show_memory(file: File, _lang: options.Lang = None) -> int:
     return 0
 
 
-@app.command(help=text("help.memory.export"))
+@commands.command("help.memory.export")
 def export(
     file: File,
-    kinds: Annotated[
-        list[str] | None, typer.Argument(metavar="KIND…", help=text("help.memory.kinds"))
-    ] = None,
+    kinds: Annotated[list[str] | None, Argument("help.memory.kinds", metavar="KIND…")] = None,
     machine: options.Machine = None,
-    folder: Annotated[Path | None, typer.Option("--folder", help=text("help.memory.folder"))] = None,
+    folder: Annotated[Path | None, Option("help.memory.folder", "--folder")] = None,
     output: options.Output = None,
-    overwrite: Annotated[bool, typer.Option("--overwrite", help=text("help.memory.overwrite"))] = False,
+    overwrite: Annotated[bool, Option("help.memory.overwrite", "--overwrite")] = False,
     _lang: options.Lang = None,
 ) -> int:
     """Write what a memory holds as the control's own text files."""
@@ -125,10 +117,10 @@ def export(
     return 1 if written.left_out else 0
 
 
-@app.command(name="import", help=text("help.memory.import"))
+@commands.command("help.memory.import", "import")
 def import_files(
     file: File,
-    files: Annotated[list[Path], typer.Argument(metavar="TEXT…", help=text("help.memory.texts"))],
+    files: Annotated[list[Path], Argument("help.memory.texts", metavar="TEXT…")],
     machine: options.Machine = None,
     _lang: options.Lang = None,
 ) -> int:

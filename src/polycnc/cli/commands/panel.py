@@ -7,10 +7,9 @@ from pathlib import Path
 from secrets import token_urlsafe
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from polycnc.cli import options
 from polycnc.cli.console import fail, say
+from polycnc.cli.declaration import Argument, Commands, Option
 from polycnc.messages import text
 from polycnc.messages.catalogue import language
 
@@ -21,45 +20,39 @@ if TYPE_CHECKING:
     from polycnc.panel.teaching.exercise import Exercise
     from polycnc.panel.web.desk import Desk
 
-app = typer.Typer(add_completion=False, rich_markup_mode=None)
+commands = Commands()
 PORT = 8620
-_Exercise = Annotated[str, typer.Option("--exercise", metavar="FILE[#ID]", help=text("help.panel.exercise"))]
-_Sheet = Annotated[Path | None, typer.Option("--sheet", metavar="FILE", help=text("help.panel.sheet"))]
-_Record = Annotated[Path | None, typer.Option("--record", metavar="FILE", help=text("help.panel.record"))]
-_Replay = Annotated[Path | None, typer.Option("--replay", metavar="FILE", help=text("help.panel.replay"))]
+_Exercise = Annotated[str, Option("help.panel.exercise", "--exercise", metavar="FILE[#ID]")]
+_Sheet = Annotated[Path | None, Option("help.panel.sheet", "--sheet", metavar="FILE")]
+_Record = Annotated[Path | None, Option("help.panel.record", "--record", metavar="FILE")]
+_Replay = Annotated[Path | None, Option("help.panel.replay", "--replay", metavar="FILE")]
 
 
-def _speed(value: float) -> float:
-    """Refuse what is no number; it is in every range."""
-    if value != value:
-        raise typer.BadParameter("nan is not in the range 0.01<=x<=1000.0.")
-    return value
+def _no_number(value: float) -> str:
+    """Typer takes what is no number for one in every range."""
+    return "nan is not in the range 0.01<=x<=1000.0." if value != value else ""
 
 
-@app.command(help=text("help.panel"))
+@commands.command("help.panel")
 def panel(
-    file: Annotated[Path | None, typer.Argument(metavar="[FILE]", help=text("help.panel.file"))] = None,
-    control: Annotated[
-        list[str] | None, typer.Option("--control", metavar="ID", help=text("help.option.control"))
-    ] = None,
+    file: Annotated[Path | None, Argument("help.panel.file", metavar="[FILE]")] = None,
+    control: Annotated[list[str] | None, Option("help.option.control", "--control", metavar="ID")] = None,
     machine: options.Machine = None,
     setup: options.Setup = None,
     search: options.Search = None,
     memory: options.Memory = None,
-    card: Annotated[Path | None, typer.Option("--card", metavar="DIR", help=text("help.panel.card"))] = None,
+    card: Annotated[Path | None, Option("help.panel.card", "--card", metavar="DIR")] = None,
     exercise: _Exercise = "",
     sheet: _Sheet = None,
     record: _Record = None,
     replay: _Replay = None,
-    host: Annotated[
-        str, typer.Option("--host", metavar="ADDRESS", help=text("help.panel.host"))
-    ] = "127.0.0.1",
-    port: Annotated[int, typer.Option("--port", min=1, max=65535, help=text("help.panel.port"))] = PORT,
+    host: Annotated[str, Option("help.panel.host", "--host", metavar="ADDRESS")] = "127.0.0.1",
+    port: Annotated[int, Option("help.panel.port", "--port", limits=(1, 65535))] = PORT,
     speed: Annotated[
         float,
-        typer.Option("--speed", min=0.01, max=1000.0, help=text("help.panel.speed"), callback=_speed),
+        Option("help.panel.speed", "--speed", limits=(0.01, 1000.0), refusal=_no_number),
     ] = 1.0,
-    no_open: Annotated[bool, typer.Option("--no-open", help=text("help.panel.no-open"))] = False,
+    no_open: Annotated[bool, Option("help.panel.no-open", "--no-open")] = False,
     _lang: options.Lang = None,
 ) -> int:
     """Serve one control, or several, each under its own address."""

@@ -5,10 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from polycnc.cli import options
 from polycnc.cli.console import fail, say
+from polycnc.cli.declaration import Argument, Commands
 from polycnc.messages import text
 from polycnc.messages.catalogue import listed
 
@@ -18,15 +17,10 @@ if TYPE_CHECKING:
     from polycnc.control.parameters import KnownParameter
     from polycnc.machine.setup.values import ParameterKey, Parameters
 
-app = typer.Typer(add_completion=False, rich_markup_mode=None, help=text("help.parameters"))
+commands = Commands("help.parameters")
 
 
-@app.callback()
-def parameters(_lang: options.Lang = None) -> None:
-    """Parameters of a control."""
-
-
-@app.command(name="list", help=text("help.parameters.list"))
+@commands.command("help.parameters.list", "list")
 def list_parameters(
     control: options.Control = None, setup: options.Setup = None, _lang: options.Lang = None
 ) -> int:
@@ -45,9 +39,9 @@ def list_parameters(
     return 0
 
 
-@app.command(name="show", help=text("help.parameters.show"))
+@commands.command("help.parameters.show", "show")
 def show_parameter(
-    number: Annotated[str, typer.Argument(metavar="NUMBER")],
+    number: Annotated[str, Argument(metavar="NUMBER")],
     control: options.Control = None,
     setup: options.Setup = None,
     _lang: options.Lang = None,
@@ -76,9 +70,9 @@ def show_parameter(
     return 0
 
 
-@app.command(name="set", help=text("help.parameters.set"))
+@commands.command("help.parameters.set", "set")
 def set_parameters(
-    assignments: Annotated[list[str], typer.Argument(metavar="NUMBER=VALUE…")],
+    assignments: Annotated[list[str], Argument(metavar="NUMBER=VALUE…")],
     setup: options.Setup = Path("setup.yaml"),
     control: options.Control = None,
     _lang: options.Lang = None,

@@ -7,10 +7,9 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from polycnc.cli import options
 from polycnc.cli.console import fail, note
+from polycnc.cli.declaration import Argument, Commands, Option
 from polycnc.cli.diagnostics import diagnostics_of
 from polycnc.cli.progress import WaitingForRun
 from polycnc.messages import text
@@ -18,7 +17,7 @@ from polycnc.messages import text
 if TYPE_CHECKING:
     from polycnc.session import Result, Session
 
-app = typer.Typer(add_completion=False, rich_markup_mode=None)
+commands = Commands()
 
 
 class ViewName(StrEnum):
@@ -31,15 +30,12 @@ class ViewName(StrEnum):
     THREE = "three"
 
 
-@app.command(help=text("help.plot"))
-@options.with_opening
+@commands.command("help.plot")
 def plot(
-    file: Annotated[Path, typer.Argument(metavar="FILE", help=text("help.run.file"))],
-    output: Annotated[
-        Path, typer.Option("--output", "-o", metavar="X.svg|X.png", help=text("help.plot.output"))
-    ],
-    view: Annotated[ViewName | None, typer.Option(help=text("help.plot.view"), show_default=False)] = None,
-    profile: Annotated[bool, typer.Option("--profile", help=text("help.plot.profile"))] = False,
+    file: Annotated[Path, Argument("help.run.file", metavar="FILE")],
+    output: Annotated[Path, Option("help.plot.output", "--output", "-o", metavar="X.svg|X.png")],
+    view: Annotated[ViewName | None, Option("help.plot.view", shows_default=False)] = None,
+    profile: Annotated[bool, Option("help.plot.profile", "--profile")] = False,
     *,
     opening: options.Opening,
 ) -> int:

@@ -9,10 +9,9 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Annotated, Any
 
-import typer
-
 from polycnc.cli import options
 from polycnc.cli.console import fail, note, show
+from polycnc.cli.declaration import Argument, Commands, Option
 from polycnc.cli.progress import WaitingForRun
 from polycnc.deferred.regexes import regex
 from polycnc.messages import text
@@ -28,7 +27,7 @@ if TYPE_CHECKING:
     from polycnc.toolpath.trace import Display
     from polycnc.toolpath.usage import Usage
 
-app = typer.Typer(add_completion=False, rich_markup_mode=None)
+commands = Commands()
 #: Suffixes of trace files; `toolpath.export` has a writer for each.
 TRACES = (".jsonl", ".csv", ".parquet")
 #: Suffixes of sample files; `motion.sample_file` has a writer for each.
@@ -41,22 +40,17 @@ _FELT_ROWS = 20_000
 _PERIOD = regex(r"(\d+\.?\d*|\.\d+)(us|ms|s|)", re.ASCII)
 
 
-@app.command(help=text("help.run"))
-@options.with_opening
+@commands.command("help.run")
 def run(
-    file: Annotated[str, typer.Argument(metavar="FILE", help=text("help.run.file"))],
-    trace: Annotated[
-        Path | None, typer.Option(metavar="OUT.jsonl|csv|parquet", help=text("help.run.trace"))
-    ] = None,
+    file: Annotated[str, Argument("help.run.file", metavar="FILE")],
+    trace: Annotated[Path | None, Option("help.run.trace", metavar="OUT.jsonl|csv|parquet")] = None,
     sample: Annotated[
-        tuple[str, Path] | None, typer.Option(metavar="PERIOD OUT.parquet|csv", help=text("help.run.sample"))
+        tuple[str, Path] | None, Option("help.run.sample", metavar="PERIOD OUT.parquet|csv")
     ] = None,
-    state: Annotated[Path | None, typer.Option(metavar="OUT.json", help=text("help.run.state"))] = None,
-    print_to: Annotated[
-        Path | None, typer.Option("--print", metavar="FILE", help=text("help.run.print"))
-    ] = None,
-    no_time: Annotated[bool, typer.Option("--no-time", help=text("help.run.no-time"))] = False,
-    explain_time: Annotated[bool, typer.Option("--explain-time", help=text("help.run.explain-time"))] = False,
+    state: Annotated[Path | None, Option("help.run.state", metavar="OUT.json")] = None,
+    print_to: Annotated[Path | None, Option("help.run.print", "--print", metavar="FILE")] = None,
+    no_time: Annotated[bool, Option("help.run.no-time", "--no-time")] = False,
+    explain_time: Annotated[bool, Option("help.run.explain-time", "--explain-time")] = False,
     memory: options.Memory = None,
     *,
     opening: options.Opening,

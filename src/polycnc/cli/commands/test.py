@@ -8,12 +8,10 @@ from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from polycnc.cli import options
 from polycnc.cli.console import coloured, note, say
+from polycnc.cli.declaration import Argument, Commands, Option
 from polycnc.cli.progress import Waiting
-from polycnc.messages import text
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -22,7 +20,7 @@ if TYPE_CHECKING:
     from polycnc.cases.selection import Selection
     from polycnc.memory.file import FileStore
 
-app = typer.Typer(add_completion=False, rich_markup_mode=None)
+commands = Commands()
 
 
 class Format(StrEnum):
@@ -33,17 +31,15 @@ class Format(StrEnum):
     JUNIT = "junit"
 
 
-@app.command(help=text("help.test"))
+@commands.command("help.test")
 def run_tests(
-    files: Annotated[list[Path], typer.Argument(metavar="CASE.yaml…", help=text("help.test.files"))],
-    words: Annotated[str, typer.Option("-k", metavar="TEXT", help=text("help.test.k"))] = "",
-    feature: Annotated[list[str] | None, typer.Option(metavar="ID", help=text("help.test.feature"))] = None,
-    skip_feature: Annotated[
-        list[str] | None, typer.Option(metavar="ID", help=text("help.test.skip-feature"))
-    ] = None,
-    report: Annotated[Path | None, typer.Option(metavar="OUT.json", help=text("help.test.report"))] = None,
-    form: Annotated[Format, typer.Option("--format", help=text("help.option.format"))] = Format.TEXT,
-    memory: Annotated[Path | None, typer.Option(metavar="FILE", help=text("help.test.memory"))] = None,
+    files: Annotated[list[Path], Argument("help.test.files", metavar="CASE.yaml…")],
+    words: Annotated[str, Option("help.test.k", "-k", metavar="TEXT")] = "",
+    feature: Annotated[list[str] | None, Option("help.test.feature", metavar="ID")] = None,
+    skip_feature: Annotated[list[str] | None, Option("help.test.skip-feature", metavar="ID")] = None,
+    report: Annotated[Path | None, Option("help.test.report", metavar="OUT.json")] = None,
+    form: Annotated[Format, Option("help.option.format", "--format")] = Format.TEXT,
+    memory: Annotated[Path | None, Option("help.test.memory", metavar="FILE")] = None,
     _lang: options.Lang = None,
 ) -> int:
     """Run the cases of all files."""

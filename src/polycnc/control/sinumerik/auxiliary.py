@@ -89,8 +89,11 @@ def _put_out(channel: SinumerikChannel, code: int, spindle_number: int | None) -
         memory.spindles.get(spindle_number)  # 16761 for one that the channel does not have
     if code in DIRECTIONS or code in (ORIENT, AXIS_MODE) or does in DIRECTION_OF_ACT:
         spindle = memory.spindles.get(spindle_number)
+        direction = DIRECTION_OF_ACT[does] if does in DIRECTION_OF_ACT else DIRECTIONS.get(code, 0)
+        if direction or code == ORIENT:
+            seat.check_spindle(channel, spindle.number)
         before = turns(channel, spindle.number)
-        spindle.direction = DIRECTION_OF_ACT[does] if does in DIRECTION_OF_ACT else DIRECTIONS.get(code, 0)
+        spindle.direction = direction
         spindle.controlled = code in (ORIENT, AXIS_MODE)
         synchronous.overlay(channel, spindle, before)
         masters.settle(channel)

@@ -8,10 +8,11 @@ from polycnc.channel.states.state import Lifetime, end_of
 from polycnc.control.sinumerik import gcodes, tables
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.frames import active as frames
-from polycnc.control.sinumerik.frames.memory import ISO_MIRROR, ISO_ROTATION, ISO_SCALE
+from polycnc.control.sinumerik.frames.memory import ISO_MIRROR, ISO_ROTATION, ISO_SCALE, OF_PLANES
 from polycnc.control.sinumerik.limits import working_area
 from polycnc.control.sinumerik.motion import contour_reading
 from polycnc.control.sinumerik.tools import selection
+from polycnc.control.sinumerik.tools.holders import active as carriers
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.language.sinumerik.names.frame import NEUTRAL
 
@@ -72,8 +73,10 @@ def reset(channel: SinumerikChannel) -> None:
     end_of(channel, Lifetime.RESET)
     channel.mode = channel.mode.with_code(seat.GEOMETRY, seat.geometry_code(channel))
     PathFeed.of(channel).mode = tables.feed_type(channel.mode).mode
+    memory.frames.system.update(dict.fromkeys((*OF_PLANES, ISO_MIRROR, ISO_ROTATION, ISO_SCALE), NEUTRAL))
+    if not carriers.ActiveCarrier.of(channel).number:  # of CYCLE800; a toolholder has machine data of its own
+        carriers.release(channel)
     selection.follow(channel)
-    memory.frames.system.update(dict.fromkeys((ISO_MIRROR, ISO_ROTATION, ISO_SCALE), NEUTRAL))
     memory.frames.select(gcodes.number_of(channel.mode["wcs"]) - 1)
     frames.apply(channel)
     working_area.refresh(channel)

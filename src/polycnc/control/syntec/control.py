@@ -15,6 +15,7 @@ from polycnc.control.syntec.axis_groups import borrowing, groups, names
 from polycnc.control.syntec.builder import SyntecBuilder
 from polycnc.control.syntec.codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
 from polycnc.control.syntec.coordinates import systems
+from polycnc.control.syntec.coordinates.turns import TurnState
 from polycnc.control.syntec.five_axes import mechanism, normal_direction, posture, tilted, tip_control
 from polycnc.control.syntec.five_axes import spatial as spatial_radius
 from polycnc.control.syntec.macros import calls, interrupts, single_block
@@ -260,7 +261,7 @@ class SyntecMill(WordAddressControl):
         return codes
 
     def reset(self, channel: SyntecChannel) -> None:
-        """The state after reset: Pr3014 may keep the tilted plane, Pr413 the turn of G92.1."""
+        """The state after reset: G54.4 stays, Pr3014 may keep the tilted plane, Pr413 the turn of G92.1."""
         quiet.switch_quiet(channel, on=False)
         normal_line.end(channel)
         spatial.end(channel)
@@ -270,6 +271,7 @@ class SyntecMill(WordAddressControl):
             systems.forget_preset_turn(channel.memory)
         kept = tilted.Kept.of(channel)
         super().reset(channel)
+        tilted.rotate_work_system(channel, on=TurnState.of(channel).by_table)
         kept.restore(channel)
 
     def end_of_program(self, channel: SyntecChannel) -> None:
@@ -372,6 +374,10 @@ class SyntecMill(WordAddressControl):
     def kinematics(self, channel: SyntecChannel) -> Kinematics:
         """The rotary joints of the machine, with the holder of Pr3013."""
         return mechanism.kinematics_of(channel)
+
+    def feed_to(self, channel: SyntecChannel, end: list[float]) -> float:
+        """Feed of a straight cut to a position: F, under G93 F times the way."""
+        return moves.feed_to(channel, end)
 
     def reference_point(self, channel: SyntecChannel, axis: int, number: int) -> float:
         """Machine position of a reference point: 1 the machine zero, 2 to 4 by Pr2801 on, in least units."""

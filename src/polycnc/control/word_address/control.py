@@ -462,6 +462,10 @@ class WordAddressControl:
         """The rotary joints of the machine, with what parameters add to them."""
         return Kinematics.of(channel.machine)
 
+    def feed_to(self, channel: Channel, _end: list[float]) -> float:
+        """Feed of a straight cut to a position (absolute display), internal units."""
+        return channel.feed
+
     def rotary_ranges(self, _channel: Channel) -> Mapping[str, tuple[float, float]]:
         """Lowest and highest machine position of rotary axes that stand the tool, degrees by name; none for any."""
         return {}

@@ -11,7 +11,7 @@ from polycnc.deferred.records import dataclass
 from polycnc.mainrun.commands.programs import text_of
 from polycnc.mainrun.execution.interpolator import ChannelInterpolator
 from polycnc.mainrun.reading.snapshot import ActiveBlock, ChannelSnapshot, Positions, SpindleState, ToolState
-from polycnc.motion.frames import carried, without_transformation
+from polycnc.motion.frames import carried, shown_by_hand, without_transformation
 from polycnc.motion.standing.waits import rpm_at
 from polycnc.toolpath import Context
 
@@ -132,12 +132,10 @@ class ChannelRun:
         execution, context, display = self.execution, self.execution.context, self.display
         axes, uncounted = self.machine_position, self.axes.uncounted()
         real = [(locked or {}).get(i, value) for i, value in enumerate(axes)]
-        if self.axes.by_hand and self.axes.led is not None:
-            here = display.on_path(self.axes.path_at(axes), context)
-            shown = display.positions(here, here, real, context)
-        elif self.axes.by_hand:
-            here = self.axes.path_at(axes)
-            shown = display.positions(here, here, real, without_transformation(context))
+        if self.axes.by_hand:
+            shown_in = context if self.axes.led is not None else shown_by_hand(context)
+            here = display.on_path(self.axes.path_at(axes), shown_in)
+            shown = display.positions(here, here, real, shown_in)
         else:
             here, end = (
                 self._known(carried(place, execution.place, context, display.geometry), context)

@@ -218,7 +218,7 @@ class Preprocessing:
     def is_bare(self) -> bool:
         """Whether nothing of what a waiting program does next is prepared, nor read ahead for compensation."""
         done = all(isinstance(item, BlockEnd) for item in self.items)
-        return done and not self.finished and self.channel.path.head is None
+        return done and not self.finished and not self.channel.path.changes_ends
 
     def intervene(self, program: Program) -> None:
         """Blocks that were typed in come before what the waiting program does next, of which nothing is prepared."""

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.mainrun.commands.states import State
 from polycnc.mainrun.reading.snapshot import Overrides, Snapshot
-from polycnc.motion.frames import without_transformation
+from polycnc.motion.frames import shown_by_hand
 from polycnc.toolpath.events import Auxiliary, SpindleSpeed, ToolSelection
 
 if TYPE_CHECKING:
@@ -94,10 +94,9 @@ class Readings:
         run = self._runs.first
         if not run.axes.by_hand or self._operation.status.state not in (State.HOLD, State.STOPPED):
             return {}
-        context, here, waits = (
-            without_transformation(run.execution.context),
-            run.machine_position,
-            run.without_hand,
+        context = shown_by_hand(run.execution.context)
+        here, waits = (
+            run.display.on_path(axes, context) for axes in (run.machine_position, run.without_hand)
         )
         target = run.display.positions(waits, waits, waits, context).work
         left = run.display.positions(here, waits, here, context).to_go

@@ -18,6 +18,7 @@ from polycnc.transformation.numbers import (
     distance,
     kept_off,
     sine,
+    where_less,
 )
 from polycnc.transformation.pole import Pole
 
@@ -44,6 +45,7 @@ class PolarPlane:
         side: -1 where the linear axis stands on the negative side of the centre.
         virtual: Column of the plane's second axis where it has one of its own, beside the rotary axis; else -1. In
             points of the path the rotary axis is zero then, in positions of the axes the column is.
+        pole_deg: Where the rotary axis stands in the centre itself; None for where the first axis leads there.
     """
 
     linear: int
@@ -53,6 +55,7 @@ class PolarPlane:
     eccentricity: tuple[float, float] = (0.0, 0.0)
     side: float = 1.0
     virtual: int = -1
+    pole_deg: float | None = None
 
     @property
     def second(self) -> int:
@@ -72,8 +75,11 @@ class PolarPlane:
         axes = list(work)
         if self.virtual >= 0:
             axes[self.virtual] = constant(0.0, first)
-        axes[self.linear] = self.side * distance(first, second)
-        axes[self.rotary] = self.start_deg + angle_deg(second, first)
+        away, direction = distance(first, second), self.start_deg + angle_deg(second, first)
+        axes[self.linear] = self.side * away
+        axes[self.rotary] = (
+            direction if self.pole_deg is None else where_less(away, CLOSEST_MM, self.pole_deg, direction)
+        )
         return axes
 
     def to_work(self, axes: Sequence[N]) -> list[N]:

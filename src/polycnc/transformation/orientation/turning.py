@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from itertools import pairwise
-from math import radians
+from math import dist, radians, sqrt
 from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass
@@ -139,11 +139,12 @@ def follow(
     def is_inside(knot: Knot | None) -> bool:
         return knot is None or pole_angle(kinematics, knot.angles) < cone_deg
 
-    length, edges, passed = _length(way), [0], list[float]()
+    length, bend, edges, passed = _length(way), _step_of_bend(way), [0], list[float]()
     share, inside = 0.0, is_inside(steps[0])
     while share < 1.0:
         near = pole_angle(kinematics, steps[-1].angles) / NEAR_DEG
         ahead = STEP * min(max(near, CLOSEST), 1.0) / length if length > STEP * CLOSEST else 1.0
+        ahead = min(ahead, bend)
         share = min(1.0, share + ahead)
         share = 1.0 if share > 1.0 - 1e-9 else share
         knot = solve(share)
@@ -171,6 +172,16 @@ def _length(way: Way) -> float:
     """How far the direction turns along a way, radians."""
     looks = [way(k / LOOKS) for k in range(LOOKS + 1)]
     return sum(angle_between(a, b) for a, b in pairwise(looks))
+
+
+def _step_of_bend(way: Way) -> float:
+    """Share of a way after which it has left an even turn by half of the tolerance: polynomials go to and fro."""
+    looks = [way(k / LOOKS) for k in range(LOOKS + 1)]
+    bend = 0.0
+    for a, b, c in zip(looks, looks[1:], looks[2:], strict=False):
+        even = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + b[0] * c[0] + b[1] * c[1] + b[2] * c[2]
+        bend = max(bend, dist([x + z for x, z in zip(a, c, strict=True)], [even * y for y in b]))
+    return sqrt(4.0 * TOLERANCE / bend) / LOOKS if bend > TOLERANCE * CLOSEST else 1.0
 
 
 def _edge(

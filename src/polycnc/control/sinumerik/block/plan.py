@@ -155,7 +155,6 @@ def make_plan(channel: SinumerikChannel, block: Block) -> Plan:
     if measures is not None:
         draft.steps.append(measures[1])
     draft.steps += [orientation.finish] if draft.lead is not None else []
-    draft.steps += [point_to_point.finish] if draft.by_axes else []
     _check_open_words(draft)
     draft.steps += [_stop(position) for position in ends]
     if in_spline:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from polycnc.compensation.corner import Shape
 from polycnc.control.machine_words import asking, plc_of
 from polycnc.control.sinumerik import auxiliary, replaced, tables
+from polycnc.control.sinumerik.axes import spindles as spindle_axes
 from polycnc.control.sinumerik.block import offset_words, outside_feeds, plain
 from polycnc.control.sinumerik.block.draft import axis_column
 from polycnc.control.sinumerik.block.positions import ModuloRange, number, whole
@@ -37,6 +38,7 @@ from polycnc.control.sinumerik.signals import fixed_stop, retraction
 from polycnc.control.sinumerik.tables import length_factor
 from polycnc.control.sinumerik.tools import master_holder, stages
 from polycnc.control.sinumerik.tools.management import lists
+from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.transformations.posture import Orienting
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.bulk import Note, declare
@@ -198,11 +200,14 @@ def spindle_position(_draft: Draft, position: int, shape: WordShape) -> Step:
 
     def run(channel: SinumerikChannel, values: Values) -> None:
         spindle = channel.memory.spindles.get(wanted)
-        value = number(values, position)
+        seat.check_spindle(channel, spindle.number)
+        value, awaited = number(values, position), shape.address == "SPOS"
         modulo = ModuloRange.of(channel.memory.data, f"S{spindle.number}")
         if shape.modifier != "IC":
             value = modulo.within(value, position)
-        synchronous.position(channel, spindle, value, shape.modifier, awaited=shape.address == "SPOS")
+        spindle_axes.follow_axis(channel, spindle)
+        synchronous.position(channel, spindle, value, shape.modifier, awaited=awaited)
+        spindle_axes.stand(channel, spindle, awaited=awaited)
 
     return run
 

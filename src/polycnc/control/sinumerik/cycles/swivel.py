@@ -80,6 +80,8 @@ def swivel(moves: Moves, a: Arguments) -> None:
     turned = _plane_frame(a, record, _outer(channel) @ base)
     frame = base @ NcFrame(matrix=turned.m, coarse=turned.t)
     angles = _angles(channel, a, record, frame)
+    if not record.meets_teeth(angles):
+        raise not_supported("CYCLE800 $TC_CARR28")
     if a.integer("_DIR"):
         moves.act(_turn, channel, record, angles)
         moves.end_block()

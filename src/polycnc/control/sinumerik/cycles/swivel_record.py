@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING
 from polycnc.control.sinumerik.tools.holders.stored import (
     AXIS_NAMES,
     HIGHEST,
+    HIRTH_OFFSETS,
+    HIRTH_STEPS,
     LOWEST,
     NAME,
     Carrier,
@@ -31,6 +33,8 @@ if TYPE_CHECKING:
 
 #: First of the numbers of $TC_CARR that have the retraction positions, and the names of axes for the cycles.
 PLACE, USER_NAMES = 38, 35
+#: An axis stands on a tooth of its Hirth coupling if it misses it by less.
+ON_TOOTH_DEG = 1e-3
 #: The record whose limits and positions belong to the machine's own axes.
 OWN = 1
 #: Vectors in front of the axes of each kinematic type, by their place in l1 to l4.
@@ -46,6 +50,7 @@ class Record:
         axes: The rotary axes, the one nearer to the base first.
         columns: Their columns in the channel, -1 for an axis that is set by hand.
         limits_deg: Lowest and highest position of each.
+        teeth_deg: Offset and step of the Hirth coupling of each; a step of 0 for none.
         places: Machine positions for retracting, by geometry axis (0 to 2).
         carrier: What is stored, for a record that is not the machine's own.
     """
@@ -54,6 +59,7 @@ class Record:
     axes: tuple[str, ...]
     columns: tuple[int, ...]
     limits_deg: tuple[tuple[float, float], ...]
+    teeth_deg: tuple[tuple[float, float], ...]
     places: dict[int, float]
     carrier: Carrier | None = None
 
@@ -66,6 +72,13 @@ class Record:
     def zero(self, axis: str) -> float:
         """Position of an axis at which nothing is turned."""
         return self.carrier.zeros_deg[int(self._number(axis))] if self.carrier is not None else 0.0
+
+    def meets_teeth(self, angles: Angles) -> bool:
+        """Whether every axis with a Hirth coupling stands on one of its teeth."""
+        return all(
+            not step or abs(_signed_rest(angles[axis] + self.zero(axis) - offset, step)) < ON_TOOTH_DEG
+            for axis, (offset, step) in zip(self.axes, self.teeth_deg, strict=True)
+        )
 
     def head(self, angles: Angles) -> Frame | None:
         """What the tool's lengths become; None where the head has no axis."""
@@ -93,6 +106,10 @@ class Record:
         assert self.carrier is not None
         present = [i for i, direction in enumerate(self.carrier.axes) if direction is not None]
         return present[self.axes.index(axis)]
+
+
+def _signed_rest(position: float, step: float) -> float:
+    return position - step * round(position / step)
 
 
 def record_of(channel: SinumerikChannel, name: str) -> Record:
@@ -129,7 +146,13 @@ def _of_machine(channel: SinumerikChannel) -> Record | None:
     values = CarrierData.of(channel).carriers.get(OWN, {})
     pairs = [[float(values.get(n + i, 0.0)) for n in (LOWEST, HIGHEST)] for i in range(2)]
     limits = tuple((low, high) if low or high else (-inf, inf) for low, high in pairs)
-    return Record(kinematics, axes, tuple(names.index(axis) for axis in axes), limits, _places(values))
+    teeth = tuple(_teeth(values, i) for i in range(2))
+    columns = tuple(names.index(axis) for axis in axes)
+    return Record(kinematics, axes, columns, limits, teeth, _places(values))
+
+
+def _teeth(values: Values, i: int) -> tuple[float, float]:
+    return float(values.get(HIRTH_OFFSETS + i, 0.0)), float(values.get(HIRTH_STEPS + i, 0.0))
 
 
 def _places(values: Values) -> dict[int, float]:
@@ -142,7 +165,7 @@ def _stored(channel: SinumerikChannel, number: int) -> Record:
     carrier = Carrier.of(values, channel.memory.data, number)
     of_tool, _ = carrier.chains
     joints: dict[bool, list[Joint]] = {True: [], False: []}
-    names, columns, limits = [], [], []
+    names, columns, limits, teeth = [], [], [], []
     for i, direction in enumerate(carrier.axes):
         if direction is None:
             continue
@@ -153,8 +176,10 @@ def _stored(channel: SinumerikChannel, number: int) -> Record:
         names.append(name if column >= 0 else name or f"v{i + 1}")
         columns.append(column)
         limits.append(carrier.limits_deg[i])
+        teeth.append(carrier.hirth_deg[i])
         offset = carrier.lengths[_IN_FRONT[carrier.kind][i]]
         tool = i in of_tool
         joints[tool].append(Joint(names[-1], True, "tool" if tool else "work", direction, offset))
     kinematics = Kinematics(tuple(joints[True]), tuple(joints[False]))
-    return Record(kinematics, tuple(names), tuple(columns), tuple(limits), _places(values), carrier)
+    found = tuple(limits), tuple(teeth)
+    return Record(kinematics, tuple(names), tuple(columns), *found, _places(values), carrier)

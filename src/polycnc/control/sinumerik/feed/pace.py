@@ -6,7 +6,7 @@ Source: Fundamentals; job planning 16.1 (statement list).
 from __future__ import annotations
 
 from dataclasses import field
-from math import inf, pi
+from math import hypot, inf, pi
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
@@ -16,7 +16,9 @@ from polycnc.control.sinumerik.couplings.gears import Gears
 from polycnc.control.sinumerik.couplings.links import Couplings
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.tables import MINUTE
+from polycnc.control.sinumerik.transformations import seat
 from polycnc.deferred.records import dataclass
+from polycnc.geometry.arcs import EVEN
 from polycnc.toolpath.context import Pace
 from polycnc.toolpath.modes import FeedMode
 
@@ -96,16 +98,30 @@ def _revolutions(channel: SinumerikChannel) -> float:
 
 
 def _weights(channel: SinumerikChannel) -> tuple[float, ...]:
-    """FGROUP: what a millimetre or degree of each axis counts; a degree of a rotary axis an arc of FGREF, else 1 mm."""
-    overrides = Overrides.of(channel)
+    """FGROUP: what a millimetre or degree of each axis counts; a degree of a rotary axis an arc of FGREF, else 1 mm.
+
+    A millimetre of the program is what frames make of it; the path of a transformation lies in front of them.
+    """
+    overrides, sizes = Overrides.of(channel), _sizes(channel)
     named = overrides.group
-    if not named:
-        return ()
     weights = [0.0] * len(channel.axes)
-    for column in named:
+    for column in named or sizes:
         radius = overrides.radii.get(column, DEGREE_MM)
-        weights[column] = radius * pi / 180.0 if channel.memory.axes[column].rotary else 1.0
-    return tuple(weights)
+        turns = channel.memory.axes[column].rotary
+        weights[column] = radius * pi / 180.0 if turns else sizes.get(column, 1.0)
+    return tuple(weights) if named or sizes else ()
+
+
+def _sizes(channel: SinumerikChannel) -> dict[int, float]:
+    """What frames in front of a transformation make of a millimetre, by column; none where they keep it."""
+    coordinates = channel.coordinates
+    if coordinates.transformation is None:
+        return {}
+    columns = zip(*seat.frame_in_front(channel).m, strict=True)
+    sizes = {
+        axis: hypot(*column) for axis, column in zip(coordinates.geometry, columns, strict=True) if axis >= 0
+    }
+    return sizes if any(abs(size - 1.0) > EVEN for size in sizes.values()) else {}
 
 
 def _tops(channel: SinumerikChannel) -> tuple[float, ...]:

@@ -30,9 +30,9 @@ def is_in_force(channel: SinumerikChannel) -> bool:
 
 def changed(channel: SinumerikChannel) -> None:
     """A frame has changed: it acts at once; incremental words travel the change if SD42440 says so."""
-    memory, linear = channel.memory, channel.coordinates.zero.m
+    memory, linear = channel.memory, seat.frame_in_front(channel).m
     apply(channel, travelled=bool(memory.data.number("$SC_FRAME_OFFSET_INCR_PROG")))
     if channel.path.head is not None:
-        if channel.coordinates.zero.m != linear:
+        if seat.frame_in_front(channel).m != linear:
             stages.turned_frame(channel)
         stages.changed_frame(channel)

@@ -35,6 +35,8 @@ AFTER_SETTABLE = ("$P_TOOLFRAME", "$P_WPFRAME", "$P_TRAFRAME")
 ISO_MIRROR, ISO_ROTATION, ISO_SCALE = "$P_ISO1FRAME", "$P_ISO2FRAME", "$P_ISO4FRAME"
 AFTER_PROGRAMMABLE = (ISO_MIRROR, ISO_ROTATION, "$P_ISO3FRAME", ISO_SCALE, "$P_CYCFRAME")
 SYSTEM_FRAMES = (*BEFORE_BASE, *AFTER_SETTABLE, *AFTER_PROGRAMMABLE)
+#: Those of swivelled and tilted planes and of cycles: a change of transformation ends them, and a reset.
+OF_PLANES = ("$P_TOOLFRAME", "$P_WPFRAME", "$P_TRAFRAME", "$P_CYCFRAME")
 #: Number of every settable zero offset in its group.
 ZERO_OFFSETS = {word: gcodes.number_of(word) for word in gcodes.BY_NAME["wcs"].words}
 

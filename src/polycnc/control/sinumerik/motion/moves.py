@@ -63,7 +63,7 @@ def rapid(draft: Draft) -> Step | None:
     goal = goal_of(draft)
     if goal is None:
         return None
-    names_feed, go = draft.has("F"), point_to_point.go if draft.by_axes else line
+    names_feed, go = draft.has("F"), _by_axes if draft.by_axes else line
 
     def run(channel: SinumerikChannel, values: Values) -> None:
         go(channel, Kind.RAPID, goal(channel, values), channel.feed if names_feed else nan)
@@ -81,7 +81,7 @@ def linear(draft: Draft) -> Step | None:
     goal = goal_of(draft)
     if goal is None:
         return None
-    factor, go = feed_factor(draft), point_to_point.go if draft.by_axes else line
+    factor, go = feed_factor(draft), _by_axes if draft.by_axes else line
 
     def run(channel: SinumerikChannel, values: Values) -> None:
         feed = channel.feed if block_feed is None else number(values, block_feed) * factor
@@ -172,6 +172,11 @@ def line(channel: SinumerikChannel, kind: Kind, end: list[float], feed: float) -
     if any(abs(a - b) > NO_WAY for a, b in zip(end, start, strict=True)):
         _begin(channel, start)
         channel.straight(kind, end, feed)
+
+
+def _by_axes(channel: SinumerikChannel, kind: Kind, end: list[float], feed: float) -> None:
+    go = line if point_to_point.ends_contour(channel) else point_to_point.go
+    go(channel, kind, end, feed)
 
 
 def _begin(channel: SinumerikChannel, start: list[float]) -> None:

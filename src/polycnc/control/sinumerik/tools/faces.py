@@ -10,14 +10,13 @@ Source: job planning 7.5.1 to 7.5.4.
 from __future__ import annotations
 
 from dataclasses import replace
-from itertools import pairwise
 from math import acos, hypot, radians, sin, sqrt
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.knots import join
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move, Rank, Stage
-from polycnc.compensation.spatial import CHORD_ERROR_MM, Directions
+from polycnc.compensation.spatial import CHORD_ERROR_MM, MOST_CHORDS, Directions, bends
 from polycnc.control.sinumerik.tools.edges import DP_CORNER_RADIUS, DP_RADIUS, DP_SIDE_ANGLE
 from polycnc.control.sinumerik.tools.spatial import ToolOnWork
 from polycnc.control.sinumerik.transformations import seat
@@ -37,7 +36,7 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.tools.edges import Edge
     from polycnc.control.sinumerik.tools.memory import Tools
-    from polycnc.geometry.frames import Frame, Vector
+    from polycnc.geometry.frames import Vector
 
 CODES = frozenset(("CUT3DF", "CUT3DFS", "CUT3DFF"))
 #: Shapes by type of the tool: what touches, and whether a cone limits it. Other types count as a ball (110).
@@ -126,8 +125,10 @@ class FaceStage(Stage):
         channel: The channel.
         posture: How the tool stands on the work.
         cutter: Its shape.
-        surface: Where the normals are told, in the basic system.
-        frame: From the work to the basic system.
+        surface: Where the normals are told, in the work.
+
+    Attributes:
+        posture: How the tool stands on the work, from the next move on.
     """
 
     rank = Rank.SPATIAL_COMPENSATION
@@ -138,13 +139,17 @@ class FaceStage(Stage):
         posture: Directions,
         cutter: Cutter,
         surface: Orienting,
-        frame: Frame,
     ) -> None:
         self._channel, self._geometry = channel, channel.coordinates.geometry
-        self._posture, self._cutter = posture, cutter
-        self._surface, self._frame = surface, frame
+        self.posture, self._cutter = posture, cutter
+        self._surface = surface
         self._at: list[float] | None = None
         self._shift: Vector = (0.0, 0.0, 0.0)
+
+    @property
+    def holds_vector(self) -> bool:
+        """Whether the tool touches the surface."""
+        return self._at is not None
 
     def beside(self, position: list[float]) -> list[float]:
         """Where the tip stands when the program stands at a point of the surface; see `Stage`."""
@@ -163,7 +168,7 @@ class FaceStage(Stage):
     def move(self, move: Move) -> None:
         """Take the next move; an arc becomes chords."""
         path = MovePath(move, self._geometry)
-        first, last = self._normal(self._surface.first_normal), self._normal(self._surface.normal)
+        first, last = self._surface.first_normal, self._surface.normal
         self._surface.first_normal = self._surface.normal
         if self._at is not None:
             self._check_square(path, first, last)
@@ -173,16 +178,19 @@ class FaceStage(Stage):
         offset = self._offset(first, move.start)
         if max(abs(a - b) for a, b in zip(offset, self._shift, strict=True)) > CHORD_ERROR_MM:
             self._emit(move, move.start, first)
+
+        def beside(part: float) -> Vector:
+            return self._offset(unit(_between(first, last, part)), path.at(part))
+
         count = self._pieces(move, first, last)
         if move.is_arc:
             count = max(count, parts_for_chord_error(path.radius, path.sweep, CHORD_ERROR_MM))
-        places = [path.at(k / count) for k in range(count + 1)]
-        chords = [
-            replace(move, kind=Kind.SPLINE, center=None, turns=0.0, turning=None, start=start, end=end)
-            for start, end in pairwise(places)
-        ]
+        while count < MOST_CHORDS and bends(beside, count):
+            count *= 2
+        pieces = [path.between(k / count, (k + 1) / count) for k in range(count)]
+        chords = [replace(piece, kind=Kind.SPLINE, center=None, turns=0.0) for piece in pieces]
         if not move.is_arc:
-            chords[-1].kind, chords[-1].turning = move.kind, move.turning
+            chords[-1].kind = move.kind
         join(self._channel, chords)
         for k, chord in enumerate(chords, 1):
             self._emit(chord, chord.end, unit(_between(first, last, k / count)))
@@ -195,7 +203,7 @@ class FaceStage(Stage):
 
     def _pieces(self, move: Move, first: Vector, last: Vector) -> int:
         """Chords that keep to the way of the tip."""
-        tools = self._posture.tool_at(move.start), self._posture.tool_at(move.end)
+        tools = self.posture.tool_at(move.start), self.posture.tool_at(move.end)
         sweep = _angle(first, last) + _angle(*tools)
         size = self._cutter.radius + self._cutter.corner
         return parts_for_chord_error(size, sweep, CHORD_ERROR_MM) if sweep > NOTHING else 1
@@ -210,10 +218,7 @@ class FaceStage(Stage):
         self.after.move(moved)
 
     def _offset(self, normal: Vector, place: Sequence[float]) -> Vector:
-        return self._cutter.offset(normal, self._posture.tool_at(place))
-
-    def _normal(self, basic: Vector) -> Vector:
-        return unit(self._frame.inverse().direct(*basic))
+        return self._cutter.offset(normal, self.posture.tool_at(place))
 
 
 def select(channel: SinumerikChannel) -> None:
@@ -229,11 +234,23 @@ def select(channel: SinumerikChannel) -> None:
     leave(channel)
     surface = Orienting.of(channel)
     surface.first_normal = surface.normal
+    channel.path.put(FaceStage(channel, _posture(channel), cutter, surface))
+
+
+def stage_of(channel: SinumerikChannel) -> FaceStage | None:
+    """The stage, while it compensates."""
+    return channel.path.find(FaceStage)
+
+
+def follow(channel: SinumerikChannel) -> None:
+    """Other frames while the compensation is active."""
+    stage = stage_of(channel)
+    if stage is not None:
+        stage.posture = _posture(channel)
+
+
+def _posture(channel: SinumerikChannel) -> Directions:
     frame = seat.frame_in_front(channel)
-    channel.path.put(FaceStage(channel, _posture(channel, frame), cutter, surface, frame))
-
-
-def _posture(channel: SinumerikChannel, frame: Frame) -> Directions:
     across = axis_vector(PLANES[channel.mode["plane"]][2])
     match channel.mode["tool_offset"]:
         case "CUT3DFS":
@@ -248,7 +265,7 @@ def _posture(channel: SinumerikChannel, frame: Frame) -> Directions:
 
 def leave(channel: SinumerikChannel) -> None:
     """G40: the next move leads back to the programmed points."""
-    if channel.path.find(FaceStage) is not None:
+    if stage_of(channel) is not None:
         channel.flush()
         channel.path.take(FaceStage)
 

@@ -26,7 +26,6 @@ from polycnc.compensation.spatial_rules import (
 )
 from polycnc.control.sinumerik.tools.edges import DP_CORNER_RADIUS, DP_RADIUS
 from polycnc.control.sinumerik.tools.sides import SIDES, Contour
-from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.transformations.posture import Orienting
 from polycnc.deferred.records import dataclass
 from polycnc.machine.kinematics import unit
@@ -108,14 +107,12 @@ class Floor(NamedTuple):
     """The limiting surface beside a wall (CUT3DCC, CUT3DCCD): whose normal blocks tell, and both mills.
 
     Attributes:
-        surface: Where the normal is told, in the basic system.
-        frame: From the work to the basic system.
+        surface: Where the normal is told, in the work.
         standard: The mill for which the program was made.
         actual: The one that cuts.
     """
 
     surface: Orienting
-    frame: Frame
     standard: Mill
     actual: Mill
 
@@ -136,7 +133,7 @@ class CircumferentialStage(SpatialStage):
         floor = self.floor
         if floor is None:
             return 0.0
-        found = across(floor.frame.inverse().direct(*floor.surface.normal), tangent)
+        found = across(floor.surface.normal, tangent)
         if found is None:
             return 0.0
         moved = floor.actual.radius - floor.standard.radius
@@ -206,8 +203,7 @@ def _floor(channel: SinumerikChannel) -> Floor | None:
     if min(corners) < 0.0 or size <= 0.0:
         raise AlarmError("10774", type=edge.type)
     of_program = Mill(standard, corners[0] if code == BY_CENTRE else 0.0)
-    surface, frame = Orienting.of(channel), seat.frame_in_front(channel)
-    return Floor(surface, frame, of_program, Mill(size, corners[1]))
+    return Floor(Orienting.of(channel), of_program, Mill(size, corners[1]))
 
 
 def leave(channel: SinumerikChannel) -> None:
@@ -218,10 +214,11 @@ def leave(channel: SinumerikChannel) -> None:
 
 
 def follow(channel: SinumerikChannel) -> None:
-    """Another radius, depth or way round corners while the compensation is active."""
-    stage = stage_of(channel)
+    """Another radius, depth, way round corners or frame while the compensation is active."""
+    stage, posture = stage_of(channel), ToolOnWork.of(channel.coordinates.transformation)
     if stage is None:
         return
+    stage.posture = posture or stage.posture
     if stage.radius != radius(channel):
         stage.change(stage.side, radius(channel))
     stage.depth, stage.floor = Contour.of(channel).depth_mm, _floor(channel)

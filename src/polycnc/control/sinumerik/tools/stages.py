@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import partial
-from math import nan
+from math import hypot, nan
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.knots import Motions, join
@@ -25,6 +25,7 @@ from polycnc.control.sinumerik.tools.smooth_stage import SmoothApproach
 from polycnc.control.sinumerik.tools.tool_plane import lead, tool_plane
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.transformations.walls import WallStage
+from polycnc.geometry.arcs import EVEN
 from polycnc.geometry.frames import Frame
 from polycnc.geometry.offset import Joint, Outer
 from polycnc.geometry.planes import PLANES
@@ -40,7 +41,7 @@ if TYPE_CHECKING:
 BRIDGED_BLOCKS = 5
 _G450 = Policy(
     outer=Outer(0.0, Joint.ARC), read_blocks=BRIDGED_BLOCKS + 2, avoids=True, leaves_out_arcs=True,
-    approaches_behind_stops=True,
+    approaches_behind_stops=True, sign_is_side=False, side_change_is_square=True,
 )  # fmt: skip
 #: MD20210 = 100 degrees.
 _G451 = replace(_G450, outer=Outer(100.0, Joint.ARC, extend_as_circles=True))
@@ -215,6 +216,9 @@ def select_side(channel: SinumerikChannel) -> None:
         raise AlarmError("10750")
     _check_shape(channel)
     _lead_walls(channel)
+    Contour.of(channel).linear = seat.frame_in_front(channel).m
+    if channel.mode["tool_offset"] in (*spatial.CODES, *faces.CODES):
+        _check_size(channel)
     if channel.mode["tool_offset"] in spatial.CODES:
         spatial.select_side(channel)
         return
@@ -224,7 +228,6 @@ def select_side(channel: SinumerikChannel) -> None:
     _settle_corner(channel)
     stage = cutter(channel)
     stage.policy = policy(channel)
-    Contour.of(channel).linear = channel.coordinates.zero.m
     lead(channel, stage, tool_plane(channel).frame)
     stage.engage(SIDES[channel.mode["compensation"]], radius(channel), tip(channel))
 
@@ -281,14 +284,28 @@ def changed_radius(channel: SinumerikChannel) -> None:
 
 def changed_frame(channel: SinumerikChannel) -> None:
     """A frame, or CUT2D for CUT2DF, while compensation is active: another scale is another radius in the program."""
-    stage = active_cutter(channel)
-    if stage is not None and channel.mode["compensation"] != "G40":
-        contour, linear = Contour.of(channel), channel.coordinates.zero.m
-        if linear != contour.linear and stage.holds_vector:
-            raise not_supported("ROT SCALE MIRROR: G41 G42")
-        contour.linear = linear
+    in_space = spatial.stage_of(channel) or faces.stage_of(channel)
+    stage = in_space or active_cutter(channel)
+    if stage is None or channel.mode["compensation"] == "G40":
+        return
+    contour, linear = Contour.of(channel), seat.frame_in_front(channel).m
+    if linear != contour.linear and stage.holds_vector:
+        raise not_supported("ROT SCALE MIRROR: G41 G42")
+    contour.linear = linear
+    if isinstance(stage, CutterCompensation):
         lead(channel, stage, tool_plane(channel).frame)
         stage.change_radius(radius(channel), tip(channel))
+    else:
+        _check_size(channel)
+        spatial.follow(channel)
+        faces.follow(channel)
+
+
+def _check_size(channel: SinumerikChannel) -> None:
+    """PC0001 for frames that scale the contour of CUT3DC and its like."""
+    columns = zip(*seat.frame_in_front(channel).m, strict=True)
+    if any(abs(hypot(*column) - 1.0) > EVEN for column in columns):
+        raise not_supported(f"SCALE: {channel.mode['tool_offset']}")
 
 
 def changed_rules(channel: SinumerikChannel) -> None:
@@ -326,7 +343,7 @@ def tip(channel: SinumerikChannel) -> Point:
     if not any(vector):
         return (0.0, 0.0)
     u, v, _ = PLANES[channel.mode["plane"]]
-    linear = Frame(channel.coordinates.zero.m)
+    linear = Frame(seat.frame_in_front(channel).m)
     if not linear.is_identity:
         led = tool_plane(channel)
         vector = led.frame.direct(*times(linear.inverse().direct(*vector), led.scale))

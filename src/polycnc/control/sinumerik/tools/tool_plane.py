@@ -18,6 +18,7 @@ from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move, Rank, Stage
 from polycnc.compensation.cutter import CutterCompensation
 from polycnc.control.sinumerik.errors import not_supported
+from polycnc.control.sinumerik.transformations import seat
 from polycnc.geometry.arcs import EVEN, circle_image, is_even
 from polycnc.geometry.frames import IDENTITY, Frame, Vector
 from polycnc.geometry.planes import PLANES
@@ -54,7 +55,7 @@ def bends_arcs(channel: SinumerikChannel, normal: Vector) -> bool:
 
 def tool_plane(channel: SinumerikChannel) -> ToolPlane:
     """The system of the tool as plane, frames and CUT2D or CUT2DF have it now."""
-    linear = Frame(channel.coordinates.zero.m)
+    linear = Frame(seat.frame_in_front(channel).m)
     follows_tool = channel.mode["tool_offset"] != "CUT2DF" and channel.memory.tools.carrier is not None
     if linear.is_identity and not follows_tool:
         return ToolPlane()

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed import tooth_feed, wheels
 from polycnc.control.sinumerik.tools.edges import (
     DP_CLEARANCE,
@@ -106,6 +107,26 @@ def _additive(kind: str, number: int) -> Row:
         _edge(channel, tool, edge).additive[kind, number] = float(value)
 
     return Type.REAL, read, write
+
+
+def _direction(name: str) -> Row:
+    """`$TC_DPV[t,d]`, `$TC_DPV3[t,d]` …: a direction of the edge beside that of the plane; 0, as delivered, is none.
+
+    Another one would turn the tool against the plane, which is not executed: PC0001 (Function Manual W1).
+    """
+
+    def read(channel: SinumerikChannel, indices: Indices) -> float:
+        tool, edge = _place(channel, indices, name)
+        _edge(channel, tool, edge)
+        return 0.0
+
+    def write(channel: SinumerikChannel, indices: Indices, value: float) -> None:
+        tool, edge = _place(channel, indices, name)
+        _edge(channel, tool, edge)
+        if value:
+            raise not_supported(name)
+
+    return (Type.INT if name == "$TC_DPV" else Type.REAL), read, write
 
 
 def _cutting_edge(channel: SinumerikChannel, indices: Indices) -> int:
@@ -230,6 +251,10 @@ TOOL_VARIABLES: dict[str, Row] = {
     **{f"$TC_{kind}{n}": _additive(kind, n) for kind in ("SCP", "ECP") for n in _ADDITIVE},
     **{f"$TC_CARR{n}": carrier_data.row(n) for n in carrier_data.NUMBERS},
     **{f"$TC_{kind}{n}": _oem(kind, n) for kind in ("DPC", "TPC") for n in range(1, 11)},
+    **{
+        name: _direction(name)
+        for name in ("$TC_DPV", *(f"$TC_DP{v}{n}" for v in ("V", "VN") for n in (3, 4, 5)))
+    },
     "$TC_DPCE": (Type.INT, _cutting_edge, _set_cutting_edge),
     **{f"$TC_DP{n}": _parameter(n) for n in range(1, PARAMETERS + 1)},
     **{f"$TC_TP{n}": _tool_value(f"$TC_TP{n}") for n in (1, 3, 4, 5, 6, 7, 8, 9, 10, 11)},

@@ -14,6 +14,7 @@
     start          ORIRESET
     point_to_point PTP, CP, STAT, TU
     oblique        G05, G07
+    pole_sides     the side of the centre on which the infeed axis is, and the rotary axis in it (TRANSMIT)
     walls          the linear axis that keeps groove walls square (TRACYL)
 
 The mathematics is that of the layer `transformation/`.

@@ -84,6 +84,7 @@ class Build:
             that says how far it goes; else -1.
         bound: Columns of axes that move with the path alone: neither positioned nor oscillating beside it.
         order: Number of its machine data, among those of its kind.
+        changes_sides: The infeed axis goes through the pole to its other side (TRANSMIT with MD24911 = 0).
     """
 
     inner: Transformation
@@ -92,6 +93,7 @@ class Build:
     walls: int = -1
     bound: frozenset[int] = frozenset()
     order: int = 1
+    changes_sides: bool = False
 
 
 def find(channel: SinumerikChannel, kind: str, number: int) -> DataSet:
@@ -247,17 +249,17 @@ def polar(channel: SinumerikChannel, found: DataSet, infeed: int = -1) -> Build:
         raise AlarmError("14401", text="TRANSMIT")
     virtual = second if second != rotary else -1
     inner = PolarPlane(geometry[0], rotary, (geometry[0], second, geometry[2]), virtual=virtual)
-    return Build(_turned(channel, found, inner), frozenset((rotary,)))
+    fixed = _side(channel, found)
+    here = channel.coordinates.machine
+    side = fixed or (-1.0 if here[inner.linear] < -_TURNS else 1.0)
+    inner = replace(inner, side=side, pole_deg=here[rotary])
+    return Build(inner, frozenset((rotary,)), changes_sides=fixed is None)
 
 
-def _turned(channel: SinumerikChannel, found: DataSet, inner: PolarPlane) -> PolarPlane:
-    """On the side of the centre that MD24911 and MD24951 name (1 plus, 2 minus), else where the infeed axis stands."""
+def _side(channel: SinumerikChannel, found: DataSet) -> float | None:
+    """The side of the centre that MD24911 and MD24951 name (1 plus, 2 minus); None for both (0, as delivered)."""
     name = f"$MC_TRANSMIT_POLE_SIDE_FIX_{order(channel, found)}"
-    fixed = SIDES.get(int(number_of(channel, name, 0, 0.0)))
-    if fixed is not None:
-        return replace(inner, side=fixed)
-    here = channel.coordinates.machine[inner.linear]
-    return replace(inner, side=-1.0 if here < -_TURNS else 1.0)
+    return SIDES.get(int(number_of(channel, name, 0, 0.0)))
 
 
 def cylinder(
@@ -280,6 +282,11 @@ def cylinder(
         return Build(groove, frozenset((rotary,)), walls=rotary, bound=frozenset((geometry[1],)))
     inner = Cylinder.of_radius(rotary, diameter / 2.0, made, geometry[1] if has_y else -1)
     return Build(inner, frozenset((rotary,)), bound=frozenset((made[1],)))
+
+
+def walls_of_machine(channel: SinumerikChannel, found: DataSet) -> float:
+    """What TRACYL of type 514 takes where its third argument is left out: MD24808 and MD24858, delivered as 0."""
+    return number_of(channel, f"$MC_TRACYL_DEFAULT_MODE_{order(channel, found)}", 0, 0.0)
 
 
 def inclined(channel: SinumerikChannel, angle: float) -> Build:

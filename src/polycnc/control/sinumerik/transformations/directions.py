@@ -24,6 +24,7 @@ from polycnc.control.sinumerik.transformations.words import (
 from polycnc.geometry.frames import IDENTITY, Frame
 from polycnc.geometry.vectors import dot
 from polycnc.language.sinumerik.words import WordAlarm
+from polycnc.machine.kinematics import unit
 from polycnc.messages import AlarmError
 from polycnc.transformation.orientation.directions import (
     about,
@@ -157,13 +158,11 @@ def tangent_of(posture: Posture, path: TipPath, part: float) -> Vector | None:
 def _normals(posture: Posture, state: Orienting, words: Words, values: Values) -> Way:
     """The surface normal along a block: constant with A4 alone, else on a great circle (6.2.5)."""
     first, last = words.vector(values, FIRST_NORMAL), words.vector(values, LAST_NORMAL)
-    begin = state.normal if first is None else posture.basic(first)
-    end = begin if last is None else posture.basic(last)
+    begin = state.normal if first is None else posture.normal(first)
+    end = begin if last is None else posture.normal(last)
     state.first_normal, state.normal = begin, end
-    way = great_circle(begin, end)
-    if way is None:
-        raise AlarmError("14120")
-    return way
+    frame = posture.seated.frame
+    return great_circle_between(unit(frame.direct(*begin)), unit(frame.direct(*end)))
 
 
 # ---- the way

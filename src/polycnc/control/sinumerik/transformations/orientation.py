@@ -129,9 +129,9 @@ def _tells_a_surface(draft: Draft, words: Words) -> bool:
 
 def surface(channel: SinumerikChannel, words: Words, values: Values, end: list[float]) -> list[float]:
     """The normals of a block whose tool keeps its direction; it goes where it is programmed."""
-    state, frame = Orienting.of(channel), seat.frame_in_front(channel)
+    state = Orienting.of(channel)
     first, last = words.vector(values, FIRST_NORMAL), words.vector(values, LAST_NORMAL)
-    found = [None if each is None else unit_of(frame.direct(*each)) for each in (first, last)]
+    found = [None if each is None else unit_of(each) for each in (first, last)]
     if (first is not None and found[0] is None) or (last is not None and found[1] is None):
         raise AlarmError("14121")
     state.first_normal = found[0] or state.normal

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import inf
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
@@ -12,12 +13,12 @@ from polycnc.control.sinumerik.tools import stages
 from polycnc.control.sinumerik.tools.smooth_stage import APPROACHES, RETRACTIONS
 from polycnc.control.sinumerik.transformations import data_sets, seat
 from polycnc.control.sinumerik.transformations.orientation import is_point_to_point
+from polycnc.control.sinumerik.transformations.pole_sides import plane_of, stand
 from polycnc.control.sinumerik.transformations.posture import Orienting, Posture
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY
 from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError
-from polycnc.transformation.kinematic.polar import PolarPlane
 from polycnc.transformation.orientation.choice import is_within
 from polycnc.transformation.seated import Seated
 
@@ -68,6 +69,8 @@ def plan(draft: Draft) -> None:
     moves = draft.lead is not None or bool(draft.axis_terms())
     if draft.mode["point_to_point"] == "PTP" and moves and draft.mode["motion"] not in ("G0", "G1"):
         raise AlarmError("14144")
+    if "TU" in dict(given):
+        draft.behind_motion.append(finish)
     if is_point_to_point(draft.mode):
         draft.by_axes = True
         places = (Dimension.ABSOLUTE, Dimension.MODULO)
@@ -100,6 +103,11 @@ def finish(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 -
     PointToPoint.of(channel).turns = None
 
 
+def ends_contour(channel: SinumerikChannel) -> bool:
+    """Whether a block under PTPG0 leads the tool back from a compensated contour: it goes with the tip (6.9.1)."""
+    return channel.mode["point_to_point"] == "PTPG0" and stages.active_cutter(channel) is not None
+
+
 def go(channel: SinumerikChannel, kind: Kind, end: list[float], feed: float) -> None:
     """Go to a point of the work with all axes at once, straight for each of them; its row holds their positions."""
     coordinates, state = channel.coordinates, PointToPoint.of(channel)
@@ -112,6 +120,7 @@ def go(channel: SinumerikChannel, kind: Kind, end: list[float], feed: float) -> 
         raise AlarmError("14144")
     machine = _configured(channel, transformation, end)
     channel.flush()
+    plane, across = plane_of(channel), _goes_across(channel)
     geometry, width = coordinates.geometry, len(channel.axes)
     coordinates.transform(None, data_sets.native(channel), (IDENTITY, [0.0] * width))
     state.shown_by = bare(transformation)
@@ -126,28 +135,46 @@ def go(channel: SinumerikChannel, kind: Kind, end: list[float], feed: float) -> 
     back = transformation.to_work(machine)
     same = all(abs(a - b) < 1e-6 for a, b in zip(back, end, strict=True))
     coordinates.arrive(end if same else back)
+    if plane is not None:
+        stand(channel, -plane.side if across else plane.side, machine[plane.rotary])
 
 
 def _configured(channel: SinumerikChannel, transformation: Transformation, end: list[float]) -> list[float]:
     """Positions of the axes: by STAT of two solutions, by TU on the turn that it names, else the shortest way.
 
-    What a block says of the way itself (IC, G91, DC, ACP, ACN) holds.
+    So they go whatever TU says where more turns are within their travel. What a block says of the way itself (IC,
+    G91, DC, ACP, ACN) holds.
     """
     here, machine = channel.coordinates.machine, transformation.to_machine(end)
-    inner = seat.Transformations.of(channel).build
-    if inner is not None and isinstance(_first(inner.inner), PolarPlane) and Orienting.of(channel).stat & 1:
+    if _goes_across(channel):
         machine = transformation.solutions(end)[1]
     turns = PointToPoint.of(channel).turns
     rotary = [i for i, axis in enumerate(channel.axis_data) if axis.rotary and i in seat.transformed(channel)]
     is_polar = seat.centre_point(channel) is None
     for bit, column in enumerate(rotary[:MOST_AXES]):
-        if turns is not None and not is_polar:
+        if turns is not None and not is_polar and _is_told_by_turns(channel, column):
             angle = machine[column] % TURN
             machine[column] = angle - TURN if turns >> bit & 1 and angle > 0.0 else angle
         elif is_polar or column in PointToPoint.of(channel).placed:
             near = _shortest(machine[column], here[column])
-            machine[column] = near if is_polar or _reaches(channel, column, near) else machine[column]
+            places = (near, machine[column], near - TURN, near + TURN)
+            within = (angle for angle in places if is_polar or _reaches(channel, column, angle))
+            machine[column] = next(within, machine[column])
     return machine
+
+
+def _is_told_by_turns(channel: SinumerikChannel, column: int) -> bool:
+    """Whether TU says where an axis goes: no more than a turn each way is within its travel, or no limit is told."""
+    axis = channel.axis_data[column]
+    low, high = Posture.of(channel, channel.mode).travel(axis.name)
+    within = low >= -TURN or low == -inf, high <= TURN or high == inf
+    return not axis.modulo and all(within)
+
+
+def _goes_across(channel: SinumerikChannel) -> bool:
+    """Whether the infeed axis of TRANSMIT goes to the other side of the centre: STAT asks, MD24911 allows it."""
+    build = seat.Transformations.of(channel).build
+    return build is not None and build.changes_sides and bool(Orienting.of(channel).stat & 1)
 
 
 def _shortest(angle: float, here: float) -> float:
@@ -158,9 +185,3 @@ def _shortest(angle: float, here: float) -> float:
 def _reaches(channel: SinumerikChannel, column: int, angle: float) -> bool:
     """Whether the travel of an orientation axis has a position."""
     return is_within(angle, *Posture.of(channel, channel.mode).travel(channel.axis_data[column].name))
-
-
-def _first(transformation: Transformation) -> Transformation:
-    links = getattr(transformation, "links", (transformation,))
-    first: Transformation = links[0]
-    return first

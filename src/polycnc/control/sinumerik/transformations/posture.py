@@ -27,7 +27,7 @@ class Orienting(State, lifetime=Lifetime.RESET):
 
     Attributes:
         lead: LEAD; `tilt` TILT, degrees.
-        normal: Surface normal at the end of the last block, in the basic system.
+        normal: Surface normal at the end of the last block, in the work: frames turn it (6.2.5).
         first_normal: The same at its start.
         tangent: How the direction changed at the end of the last way; None for not at all.
         second: The second point of the tool (ORICURVE), work coordinates; None where none was programmed.
@@ -67,6 +67,13 @@ class Posture(NamedTuple):
         """A programmed direction in the basic system, of length 1; alarm 14121 for none."""
         direct = self.seated.frame.direct(*vector) if self.turned else vector
         found = unit_of(direct)
+        if found is None:
+            raise AlarmError("14121")
+        return found
+
+    def normal(self, vector: Vector) -> Vector:
+        """A programmed surface normal in the work, of length 1; alarm 14121 for none."""
+        found = unit_of(vector if self.turned else self.seated.frame.inverse().direct(*vector))
         if found is None:
             raise AlarmError("14121")
         return found

@@ -226,8 +226,8 @@ def _seated(channel: SinumerikChannel, build: Build, total: NcFrame) -> Seated:
     tools = channel.memory.tools
     x, y, z = lengths = minus(tools.lengths, tools.apart)
     inner, shifts, offsets = build.inner, _shifts(channel, total), [0.0] * len(channel.axes)
-    is_linear = build.lengths in ("tip", "before")
-    on_axes = is_linear and tools.rules is not None and tools.rules.system == OF_MACHINE
+    # Under all but orientation transformations the basic system takes the place of the machine's (Function Manual W1).
+    on_axes = build.lengths == "tip" and tools.rules is not None and tools.rules.system == OF_MACHINE
     in_front, behind = (_NONE, tools.apart) if on_axes else (tools.apart, _NONE)
     if build.lengths == "tip":
         inner = _with_tip(inner, (-x, -y, -z))
@@ -360,6 +360,15 @@ def check_positioning(channel: SinumerikChannel, name: str, column: int, *, by_a
     is_made = name in channel.memory.columns
     if (column in build.used and not is_made) or (by_axes and column in transformed(channel)):
         raise AlarmError("17610", axis=channel.axes[column])
+
+
+def check_spindle(channel: SinumerikChannel, number: int) -> None:
+    """17610 for a spindle that turns or is positioned while TRANSMIT or TRACYL uses it up as their rotary axis."""
+    build, spindle = Transformations.of(channel).build, channel.machine.spindle.get(number)
+    if build is None or spindle is None or not spindle.axis:
+        return
+    if any(channel.axis_data[column].name == spindle.axis for column in build.used):
+        raise AlarmError("17610", axis=spindle.axis)
 
 
 def check_named(channel: SinumerikChannel, address: str) -> None:

@@ -5,6 +5,7 @@ A change of transformation deselects the frames (6.10; MD10602 keeps them), the 
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from polycnc.channel.failure import stand_at_last_row
@@ -13,6 +14,7 @@ from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.couplings import switching
 from polycnc.control.sinumerik.couplings.links import Couplings
 from polycnc.control.sinumerik.errors import not_supported
+from polycnc.control.sinumerik.frames.memory import OF_PLANES
 from polycnc.control.sinumerik.limits import protection, working_area
 from polycnc.control.sinumerik.motion import splines
 from polycnc.control.sinumerik.tables import length_factor
@@ -21,6 +23,7 @@ from polycnc.control.sinumerik.tools import stages
 from polycnc.control.sinumerik.tools.holders.active import ActiveCarrier
 from polycnc.control.sinumerik.transformations import data_sets, seat
 from polycnc.control.sinumerik.transformations.data_sets import Build
+from polycnc.control.sinumerik.transformations.pole_sides import PoleSides, plane_of
 from polycnc.control.sinumerik.transformations.seat import Transformations
 from polycnc.control.sinumerik.transformations.walls import WallStage
 from polycnc.language.sinumerik.names.frame import NEUTRAL
@@ -81,6 +84,8 @@ def _unrolled(
     if length_factor(channel.mode) != 1.0:
         raise not_supported("TRACYL: G70 G700")
     by_type = found.type == data_sets.WITH_WALLS
+    if walls is None and found.type == data_sets.WALLS_BY_ARGUMENT:
+        walls = data_sets.walls_of_machine(channel, found)
     return data_sets.cylinder(channel, found, diameter, walls=by_type or bool(walls), infeed=infeed)
 
 
@@ -131,7 +136,7 @@ def _linked(channel: SinumerikChannel, found: data_sets.DataSet, rest: list[floa
     first = _first_link(channel, links[0], parameters[0])
     second = _leaning(channel, links[1], parameters[own])
     inner = Chain((first.inner, second.inner))
-    return Build(inner, first.used | second.used, first.lengths, bound=first.bound, order=first.order)
+    return replace(first, inner=inner, used=first.used | second.used)
 
 
 def _first_link(channel: SinumerikChannel, found: data_sets.DataSet, parameter: float | None) -> Build:
@@ -210,7 +215,7 @@ def end_contour(channel: SinumerikChannel) -> None:
 def _change(channel: SinumerikChannel, kind: str, build: Build | None) -> None:
     """A transformation acts, or none: frames, working area and protection zones are deselected, nothing moves."""
     state, memory = Transformations.of(channel), channel.memory
-    channel.path.take(WallStage)
+    channel.path.take(WallStage, PoleSides)
     switching.check_change(channel, build)
     state.kind, state.build = kind, build
     seat.regroup(channel, None)  # a transformation has geometry axes of its own
@@ -228,6 +233,8 @@ def _change(channel: SinumerikChannel, kind: str, build: Build | None) -> None:
     seat.stand(channel, memory.frames.total())
     working_area.refresh(channel)
     channel.context_changed()
+    if plane_of(channel) is not None:
+        channel.path.put(PoleSides(channel))
 
 
 def deselect_frames(channel: SinumerikChannel) -> None:
@@ -236,8 +243,7 @@ def deselect_frames(channel: SinumerikChannel) -> None:
     channel.mode = channel.mode.with_code("wcs", "G500")
     frames.select(0)
     frames.programmable = NEUTRAL
-    for name in ("$P_PARTFRAME", "$P_TOOLFRAME", "$P_WPFRAME", "$P_TRAFRAME", "$P_CYCFRAME"):
-        frames.system[name] = NEUTRAL
+    frames.system.update(dict.fromkeys(("$P_PARTFRAME", *OF_PLANES), NEUTRAL))
 
 
 PROCEDURES: dict[str, Procedure] = {

@@ -12,6 +12,7 @@ from dataclasses import replace
 from math import ceil, degrees, hypot, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
+from polycnc.channel.moves import origins
 from polycnc.channel.moves.knots import cut
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import END_OF_BLOCK, Item, Move, PlacedEvent, Rank, Stage
@@ -101,12 +102,20 @@ class WallStage(Stage):
         for item in held.items:
             self.pass_on(item)
 
-    def _distance_behind(self, index: int) -> float:
-        """The distance where a move ends that is held: its own, unless the other side of the centre line follows."""
-        own = self._distance(self._held[index].move)
+    def _crosses(self, index: int) -> bool:
+        """Whether a move that is held is the line on which compensation goes to the other side of the centre line."""
         following = self._held[index + 1 : index + 2]
+        joins = self._held[index].move.origin == origins.JOINED
+        return joins and bool(following) and self._distance_behind(index) != self._own(index)
+
+    def _own(self, index: int) -> float:
+        return self._distance(self._held[index].move)
+
+    def _distance_behind(self, index: int) -> float:
+        """The distance where a move ends that is held: its own, but behind a line to the other side that side's."""
+        own, following = self._own(index), self._held[index + 1 : index + 2]
         ahead = self._distance(following[0].move) if following else 0.0
-        return ahead if own * ahead < 0.0 else own
+        return ahead if own * ahead < 0.0 and self._held[index].move.origin == origins.JOINED else own
 
     def _between(self) -> float:
         """How far the tool is off the centre line round the cylinder, where the first move ends."""
@@ -115,9 +124,9 @@ class WallStage(Stage):
             return 0.0
         distance, ahead = self._distance_behind(0), None
         own = self._normal(move, distance - self._off, at_end=True)
-        if len(self._held) > 1 and self._held[1].state == ON:
+        if len(self._held) > 1 and self._held[1].state == ON and not self._crosses(1):
             ahead = self._normal(self._held[1].move, self._distance_behind(1) - distance, at_end=False)
-        if state == BEGINS:
+        if state == BEGINS or self._crosses(0):
             own = ahead or own
         if own is None:
             return self._at if ahead is None else distance * ahead[0]

@@ -8,9 +8,9 @@ from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.syntec.axis_groups.names import map_virtual_axis
 from polycnc.control.syntec.coordinates.turns import (
     TurnState,
-    refuse_in_compensation,
     renew_preset_frame,
     renew_work_turn,
+    turn_preset_frame,
 )
 from polycnc.control.syntec.five_axes.spatial import choose_corners
 from polycnc.control.syntec.macros.registers import write_register
@@ -95,7 +95,7 @@ def set_position(channel: SyntecChannel, words: Words) -> None:
         way, position = [0.0] * len(channel.axes), channel.coordinates.position
         for axis, value, _ in axes:
             way[axis] = position[axis] - value
-        _shift_preset(channel, way, "G92")
+        _shift_preset(channel, shift_of_zero(channel, way, "G92"))
         refresh_zero(channel)
     limit = words.typed("S")
     if limit is not None:
@@ -105,27 +105,22 @@ def set_position(channel: SyntecChannel, words: Words) -> None:
 
 def preset_system(channel: SyntecChannel, words: Words) -> None:
     """G92.1 X Y Z I J K R: this point becomes the origin, the axes turn by R about (I, J, K) (2.62)."""
-    state, angle = TurnState.of(channel), words.angle("R")
-    if angle or state.angle:
-        refuse_in_compensation(channel, "G92.1")
-    memory = channel.memory
+    angle = words.angle("R") or 0.0
+    if angle and any(data.rotary for data in channel.axis_data[:3]):
+        raise words.fail("preset_rotary", "R")
     origin = [0.0] * len(channel.axes)
     for axis, value, _ in words.axes():
         origin[axis] = value
-    _shift_preset(channel, origin, "G92.1")
+    shift = shift_of_zero(channel, origin, "G92.1")
     vector = [words.typed(letter) or 0.0 for letter in "IJK"]
-    state.angle = angle or 0.0
-    state.axis = vector if any(vector) else [0.0, 0.0, 1.0]
-    if angle and any(data.rotary for data in channel.axis_data[:3]):
-        raise words.fail("preset_rotary", "R")
-    renew_preset_frame(memory)
+    turn_preset_frame(channel, angle, vector if any(vector) else [0.0, 0.0, 1.0], "G92.1")
+    _shift_preset(channel, shift)
     refresh_zero(channel)
 
 
-def _shift_preset(channel: SyntecChannel, way: list[float], code: str) -> None:
-    """All coordinates become smaller by a way."""
+def _shift_preset(channel: SyntecChannel, shift: list[float]) -> None:
+    """The zero of every work system goes further by this."""
     state = ZeroState.of(channel)
-    shift = shift_of_zero(channel, way, code)
     state.preset[:] = [before + further for before, further in zip(state.preset, shift, strict=True)]
 
 

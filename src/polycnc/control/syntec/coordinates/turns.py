@@ -13,6 +13,7 @@ from polycnc.channel.states.state import Lifetime, State, lasting, retained
 from polycnc.control.syntec.parameters import SyntecParameters
 from polycnc.control.word_address.coordinates.systems import ZeroState
 from polycnc.control.word_address.coordinates.tip import TipState
+from polycnc.control.word_address.motion.planes import choose_basic_axes
 from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.tools.radius import active_compensation
 from polycnc.deferred.records import dataclass
@@ -36,15 +37,17 @@ class TurnState(State, lifetime=Lifetime.RESET):
     Attributes:
         angle: Of G92.1 (#1930), degrees, about `axis` (#1931 to #1933).
         tilt: Frame of the tilted plane in the work system; `table` is how the table has turned it since.
-        by_table: G54.4 P1 is active (#1849).
+        told_by: Code that has told the plane, G68.2 or G68.3; empty without one. A G68 turns within it, and leaves it.
+        by_table: G54.4 P1 is active (#1849); a reset leaves it (2.39.4 names power-on, Pr3229 and G54.4 itself only).
         work: How that turns the work system.
     """
 
     angle: float = lasting(Lifetime.POWER, 0.0)
     axis: list[float] = lasting(Lifetime.POWER, factory=lambda: [0.0, 0.0, 1.0])
     tilt: Frame = IDENTITY
+    told_by: str = ""
     table: Frame = IDENTITY
-    by_table: bool = False
+    by_table: bool = lasting(Lifetime.POWER, False)
     work: Frame = IDENTITY
 
     @property
@@ -104,13 +107,13 @@ class KeptPlane(State, lifetime=Lifetime.RETAINED):
 
 def keep_plane(channel: SyntecChannel) -> None:
     """Note the tilted plane as it is now, for the time behind power-off."""
-    tilt, kept = TurnState.of(channel).tilt, channel.memory.parameters.keeps_tilt == OVER_POWER_OFF
+    state, kept = TurnState.of(channel), channel.memory.parameters.keeps_tilt == OVER_POWER_OFF
     parts = KeptPlane.of(channel).parts
     parts.clear()
-    if kept and not tilt.is_identity:
-        plane = [*(value for row in tilt.m for value in row), *tilt.t]
+    if kept and not state.tilt.is_identity:
+        plane = [*(value for row in state.tilt.m for value in row), *state.tilt.t]
         stands = LengthState.of(channel).direction is not None
-        parts.update({"plane": plane, "code": channel.mode["rotation"], "stands": stands})
+        parts.update({"plane": plane, "code": state.told_by, "stands": stands})
 
 
 def angle(channel: Channel, system: str, axis: int) -> float:
@@ -141,8 +144,27 @@ def renew_preset_frame(memory: SyntecMemory) -> None:
     zero.frame, zero.table, zero.plane = turn, state.table, state.plane
 
 
-def refuse_in_compensation(channel: SyntecChannel, code: str) -> None:
-    """A work system that turns while the radius is compensated: a corner would lie between two directions."""
+def turn_preset_frame(channel: SyntecChannel, angle: float, axis: list[float], code: str) -> None:
+    """The turn of G92.1 is another one, told by a code or a variable.
+
+    Raises:
+        AlarmError: As `_refuse_turn`, where the work system turns otherwise by it.
+    """
+    state = TurnState.of(channel)
+    if (angle or state.angle) and (angle, axis) != (state.angle, state.axis):
+        _refuse_turn(channel, code)
+        refuse_posture(channel, angle)
+    state.angle, state.axis = angle, axis
+    renew_preset_frame(channel.memory)
+
+
+def _refuse_turn(channel: SyntecChannel, code: str) -> None:
+    """PC0001 for a work system that turns under a transformation, or in radius compensation.
+
+    Tip control goes on in it; a corner of compensation would lie between two directions.
+    """
+    if channel.coordinates.transformation is not None and not TipState.of(channel).is_leading(channel):
+        raise channel.control.not_yet(f"{code} G12.1", code)
     if active_compensation(channel) is not None:
         raise channel.control.not_yet(f"{code} {channel.mode['compensation']}", code)
 
@@ -158,23 +180,27 @@ def refer_posture(channel: SyntecChannel, turn: Frame) -> None:
     channel.mode = channel.mode.with_code(POSTURE, "work" if acts else "")
 
 
+def refuse_posture(channel: SyntecChannel, angle: float) -> None:
+    """PC0001 for directions of G43.4 in the work system where G92.1 turns that: the manual speaks of G54.4 alone."""
+    if angle and channel.mode["length"] == "G43.4" and PostureState.of(channel).in_work:
+        raise channel.control.not_yet("G43.4 Q1: G92.1")
+
+
 def renew_work_turn(channel: SyntecChannel) -> bool:
     """The angles of the chosen work system act from here on, with G54.4 P1; gives whether it turns otherwise now.
 
     Raises:
-        AlarmError: A transformation is active that is no tip control, or the radius is compensated: that is not
-            executed.
+        AlarmError: As `_refuse_turn`.
     """
     state = TurnState.of(channel)
     turn = turn_of(channel, ZeroState.of(channel).system) if state.by_table else IDENTITY
     if turn == state.work:
         return False
-    leads = TipState.of(channel).is_leading(channel)
-    if channel.coordinates.transformation is not None and not leads:
-        raise channel.control.not_yet("G54.4")
-    refuse_in_compensation(channel, "G54.4")
-    if leads:
+    _refuse_turn(channel, "G54.4")
+    if TipState.of(channel).is_leading(channel):
         refer_posture(channel, turn)
+    if not turn.is_identity:
+        choose_basic_axes(channel)
     state.work = turn
     renew_preset_frame(channel.memory)
     return True

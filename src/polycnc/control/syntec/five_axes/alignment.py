@@ -14,7 +14,7 @@ from polycnc.control.syntec.coordinates.turns import TurnState, keep_plane, rene
 from polycnc.control.syntec.five_axes import mechanism
 from polycnc.control.syntec.units import least_unit
 from polycnc.control.word_address.coordinates import tip
-from polycnc.control.word_address.coordinates.systems import ZeroState
+from polycnc.control.word_address.coordinates.systems import ZeroState, plane_on_table
 from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.tools import length
 from polycnc.control.word_address.tools.length import LengthState
@@ -154,19 +154,18 @@ def _angles(channel: SyntecChannel, words: Words, code: str) -> Angles:
     check_compensation(channel, words, code)
     state = TurnState.of(channel)
     c = channel.coordinates
-    if channel.mode["rotation"] not in ("G68.2", "G68.3") and not state.by_table:
+    if not state.told_by and not state.by_table:
         raise words.fail("tilt_missing", code)
     way = words.typed("P") if "P" in words else SHORTEST
     if way not in SENSES:
         raise words.fail("align_way", "P")
     channel.flush()
     near = dict(zip(channel.axes, c.machine, strict=True))
-    wanted: Vector = state.plane.direct(0.0, 0.0, 1.0)
+    wanted: Vector = plane_on_table(channel, c.offsets).direct(0.0, 0.0, 1.0)
     kinematics = channel.control.kinematics(channel)
     if not kinematics.axes and wanted[2] > 1.0 - 1e-9:
         return {}
-    joints = (*kinematics.work, *kinematics.tool) if kinematics.work else kinematics.tool
-    names = [joint.axis for joint in joints if joint.axis in channel.axis_index]
+    names = [axis for axis in kinematics.ordered if axis in channel.axis_index]
     if not names:
         raise words.fail("tilt_unreachable", code)
     master = names[0]

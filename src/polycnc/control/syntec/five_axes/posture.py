@@ -12,6 +12,7 @@ from math import nan
 from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.coordinates.turns import POSTURE, PostureState, TurnState
+from polycnc.control.syntec.motion.moves import feed_to
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion.path import reach
 from polycnc.control.word_address.transformations.tilted_plane import turn_to
@@ -52,7 +53,8 @@ def _plan(builder: Builder, plan: Plan) -> Step | None:
         wanted = TurnState.of(channel).work.direct(*kinematics.tool_on_work(state.told))
         if not turn_to(channel, wanted, near, goal):
             raise channel.control.fail("tilt_unreachable", address=rotary[0].address)
-        channel.straight(kind, c.to_position(goal), nan if kind == Kind.RAPID else channel.feed, goal)
+        end = c.to_position(goal)
+        channel.straight(kind, end, nan if kind == Kind.RAPID else feed_to(channel, end), goal)
 
     return move
 

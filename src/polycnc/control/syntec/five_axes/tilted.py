@@ -18,8 +18,9 @@ from polycnc.control.syntec.coordinates.turns import (
 )
 from polycnc.control.syntec.five_axes import alignment, mechanism
 from polycnc.control.word_address.coordinates import frames as base_frames
-from polycnc.control.word_address.coordinates.systems import refresh_zero
+from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
 from polycnc.control.word_address.coordinates.tip import TipState
+from polycnc.control.word_address.motion.planes import choose_basic_axes
 from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.transformations.tilted_plane import (
     check_compensation,
@@ -27,7 +28,6 @@ from polycnc.control.word_address.transformations.tilted_plane import (
     stand_along,
 )
 from polycnc.geometry.frames import IDENTITY, Frame, rotation, translation
-from polycnc.machine.kinematics import Kinematics
 from polycnc.transformation.planes.tilted import by_euler, by_rotary_axes, square_on
 
 if TYPE_CHECKING:
@@ -39,14 +39,16 @@ class Kept(NamedTuple):
     """The tilted plane as Pr3014 keeps it over a reset: with its code, and with the tool standing on it if it did."""
 
     tilt: Frame
-    code: str = "G69"
+    code: str = ""
     stands: bool = False
 
     @classmethod
     def of(cls, channel: SyntecChannel) -> Kept:
         """What there is in front of a reset; no plane where Pr3014 keeps none."""
-        tilt = TurnState.of(channel).tilt if channel.memory.parameters.keeps_tilt else IDENTITY
-        return cls(tilt, channel.mode["rotation"], LengthState.of(channel).direction is not None)
+        state = TurnState.of(channel)
+        if not channel.memory.parameters.keeps_tilt or state.tilt is IDENTITY:
+            return cls(IDENTITY)
+        return cls(state.tilt, state.told_by, LengthState.of(channel).direction is not None)
 
     @classmethod
     def over_power_off(cls, channel: SyntecChannel) -> Kept:
@@ -61,21 +63,22 @@ class Kept(NamedTuple):
     def restore(self, channel: SyntecChannel) -> None:
         """The plane acts again behind the reset, or none does; nothing moves."""
         if self.tilt is IDENTITY:
-            set_tilt(channel, IDENTITY)
+            set_tilt(channel, IDENTITY, "")
             return
         channel.mode = channel.mode.with_code("rotation", self.code)
         if self.stands:
-            _set_stood(channel, self.tilt)
+            _set_stood(channel, self.tilt, self.code)
         else:
-            set_tilt(channel, self.tilt)
+            set_tilt(channel, self.tilt, self.code)
 
 
 def tilt_by_angles(channel: SyntecChannel, words: Words) -> None:
     """G68.2 X Y Z I J K: origin from the work zero, turned by I about Z, J about X', K about Z''."""
     check_compensation(channel, words, "G68.2")
+    choose_basic_axes(channel)
     origin = named_point(channel, words, "argument")
     i, j, k = (words.angle(letter) or 0.0 for letter in "IJK")
-    set_tilt(channel, translation(*origin) @ by_euler(i, j, k))
+    set_tilt(channel, translation(*origin) @ by_euler(i, j, k), "G68.2")
 
 
 def tilt_by_tool(channel: SyntecChannel, words: Words) -> None:
@@ -88,6 +91,7 @@ def tilt_by_tool(channel: SyntecChannel, words: Words) -> None:
         raise channel.control.fail("option", address="G68.3", code="G68.3")
     mechanism.check(channel, words, "G68.3")
     check_compensation(channel, words, "G68.3")
+    choose_basic_axes(channel)
     if TurnState.of(channel).by_table:
         raise words.fail("tool_plane", "G68.3")
     given = {axis for axis, _, _ in words.axes()} & {
@@ -95,15 +99,13 @@ def tilt_by_tool(channel: SyntecChannel, words: Words) -> None:
     }
     if given and len(given) != len([axis for axis in channel.coordinates.geometry if axis >= 0]):
         raise words.fail("tool_plane_format", "G68.3")
-    turn = tool_turn(channel)
-    if words.typed("P") != 1:
-        turn = square_on(turn.direct(0.0, 0.0, 1.0)) @ rotation(2, words.angle("R") or 0.0)
+    turn = _across_tool(channel, words)
     plane = translation(*named_point(channel, words, "argument")) @ turn
-    _set_stood(channel, plane)
+    _set_stood(channel, plane, "G68.3")
     if not given:
         c = channel.coordinates
         x, y, z = (c.position[axis] if axis >= 0 else 0.0 for axis in c.geometry)
-        _set_stood(channel, plane @ translation(x, y, z))
+        _set_stood(channel, plane @ translation(x, y, z), "G68.3")
 
 
 def end_tilt(channel: SyntecChannel, words: Words) -> None:
@@ -112,7 +114,7 @@ def end_tilt(channel: SyntecChannel, words: Words) -> None:
         check_compensation(channel, words, "G69")
     base_frames.end_rotation(channel, words)
     if TurnState.of(channel).tilt is not IDENTITY:
-        set_tilt(channel, IDENTITY)
+        set_tilt(channel, IDENTITY, "")
 
 
 def switch_work_rotation(channel: SyntecChannel, words: Words) -> None:
@@ -125,7 +127,7 @@ def switch_work_rotation(channel: SyntecChannel, words: Words) -> None:
         raise words.fail("argument", "G54.4")
     if switch not in (0, 1):
         raise words.fail("number", "P")
-    if switch and channel.mode["rotation"] == "G68.3":
+    if switch and TurnState.of(channel).told_by == "G68.3":
         raise words.fail("tool_plane", "G54.4")
     rotate_work_system(channel, on=switch == 1)
 
@@ -135,23 +137,23 @@ def rotate_work_system(channel: SyntecChannel, *, on: bool) -> None:
     state = TurnState.of(channel)
     state.by_table = on and not channel.memory.parameters.without_work_systems
     if renew_work_turn(channel):
-        set_tilt(channel, state.tilt)
+        set_tilt(channel, state.tilt, state.told_by)
 
 
-def _set_stood(channel: SyntecChannel, tilt: Frame) -> None:
+def _set_stood(channel: SyntecChannel, tilt: Frame, code: str) -> None:
     """A tilted plane on which the tool stands; the machine stays."""
-    set_tilt(channel, tilt)
+    set_tilt(channel, tilt, code)
     alignment.stand_on_plane(channel, dict(zip(channel.axes, channel.coordinates.machine, strict=True)))
 
 
-def set_tilt(channel: SyntecChannel, tilt: Frame) -> None:
-    """Another tilted plane, the tool not yet aligned with it; the machine stays."""
+def set_tilt(channel: SyntecChannel, tilt: Frame, code: str) -> None:
+    """Another tilted plane, told by a code (empty for none), the tool not yet aligned with it; the machine stays."""
     turn_state = TurnState.of(channel)
     memory = channel.memory
     c = channel.coordinates
     if c.transformation is not None and not TipState.of(channel).is_leading(channel) and not tilt.is_identity:
         raise channel.control.not_yet("G68.2 G12.1")
-    turn_state.tilt, turn_state.table = tilt, IDENTITY
+    turn_state.tilt, turn_state.told_by, turn_state.table = tilt, code, IDENTITY
     renew_preset_frame(memory)
     if LengthState.of(channel).direction is not None:
         stand_along(channel, None)
@@ -159,7 +161,16 @@ def set_tilt(channel: SyntecChannel, tilt: Frame) -> None:
     keep_plane(channel)
 
 
-def tool_turn(channel: SyntecChannel) -> Frame:
-    """How the rotary axes turn the tool against the work: the table's turns undone, then the head's."""
+def _across_tool(channel: SyntecChannel, words: Words) -> Frame:
+    """How the plane of G68.3 is turned on the work; Z of it is the tool.
+
+    P1: as the rotary axes turn the tool against the work; with a tool along another axis than Z that gives no plane.
+    """
+    kinematics, back = channel.control.kinematics(channel), ZeroState.of(channel).frame.inverse()
     angles = dict(zip(channel.axes, channel.coordinates.machine, strict=True))
-    return by_rotary_axes(Kinematics.of(channel.machine), angles)
+    if words.typed("P") != 1:
+        x, y, z = kinematics.tool_on_work(angles)
+        return square_on(back.direct(x, y, z)) @ rotation(2, words.angle("R") or 0.0)
+    if kinematics.along[2] < 1.0:
+        raise channel.control.not_yet("G68.3 P1: Pr3002", "G68.3")
+    return back @ by_rotary_axes(kinematics, angles)

@@ -8,11 +8,17 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.syntec.coordinates import length as tool_length
-from polycnc.control.syntec.coordinates.turns import PostureState, TurnState, refer_posture, renew_work_turn
+from polycnc.control.syntec.coordinates.turns import (
+    PostureState,
+    TurnState,
+    refer_posture,
+    refuse_posture,
+    renew_work_turn,
+)
 from polycnc.control.syntec.five_axes import alignment, mechanism
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words import Words
-from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
+from polycnc.control.word_address.coordinates.systems import refresh_zero
 from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.transformations import normal_line, tool_center_point
@@ -58,19 +64,20 @@ def start(channel: SyntecChannel, words: Words) -> None:
     """G43.4 H [Q] [L1] [I], G43.5 H: from here on positions are those of the tip; nothing moves.
 
     Q chooses the frame of directions, I the highest speed with which linear axes follow the rotary ones (mm/min, as
-    Pr3091); L1 (smoothness) leaves the path as it is.
+    Pr3091); L1 (smoothness, 2.10.3) leaves the path as it is. Other values of L are refused: the format line of the
+    manual calls L what its notes call I.
     """
     mechanism.check(channel, words, channel.mode["length"])
     state = PostureState.of(channel)
     frame = words.typed("Q")
-    if frame is not None and frame not in (0, 1):
-        raise words.fail("argument", "Q")
-    if channel.mode["rotation"] == "G68.3":
+    for letter in "QL":
+        if words.typed(letter) not in (None, 0, 1):
+            raise words.fail("argument", letter)
+    if TurnState.of(channel).told_by == "G68.3":
         raise words.fail("tip_on_tool_plane", channel.mode["length"])
     renew_work_turn(channel)
     turns, leads = TurnState.of(channel), TipState.of(channel).is_leading(channel)
-    turned = turns.tilt is not IDENTITY or not ZeroState.of(channel).frame.is_identity
-    if PolarState.of(channel).plane is not None or (turned and not leads):
+    if PolarState.of(channel).plane is not None or (turns.tilt is not IDENTITY and not leads):
         raise words.fail("tip_mode", channel.mode["length"])
     # I of G43.5 is a part of the tool's direction.
     fastest = (words.typed("I") or 0.0) if channel.mode["length"] == "G43.4" else 0.0
@@ -78,6 +85,7 @@ def start(channel: SyntecChannel, words: Words) -> None:
         raise words.fail("number", "I")
     FollowingState.of(channel).fastest = fastest
     state.in_work = state.in_work if frame is None else bool(frame)
+    refuse_posture(channel, turns.angle)
     channel.flush()
     refer_posture(channel, turns.work)
     alignment.leave_table(channel)

@@ -203,7 +203,7 @@ class MadeLine(NamedTuple):
 def _made_row(channel: SyntecChannel, start: list[float], mark: int) -> MadeArc | MadeLine | None:
     """The move that is all that a block has made since a mark; None where it is something else."""
     chunk = channel.toolpath.chunk
-    if len(chunk) == mark + 1 and chunk.kind[-1] in STRAIGHT.values() and channel.path.head is None:
+    if len(chunk) == mark + 1 and chunk.kind[-1] in STRAIGHT.values() and not channel.path.changes_ends:
         return MadeLine(Kind(chunk.kind[-1]), chunk.feed[-1], start, channel.coordinates.position[:])
     return made_arc(channel, start, mark)
 

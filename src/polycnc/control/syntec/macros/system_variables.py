@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, cast
 
 from polycnc.control.syntec.builder import macro_program
 from polycnc.control.syntec.coordinates.systems import WORK_SYSTEMS
-from polycnc.control.syntec.coordinates.turns import PostureState, TurnState, renew_preset_frame
+from polycnc.control.syntec.coordinates.turns import PostureState, TurnState, turn_preset_frame
 from polycnc.control.syntec.macros.machine_parameters import read_long
 from polycnc.control.syntec.macros.variables import (
     USER,
@@ -28,6 +28,7 @@ from polycnc.control.syntec.motion.quiet import is_quiet, switch_quiet
 from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
 from polycnc.control.word_address.memory import EXTERNAL, ToolOffsets
 from polycnc.control.word_address.motion.skip import LastSkip
+from polycnc.control.word_address.tools.length import renew_length
 from polycnc.control.word_address.tools.radius import active_compensation
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.syntec.values import VACANT, Value, number, to_long, whole
@@ -234,8 +235,9 @@ def _read_preset_axis(memory: SyntecMemory, offset: int) -> Value:
 
 
 def _write_preset_axis(memory: SyntecMemory, offset: int, value: Value) -> None:
-    TurnState.of(memory.channel).axis[offset] = float(number(value))
-    renew_preset_frame(memory)
+    state = TurnState.of(memory.channel)
+    axis = [float(number(value)) if place == offset else old for place, old in enumerate(state.axis)]
+    turn_preset_frame(memory.channel, state.angle, axis, f"#{1931 + offset}")
     refresh_zero(memory.channel)
 
 
@@ -244,8 +246,7 @@ def _read_preset_angle(memory: SyntecMemory, _offset: int) -> Value:
 
 
 def _write_preset_angle(memory: SyntecMemory, _offset: int, value: Value) -> None:
-    TurnState.of(memory.channel).angle = float(number(value))
-    renew_preset_frame(memory)
+    turn_preset_frame(memory.channel, float(number(value)), TurnState.of(memory.channel).axis, "#1930")
     refresh_zero(memory.channel)
 
 
@@ -258,6 +259,7 @@ def _read_length(memory: SyntecMemory, offset: int) -> Value:
 def _write_length(memory: SyntecMemory, offset: int, value: Value) -> None:
     length = float(number(value)) * (INCH_MM if memory.is_inch else 1.0)
     memory.offset_number(offset + 1).length = length
+    renew_length(memory.channel)
 
 
 def _frame_place(offset: int) -> tuple[str, int]:

@@ -9,7 +9,7 @@ from math import copysign, hypot, nan
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, lasting
-from polycnc.control.syntec.coordinates.turns import TurnState
+from polycnc.control.syntec.coordinates.turns import POSTURE, TurnState
 from polycnc.control.syntec.macros.calls import ModalMacroState
 from polycnc.control.syntec.motion import planes
 from polycnc.control.syntec.spindles import SpindleState
@@ -17,7 +17,7 @@ from polycnc.control.syntec.units import least_unit
 from polycnc.control.word_address.auxiliary import functions
 from polycnc.control.word_address.block import repeated_codes
 from polycnc.control.word_address.block.rules import Rule
-from polycnc.control.word_address.coordinates.frames import scale_of
+from polycnc.control.word_address.coordinates.frames import PolarCoordinateState, polar_target, scale_of
 from polycnc.control.word_address.cycles.drilling import CycleState
 from polycnc.control.word_address.motion import path, skip
 from polycnc.control.word_address.motion.arcs import emit_arc
@@ -33,7 +33,6 @@ from polycnc.geometry import arcs
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.units import INCH_MM
-from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 from polycnc.toolpath.context import NO_OVERLAP, STROKE, Overlap
 from polycnc.toolpath.modes import FeedMode
@@ -281,26 +280,30 @@ def _with_inverse_time(builder: Builder, plan: Plan, step: Step | None) -> Step 
         return step
     arc = builder.mode["motion"] in ("G2", "G3")
     u, v, _ = PLANES[builder.mode["plane"]]
-    radius_slot, centers = builder.slot("R"), [builder.slot(CENTER_WORDS[axis]) for axis in (u, v)]
+    radius_slot = builder.slot("R")
+    centers = [(CENTER_WORDS[axis], builder.slot(CENTER_WORDS[axis])) for axis in (u, v)]
     if not builder.has("F"):
         raise builder.control.fail("inverse_time_feed", address="F")
-    if builder.mode["polar"] == "G16":
-        raise AlarmError("PC0001", hint="hint.not-supported", address="G93", code="G93 G16")
+    if _tells_direction(builder, plan):
+
+        def lead(channel: SyntecChannel, values: list[float]) -> None:
+            """How far rotary axes turn is known when the tool is stood (`feed_to`), and not to the bulk scanner."""
+            step(channel, values)
+
+        return lead
 
     def move(channel: SyntecChannel, values: list[float]) -> None:
-        rate = channel.feed
-        if not arc or (radius_slot is None and not any(slot is not None for slot in centers)):
-            channel.feed = rate * _length(channel, plan, values)
-        elif radius_slot is not None:
-            convert = builder.length("R")
-            channel.feed = rate * abs(convert(values[radius_slot]) if convert else values[radius_slot])
+        rate, c = channel.feed, channel.coordinates
+        if not arc or (radius_slot is None and not any(slot is not None for _, slot in centers)):
+            channel.feed = rate * _way(channel, c.to_position(_end(channel, plan, values)))
         else:
-            shift = [0.0, 0.0]
-            for i, slot in enumerate(centers):
-                if slot is not None:
-                    convert = builder.length(CENTER_WORDS[(u, v)[i]])
-                    shift[i] = convert(values[slot]) if convert else values[slot]
-            channel.feed = rate * hypot(*shift)
+            words = [("R", radius_slot)] if radius_slot is not None else centers
+            told = [
+                convert(values[slot]) if (convert := builder.length(letter)) else values[slot]
+                for letter, slot in words
+                if slot is not None
+            ]
+            channel.feed = rate * hypot(*told) * max(scale_of(channel, c.geometry[i]) for i in (u, v))
         try:
             step(channel, values)
         finally:
@@ -309,12 +312,34 @@ def _with_inverse_time(builder: Builder, plan: Plan, step: Step | None) -> Step 
     return move
 
 
-def _length(channel: SyntecChannel, plan: Plan, values: list[float]) -> float:
-    """Length of the straight way that a block will make, over all axes, as its feed counts it: a degree is an inch."""
-    c = channel.coordinates
-    end = c.to_position(path.target(channel, plan.axis_words, values))
-    ways = [e - s for s, e in zip(c.position, end, strict=True)]
-    if plan.inch:
+def _tells_direction(builder: Builder, plan: Plan) -> bool:
+    """Whether a block says how the tool stands, so that rotary axes turn without their words or beside them."""
+    if builder.mode["length"] == "G43.5":
+        return any(builder.has(letter) for letter in "IJK") and builder.mode["motion"] == "G1"
+    rotary = any(builder.channel.axis_data[word.axis].rotary for word in plan.axis_words)
+    return builder.mode[POSTURE] != "" and rotary
+
+
+def feed_to(channel: SyntecChannel, end: list[float]) -> float:
+    """Feed of a straight cut to a position (absolute display): F, under G93 F times the way (2.64)."""
+    return channel.feed * (_way(channel, end) if channel.mode["feed"] == "G93" else 1.0)
+
+
+def _end(channel: SyntecChannel, plan: Plan, values: list[float]) -> list[float]:
+    """Where a straight block will end, programmed coordinates; what G16 keeps of its words stays as it is."""
+    if channel.mode["polar"] != "G16":
+        return path.target(channel, plan.axis_words, values)
+    state = PolarCoordinateState.of(channel)
+    before = state.radius, state.angle, state.pole
+    end = polar_target(channel, plan, values)
+    state.radius, state.angle, state.pole = before
+    return end
+
+
+def _way(channel: SyntecChannel, end: list[float]) -> float:
+    """The straight way to a position over all axes, as its feed counts it: under G70 a degree is an inch."""
+    ways = [e - s for s, e in zip(channel.coordinates.position, end, strict=True)]
+    if channel.memory.is_inch:
         for axis, data in enumerate(channel.axis_data):
             if data.rotary and not is_length(channel, axis):
                 ways[axis] *= INCH_MM

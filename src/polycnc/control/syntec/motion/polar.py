@@ -121,7 +121,7 @@ def _enter(
     side = -1.0 if here[linear] < 0.0 else 1.0
     diameter = channel.memory.is_diameter(linear)
     DiameterState.of(channel).switched[linear] = False
-    polar = PolarPlane(linear, rotary, geometry, here[rotary], eccentricity, side)
+    polar = PolarPlane(linear, rotary, geometry, here[rotary], eccentricity, side, pole_deg=here[rotary])
     channel.mode = channel.mode.with_code(POLAR, "G12.1")
     enter_polar(channel, polar, plane, diameter=diameter)
     start = BlockStart.of(channel)

@@ -80,16 +80,16 @@ def work_frame(channel: WordAddressChannel, offsets: list[float]) -> Frame:
     """From the display to axes counted from a work zero: turn of the work, table and tilted plane.
 
     The table turns about axes of the machine, so a plane goes another way with it where the work zero lies elsewhere.
+    The work system goes with it too, however that is turned.
     """
     zero = ZeroState.of(channel)
-    inner = zero.plane
     if not zero.table.is_identity:
-        inner = plane_on_table(channel, offsets)
         shift = translation(*work_zero(channel, offsets))
-        inner = shift.inverse() @ zero.table @ shift @ inner
+        frame = shift.inverse() @ zero.table @ shift @ plane_on_table(channel, offsets)
     elif zero.misplaced is not None:
-        inner = zero.misplaced.seen(work_zero(channel, offsets)) @ inner
-    frame = zero.frame @ inner
+        frame = zero.frame @ zero.misplaced.seen(work_zero(channel, offsets)) @ zero.plane
+    else:
+        frame = zero.frame @ zero.plane
     return IDENTITY if frame.is_identity else frame
 
 
@@ -106,7 +106,8 @@ def frame_on_table(channel: WordAddressChannel, offsets: list[float]) -> Frame:
 
 def plane_on_table(channel: WordAddressChannel, offsets: list[float]) -> Frame:
     """The tilted plane on the work as that lies on the table, with the table at zero."""
-    return lies(channel, offsets) @ ZeroState.of(channel).plane
+    zero = ZeroState.of(channel)
+    return zero.frame @ lies(channel, offsets) @ zero.plane
 
 
 def lies(channel: WordAddressChannel, offsets: list[float]) -> Frame:

@@ -109,7 +109,7 @@ class MadeArc(NamedTuple):
 def made_arc(channel: WordAddressChannel, start: list[float], mark: int) -> MadeArc | None:
     """The arc that is all that a block has made since a mark; None where it is something else."""
     chunk = channel.toolpath.chunk
-    if len(chunk) != mark + 1 or chunk.kind[-1] not in ARC_KINDS or channel.path.head is not None:
+    if len(chunk) != mark + 1 or chunk.kind[-1] not in ARC_KINDS or channel.path.changes_ends:
         return None
     row, geometry = channel.toolpath.row_of(chunk, mark), channel.coordinates.geometry
     u, v, w = PLANES[channel.mode["plane"]]

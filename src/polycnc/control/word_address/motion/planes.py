@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.coordinates.frames import turns_plane
+from polycnc.control.word_address.coordinates.systems import ZeroState
+from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.tools.radius import RadiusState, idle_or_active
 from polycnc.control.word_address.transformations import cylinder
 from polycnc.deferred.records import dataclass
@@ -26,16 +28,24 @@ class PlaneAxes(State, lifetime=Lifetime.POWER):
 
 
 def choose_axes(channel: WordAddressChannel, geometry: tuple[int, int, int]) -> None:
-    """Let these axes be X, Y and Z of the plane."""
+    """Let these axes be X, Y and Z of the plane; those of the machine while they lie in space."""
     from polycnc.transformation.kinematic.parallel import ParallelAxes
 
     state = PlaneAxes.of(channel)
+    if TipState.of(channel).is_leading(channel) or not ZeroState.of(channel).plane.is_identity:
+        geometry = channel.memory.basic_geometry
     channel.coordinates.geometry = geometry
     if geometry == channel.memory.basic_geometry:
         state.parallel = None
     elif state.parallel is None or state.parallel.geometry != geometry:
         state.parallel = ParallelAxes(geometry)
     channel.context_changed()
+
+
+def choose_basic_axes(channel: WordAddressChannel) -> None:
+    """X, Y and Z of the machine are those of the plane again: tip control and tilted planes lead them only."""
+    if channel.coordinates.geometry != channel.memory.basic_geometry:
+        choose_axes(channel, channel.memory.basic_geometry)
 
 
 def select_plane(channel: MacroChannel, words: Words) -> None:

@@ -11,6 +11,7 @@ from polycnc.control.word_address.coordinates import tip
 from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
 from polycnc.control.word_address.cycles import drilling
 from polycnc.deferred.records import dataclass
+from polycnc.geometry.vectors import times
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
@@ -142,7 +143,7 @@ def renew_tip(channel: WordAddressChannel) -> None:
     state, number = tip.TipState.of(channel), LengthState.of(channel).number
     if state.active is not None and state.is_leading(channel):
         value = channel.control.length_value(channel, number) if number else 0.0
-        active = replace(state.active, tip=(0.0, 0.0, -value))
+        active = replace(state.active, tip=times(state.active.kinematics.along, -value))
         if active != state.active:
             channel.flush()
             tip.lead(channel, active, state.frame, channel.coordinates.offsets)

@@ -78,7 +78,14 @@ def start_polar(channel: MacroChannel, words: Words) -> None:
     geometry = list(c.geometry)
     geometry[PLANES[plane][1]] = rotary
     side = -1.0 if here[linear] < 0.0 else 1.0
-    polar = PolarPlane(linear, rotary, (geometry[0], geometry[1], geometry[2]), here[rotary], side=side)
+    polar = PolarPlane(
+        linear,
+        rotary,
+        (geometry[0], geometry[1], geometry[2]),
+        here[rotary],
+        side=side,
+        pole_deg=here[rotary],
+    )
     enter_polar(channel, polar, plane, diameter=channel.control.is_diameter(channel, linear))
 
 
@@ -87,12 +94,15 @@ def enter_polar(channel: WordAddressChannel, polar: PolarPlane, plane: str, *, d
 
     `diameter`: the machine display goes on to show diameters of the linear axis.
     """
+    from polycnc.control.word_address.transformations.polar_stage import PolarStage  # where it acts only
+
     state = PolarState.of(channel)
     state.plane_before, state.geometry_before = channel.mode["plane"], channel.coordinates.geometry
     state.plane, state.diameter = polar, diameter
     channel.mode = channel.mode.with_code("plane", plane)
     channel.coordinates.transform(polar, polar.geometry)
     channel.context_changed()
+    channel.path.put(PolarStage(channel))
 
 
 def end_polar(channel: WordAddressChannel, words: Words) -> None:

@@ -22,11 +22,13 @@ from polycnc.control.word_address.coordinates.systems import (
     work_zero,
 )
 from polycnc.control.word_address.coordinates.tip import TipState
+from polycnc.control.word_address.motion.planes import choose_basic_axes
 from polycnc.control.word_address.tools import length
 from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, Frame, rotation, translation
+from polycnc.geometry.vectors import times
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
@@ -112,6 +114,7 @@ def _check_state(channel: WordAddressChannel, words: Words, code: str) -> None:
     if OnTable.of(channel).fixture:
         raise words.fail("tilt_mode", code)
     check_compensation(channel, words, code)
+    choose_basic_axes(channel)
 
 
 def check_compensation(channel: WordAddressChannel, words: Words, code: str) -> None:
@@ -253,7 +256,8 @@ def turn_about_tip(channel: WordAddressChannel, angles: Angles, arm: float, abov
         for axis, place in zip(c.geometry, work_zero(channel, offsets), strict=True):
             offsets[axis] = place
     kinematics = channel.control.kinematics(channel)
-    led = ToolCentrePoint(kinematics, channel.axes, c.geometry, tuple(offsets), (0.0, 0.0, above - arm))
+    tip = times(kinematics.along, above - arm)
+    led = ToolCentrePoint(kinematics, channel.axes, c.geometry, tuple(offsets), tip)
     frame = frame_on_table(channel, c.offsets) @ translation(0.0, 0.0, above)
     c.transform(Seated(led, frame), None, (IDENTITY, offsets))
     channel.context_changed()
@@ -271,7 +275,7 @@ def _angles(
 ) -> dict[str, float] | None:
     """Positions of the rotary axes: the nearest ones, by P1 and P2 those to which the first axis turns up or down.
 
-    The first axis is the one that carries the other.
+    The first axis is the one that carries the other, or is in the head.
     """
     from polycnc.transformation.orientation import choice
     from polycnc.transformation.orientation.solutions import solutions_for
@@ -282,7 +286,7 @@ def _angles(
         raise words.fail("tilt_format", "P")
     if way == NEAREST or not kinematics.axes:
         return nearest_angles(channel, wanted, near)
-    first, ranges = (kinematics.work or kinematics.tool)[0].axis, channel.control.rotary_ranges(channel)
+    first, ranges = kinematics.ordered[0], channel.control.rotary_ranges(channel)
     led = [
         choice.led(solution, near, first, SENSES[way]) for solution in solutions_for(kinematics, wanted, near)
     ]

@@ -18,10 +18,12 @@ from polycnc.control.word_address.coordinates import on_table, tip
 from polycnc.control.word_address.coordinates.on_table import OnTable
 from polycnc.control.word_address.coordinates.systems import ZeroState, frame_on_table, refresh_zero
 from polycnc.control.word_address.motion.path import reach
+from polycnc.control.word_address.motion.planes import choose_basic_axes
 from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.tilted_plane import TiltState, nearest_angles
 from polycnc.geometry.frames import IDENTITY
+from polycnc.geometry.vectors import times
 from polycnc.language.bulk import Straight, declare
 from polycnc.toolpath import Kind
 from polycnc.transformation.orientation.standing import StandRecord, stand
@@ -66,6 +68,7 @@ def follow_table(channel: WordAddressChannel, words: Words, begun: Frame = IDENT
     """
     from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
 
+    choose_basic_axes(channel)
     state = LengthState.of(channel)
     c = channel.coordinates
     kinematics = channel.control.kinematics(channel)
@@ -81,7 +84,8 @@ def follow_table(channel: WordAddressChannel, words: Words, begun: Frame = IDENT
     tip.TipState.of(channel).begun = begun
     ZeroState.of(channel).length = [0.0] * len(channel.axes)
     refresh_zero(channel)
-    following = ToolCentrePoint(kinematics, channel.axes, c.geometry, tuple(c.offsets), (0.0, 0.0, -value))
+    arm = times(kinematics.along, -value)
+    following = ToolCentrePoint(kinematics, channel.axes, c.geometry, tuple(c.offsets), arm)
     tip.lead(channel, following, frame_on_table(channel, c.offsets), c.offsets)
     channel.context_changed()
 
@@ -157,7 +161,8 @@ def plan_with_direction(builder: Builder, plan: Plan, leaning: Leaning | None = 
         for axis, angle in turned.items():
             end[axis] = programmed[axis] = angle
             c.pending[axis] = 0.0
-        channel.straight(Kind.RAPID if rapid else Kind.FEED, end, nan if rapid else channel.feed, programmed)
+        feed = nan if rapid else channel.control.feed_to(channel, end)
+        channel.straight(Kind.RAPID if rapid else Kind.FEED, end, feed, programmed)
 
     told = targets_as_data(plan.axis_words)
     if told is None or polar or leaning is not None:

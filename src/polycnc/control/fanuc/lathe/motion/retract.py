@@ -83,7 +83,7 @@ def _cut(channel: LatheChannel, mark: int, start: list[float], programmed: list[
     if share is None or (arc is None and start == end):
         return
     chunk = channel.toolpath.chunk
-    is_line = motion in LINES and len(chunk) == mark + 1 and channel.path.head is None
+    is_line = motion in LINES and len(chunk) == mark + 1 and not channel.path.changes_ends
     if arc is None and not is_line:
         raise AlarmError("PC0001", hint="hint.not-supported", code=f"G10.6 {motion}")
     state.came = True

@@ -2,7 +2,8 @@
 
 From the tool to the work: the tool as it is drawn (TCS), a toolholder turns it (KCS), the head of a transformation
 turns that (MCS), a table turns the work (BCS), frames turn the work (WCS). Without a transformation KCS, MCS and BCS
-are one. Source: Function Manual W1 (names of the systems).
+are one, and so they are under an inclined axis: only orientation transformations make a system of the machine in which
+a length means something. Source: Function Manual W1 (names of the systems; linear transformations).
 """
 
 from __future__ import annotations
@@ -39,19 +40,19 @@ def seen_from(channel: SinumerikChannel, system: str, name: str) -> Frame:
         name: The function that asks, for its alarm.
 
     Raises:
-        AlarmError: PC0001 where the axes of the machine are not square, and in the pole of TRANSMIT.
+        AlarmError: PC0001 in the pole of TRANSMIT.
     """
     if system == KINEMATIC:
         return IDENTITY
     if system == TOOL:
         return (channel.memory.tools.carrier or IDENTITY).inverse()
-    machine, basic = _of_transformation(channel, name, system)
+    machine, basic = _of_transformation(channel, name)
     if system == WORK:
         return rules_of(channel).work.inverse() @ basic
     return machine if system == MACHINE else basic
 
 
-def _of_transformation(channel: SinumerikChannel, name: str, system: str) -> tuple[Frame, Frame]:
+def _of_transformation(channel: SinumerikChannel, name: str) -> tuple[Frame, Frame]:
     """From the head to the machine, and to the basic system, as the axes stand."""
     state = seat.Transformations.of(channel)
     if state.build is None or state.seated is None:
@@ -64,8 +65,6 @@ def _of_transformation(channel: SinumerikChannel, name: str, system: str) -> tup
         head, table = point.kinematics.head_turn(angles), point.kinematics.work_turn(angles)
         return _direction(head), _direction(table.inverse() @ head)
     if state.build.lengths == "before":  # the inclined axis: tools lie in front of it
-        if system == MACHINE:
-            raise not_supported(f"{name} MCS: {state.kind}")
         return IDENTITY, IDENTITY
     return IDENTITY, _of_axes(state.seated.inner, position, name)
 

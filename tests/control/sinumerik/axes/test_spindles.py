@@ -1,0 +1,31 @@
+"""SPOS of spindles that are axes."""
+
+from __future__ import annotations
+
+from tests.control.sinumerik.support import codes, run
+
+
+def test_a_spindle_that_is_no_axis_leaves_all_axes() -> None:
+    result = run("G0 X10", "SPOS=45", "G0 X20", machine="lathe2")
+    assert [row["machine"] for row in result.rows if "machine" in row][-1] == {"X": 20.0, "Z": 0.0}
+
+
+def test_the_axis_goes_along_with_its_spindle() -> None:
+    result = run("SPOS=45 ", "G0 X10", "SPOSA=ACN(300)", "G0 X20", machine="lathe-c")
+    assert [row["machine"]["C"] for row in result.rows if "machine" in row] == [45.0, 300.0]
+
+
+def test_the_axis_is_shown_in_the_work_with_its_frame() -> None:
+    result = run("TRANS C10", "SPOS=45 ", "G0 X10", machine="lathe-c")
+    assert [(row["to"]["C"], row["machine"]["C"]) for row in result.rows if "machine" in row] == [
+        (35.0, 45.0)
+    ]
+
+
+def test_an_axis_that_a_transformation_uses_up_is_not_positioned() -> None:
+    assert codes(run("TRACYL(40)", "SPOS=0", machine="lathe-c-transmit")) == [("17610", 2)]
+
+
+def test_a_program_that_is_executed_in_time_waits_for_the_axis() -> None:
+    result = run("ID=1 WHEN $AA_IM[X]>1 DO $R9=1", "SPOS=45", "R1=$AA_IM[C]", "G0 X10", machine="lathe-c")
+    assert result.variables["R1"] == 45.0
