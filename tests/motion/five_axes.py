@@ -102,9 +102,8 @@ class TipArc(NamedTuple):
 
     @property
     def length(self) -> float:
-        """As the feed counts it, mm."""
-        around = self.radius * (self.angles[1] - self.angles[0])
-        return float(np.linalg.norm([around, self.lift, *(b - a for a, b in self.turns)]))
+        """As the feed counts it, mm: the tip alone."""
+        return float(np.hypot(self.radius * (self.angles[1] - self.angles[0]), self.lift))
 
 
 def random_arcs(count: int, seed: int) -> list[TipArc]:
@@ -159,7 +158,7 @@ def derivatives(tip: Transformation, start: Numbers, end: Numbers, length: float
 
 
 def _row_time(path: TipPath, start: Numbers, end: Numbers) -> float:
-    length = float(np.linalg.norm(end - start))
+    length = float(np.linalg.norm((end - start)[:3]) or np.linalg.norm(end - start))
     shares = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, PLACES + 1))
     first, second = derivatives(path.axes.tip, start, end, length, shares)
     return _quickest(path.axes, first, second, np.diff(shares) * length, path.feed)

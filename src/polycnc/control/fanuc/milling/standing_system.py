@@ -176,8 +176,8 @@ def _arc(builder: Builder, plan: Plan, told: path.CenterWords) -> Step:
                 center[column] += way
             center = seen.to_machine(center)
             named = center[columns[0]] - begin[columns[0]], center[columns[1]] - begin[columns[1]]
-        on_table = tuple(tuple(point[column] for column in columns) for point in (begin, end))
-        found, beside = path.find_center(channel, *on_table, named, ccw)
+        first, last = ((point[columns[0]], point[columns[1]]) for point in (begin, end))
+        found, beside = path.find_center(channel, first, last, named, ccw)
         if found is None:
             channel.straight(Kind.FEED, end, channel.feed)
         elif beside:
