@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from ctypes import Structure
-from typing import Annotated, NamedTuple
+from typing import Annotated
 
+from polycnc.deferred.tuples import NamedTuple
 from polycnc.kernels.layout import Floats, Ints32, Places, place, record
 
 HALF = 0.5

@@ -6,11 +6,11 @@ A kernel's annotations are its declaration: `arguments` reads them for the compi
 from __future__ import annotations
 
 import ctypes
-import inspect
+import sys
 from collections.abc import MutableSequence
 from enum import Enum, auto
 from functools import cache, partial
-from typing import TYPE_CHECKING, Annotated, NamedTuple, TypeVar, cast, get_args, get_type_hints
+from typing import TYPE_CHECKING, Annotated, Any, ForwardRef, NamedTuple, TypeVar, cast, get_args
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -23,6 +23,7 @@ Words32 = Annotated[MutableSequence[int], "I"]
 Ints = Annotated[MutableSequence[int], "q"]
 Floats = Annotated[MutableSequence[float], "d"]
 
+_SIMPLE = {each.__name__: each for each in (int, float, bool)}
 _R = TypeVar("_R", bound=ctypes.Structure)
 
 
@@ -31,12 +32,8 @@ def record(cls: type[_R]) -> type[_R]:
 
     The same memory is an object with named fields in Python and a structure in machine code.
     """
-    hints = get_type_hints(cls, include_extras=True)
-    fields: list[tuple[str, type]] = []
-    for name in inspect.get_annotations(cls):
-        hint = hints[name]
-        fields.append((name, {float: ctypes.c_double, int: ctypes.c_int64}.get(hint) or _numbers(hint)))
-    cls._fields_ = fields
+    types: dict[object, type[Any]] = {float: ctypes.c_double, int: ctypes.c_int64}
+    cls._fields_ = [(name, types.get(hint) or _numbers(hint)) for name, hint in _hints(cls).items()]
     cls.memento = _memento  # type: ignore[attr-defined]
     return cls
 
@@ -56,7 +53,22 @@ def put_back(instance: ctypes.Structure, contents: bytes) -> None:
     ctypes.memmove(ctypes.addressof(instance), contents, len(contents))
 
 
-def _numbers(hint: object) -> type:
+def _hints(of: type | Callable[..., object]) -> dict[str, Any]:
+    """What annotations mean."""
+    scope = vars(sys.modules[of.__module__])
+    return {name: _meant(hint, scope) for name, hint in of.__annotations__.items()}
+
+
+def _meant(hint: Any, scope: dict[str, Any]) -> Any:
+    """Most are texts, which are names, or expressions, for which `typing` takes much longer."""
+    if isinstance(hint, ForwardRef):  # of a named tuple
+        hint = hint.__forward_arg__
+    if not isinstance(hint, str):
+        return hint
+    return _SIMPLE.get(hint) or scope.get(hint) or eval(hint, scope)
+
+
+def _numbers(hint: object) -> type[Any]:
     *_, count = get_args(hint)
     return ctypes.c_double * cast("int", count)
 
@@ -118,7 +130,7 @@ def arguments(kernel: Callable[..., object]) -> tuple[Argument, ...]:
     Raises:
         TypeError: An annotation is none that machine code can have.
     """
-    hints = get_type_hints(kernel, include_extras=True)
+    hints = _hints(kernel)
     hints.pop("return", None)
     return tuple(_argument(hint) for hint in hints.values())
 
@@ -142,7 +154,7 @@ def _argument(hint: object) -> Argument:
 @cache
 def _group(hint: type) -> Argument:
     """A named tuple; many kernels take the same one."""
-    parts = get_type_hints(hint, include_extras=True).values()
+    parts = _hints(hint).values()
     return Argument(Kind.GROUP, type=hint, parts=tuple(_argument(part) for part in parts))
 
 

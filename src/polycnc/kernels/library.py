@@ -92,10 +92,15 @@ def _constants(module: ModuleType) -> list[tuple[str, object]]:
         if isinstance(value, (int, float, tuple)):
             numbers.append((name, value))
         elif isinstance(value, type) and issubclass(value, Places):
-            numbers.append(
-                (name, [(place, getattr(value, place)) for place in dir(value) if place.isupper()])
-            )
+            numbers.append((name, _places(value)))
     return sorted(numbers, key=lambda item: item[0])
+
+
+def _places(cls: type[Places]) -> list[tuple[str, int]]:
+    found: dict[str, int] = {}
+    for each in reversed(cls.__mro__):
+        found |= {name: place for name, place in vars(each).items() if name.isupper()}
+    return sorted(found.items())
 
 
 def _caller(code: ctypes.CDLL, kernel: Callable[..., object]) -> Callable[..., int]:
