@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from ctypes import Structure
-from typing import Annotated
+from typing import Annotated, NamedTuple
 
-from polycnc.deferred.tuples import NamedTuple
 from polycnc.kernels.layout import Floats, Ints32, Places, place, record
 
 HALF = 0.5

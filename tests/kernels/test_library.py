@@ -5,11 +5,10 @@ from __future__ import annotations
 from array import array
 from ctypes import Structure
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, NamedTuple
 
 import pytest
 
-from polycnc.deferred.tuples import NamedTuple
 from polycnc.kernels import native
 from polycnc.kernels.layout import Bytes, Floats, Ints32, Kind, Places, arguments, place, record
 from polycnc.kernels.library import Library
