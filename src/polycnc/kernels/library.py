@@ -79,29 +79,26 @@ class Library:
     def digest(self) -> bytes:
         """Of the sources, and of every number that they take from other modules: code holds its value."""
         digest = 0
-        places: Callable[[type[Places]], list[tuple[str, int]]] = cache(
-            _places
-        )  # many modules know the same ones
         for module in self.modules:
             digest = crc32(Path(str(module.__file__)).read_bytes(), digest)
-            digest = crc32(repr(_constants(module, places)).encode(), digest)
+            digest = crc32(repr(_constants(module)).encode(), digest)
         return digest.to_bytes(_DIGEST_BYTES, "big")
 
 
-def _constants(
-    module: ModuleType, places: Callable[[type[Places]], list[tuple[str, int]]]
-) -> list[tuple[str, object]]:
+def _constants(module: ModuleType) -> list[tuple[str, object]]:
     """Numbers that a module knows, those of other modules too."""
     numbers: list[tuple[str, object]] = []
     for name, value in vars(module).items():
         if isinstance(value, (int, float, tuple)):
             numbers.append((name, value))
         elif isinstance(value, type) and issubclass(value, Places):
-            numbers.append((name, places(value)))
+            numbers.append((name, _places(value)))
     return sorted(numbers, key=lambda item: item[0])
 
 
+@cache
 def _places(cls: type[Places]) -> list[tuple[str, int]]:
+    """The places of a record, which many modules know."""
     found: dict[str, int] = {}
     for each in reversed(cls.__mro__):
         found |= {name: place for name, place in vars(each).items() if name.isupper()}
