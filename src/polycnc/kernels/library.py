@@ -6,7 +6,7 @@ Their machine code is good for one version of their sources, which a digest in i
 from __future__ import annotations
 
 import ctypes
-from functools import cache, cached_property, partial
+from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar, cast
 from zlib import crc32
@@ -79,26 +79,28 @@ class Library:
     def digest(self) -> bytes:
         """Of the sources, and of every number that they take from other modules: code holds its value."""
         digest = 0
+        known: dict[type, list[tuple[str, int]]] = {}  # many modules know the same records
         for module in self.modules:
             digest = crc32(Path(str(module.__file__)).read_bytes(), digest)
-            digest = crc32(repr(_constants(module)).encode(), digest)
+            digest = crc32(repr(_constants(module, known)).encode(), digest)
         return digest.to_bytes(_DIGEST_BYTES, "big")
 
 
-def _constants(module: ModuleType) -> list[tuple[str, object]]:
-    """Numbers that a module knows, those of other modules too."""
+def _constants(module: ModuleType, known: dict[type, list[tuple[str, int]]]) -> list[tuple[str, object]]:
+    """Numbers that a module knows, those of other modules too; `known` are places of records, and takes more."""
     numbers: list[tuple[str, object]] = []
     for name, value in vars(module).items():
         if isinstance(value, (int, float, tuple)):
             numbers.append((name, value))
         elif isinstance(value, type) and issubclass(value, Places):
-            numbers.append((name, _places(value)))
+            if value not in known:
+                known[value] = _places(value)
+            numbers.append((name, known[value]))
     return sorted(numbers, key=lambda item: item[0])
 
 
-@cache
 def _places(cls: type[Places]) -> list[tuple[str, int]]:
-    """The places of a record, which many modules know."""
+    """Names and places of the fields of a record."""
     found: dict[str, int] = {}
     for each in reversed(cls.__mro__):
         found |= {name: place for name, place in vars(each).items() if name.isupper()}
