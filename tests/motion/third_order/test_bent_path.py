@@ -14,7 +14,9 @@ from tests.motion.third_order.even_path import even_path
 def test_pieces_go_over_into_each_other(path: JerkPath) -> None:
     bent = even_path(np.array(path.points), path.tolerance, path.feed, MILL)
     ends = bent.way[1:-1]
-    for values, before in zip((bent.place, bent.first, bent.second), bent.at(ends * (1.0 - 1e-14)), strict=True):
+    for values, before in zip(
+        (bent.place, bent.first, bent.second), bent.at(ends * (1.0 - 1e-14)), strict=True
+    ):
         assert np.abs(values[1:-1] - before).max() < 1e-7
     assert np.abs(bent.place[-1] - path.points[-1]).max() < 1e-9
     assert bent.axes == 3

@@ -1,5 +1,5 @@
 """Limited jerk without averages over time: a path that is smooth by its length, and a law along it.
 
-    the path    bent_path (a run as a cubic spline by its way, within tolerance)
-    the law     law (phases of constant jerk along the way), phases
+the path    bent_path (a run as a cubic spline by its way, within tolerance)
+the law     law (phases of constant jerk along the way), phases
 """
