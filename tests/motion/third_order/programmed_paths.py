@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from math import cos, hypot, pi, sin
+from math import cos, pi, sin
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 from hypothesis import strategies as st
 
 from polycnc.motion.third_order.bends.programmed import Bounds, ProgrammedPath
+from polycnc.motion.third_order.bends.stretches import LINE
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -26,7 +27,9 @@ TOPS = (250.0, 250.0, 250.0, 90.0)
 class Drawn:
     """A path of X, Y, Z and a rotary axis: as it is programmed, and as the points of each row."""
 
-    path: ProgrammedPath = field(default_factory=lambda: ProgrammedPath([0.0] * 4, TOPS, (False, False, False, True)))
+    path: ProgrammedPath = field(
+        default_factory=lambda: ProgrammedPath([0.0] * 4, TOPS, (False, False, False, True))
+    )
     points: list[Numbers] = field(default_factory=list)
     bounds: list[Bounds] = field(default_factory=list)
     heading: float = 0.0
@@ -39,7 +42,9 @@ class Drawn:
     def line(self, length: float, turn: float, rise: float, degrees: float, bounds: Bounds) -> None:
         self.heading += turn
         here = np.array(self.path.position)
-        end = here + [length * cos(self.heading), length * sin(self.heading), rise * length, degrees]
+        end = here + np.array(
+            [length * cos(self.heading), length * sin(self.heading), rise * length, degrees]
+        )
         self.path.line(end.tolist(), self._row(np.stack([here, end]), bounds), bounds)
 
     def facets(self, radius: float, sweep: float, count: int, bounds: Bounds) -> None:
@@ -51,7 +56,7 @@ class Drawn:
         here, (c, s) = np.array(self.path.position), (cos(self.heading), sin(self.heading))
         for k in range(1, count + 1):
             x, y = length * k / count, height * (1.0 - cos(2.0 * pi * k / count))
-            end = here + [c * x - s * y, s * x + c * y, 0.0, 0.0]
+            end = here + np.array([c * x - s * y, s * x + c * y, 0.0, 0.0])
             before = np.array(self.path.position)
             self.path.chord(end.tolist(), self._row(np.stack([before, end]), bounds), bounds)
 
@@ -113,47 +118,29 @@ def drawn_paths(draw: st.DrawFn, tolerances: st.SearchStrategy[float], *, turnin
 
 
 def parts_of_tolerance(drawn: Drawn, bent: list[BentPath], each: int = 8) -> tuple[float, float]:
-    """The largest parts of the tolerances that a bent path uses, of the linear and of the rotary axes, looked at densely.
+    """The largest parts of the tolerances that a bent path uses, of linear and of rotary axes, looked at densely.
 
-    The distance is that to the row at hand at the same part of its way, by rows and their neighbours: of a spline
-    that of its chords' own curve, which the stretches say.
+    The distance is that from the place of the programmed path at the same way: no less than that to the path. A line
+    counts as one; arcs and chords of splines are the curves of their stretches.
     """
     path = drawn.path.path
     way, n = np.asarray(path.way), 4
     place = np.asarray(path.place).reshape(-1, n)
     leave, arrive = (np.asarray(v).reshape(-1, n) for v in (path.leave, path.arrive))
     form = np.asarray(path.form)
-    lines = turns = 0.0
-    start = 0.0
+    lines = turns = start = 0.0
     for leg in bent:
-        share = np.arange(each) / each
-        s = np.append(np.concatenate([leg.way[:-1, None] + np.diff(leg.way)[:, None] * share]).ravel(), leg.way[-1])
-        inner = way[(way >= start) & (way <= start + leg.way[-1])] - start
-        s = np.unique(np.clip(np.concatenate([s, inner]), 0.0, leg.way[-1]))
+        inner = leg.way[:-1, None] + np.diff(leg.way)[:, None] * (np.arange(each) / each)
+        ends = way[(way >= start) & (way <= start + leg.way[-1])] - start
+        s = np.clip(np.concatenate([inner.ravel(), ends, leg.way[-1:]]), 0.0, leg.way[-1])
         k = np.clip(np.searchsorted(way, s + start, "right") - 1, 0, len(form) - 1)
         length = (way[k + 1] - way[k])[:, None]
         f = np.clip((s + start - way[k])[:, None] / length, 0.0, 1.0)
         chord = place[k + 1] - place[k]
         curve = (1.0 - f) * (leave[k] * length - chord) - f * (arrive[k] * length - chord)
-        there = place[k] + f * (chord + np.where(form[k, None] == 0, 0.0, 1.0 - f) * curve)
+        there = place[k] + f * (chord + np.where(form[k, None] == LINE, 0.0, 1.0 - f) * curve)
         apart = leg.at(s)[0] - there
-        tolerance = np.asarray(path.tolerance)[k]
-        lines = max(lines, float((np.sqrt((apart[:, :3] ** 2).sum(1)) / tolerance).max()))
-        turns = max(turns, float((np.abs(apart[:, 3]) / np.asarray(path.turn_tolerance)[k]).max()))
-        start += leg.way[-1]
-    return lines, turns
-
-
-def distance_to(points: Numbers, places: Numbers) -> Numbers:
-    """Distance of places from a row of lines, X, Y and Z."""
-    best = np.full(len(places), np.inf)
-    for a, b in zip(points[:-1, :3], points[1:, :3], strict=True):
-        u = b - a
-        length2 = float(u @ u)
-        f = np.clip((places[:, :3] - a) @ u / length2, 0.0, 1.0) if length2 > 0.0 else np.zeros(len(places))
-        best = np.minimum(best, np.sqrt(((places[:, :3] - a - f[:, None] * u) ** 2).sum(1)))
-    return best
-
-
-def way_of(points: Numbers) -> float:
-    return float(sum(hypot(*step) for step in np.diff(points[:, :3], axis=0).tolist()))
+        part = np.sqrt((apart[:, :3] ** 2).sum(1)) / np.asarray(path.tolerance)[k]
+        turned = np.abs(apart[:, 3]) / np.asarray(path.turn_tolerance)[k]
+        lines, turns, start = max(lines, part.max()), max(turns, turned.max()), start + leg.way[-1]
+    return float(lines), float(turns)

@@ -11,8 +11,8 @@ from polycnc.motion.third_order.bends.stretches import Stretches, curve_lines
 from polycnc.motion.third_order.bends.turning import Turning, sum_turning
 from polycnc.motion.third_order.bends.within import weigh_excess
 
-#: Times that knots are placed anew because the tolerance was exceeded somewhere.
-ROUNDS = 12
+#: Times that knots are placed anew because the tolerance was exceeded somewhere; the first of them with levelling.
+ROUNDS, LEVELLED = 12, 6
 #: What the kernel gives where there is no room, and where the tolerance is not kept.
 NO_ROOM, NOT_WITHIN = -1, -2
 
@@ -53,8 +53,9 @@ def bend_path(
             return NO_ROOM
         lay_controls(path, n, spline, made)
         shape(spline, n, made)
-        level(path, n, spline, made)
-        found = weigh_excess(path, n, spline, made, turning)
+        if number < LEVELLED:
+            level(path, n, spline, made)
+        found = weigh_excess(path, n, spline, made, turning, number)
         told[0], told[2] = number, count
         if number == 0:
             told[1] = found

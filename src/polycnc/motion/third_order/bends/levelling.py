@@ -1,7 +1,8 @@
 """Corners between lines so short that knots lie nearer than the tolerance needs: what is left of it levels them.
 
 The control point of such a corner moves towards its inside, by a part of the bow `V·q''` by which the spline leaves it
-(`controls.py`), until the tolerance is used up. A zigzag becomes flatter, and what turns in one sense more even.
+(`controls.py`), until the tolerance is used up; back by some where its neighbours, which move too, take it too far. A
+zigzag becomes flatter, and what turns in one sense more even.
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ def level(path: Stretches, n: int, spline: Spline, pieces: int) -> None:
             if spline.room[k] > 0.0:
                 while e < last and path.way[e + 1] <= spline.way[k]:
                     e += 1
-                raise_part(path, n, spline, pieces, e, k)
+                move_on(path, n, spline, pieces, e, k)
         shape(spline, n, pieces)
 
 
@@ -45,7 +46,7 @@ def mark(spline: Spline, pieces: int) -> int:
     return found
 
 
-def raise_part(path: Stretches, n: int, spline: Spline, pieces: int, e: int, k: int) -> None:
+def move_on(path: Stretches, n: int, spline: Spline, pieces: int, e: int, k: int) -> None:
     """Move the control point of knot k on, at a corner before stretch e."""
     line2, turn = 0.0, 0.0
     for i in range(n):
@@ -59,9 +60,7 @@ def raise_part(path: Stretches, n: int, spline: Spline, pieces: int, e: int, k: 
         sqrt(line2) / min(tolerance_of(path, e), tolerance_of(path, before)),
         turn / min(turn_tolerance_of(path, e), turn_tolerance_of(path, before)),
     )
-    part = min(USED / max(used, 1e-9) - 1.0, MOST - spline.moved[k])
-    if part <= 0.0:
-        return
+    part = min(max(USED / max(used, 1e-9) - 1.0, -spline.moved[k]), MOST - spline.moved[k])
     spline.moved[k] += part
     low, high = spline.way[k] - knot(spline, pieces, k - 1), knot(spline, pieces, k + 1) - spline.way[k]
     bow = part * (low * low + high * high + (low + high) * (low + high)) / 36.0

@@ -11,12 +11,17 @@ from polycnc.motion.third_order.bends.controls import Spline
 from polycnc.motion.third_order.bends.stretches import LINE, Stretches, tolerance_of, turn_tolerance_of
 from polycnc.motion.third_order.bends.turning import Turning
 
-#: Where the tolerance is exceeded turning counts more by the part used, and by this.
-MORE, MOST = 1.015, 4.0
+#: Where the tolerance is exceeded turning counts more by this and so many times the excess, in every round more.
+MORE, RATE, MOST = 1.015, 1.2, 4.0
+#: Turning never counts more than this: what is not met then is not met because of the numbers' own steps.
+HEAVIEST = 50.0
 
 
-def weigh_excess(path: Stretches, n: int, spline: Spline, pieces: int, turning: Turning) -> int:
-    """Let the turning count more around places where the path is left by more than its tolerance; their number."""
+def weigh_excess(path: Stretches, n: int, spline: Spline, pieces: int, turning: Turning, number: int) -> int:
+    """Let the turning count more around places where the path is left by more than its tolerance; their number.
+
+    `number` is that of the round, from 0 on.
+    """
     e, k, last, found = 0, 0, len(path.form) - 1, 0
     raised = -1
     start = 0.0
@@ -28,7 +33,8 @@ def weigh_excess(path: Stretches, n: int, spline: Spline, pieces: int, turning: 
             used = part_used(path, n, spline, e, k, start, end)
             if used > 1.0:
                 found += 1
-                raised = raise_weights(path, spline, pieces, turning, e, k, used, raised)
+                factor = min(MORE + RATE * (number + 1.0) * (used - 1.0), MOST)
+                raised = raise_weights(path, spline, pieces, turning, e, k, factor, raised)
         start = end
         if e < last and path.way[e + 1] <= end:
             e += 1
@@ -75,16 +81,16 @@ def off(path: Stretches, n: int, spline: Spline, e: int, k: int, way: float, i: 
 
 
 def raise_weights(
-    path: Stretches, spline: Spline, pieces: int, turning: Turning, e: int, k: int, used: float, raised: int
+    path: Stretches, spline: Spline, pieces: int, turning: Turning, e: int, k: int, factor: float, raised: int
 ) -> int:
     """Let the turning of stretches around piece k count more, but for those up to `raised`; the last one that does."""
     start, end = spline.way[max(k - 1, 0)], spline.way[min(k + 2, pieces)]
-    factor, low, count = min(MORE * used, MOST), e, len(path.form)
+    low, count = e, len(path.form)
     while low > 0 and path.way[low] >= start:
         low -= 1
     while low < count and path.way[low] <= end:
         if low > raised:
-            turning.weight[low] *= factor
+            turning.weight[low] = min(turning.weight[low] * factor, HEAVIEST)
             raised = low
         low += 1
     return raised
