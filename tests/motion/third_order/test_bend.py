@@ -26,7 +26,7 @@ def test_random_paths_are_bent_within_their_tolerance(drawn: Drawn) -> None:
     lines, turns = parts_of_tolerance(drawn, legs)
     assert lines <= SURELY
     assert turns <= SURELY
-    assert legs[0].place[0].tolist() == path.place[:4].tolist()
+    assert legs[0].place[0].tolist() == list(path.place[:4])
     assert np.abs(legs[-1].place[-1] - drawn.path.position).max() < 1e-9
     for before, behind in pairwise(legs):
         assert np.abs(before.place[-1] - behind.place[0]).max() < 1e-9

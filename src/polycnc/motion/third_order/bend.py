@@ -66,7 +66,12 @@ def _bent(path: Stretches) -> BentPath:
     room = PER_STRETCH * count + BESIDES
     smooth, told = _whole(count + 1), _whole(3)
     while True:
-        turning = Turning(*(_numbers(count + 1) for _ in range(3)), array("d", (1.0,)) * count)
+        turning = Turning(
+            before=_numbers(count + 1),
+            behind=_numbers(count + 1),
+            area=_numbers(count + 1),
+            weight=array("d", (1.0,)) * count,
+        )
         samples = Samples(_numbers(room), _numbers(room), *(_whole(room) for _ in range(3)))
         spline = Spline(*(_numbers(room) for _ in range(3)), *(_numbers((room + 3) * n) for _ in range(4)))
         pieces = Pieces(_numbers(room), _whole(room))

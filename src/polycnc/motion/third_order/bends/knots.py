@@ -180,7 +180,11 @@ def knots_on_line(samples: Samples, k: int, count: int, knots: Floats, made: int
     if h + g < (1.0 - LITTLE) * length:
         knots[made], knots[made + 1] = start + h, end - g
         return made + 2
-    knots[made] = start + length * h / (h + g)
+    # The closer one keeps its distance, if it does not take more than half of the line.
+    if h <= g:
+        knots[made] = start + min(h, max(0.5 * length, length - g))
+    else:
+        knots[made] = end - min(g, max(0.5 * length, length - h))
     return made + 1
 
 
