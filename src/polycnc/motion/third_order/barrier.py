@@ -189,6 +189,8 @@ def _barriers(nodes: Nodes, axes: Axes, k: int, last: int, weight: float, bands:
     gx = gs = gb = hxx = hxs = hxb = hss = hsb = hbb = 0.0
     n = len(axes.jerk)
     cap, soft = nodes.cap2[k], SOFT * weight
+    rises = behind - nodes.way[k] if slope > 0.0 else nodes.way[k] - before
+    wide = room / sqrt(x + 0.25 * rises * abs(slope))  # in the quicker half of the cell
     slope_of, bend_of = _force(cap - x, LEVEL * soft * cap)
     gx -= LEVEL * slope_of
     hxx += LEVEL * bend_of
@@ -210,8 +212,8 @@ def _barriers(nodes: Nodes, axes: Axes, k: int, last: int, weight: float, bands:
         third, extra = nodes.shape[at + Shape.THIRD], nodes.shape[at + Shape.THIRD_RANGE]
         first, second = ratio * first, 1.5 * ratio * second
         sum_ = first * bend + second * slope + third * x
-        wide = room / root
-        top, falls = wide - extra * x, 0.5 * wide / x + extra
+        top = wide - extra * x - 1.5 * ratio * nodes.shape[at + Shape.SECOND_RANGE] * abs(slope)
+        falls = 0.5 * wide / x + extra
         plus, plus2 = _force(top - sum_, soft / root)
         minus, minus2 = _force(top + sum_, soft / root)
         both, odd, even = plus - minus, minus2 - plus2, plus2 + minus2

@@ -14,9 +14,9 @@ from polycnc.motion.third_order.courses import Axes, Course, Ends, Nodes, Shape
 
 #: Distance of nodes where the acceleration changes, in parts of the time that an axis takes to build it up.
 CLOSE = 0.08
-#: What the distance grows by with time; the part of the acceleration whose change wants the closest nodes; how far
-#: around a change nodes stay close, in parts of the time to build the acceleration up.
-GROWTH, CHANGE, AROUND = 0.25, 0.15, 1.2
+#: What the distance grows by with time; the part of the acceleration whose change wants the closest nodes; what q' may
+#: change by from node to node.
+GROWTH, CHANGE, TURN = 0.06, 0.15, 0.06
 #: Nodes at least.
 FEWEST = 16
 #: Parts of a stretch of a piece, mm, of no account.
@@ -77,7 +77,7 @@ def pull_at(course: Course, axes: Axes, k: int, sign: float) -> float:
     return max(left, LEFT * least)
 
 
-def cut(course: Course, axes: Axes, places: Floats, squares: Floats) -> int:
+def cut(course: Course, axes: Axes, places: Floats, squares: Floats, gaps: Floats) -> int:
     """Cut every piece where the estimate begins or ends to accelerate; gives the number of places found.
 
     Args:
@@ -85,12 +85,15 @@ def cut(course: Course, axes: Axes, places: Floats, squares: Floats) -> int:
         axes: Their limits.
         places: The way at the places, for 3·m + 1 of them.
         squares: The square of the speed there.
+        gaps: Largest distance of nodes there by the turn of the path, s.
     """
-    m = len(course.cap2)
-    places[0], squares[0] = course.way[0], course.x[0]
+    n, m = len(axes.pull), len(course.cap2)
+    places[0], squares[0], gaps[0] = course.way[0], course.x[0], inf
     count = 1
     for k in range(m):
-        begin, end = course.way[k], course.way[k + 1]
+        begin, end, bend = course.way[k], course.way[k + 1], 1e-9
+        for i in range(n):
+            bend = max(bend, abs(course.second[k * n + i]), abs(course.second[k * n + n + i]))
         here, there, cap = course.x[k], course.x[k + 1], course.low2[k]
         if cap > max(here, there):
             up, down = 2.0 * pull_at(course, axes, k, 1.0), 2.0 * pull_at(course, axes, k + 1, -1.0)
@@ -100,12 +103,12 @@ def cut(course: Course, axes: Axes, places: Floats, squares: Floats) -> int:
                 fall = end - begin - rise
                 cap = here + up * rise
             if rise > 1e-3 * (end - begin) and fall > 1e-3 * (end - begin):
-                places[count], squares[count] = begin + rise, cap
+                places[count], squares[count], gaps[count] = begin + rise, cap, TURN / bend / sqrt(cap)
                 count += 1
                 if end - fall > begin + rise + SLIVER:
-                    places[count], squares[count] = end - fall, cap
+                    places[count], squares[count], gaps[count] = end - fall, cap, TURN / bend / sqrt(cap)
                     count += 1
-        places[count], squares[count] = end, there
+        places[count], squares[count], gaps[count] = end, there, TURN / bend / max(sqrt(there), 1e-9)
         count += 1
     return count
 
@@ -121,7 +124,7 @@ def spread(
         count: Number of places that `cut` found.
         places: The way at them.
         squares: The square of the speed there.
-        gaps: For the distance of nodes at them, s.
+        gaps: Their distances by the turn of the path; become the distances of nodes there.
         nodes: The way at the nodes, if there is room; the number is right in any case.
     """
     build = pull = 0.0
@@ -138,7 +141,7 @@ def spread(
             0.5 * (squares[k + 1] - squares[k]) / (places[k + 1] - places[k]) if k < count - 1 else 0.0
         )
         change = abs(behind - before) / (CHANGE * pull)
-        own = close / min(1.0, max(change, 1e-3)) - GROWTH * AROUND * build
+        own = min(gaps[k], close / min(1.0, max(change, 1e-3)))
         if k > 0:
             gap += GROWTH * _seconds(places, squares, k - 1)
         gap = min(own, gap)
@@ -146,13 +149,13 @@ def spread(
         before = behind
     for k in range(count - 2, -1, -1):
         gaps[k] = min(gaps[k], gaps[k + 1] + GROWTH * _seconds(places, squares, k))
-    return _walk(count, places, squares, gaps, close, nodes)
+    return _walk(count, places, squares, gaps, nodes)
 
 
-def _walk(count: int, places: Floats, squares: Floats, gaps: Floats, close: float, nodes: Floats) -> int:
+def _walk(count: int, places: Floats, squares: Floats, gaps: Floats, nodes: Floats) -> int:
     """Set nodes one after another, each as far from the one before as the gap there says."""
     nodes[0] = places[0]
-    number, passed, gap = 1, 0.0, max(gaps[0], close)  # `passed` since the last node
+    number, passed, gap = 1, 0.0, gaps[0]  # `passed` since the last node
     for k in range(count - 1):
         time, at = _seconds(places, squares, k), 0.0
         speed = sqrt(squares[k])
@@ -163,7 +166,7 @@ def _walk(count: int, places: Floats, squares: Floats, gaps: Floats, close: floa
             if number < len(nodes):
                 nodes[number] = min(max(places[k] + at * (speed + 0.5 * at * pull), places[k]), places[k + 1])
             number += 1
-            gap = max(close, min(gaps[k] + GROWTH * at, gaps[k + 1] + GROWTH * (time - at)))
+            gap = min(gaps[k] + GROWTH * at, gaps[k + 1] + GROWTH * (time - at))
         passed += time - at
     if passed < 0.5 * gap and number > 2:
         number -= 1
