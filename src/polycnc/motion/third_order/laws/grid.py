@@ -10,7 +10,7 @@ from __future__ import annotations
 from math import inf, sqrt
 
 from polycnc.kernels.layout import Floats
-from polycnc.motion.third_order.courses import Axes, Course, Ends, Nodes, Shape
+from polycnc.motion.third_order.laws.courses import Axes, Course, Ends, Nodes, Shape
 
 #: Distance of nodes where the acceleration changes, in parts of the time that an axis takes to build it up.
 CLOSE = 0.08
@@ -35,7 +35,9 @@ def estimate(course: Course, axes: Axes, ends: Floats) -> None:
     for k in range(1, m):
         course.x[k] = min(course.low2[k - 1], course.low2[k])
     for k in range(m - 1, 0, -1):
-        most = course.x[k + 1] + 2.0 * (course.way[k + 1] - course.way[k]) * pull_at(course, axes, k + 1, -1.0)
+        most = course.x[k + 1] + 2.0 * (course.way[k + 1] - course.way[k]) * pull_at(
+            course, axes, k + 1, -1.0
+        )
         course.x[k] = min(course.x[k], most)
     for k in range(1, m):
         most = course.x[k - 1] + 2.0 * (course.way[k] - course.way[k - 1]) * pull_at(course, axes, k - 1, 1.0)
@@ -49,7 +51,9 @@ def _cap(course: Course, axes: Axes, k: int, n: int) -> float:
     for i in range(n):
         here, there = course.second[k * n + i], course.second[k * n + n + i]
         third = abs(there - here) / step
-        first = max(abs(course.first[k * n + i]), abs(course.first[k * n + n + i])) + 0.125 * third * step * step
+        first = (
+            max(abs(course.first[k * n + i]), abs(course.first[k * n + n + i])) + 0.125 * third * step * step
+        )
         speed = max(speed, first / axes.speed[i])
         bend = max(bend, max(abs(here), abs(there)) / axes.pull[i])
         twist = max(twist, third / axes.jerk[i])
@@ -137,9 +141,7 @@ def spread(
     close = min(CLOSE * build, whole / FEWEST)
     before, gap = 0.0, inf
     for k in range(count):
-        behind = (
-            0.5 * (squares[k + 1] - squares[k]) / (places[k + 1] - places[k]) if k < count - 1 else 0.0
-        )
+        behind = 0.5 * (squares[k + 1] - squares[k]) / (places[k + 1] - places[k]) if k < count - 1 else 0.0
         change = abs(behind - before) / (CHANGE * pull)
         own = min(gaps[k], close / min(1.0, max(change, 1e-3)))
         if k > 0:
@@ -221,7 +223,9 @@ def _gather_axis(
     step = nodes.way[k] - course.way[at]
     bend = course.second[at * n + i]
     third = (course.second[at * n + n + i] - bend) / (course.way[at + 1] - course.way[at])
-    nodes.shape[shape + Shape.FIRST] = (course.first[at * n + i] + step * (bend + 0.5 * step * third)) / axes.pull[i]
+    nodes.shape[shape + Shape.FIRST] = (
+        course.first[at * n + i] + step * (bend + 0.5 * step * third)
+    ) / axes.pull[i]
     bend_low = bend_high = bend + step * third
     third_low, third_high = inf, -inf
     for p in range(low, high + 1):

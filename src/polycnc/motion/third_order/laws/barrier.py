@@ -17,7 +17,7 @@ from __future__ import annotations
 from math import sqrt
 
 from polycnc.kernels.layout import Floats
-from polycnc.motion.third_order.courses import Axes, Ends, Nodes, Shape, Stencil
+from polycnc.motion.third_order.laws.courses import Axes, Ends, Nodes, Shape, Stencil
 
 #: Parts of x that one step may take away and add.
 FALL, RISE = 0.7, 3.0
@@ -127,30 +127,31 @@ def value(nodes: Nodes, k: int) -> tuple[float, float, float]:
     )
 
 
-def improve(nodes: Nodes, axes: Axes, weight: float, bands: Floats) -> None:
-    """One step of Newton's method for all x but those at both ends.
+def improve(nodes: Nodes, axes: Axes, weight: float, bands: Floats, first: int, last: int) -> None:
+    """One step of Newton's method for all x between two nodes, which keep theirs.
 
     Args:
         nodes: Their x becomes a better one.
         axes: Limits.
         weight: Of the barriers.
         bands: For `BANDS` numbers a node: three diagonals and the right side, then the step.
+        first: The one node.
+        last: The other one.
     """
-    last = len(nodes.x) - 1
-    for i in range(BANDS * (last + 1)):
+    for i in range(BANDS * first, BANDS * (last + 1)):
         bands[i] = 0.0
-    for k in range(last):
-        _time(nodes, k, last, bands)
-    for k in range(last + 1):
+    for k in range(first, last):
+        _time(nodes, k, bands)
+    for k in range(first, last + 1):
         if nodes.stencil[k * Stencil.SIZE + Stencil.VALUE + 1] > 0.0:
-            _barriers(nodes, axes, k, last, weight, bands)
-    _solve(bands, last)
-    for k in range(1, last):
+            _barriers(nodes, axes, k, first, last, weight, bands)
+    _solve(bands, first, last)
+    for k in range(first + 1, last):
         here = nodes.x[k]
         nodes.x[k] = here + min(max(bands[BANDS * k + 3], -FALL * here), RISE * here)
 
 
-def _time(nodes: Nodes, k: int, last: int, bands: Floats) -> None:
+def _time(nodes: Nodes, k: int, bands: Floats) -> None:
     """Slope and bend of the time between two nodes, `2·h/(√x + √y)`; beside rest it is 3/2 of that."""
     step, here, there = nodes.way[k + 1] - nodes.way[k], sqrt(nodes.x[k]), sqrt(nodes.x[k + 1])
     if here == 0.0 or there == 0.0:
@@ -178,12 +179,12 @@ def _force(slack: float, soft: float) -> tuple[float, float]:
     return (2.0 - slack * inverse) * inverse, inverse * inverse
 
 
-def _barriers(nodes: Nodes, axes: Axes, k: int, last: int, weight: float, bands: Floats) -> None:
+def _barriers(nodes: Nodes, axes: Axes, k: int, first: int, last: int, weight: float, bands: Floats) -> None:
     """Add slopes and bends of the barriers of a node, in x, x' and x'' there, and then in x at three nodes."""
     x, slope, bend = value(nodes, k)
-    x = max(x, 1e-12)
+    x = max(x, 1e-18)
     root = sqrt(x)
-    before, behind = nodes.way[max(k - 1, 0)], nodes.way[min(k + 1, last)]
+    before, behind = nodes.way[max(k - 1, 0)], nodes.way[min(k + 1, len(nodes.x) - 1)]
     own = weight * 0.5 * (behind - before) / root
     room = nodes.room[k]
     gx = gs = gb = hxx = hxs = hxb = hss = hsb = hbb = 0.0
@@ -197,21 +198,21 @@ def _barriers(nodes: Nodes, axes: Axes, k: int, last: int, weight: float, bands:
     for i in range(n):
         at = (k * n + i) * Shape.SIZE
         ratio = axes.pull[i] / axes.jerk[i]
-        first, second = 0.5 * nodes.shape[at + Shape.FIRST], nodes.shape[at + Shape.SECOND]
+        turn, second = 0.5 * nodes.shape[at + Shape.FIRST], nodes.shape[at + Shape.SECOND]
         extra = nodes.shape[at + Shape.SECOND_RANGE]
-        sum_, top = first * slope + second * x, room - extra * x
+        sum_, top = turn * slope + second * x, room - extra * x
         plus, plus2 = _force(top - sum_, soft)
         minus, minus2 = _force(top + sum_, soft)
         both, odd, even = plus - minus, minus2 - plus2, plus2 + minus2
-        # the slack top ∓ sum has the slope -extra ∓ second by x, ∓ first by x'
+        # the slack top ∓ sum has the slope -extra ∓ second by x, ∓ turn by x'
         gx += -second * both - extra * (plus + minus)
-        gs -= first * both
+        gs -= turn * both
         hxx += even * (extra * extra + second * second) - 2.0 * odd * extra * second
-        hxs += first * (even * second - odd * extra)
-        hss += even * first * first
+        hxs += turn * (even * second - odd * extra)
+        hss += even * turn * turn
         third, extra = nodes.shape[at + Shape.THIRD], nodes.shape[at + Shape.THIRD_RANGE]
-        first, second = ratio * first, 1.5 * ratio * second
-        sum_ = first * bend + second * slope + third * x
+        turn, second = ratio * turn, 1.5 * ratio * second
+        sum_ = turn * bend + second * slope + third * x
         top = wide - extra * x - 1.5 * ratio * nodes.shape[at + Shape.SECOND_RANGE] * abs(slope)
         falls = 0.5 * wide / x + extra
         plus, plus2 = _force(top - sum_, soft / root)
@@ -219,19 +220,20 @@ def _barriers(nodes: Nodes, axes: Axes, k: int, last: int, weight: float, bands:
         both, odd, even = plus - minus, minus2 - plus2, plus2 + minus2
         gx += -third * both - falls * (plus + minus)
         gs -= second * both
-        gb -= first * both
+        gb -= turn * both
         hxx += even * (falls * falls + third * third) - 2.0 * odd * falls * third
         hxs += second * (even * third - odd * falls)
-        hxb += first * (even * third - odd * falls)
+        hxb += turn * (even * third - odd * falls)
         hss += even * second * second
-        hsb += even * first * second
-        hbb += even * first * first
-    _add(nodes, k, last, own, (gx, gs, gb, hxx, hxs, hxb, hss, hsb, hbb), bands)
+        hsb += even * turn * second
+        hbb += even * turn * turn
+    _add(nodes, k, first, last, own, (gx, gs, gb, hxx, hxs, hxb, hss, hsb, hbb), bands)
 
 
 def _add(
     nodes: Nodes,
     k: int,
+    first: int,
     last: int,
     own: float,
     found: tuple[float, float, float, float, float, float, float, float, float],
@@ -242,7 +244,7 @@ def _add(
     s, at = nodes.stencil, k * Stencil.SIZE
     for p in range(3):
         row = k - 1 + p
-        if 0 <= row <= last:
+        if first <= row <= last:
             v, d, b = s[at + Stencil.VALUE + p], s[at + Stencil.SLOPE + p], s[at + Stencil.BEND + p]
             bands[BANDS * row + 3] += own * (gx * v + gs * d + gb * b)
             x = own * (hxx * v + hxs * d + hxb * b)
@@ -257,15 +259,15 @@ def _add(
                     )
 
 
-def _solve(bands: Floats, last: int) -> None:
+def _solve(bands: Floats, first: int, last: int) -> None:
     """The step of Newton's method, into the last number of each node: a matrix of five diagonals as L·D·Lᵀ."""
-    for k in (0, last):
+    for k in (first, last):
         bands[BANDS * k] = 1.0
         bands[BANDS * k + 1] = bands[BANDS * k + 2] = bands[BANDS * k + 3] = 0.0
     bands[BANDS * (last - 1) + 1] = 0.0
-    if last > 1:
+    if last - first > 1:
         bands[BANDS * (last - 2) + 2] = 0.0
-    for k in range(last + 1):
+    for k in range(first, last + 1):
         at = BANDS * k
         own = bands[at]
         if k + 1 <= last:
@@ -277,7 +279,7 @@ def _solve(bands: Floats, last: int) -> None:
                 far = bands[at + 2] / own
                 bands[at + 2 * BANDS] -= far * bands[at + 2]
                 bands[at + 2 * BANDS + 3] -= far * bands[at + 3]
-    for k in range(last, -1, -1):
+    for k in range(last, first - 1, -1):
         at = BANDS * k
         rest = bands[at + 3]
         if k + 1 <= last:
@@ -287,7 +289,9 @@ def _solve(bands: Floats, last: int) -> None:
         bands[at + 3] = rest / bands[at]
 
 
-def begin(places: Floats, squares: Floats, count: int, nodes: Nodes, axes: Axes, ends: Floats, share: float) -> None:
+def begin(
+    places: Floats, squares: Floats, count: int, nodes: Nodes, axes: Axes, ends: Floats, share: float
+) -> None:
     """A first x at the nodes: a share of the estimate, and from rest no more than the jerk allows."""
     last, at = len(nodes.way) - 1, 0
     for k in range(last + 1):
@@ -297,20 +301,26 @@ def begin(places: Floats, squares: Floats, count: int, nodes: Nodes, axes: Axes,
         part = (way - places[at]) / (places[at + 1] - places[at])
         nodes.x[k] = share * (squares[at] + part * (squares[at + 1] - squares[at]))
         nodes.room[k] = 1.0
-    nodes.x[0], nodes.x[last] = ends[Ends.START_SPEED] ** 2, ends[Ends.END_SPEED] ** 2
+    # the control values at both ends, from which the spline has the speed and the acceleration there
+    nodes.x[0] = ends[Ends.START_SPEED] ** 2 + 0.5 * ends[Ends.START_PULL] * (nodes.way[1] - nodes.way[0])
+    nodes.x[last] = ends[Ends.END_SPEED] ** 2 - 0.5 * ends[Ends.END_PULL] * (
+        nodes.way[last] - nodes.way[last - 1]
+    )
     for k in range(1, last):
         if ends[Ends.START_SPEED] == 0.0:
             _from_rest(nodes, axes, k, 1, nodes.way[k] - nodes.way[0], share)
         if ends[Ends.END_SPEED] == 0.0:
             _from_rest(nodes, axes, k, last - 1, nodes.way[last] - nodes.way[k], share)
-        nodes.x[k] = max(nodes.x[k], 1e-9)
+        nodes.x[k] = max(nodes.x[k], 1e-15)
 
 
 def _from_rest(nodes: Nodes, axes: Axes, k: int, beside: int, way: float, share: float) -> None:
     """Bound x by a jerk from rest on."""
     n, most = len(axes.jerk), 1e-12
     for i in range(n):
-        most = max(most, abs(nodes.shape[(k * n + i) * Shape.SIZE + Shape.FIRST]) * axes.pull[i] / axes.jerk[i])
+        most = max(
+            most, abs(nodes.shape[(k * n + i) * Shape.SIZE + Shape.FIRST]) * axes.pull[i] / axes.jerk[i]
+        )
     top = (4.5 / most * way * way) ** (2.0 / 3.0)
     nodes.x[k] = min(nodes.x[k], share * top)
     if k == beside:

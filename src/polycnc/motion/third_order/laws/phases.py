@@ -13,8 +13,8 @@ from __future__ import annotations
 from math import sqrt
 
 from polycnc.kernels.layout import Floats
-from polycnc.motion.third_order.barrier import value
-from polycnc.motion.third_order.courses import Axes, Course, Nodes, Phase
+from polycnc.motion.third_order.laws.barrier import value
+from polycnc.motion.third_order.laws.courses import Axes, Course, Nodes, Phase
 
 #: Phases between two nodes.
 PAIR = 2
@@ -22,35 +22,33 @@ PAIR = 2
 HALVINGS, KEPT = 6, 1.0 + 1e-7
 
 
-def lay_phases(nodes: Nodes, phases: Floats) -> float:
-    """Phases between all nodes, `PAIR` for each; one of them may last no time. Gives the seconds that they take."""
-    last = len(nodes.x) - 1
-    speed, pull, whole = 0.0, 0.0, 0.0
-    for k in range(last + 1):
+def lay_phases(nodes: Nodes, phases: Floats, first: int, last: int) -> None:
+    """Phases between two nodes, `PAIR` from each one to the next; one of them may last no time."""
+    speed = pull = 0.0
+    for k in range(first, last + 1):
         if nodes.x[k] > 0.0:
             x, slope, _ = value(nodes, k)
-            there, new = sqrt(max(x, 1e-12)), 0.5 * slope
+            there, new = sqrt(max(x, 1e-18)), 0.5 * slope
         else:
             there = new = 0.0
-        if k > 0:
-            whole += _pair(nodes, k - 1, speed, pull, there, new, phases)
+        if k > first:
+            _pair(nodes, k - 1, speed, pull, there, new, phases)
         speed, pull = there, new
-    return whole
 
 
-def _pair(nodes: Nodes, k: int, speed: float, pull: float, there: float, new: float, phases: Floats) -> float:
+def _pair(nodes: Nodes, k: int, speed: float, pull: float, there: float, new: float, phases: Floats) -> None:
     """The phases between a node and the next one."""
     way, step, at = nodes.way[k], nodes.way[k + 1] - nodes.way[k], PAIR * Phase.SIZE * k
     if speed == 0.0:
         time = 3.0 * step / there
         _set(phases, at, time, way, 0.0, 0.0, 2.0 * there / (time * time))
         _set(phases, at + Phase.SIZE, 0.0, nodes.way[k + 1], there, 2.0 * there / time, 0.0)
-        return time
+        return
     if there == 0.0:
         time = 3.0 * step / speed
         _set(phases, at, time, way, speed, -2.0 * speed / time, 2.0 * speed / (time * time))
         _set(phases, at + Phase.SIZE, 0.0, nodes.way[k + 1], 0.0, 0.0, 0.0)
-        return time
+        return
     both, more = speed + there, new - pull
     root = sqrt(max(both * both - 4.0 / 3.0 * more * step, 0.0))
     time = 2.0 * step / (both + root)
@@ -60,7 +58,6 @@ def _pair(nodes: Nodes, k: int, speed: float, pull: float, there: float, new: fl
     gone = time * (speed + time * (0.5 * pull + time * first / 6.0))
     fast = speed + time * (pull + 0.5 * time * first)
     _set(phases, at + Phase.SIZE, time, way + gone, fast, middle, second)
-    return 2.0 * time
 
 
 def _set(phases: Floats, at: int, time: float, way: float, speed: float, pull: float, jerk: float) -> None:
@@ -71,7 +68,7 @@ def _set(phases: Floats, at: int, time: float, way: float, speed: float, pull: f
     phases[at + Phase.JERK] = jerk
 
 
-def examine(course: Course, axes: Axes, phases: Floats, most: Floats) -> None:
+def examine(course: Course, axes: Axes, phases: Floats, most: Floats, begin: int, end: int) -> None:
     """The largest parts of speed, acceleration and jerk that are used on every phase.
 
     Args:
@@ -79,20 +76,27 @@ def examine(course: Course, axes: Axes, phases: Floats, most: Floats) -> None:
         axes: Limits.
         phases: The law.
         most: For three numbers a phase: bounds of the parts used of the square of the speed, of acceleration and jerk.
+        begin: The first phase to look at.
+        end: The one behind the last.
     """
     m, p = len(course.cap2), 0
-    for k in range(len(phases) // Phase.SIZE):
+    high = m
+    while high - p > 1:  # the piece of the first phase
+        middle = (p + high) // 2
+        p, high = (
+            (middle, high) if course.way[middle] <= phases[begin * Phase.SIZE + Phase.WAY] else (p, middle)
+        )
+    for k in range(begin, end):
         at = k * Phase.SIZE
         most[3 * k] = most[3 * k + 1] = most[3 * k + 2] = 0.0
         time = phases[at + Phase.TIME]
         if time <= 0.0:
             continue
-        end = phases[at + Phase.WAY] + _gone(phases, at, time)
-        begin, now = phases[at + Phase.WAY], 0.0
-        while p < m - 1 and course.way[p + 1] <= begin:
+        there, now = phases[at + Phase.WAY] + _gone(phases, at, time), 0.0
+        while p < m - 1 and course.way[p + 1] <= phases[at + Phase.WAY]:
             p += 1
         while True:
-            last = p >= m - 1 or course.way[p + 1] >= end
+            last = p >= m - 1 or course.way[p + 1] >= there
             until = time if last else _reached(phases, at, now, course.way[p + 1])
             _piece(course, axes, phases, at, p, now, until, most, 3 * k)
             if last:
@@ -132,7 +136,15 @@ def _reached(phases: Floats, at: int, now: float, way: float) -> float:
 
 
 def _piece(
-    course: Course, axes: Axes, phases: Floats, at: int, p: int, now: float, until: float, most: Floats, to: int
+    course: Course,
+    axes: Axes,
+    phases: Floats,
+    at: int,
+    p: int,
+    now: float,
+    until: float,
+    most: Floats,
+    to: int,
 ) -> None:
     """Raise the bounds by what a piece needs in a part of a phase."""
     top = 1.0 / course.cap2[p]
@@ -178,7 +190,9 @@ def _used(
         turn, turn2 = first + way * (second + 0.5 * third * way), first + way2 * (second + 0.5 * third * way2)
         used = max(abs(turn * pull + bend * speed * speed), abs(turn2 * pull2 + bend2 * speed2 * speed2))
         bent, twist = max(abs(bend), abs(bend2)), abs(third)
-        more = eighth * (4.0 * bent * fast * hard + 3.0 * bent * most_pull**2 + 6.0 * twist * fast**2 * most_pull)
+        more = eighth * (
+            4.0 * bent * fast * hard + 3.0 * bent * most_pull**2 + 6.0 * twist * fast**2 * most_pull
+        )
         high_a, bound_a = max(high_a, used / axes.pull[i]), max(bound_a, (used + more) / axes.pull[i])
         used = max(
             abs(turn * jerk + speed * (3.0 * bend * pull + third * speed * speed)),
