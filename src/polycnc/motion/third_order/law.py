@@ -52,7 +52,7 @@ class JerkLaw:
     length: float
 
     def at(self, times: Numbers) -> tuple[Numbers, Numbers, Numbers, Numbers]:
-        """Way, speed, acceleration and jerk at times, each (q,); before and behind the law as at its ends, without jerk."""
+        """Way, speed, acceleration and jerk at times, each (q,); before and behind as at the ends, without jerk."""
         import numpy as np
 
         k = np.clip(np.searchsorted(self.start, times, "right") - 1, 0, len(self.start) - 1)
@@ -101,8 +101,8 @@ def quickest_law(
 ) -> JerkLaw:
     """The law that gets along a path as quickly as velocity, acceleration and jerk of every axis allow.
 
-    It is close to the least time, not it: barriers keep a small distance from the limits (`laws/barrier.py`). That the limits are
-    kept, to a part in a million, is proved piece by piece for all moments (`laws/phases.py`).
+    It is close to the least time, not it: barriers keep a small distance from the limits (`laws/barrier.py`). That the
+    limits are kept, to a part in a million, is proved piece by piece for all moments (`laws/phases.py`).
 
     Args:
         path: The path of n axes.

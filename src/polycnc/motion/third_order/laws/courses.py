@@ -45,9 +45,9 @@ class Ends(Places):
 
 
 class Shape(Places):
-    """What a node knows of one axis on its cell, in parts of the limits: q', q'' and q''' as middle and half their range.
+    """What a node knows of one axis on its cell: q' at the node, the middles and half the ranges of q'' and q'''.
 
-    With pull a and jerk j: q'/a, q''/a, q'''/j; κ·q'/a = q'/j.
+    They are parts of the limits: q' and q'' of the acceleration, q''' of the jerk.
     """
 
     FIRST = place()

@@ -117,14 +117,11 @@ def cut(course: Course, axes: Axes, places: Floats, squares: Floats, gaps: Float
     return count
 
 
-def spread(
-    course: Course, axes: Axes, count: int, places: Floats, squares: Floats, gaps: Floats, nodes: Floats
-) -> int:
+def spread(axes: Axes, count: int, places: Floats, squares: Floats, gaps: Floats, nodes: Floats) -> int:
     """Spread nodes over a path; gives their number.
 
     Args:
-        course: The path.
-        axes: Their limits.
+        axes: Limits.
         count: Number of places that `cut` found.
         places: The way at them.
         squares: The square of the speed there.

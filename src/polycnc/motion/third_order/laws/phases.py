@@ -1,11 +1,12 @@
 """From the speed at nodes to phases of constant jerk, and the sure proof that every axis keeps its limits on them.
 
-Between two nodes lie two phases of equal time t. They bring the way Δs, the change of speed Δv and the change of acceleration
-Δu exactly: `Δu/3·t² - (v + v')·t + Δs = 0`. Beside rest one phase is enough: the way grows with the third power of time.
+Between two nodes lie two phases of equal time t. They bring the way Δs, the change of speed Δv and the change of
+acceleration Δu exactly: `Δu/3·t² - (v + v')·t + Δs = 0`. Beside rest one phase is enough: the way grows with the third
+power of time.
 
-On a phase and a piece acceleration and jerk of an axis are polynomials in time. Linear between both ends they are wrong by
-at most an eighth of their largest second derivative by time times the square of the time between; where this is too
-coarse, the time is halved.
+On a phase and a piece acceleration and jerk of an axis are polynomials in time. Linear between both ends they are wrong
+by at most an eighth of their largest second derivative by time times the square of the time between; where this is
+too coarse, the time is halved.
 """
 
 from __future__ import annotations
@@ -18,8 +19,9 @@ from polycnc.motion.third_order.laws.courses import Axes, Course, Nodes, Phase
 
 #: Phases between two nodes.
 PAIR = 2
-#: How often the time is halved at most, and what counts as kept without looking closer.
-HALVINGS, KEPT = 6, 1.0 + 1e-7
+#: How often the time is halved at most; what counts as kept without looking closer; how far above the values at both
+#: ends a bound may be.
+HALVINGS, KEPT, CLOSE_BY = 6, 1.0 + 1e-7, 0.002
 
 
 def lay_phases(nodes: Nodes, phases: Floats, first: int, last: int) -> None:
@@ -148,17 +150,15 @@ def _piece(
 ) -> None:
     """Raise the bounds by what a piece needs in a part of a phase."""
     top = 1.0 / course.cap2[p]
-    done, parts = 0, 1  # of 2^HALVINGS small parts of the time
     whole = 1 << HALVINGS
-    parts = whole
+    done, parts = 0, whole  # small parts of the time
     while done < whole:
         begin, end = now + (until - now) * (done / whole), now + (until - now) * ((done + parts) / whole)
         used = _used(course, axes, phases, at, p, begin, end, top)
-        if parts > 1 and (used[0] > KEPT or used[1] > KEPT or used[2] > KEPT):
-            # closer, unless an end itself is as bad
-            if max(used[0] - used[3], used[1] - used[4], used[2] - used[5]) > 0.002:
-                parts //= 2
-                continue
+        above = max(used[0] - used[3], used[1] - used[4], used[2] - used[5])
+        if parts > 1 and above > CLOSE_BY and max(used[0], used[1], used[2]) > KEPT:
+            parts //= 2
+            continue
         most[to] = max(most[to], used[0])
         most[to + 1] = max(most[to + 1], used[1])
         most[to + 2] = max(most[to + 2], used[2])

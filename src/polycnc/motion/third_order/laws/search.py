@@ -38,7 +38,7 @@ def place_nodes(
     estimate(course, axes, ends)
     count = cut(course, axes, places, squares, gaps)
     places[len(places) - 1] = float(count)
-    return spread(course, axes, count, places, squares, gaps, nodes)
+    return spread(axes, count, places, squares, gaps, nodes)
 
 
 def find_law(
@@ -54,8 +54,8 @@ def find_law(
 ) -> int:
     """Find the quickest law at nodes, as phases of constant jerk; gives the rounds of repairs that it took.
 
-    Where after all rounds a limit is exceeded still, a law from rest to rest is stretched in time as a whole, which keeps it for
-    sure; from or to a motion there is none, and -1 is given.
+    Where after all rounds a limit is exceeded still, a law from rest to rest is stretched in time as a whole, which
+    keeps it for sure; from or to a motion there is none, and -1 is given.
 
     Args:
         course: The path, as `place_nodes` left it.
@@ -105,7 +105,7 @@ def _over(most: Floats, k: int) -> float:
 def _repair(
     course: Course, axes: Axes, nodes: Nodes, bands: Floats, phases: Floats, most: Floats, rounds: int
 ) -> bool:
-    """Take room away around every place where a limit is exceeded, and look for x anew there; says whether there was one."""
+    """Take room away around every place where a limit is exceeded, look for x anew there; says whether one was."""
     last, k, any_ = len(nodes.way) - 1, 0, False
     while k < last:
         over = _over(most, k)
