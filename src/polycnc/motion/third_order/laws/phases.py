@@ -97,14 +97,41 @@ def examine(course: Course, axes: Axes, phases: Floats, most: Floats, begin: int
         there, now = phases[at + Phase.WAY] + _gone(phases, at, time), 0.0
         while p < m - 1 and course.way[p + 1] <= phases[at + Phase.WAY]:
             p += 1
+        pull, jerk = phases[at + Phase.PULL], phases[at + Phase.JERK]
+        speed, hard = phases[at + Phase.SPEED], max(abs(pull), abs(pull + time * jerk))
+        fast = max(speed, speed + time * (pull + 0.5 * time * jerk)) + 0.125 * time * time * abs(jerk)
         while True:
             last = p >= m - 1 or course.way[p + 1] >= there
-            until = time if last else _reached(phases, at, now, course.way[p + 1])
-            _piece(course, axes, phases, at, p, now, until, most, 3 * k)
+            if not _roughly(course, axes, p, fast, hard, abs(jerk), most, 3 * k):
+                if course.way[p] > phases[at + Phase.WAY]:
+                    now = _reached(phases, at, now, course.way[p])
+                until = time if last else _reached(phases, at, now, course.way[p + 1])
+                _piece(course, axes, phases, at, p, now, until, most, 3 * k)
             if last:
                 break
-            now = until
             p += 1
+
+
+def _roughly(
+    course: Course, axes: Axes, p: int, fast: float, hard: float, jerk: float, most: Floats, to: int
+) -> bool:
+    """Whether a piece keeps all limits even if the highest speed, acceleration and jerk of a phase come together."""
+    n, step = len(axes.jerk), course.way[p + 1] - course.way[p]
+    square = fast * fast
+    high, high_a, high_j = square / course.cap2[p], 0.0, 0.0
+    for i in range(n):
+        here, there = course.second[p * n + i], course.second[p * n + n + i]
+        third, bend = abs(there - here) / step, max(abs(here), abs(there))
+        turn = (
+            max(abs(course.first[p * n + i]), abs(course.first[p * n + n + i])) + 0.125 * third * step * step
+        )
+        high_a = max(high_a, (turn * hard + bend * square) / axes.pull[i])
+        high_j = max(high_j, (turn * jerk + fast * (3.0 * bend * hard + third * square)) / axes.jerk[i])
+    if high > 1.0 or high_a > 1.0 or high_j > 1.0:
+        return False
+    most[to], most[to + 1] = max(most[to], high), max(most[to + 1], high_a)
+    most[to + 2] = max(most[to + 2], high_j)
+    return True
 
 
 def _gone(phases: Floats, at: int, time: float) -> float:
