@@ -47,7 +47,7 @@ class BentPath:
 
     @cached_property
     def third(self) -> Numbers:
-        """q''' on each piece, (m, n)."""
+        """The third derivative q''' on each piece, (m, n)."""
         import numpy as np
 
         change: Numbers = np.diff(self.second, axis=0) / np.diff(self.way)[:, None]
