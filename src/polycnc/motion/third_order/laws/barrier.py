@@ -3,13 +3,14 @@
 Between the nodes the square x of the speed is a quadratic B-spline over the way: its bend x'' is constant on the cell
 of each node, and value, slope and bend at a node follow from three neighbours (`Stencil`). With u = x'/2 and the jerk
 along the path w = √x·x''/2 an axis has the acceleration `q'·x'/2 + q''·x` and the jerk
-`√x·(q'·x''/2 + 3/2·q''·x' + q'''·x)`: terms with their signs, which may cancel out. Divided by √x the jerk is
-linear, and its limit `j/√x` convex: as F. Debrouwere et al. have it ("Time-Optimal Path Following for Robots With
-Convex-Concave Constraints Using Sequential Convex Programming", IEEE T-RO 29, 2013). Time is convex in
-x. With limits of acceleration alone a greatest x is there, and two passes from end to end find it (L. Consolini, M. Locatelli et al., "A solution of
-the minimum-time speed planning problem based on lattice theory", 2020): so does the estimate (`grid.py`). With limits of
-jerk there is none: where x bends up, more at one place is less at another (the same authors with a line
-search, 2021).
+`√x·(q'·x''/2 + 3/2·q''·x' + q'''·x)`: terms with their signs, which may cancel out. Divided by √x the jerk is linear,
+and its limit `j/√x` convex: as F. Debrouwere et al. have it ("Time-Optimal Path Following for Robots With
+Convex-Concave Constraints Using Sequential Convex Programming", IEEE T-RO 29, 2013). Time is convex in x.
+
+With limits of acceleration alone a greatest x is there, and two passes from end to end find it (L. Consolini,
+M. Locatelli et al., "A solution of the minimum-time speed planning problem based on lattice theory", 2020): so does the
+estimate (`grid.py`). With limits of jerk there is none: where x bends up, more at one place is less at another (the
+same authors with a line search, 2021).
 
 Each pass is a step of Newton's method for the time less `weight · log(slack)` of every limit; the weights, in parts of
 the time that a node stands for, fall from pass to pass. The matrix has five diagonals. Where little of a limit or
