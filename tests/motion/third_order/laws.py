@@ -71,7 +71,7 @@ def used(path: BentPath, law: JerkLaw, axes: Axes = AXES) -> Numbers:
     third = path.third[path.piece_at(law.at(middles)[0])]
     _, first, second = path.at(way)
     v, u = speed[:, None], pull[:, None]
-    top, most, jolt = (np.frombuffer(limit) for limit in axes)
+    top, most, jolt = (np.array(limit) for limit in axes)
     return np.array(
         [
             np.abs(first * v / top).max(),

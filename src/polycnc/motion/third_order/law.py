@@ -115,7 +115,10 @@ def quickest_law(
     """
     pieces, ends = len(path.cap2), array("d", [*start, *end])
     course = Course(
-        *(_flat(values) for values in (path.way, path.first, path.second, path.cap2)),
+        _flat(path.way),
+        _flat(path.first),
+        _flat(path.second),
+        _flat(path.cap2),
         _zeros(pieces),
         _zeros(pieces + 1),
     )
