@@ -26,9 +26,7 @@ TOPS = (250.0, 250.0, 250.0, 90.0)
 class Drawn:
     """A path of X, Y, Z and a rotary axis: as it is programmed, and as the points of each row."""
 
-    path: ProgrammedPath = field(
-        default_factory=lambda: ProgrammedPath([0.0] * 4, TOPS, (False, False, False, True))
-    )
+    path: ProgrammedPath = field(default_factory=lambda: ProgrammedPath([0.0] * 4, TOPS, (False, False, False, True)))
     points: list[Numbers] = field(default_factory=list)
     bounds: list[Bounds] = field(default_factory=list)
     heading: float = 0.0
@@ -129,9 +127,7 @@ def parts_of_tolerance(drawn: Drawn, bent: list[BentPath], each: int = 8) -> tup
     start = 0.0
     for leg in bent:
         share = np.arange(each) / each
-        s = np.append(
-            np.concatenate([leg.way[:-1, None] + np.diff(leg.way)[:, None] * share]).ravel(), leg.way[-1]
-        )
+        s = np.append(np.concatenate([leg.way[:-1, None] + np.diff(leg.way)[:, None] * share]).ravel(), leg.way[-1])
         inner = way[(way >= start) & (way <= start + leg.way[-1])] - start
         s = np.unique(np.clip(np.concatenate([s, inner]), 0.0, leg.way[-1]))
         k = np.clip(np.searchsorted(way, s + start, "right") - 1, 0, len(form) - 1)
