@@ -16,6 +16,7 @@ MODULES = (
     "polycnc.language.bulk.compiled",
     "polycnc.motion.compiled",
     "polycnc.motion.third_order.compiled",
+    "polycnc.motion.third_order.laws.compiled",
     "polycnc.toolpath.compiled",
 )
 
