@@ -15,8 +15,6 @@ MODULES = (
     "polycnc.compensation.runs.compiled",
     "polycnc.language.bulk.compiled",
     "polycnc.motion.compiled",
-    "polycnc.motion.third_order.compiled",
-    "polycnc.motion.third_order.laws.compiled",
     "polycnc.toolpath.compiled",
 )
 
