@@ -12,6 +12,7 @@ same chunk by chunk while the toolpath grows.
     time        explain (which limit held, for how long)
     motion      law (phases of constant acceleration over time), averaging (limited jerk: from there to the axes)
     sampling/   where the axes are at even times
+    third_order/  a quicker law for limited jerk; nothing is planned by it yet
 """
 
 from polycnc.motion.plan import plan

@@ -1,0 +1,6 @@
+"""Limited jerk without averages over time: a path that is smooth by its length, and a law along it.
+
+the path    bent_path (a run as a cubic spline by its way), bend (a programmed path becomes such ones) by `bends/`
+the law     law (phases of constant jerk along the way) by `laws/`
+compiled    the kernels of bent paths as machine code
+"""

@@ -1,0 +1,72 @@
+"""The spline: control points on the programmed path, and what its knots have of place, q' and q''.
+
+The control point of the knots a, b, c lies at their mean, the Greville abscissa: a straight line comes out exactly, and
+by its length (C. de Boor, "A Practical Guide to Splines", IX and XI). A curve is left towards its inside by
+`q''·((b - a)² + (c - b)² + (c - a)²)/36`, a sixth of q''·h² where knots are h apart.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from polycnc.kernels.layout import Floats
+from polycnc.motion.third_order.bends.stretches import Stretches, put_place
+
+
+class Spline(NamedTuple):
+    """A cubic spline of m pieces: way (m + 1) of its knots, control points (m + 3)·n, place, q' and q'' (m + 1)·n.
+
+    `room` is how far apart knots might be around each of them, if it is a corner between lines, else 0; `moved` is by
+    what part of its bow a control point has been moved (`levelling.py`).
+    """
+
+    way: Floats
+    room: Floats
+    moved: Floats
+    control: Floats
+    place: Floats
+    first: Floats
+    second: Floats
+
+
+def knot(spline: Spline, pieces: int, k: int) -> float:
+    """Way of knot k; those beyond the ends lie at the ends."""
+    way: float = spline.way[min(max(k, 0), pieces)]
+    return way
+
+
+def greville(spline: Spline, pieces: int, k: int) -> float:
+    """Greville abscissa of control point k, around knot k - 1."""
+    return (knot(spline, pieces, k - 2) + knot(spline, pieces, k - 1) + knot(spline, pieces, k)) / 3.0
+
+
+def lay_controls(path: Stretches, n: int, spline: Spline, pieces: int) -> None:
+    """Put the control points on the path."""
+    e, last = 0, len(path.form) - 1
+    for k in range(pieces + 3):
+        way = greville(spline, pieces, k)
+        while e < last and path.way[e + 1] <= way:
+            e += 1
+        put_place(path, e, way, n, spline.control, k * n)
+
+
+def shape(spline: Spline, n: int, pieces: int) -> None:
+    """Set place, q' and q'' at the knots from the control points."""
+    for k in range(pieces + 1):
+        far, back = knot(spline, pieces, k - 2), knot(spline, pieces, k - 1)
+        here, ahead, beyond = spline.way[k], knot(spline, pieces, k + 1), knot(spline, pieces, k + 2)
+        low = (here - far) / (ahead - far) if ahead > far else 0.0
+        high = (here - back) / (beyond - back) if beyond > back else 0.0
+        middle = (here - back) / (ahead - back)
+        before, behind = 3.0 / (ahead - far), 3.0 / (beyond - back)
+        for i in range(n):
+            a, b, c = (
+                spline.control[k * n + i],
+                spline.control[(k + 1) * n + i],
+                spline.control[(k + 2) * n + i],
+            )
+            leave, arrive = (b - a) * before, (c - b) * behind
+            start, end = a + low * (b - a), b + high * (c - b)
+            spline.place[k * n + i] = start + middle * (end - start)
+            spline.first[k * n + i] = leave + middle * (arrive - leave)
+            spline.second[k * n + i] = 2.0 * (arrive - leave) / (ahead - back)

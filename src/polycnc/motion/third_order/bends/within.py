@@ -1,0 +1,96 @@
+"""Whether the spline keeps to the tolerance, by a sure bound; where it does not, turning counts more.
+
+On a part of a piece within a stretch the deviation is a cubic; it does not leave the hull of its four Bézier points.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+
+from polycnc.motion.third_order.bends.controls import Spline
+from polycnc.motion.third_order.bends.stretches import LINE, Stretches, tolerance_of, turn_tolerance_of
+from polycnc.motion.third_order.bends.turning import Turning
+
+#: Where the tolerance is exceeded turning counts more by this and so many times the excess, in every round more.
+MORE, RATE, MOST = 1.015, 1.2, 4.0
+#: Turning never counts more than this: what is not met then is not met because of the numbers' own steps.
+HEAVIEST = 50.0
+
+
+def weigh_excess(path: Stretches, n: int, spline: Spline, pieces: int, turning: Turning, number: int) -> int:
+    """Let the turning count more around places where the path is left by more than its tolerance; their number.
+
+    `number` is that of the round, from 0 on.
+    """
+    e, k, last, found = 0, 0, len(path.form) - 1, 0
+    raised = -1
+    start = 0.0
+    while k < pieces:
+        end = min(path.way[e + 1], spline.way[k + 1])
+        if e == last and k == pieces - 1:
+            end = path.way[e + 1]
+        if end > start:
+            used = part_used(path, n, spline, e, k, start, end)
+            if used > 1.0:
+                found += 1
+                factor = min(MORE + RATE * (number + 1.0) * (used - 1.0), MOST)
+                raised = raise_weights(path, spline, pieces, turning, e, k, factor, raised)
+        start = end
+        if e < last and path.way[e + 1] <= end:
+            e += 1
+        elif spline.way[k + 1] <= end:
+            k += 1
+        else:
+            break
+    return found
+
+
+def part_used(path: Stretches, n: int, spline: Spline, e: int, k: int, start: float, end: float) -> float:
+    """Which part of the tolerance is used at most from one way to another, both on stretch e and piece k."""
+    third = (end - start) / 3.0
+    a, b, c, d = 0.0, 0.0, 0.0, 0.0
+    turn = 0.0
+    for i in range(n):
+        first, rate = off(path, n, spline, e, k, start, i)
+        last, end_rate = off(path, n, spline, e, k, end, i)
+        second, fourth = first + third * rate, last - third * end_rate
+        if path.rotary[i] != 0.0:
+            turn = max(turn, abs(first), abs(second), abs(fourth), abs(last))
+        else:
+            a, b = a + first * first, b + second * second
+            c, d = c + fourth * fourth, d + last * last
+    return max(sqrt(max(a, b, c, d)) / tolerance_of(path, e), turn / turn_tolerance_of(path, e))
+
+
+def off(path: Stretches, n: int, spline: Spline, e: int, k: int, way: float, i: int) -> tuple[float, float]:
+    """Place of axis i on piece k less that on stretch e, at a way, and its derivative; a line counts as one."""
+    t, h = way - spline.way[k], spline.way[k + 1] - spline.way[k]
+    q = k * n + i
+    second, third = spline.second[q], (spline.second[q + n] - spline.second[q]) / h
+    place = spline.place[q] + t * (spline.first[q] + t * (0.5 * second + t * third / 6.0))
+    first = spline.first[q] + t * (second + 0.5 * t * third)
+    length = path.way[e + 1] - path.way[e]
+    f, start = (way - path.way[e]) / length, path.place[e * n + i]
+    chord = path.place[e * n + n + i] - start
+    there, rate = start + f * chord, chord
+    if path.form[e] != LINE:
+        leave, arrive = path.leave[e * n + i] * length - chord, path.arrive[e * n + i] * length - chord
+        there += f * (1.0 - f) * ((1.0 - f) * leave - f * arrive)
+        rate += (1.0 - f) * (1.0 - 3.0 * f) * leave + f * (3.0 * f - 2.0) * arrive
+    return place - there, first - rate / length
+
+
+def raise_weights(
+    path: Stretches, spline: Spline, pieces: int, turning: Turning, e: int, k: int, factor: float, raised: int
+) -> int:
+    """Let the turning of stretches around piece k count more, but for those up to `raised`; the last one that does."""
+    start, end = spline.way[max(k - 1, 0)], spline.way[min(k + 2, pieces)]
+    low, count = e, len(path.form)
+    while low > 0 and path.way[low] >= start:
+        low -= 1
+    while low < count and path.way[low] <= end:
+        if low > raised:
+            turning.weight[low] = min(turning.weight[low] * factor, HEAVIEST)
+            raised = low
+        low += 1
+    return raised

@@ -1,0 +1,239 @@
+"""Where the speed along a path is looked for: nodes, close together in time where the acceleration changes.
+
+An estimate of second order (limits of acceleration, jerk only by what q''' needs at a steady speed) says when a place
+is passed and how much the acceleration changes there. From each place the distance of nodes may grow by a part of the
+time that lies between: so nodes are sparse where the speed is steady.
+"""
+
+from __future__ import annotations
+
+from math import inf, sqrt
+
+from polycnc.kernels.layout import Floats
+from polycnc.motion.third_order.laws.courses import Axes, Course, Ends, Nodes, Shape
+
+#: Distance of nodes where the acceleration changes, in parts of the time that an axis takes to build it up.
+CLOSE = 0.08
+#: What the distance grows by with time; the part of the acceleration whose change wants the closest nodes; what q' may
+#: change by from node to node.
+GROWTH, CHANGE, TURN = 0.06, 0.15, 0.06
+#: Nodes at least.
+FEWEST = 16
+#: Parts of a stretch of a piece, mm, of no account.
+SLIVER = 1e-9
+#: Pull along the path that is taken to be left at least, as a part of the smallest acceleration.
+LEFT = 0.02
+
+
+def estimate(course: Course, axes: Axes, ends: Floats) -> None:
+    """Caps of all pieces, and the estimate of second order at the knots."""
+    n, m = len(axes.jerk), len(course.cap2)
+    for k in range(m):
+        course.low2[k] = _cap(course, axes, k, n)
+    course.x[0] = ends[Ends.START_SPEED] ** 2
+    course.x[m] = ends[Ends.END_SPEED] ** 2
+    for k in range(1, m):
+        course.x[k] = min(course.low2[k - 1], course.low2[k])
+    for k in range(m - 1, 0, -1):
+        most = course.x[k + 1] + 2.0 * (course.way[k + 1] - course.way[k]) * pull_at(
+            course, axes, k + 1, -1.0
+        )
+        course.x[k] = min(course.x[k], most)
+    for k in range(1, m):
+        most = course.x[k - 1] + 2.0 * (course.way[k] - course.way[k - 1]) * pull_at(course, axes, k - 1, 1.0)
+        course.x[k] = min(course.x[k], most)
+
+
+def _cap(course: Course, axes: Axes, k: int, n: int) -> float:
+    """Bound a piece by the highest speeds of its axes; gives what q'' and q''' bound it by, too."""
+    step = course.way[k + 1] - course.way[k]
+    speed = bend = twist = 0.0
+    for i in range(n):
+        here, there = course.second[k * n + i], course.second[k * n + n + i]
+        third = abs(there - here) / step
+        first = (
+            max(abs(course.first[k * n + i]), abs(course.first[k * n + n + i])) + 0.125 * third * step * step
+        )
+        speed = max(speed, first / axes.speed[i])
+        bend = max(bend, max(abs(here), abs(there)) / axes.pull[i])
+        twist = max(twist, third / axes.jerk[i])
+    cap = course.cap2[k]
+    if cap * speed * speed > 1.0:
+        cap = course.cap2[k] = 1.0 / (speed * speed)
+    if cap * bend > 1.0:
+        cap = 1.0 / bend
+    if twist * twist * cap * cap * cap > 1.0:
+        cap = (1.0 / twist) ** (2.0 / 3.0)
+    return cap
+
+
+def pull_at(course: Course, axes: Axes, k: int, sign: float) -> float:
+    """Acceleration along the path in one direction that the axes have left at a knot, at the speed there."""
+    n, x = len(axes.pull), course.x[k]
+    left, least = inf, inf
+    for i in range(n):
+        first, used = sign * course.first[k * n + i], course.second[k * n + i] * x
+        if first < 0.0:
+            first, used = -first, -used
+        if first > 1e-9:
+            left = min(left, (axes.pull[i] - used) / first)
+            least = min(least, axes.pull[i] / first)
+    return max(left, LEFT * least)
+
+
+def cut(course: Course, axes: Axes, places: Floats, squares: Floats, gaps: Floats) -> int:
+    """Cut every piece where the estimate begins or ends to accelerate; gives the number of places found.
+
+    Args:
+        course: The path with its estimate.
+        axes: Their limits.
+        places: The way at the places, for 3·m + 1 of them.
+        squares: The square of the speed there.
+        gaps: Largest distance of nodes there by the turn of the path, s.
+    """
+    n, m = len(axes.pull), len(course.cap2)
+    places[0], squares[0], gaps[0] = course.way[0], course.x[0], inf
+    count = 1
+    for k in range(m):
+        begin, end, bend = course.way[k], course.way[k + 1], 1e-9
+        for i in range(n):
+            bend = max(bend, abs(course.second[k * n + i]), abs(course.second[k * n + n + i]))
+        here, there, cap = course.x[k], course.x[k + 1], course.low2[k]
+        if cap > max(here, there):
+            up, down = 2.0 * pull_at(course, axes, k, 1.0), 2.0 * pull_at(course, axes, k + 1, -1.0)
+            rise, fall = (cap - here) / up, (cap - there) / down
+            if rise + fall > end - begin:  # it gets not so fast
+                rise = max(0.0, (there - here + down * (end - begin)) / (up + down))
+                fall = end - begin - rise
+                cap = here + up * rise
+            if rise > 1e-3 * (end - begin) and fall > 1e-3 * (end - begin):
+                places[count], squares[count], gaps[count] = begin + rise, cap, TURN / bend / sqrt(cap)
+                count += 1
+                if end - fall > begin + rise + SLIVER:
+                    places[count], squares[count], gaps[count] = end - fall, cap, TURN / bend / sqrt(cap)
+                    count += 1
+        places[count], squares[count], gaps[count] = end, there, TURN / bend / max(sqrt(there), 1e-9)
+        count += 1
+    return count
+
+
+def spread(axes: Axes, count: int, places: Floats, squares: Floats, gaps: Floats, nodes: Floats) -> int:
+    """Spread nodes over a path; gives their number.
+
+    Args:
+        axes: Limits.
+        count: Number of places that `cut` found.
+        places: The way at them.
+        squares: The square of the speed there.
+        gaps: Their distances by the turn of the path; become the distances of nodes there.
+        nodes: The way at the nodes, if there is room; the number is right in any case.
+    """
+    build = pull = 0.0
+    for i in range(len(axes.jerk)):
+        build = max(build, axes.pull[i] / axes.jerk[i])
+        pull = max(pull, axes.pull[i])
+    whole = 0.0
+    for k in range(count - 1):
+        whole += _seconds(places, squares, k)
+    close = min(CLOSE * build, whole / FEWEST)
+    before, gap = 0.0, inf
+    for k in range(count):
+        behind = 0.5 * (squares[k + 1] - squares[k]) / (places[k + 1] - places[k]) if k < count - 1 else 0.0
+        change = abs(behind - before) / (CHANGE * pull)
+        own = min(gaps[k], close / min(1.0, max(change, 1e-3)))
+        if k > 0:
+            gap += GROWTH * _seconds(places, squares, k - 1)
+        gap = min(own, gap)
+        gaps[k] = gap
+        before = behind
+    for k in range(count - 2, -1, -1):
+        gaps[k] = min(gaps[k], gaps[k + 1] + GROWTH * _seconds(places, squares, k))
+    return _walk(count, places, squares, gaps, nodes)
+
+
+def _walk(count: int, places: Floats, squares: Floats, gaps: Floats, nodes: Floats) -> int:
+    """Set nodes one after another, each as far from the one before as the gap there says."""
+    nodes[0] = places[0]
+    number, passed, gap = 1, 0.0, gaps[0]  # `passed` since the last node
+    for k in range(count - 1):
+        time, at = _seconds(places, squares, k), 0.0
+        speed = sqrt(squares[k])
+        pull = 0.5 * (squares[k + 1] - squares[k]) / (places[k + 1] - places[k])
+        while passed + time - at >= gap:
+            at += gap - passed
+            passed = 0.0
+            if number < len(nodes):
+                nodes[number] = min(max(places[k] + at * (speed + 0.5 * at * pull), places[k]), places[k + 1])
+            number += 1
+            gap = min(gaps[k] + GROWTH * at, gaps[k + 1] + GROWTH * (time - at))
+        passed += time - at
+    if passed < 0.5 * gap and number > 2:
+        number -= 1
+    if number < len(nodes):
+        nodes[number] = places[count - 1]
+    return number + 1
+
+
+def _seconds(places: Floats, squares: Floats, k: int) -> float:
+    """Time from one place to the next under constant acceleration."""
+    return 2.0 * (places[k + 1] - places[k]) / max(sqrt(squares[k]) + sqrt(squares[k + 1]), 1e-6)
+
+
+def gather(course: Course, axes: Axes, nodes: Nodes) -> None:
+    """What every node knows of the pieces on its cell."""
+    n, m, count = len(axes.jerk), len(course.cap2), len(nodes.way)
+    low = at = 0
+    for k in range(count):
+        way = nodes.way[k]
+        begin = 0.5 * (nodes.way[max(k - 1, 0)] + way)
+        end = 0.5 * (way + nodes.way[min(k + 1, count - 1)])
+        while low < m - 1 and course.way[low + 1] <= begin:
+            low += 1
+        at = max(at, low)
+        while at < m - 1 and course.way[at + 1] <= way:
+            at += 1
+        high, cap = low, inf
+        while True:
+            cap = min(cap, course.cap2[high])
+            if high >= m - 1 or course.way[high + 1] >= end:
+                break
+            high += 1
+        nodes.cap2[k] = cap
+        for i in range(n):
+            _gather_axis(course, axes, nodes, k, i, n, low, high, at, begin, end)
+
+
+def _gather_axis(
+    course: Course,
+    axes: Axes,
+    nodes: Nodes,
+    k: int,
+    i: int,
+    n: int,
+    low: int,
+    high: int,
+    at: int,
+    begin: float,
+    end: float,
+) -> None:
+    shape = (k * n + i) * Shape.SIZE
+    step = nodes.way[k] - course.way[at]
+    bend = course.second[at * n + i]
+    third = (course.second[at * n + n + i] - bend) / (course.way[at + 1] - course.way[at])
+    nodes.shape[shape + Shape.FIRST] = (
+        course.first[at * n + i] + step * (bend + 0.5 * step * third)
+    ) / axes.pull[i]
+    bend_low = bend_high = bend + step * third
+    third_low, third_high = inf, -inf
+    for p in range(low, high + 1):
+        length = course.way[p + 1] - course.way[p]
+        here, there = course.second[p * n + i], course.second[p * n + n + i]
+        third = (there - here) / length
+        third_low, third_high = min(third_low, third), max(third_high, third)
+        left = here + third * max(begin - course.way[p], 0.0)
+        right = here + third * min(end - course.way[p], length)
+        bend_low, bend_high = min(bend_low, left, right), max(bend_high, left, right)
+    nodes.shape[shape + Shape.SECOND] = 0.5 * (bend_high + bend_low) / axes.pull[i]
+    nodes.shape[shape + Shape.SECOND_RANGE] = 0.5 * (bend_high - bend_low) / axes.pull[i]
+    nodes.shape[shape + Shape.THIRD] = 0.5 * (third_high + third_low) / axes.jerk[i]
+    nodes.shape[shape + Shape.THIRD_RANGE] = 0.5 * (third_high - third_low) / axes.jerk[i]

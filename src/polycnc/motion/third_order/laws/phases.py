@@ -1,0 +1,232 @@
+"""From the speed at nodes to phases of constant jerk, and the sure proof that every axis keeps its limits on them.
+
+Between two nodes lie two phases of equal time t. They bring the way Δs, the change of speed Δv and the change of
+acceleration Δu exactly: `Δu/3·t² - (v + v')·t + Δs = 0`. Beside rest one phase is enough: the way grows with the third
+power of time.
+
+On a phase and a piece acceleration and jerk of an axis are polynomials in time. Linear between both ends they are wrong
+by at most an eighth of their largest second derivative by time times the square of the time between; where this is
+too coarse, the time is halved.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+
+from polycnc.kernels.layout import Floats
+from polycnc.motion.third_order.laws.barrier import value
+from polycnc.motion.third_order.laws.courses import Axes, Course, Nodes, Phase
+
+#: Phases between two nodes.
+PAIR = 2
+#: How often the time is halved at most; what counts as kept without looking closer; how far above the values at both
+#: ends a bound may be.
+HALVINGS, KEPT, CLOSE_BY = 6, 1.0 + 1e-7, 0.002
+
+
+def lay_phases(nodes: Nodes, phases: Floats, first: int, last: int) -> None:
+    """Phases between two nodes, `PAIR` from each one to the next; one of them may last no time."""
+    speed = pull = 0.0
+    for k in range(first, last + 1):
+        if nodes.x[k] > 0.0:
+            x, slope, _ = value(nodes, k)
+            there, new = sqrt(max(x, 1e-18)), 0.5 * slope
+        else:
+            there = new = 0.0
+        if k > first:
+            _pair(nodes, k - 1, speed, pull, there, new, phases)
+        speed, pull = there, new
+
+
+def _pair(nodes: Nodes, k: int, speed: float, pull: float, there: float, new: float, phases: Floats) -> None:
+    """The phases between a node and the next one."""
+    way, step, at = nodes.way[k], nodes.way[k + 1] - nodes.way[k], PAIR * Phase.SIZE * k
+    if speed == 0.0:
+        time = 3.0 * step / there
+        _set(phases, at, time, way, 0.0, 0.0, 2.0 * there / (time * time))
+        _set(phases, at + Phase.SIZE, 0.0, nodes.way[k + 1], there, 2.0 * there / time, 0.0)
+        return
+    if there == 0.0:
+        time = 3.0 * step / speed
+        _set(phases, at, time, way, speed, -2.0 * speed / time, 2.0 * speed / (time * time))
+        _set(phases, at + Phase.SIZE, 0.0, nodes.way[k + 1], 0.0, 0.0, 0.0)
+        return
+    both, more = speed + there, new - pull
+    root = sqrt(max(both * both - 4.0 / 3.0 * more * step, 0.0))
+    time = 2.0 * step / (both + root)
+    middle = (2.0 * (there - speed) / time - pull - new) * 0.5
+    first, second = (middle - pull) / time, (new - middle) / time
+    _set(phases, at, time, way, speed, pull, first)
+    gone = time * (speed + time * (0.5 * pull + time * first / 6.0))
+    fast = speed + time * (pull + 0.5 * time * first)
+    _set(phases, at + Phase.SIZE, time, way + gone, fast, middle, second)
+
+
+def _set(phases: Floats, at: int, time: float, way: float, speed: float, pull: float, jerk: float) -> None:
+    phases[at + Phase.TIME] = time
+    phases[at + Phase.WAY] = way
+    phases[at + Phase.SPEED] = speed
+    phases[at + Phase.PULL] = pull
+    phases[at + Phase.JERK] = jerk
+
+
+def examine(course: Course, axes: Axes, phases: Floats, most: Floats, begin: int, end: int) -> None:
+    """The largest parts of speed, acceleration and jerk that are used on every phase.
+
+    Args:
+        course: The path.
+        axes: Limits.
+        phases: The law.
+        most: For three numbers a phase: bounds of the parts used of the square of the speed, of acceleration and jerk.
+        begin: The first phase to look at.
+        end: The one behind the last.
+    """
+    m, p = len(course.cap2), 0
+    high = m
+    while high - p > 1:  # the piece of the first phase
+        middle = (p + high) // 2
+        p, high = (
+            (middle, high) if course.way[middle] <= phases[begin * Phase.SIZE + Phase.WAY] else (p, middle)
+        )
+    for k in range(begin, end):
+        at = k * Phase.SIZE
+        most[3 * k] = most[3 * k + 1] = most[3 * k + 2] = 0.0
+        time = phases[at + Phase.TIME]
+        if time <= 0.0:
+            continue
+        there, now = phases[at + Phase.WAY] + _gone(phases, at, time), 0.0
+        while p < m - 1 and course.way[p + 1] <= phases[at + Phase.WAY]:
+            p += 1
+        pull, jerk = phases[at + Phase.PULL], phases[at + Phase.JERK]
+        speed, hard = phases[at + Phase.SPEED], max(abs(pull), abs(pull + time * jerk))
+        fast = max(speed, speed + time * (pull + 0.5 * time * jerk)) + 0.125 * time * time * abs(jerk)
+        while True:
+            last = p >= m - 1 or course.way[p + 1] >= there
+            if not _roughly(course, axes, p, fast, hard, abs(jerk), most, 3 * k):
+                if course.way[p] > phases[at + Phase.WAY]:
+                    now = _reached(phases, at, now, course.way[p])
+                until = time if last else _reached(phases, at, now, course.way[p + 1])
+                _piece(course, axes, phases, at, p, now, until, most, 3 * k)
+            if last:
+                break
+            p += 1
+
+
+def _roughly(
+    course: Course, axes: Axes, p: int, fast: float, hard: float, jerk: float, most: Floats, to: int
+) -> bool:
+    """Whether a piece keeps all limits even if the highest speed, acceleration and jerk of a phase come together."""
+    n, step = len(axes.jerk), course.way[p + 1] - course.way[p]
+    square = fast * fast
+    high, high_a, high_j = square / course.cap2[p], 0.0, 0.0
+    for i in range(n):
+        here, there = course.second[p * n + i], course.second[p * n + n + i]
+        third, bend = abs(there - here) / step, max(abs(here), abs(there))
+        turn = (
+            max(abs(course.first[p * n + i]), abs(course.first[p * n + n + i])) + 0.125 * third * step * step
+        )
+        high_a = max(high_a, (turn * hard + bend * square) / axes.pull[i])
+        high_j = max(high_j, (turn * jerk + fast * (3.0 * bend * hard + third * square)) / axes.jerk[i])
+    if high > 1.0 or high_a > 1.0 or high_j > 1.0:
+        return False
+    most[to], most[to + 1] = max(most[to], high), max(most[to + 1], high_a)
+    most[to + 2] = max(most[to + 2], high_j)
+    return True
+
+
+def _gone(phases: Floats, at: int, time: float) -> float:
+    return time * (
+        phases[at + Phase.SPEED]
+        + time * (0.5 * phases[at + Phase.PULL] + time * phases[at + Phase.JERK] / 6.0)
+    )
+
+
+def _reached(phases: Floats, at: int, now: float, way: float) -> float:
+    """The time in a phase, after `now`, at which a place is reached."""
+    low, high = now, phases[at + Phase.TIME]
+    goal = way - phases[at + Phase.WAY]
+    speed, pull, jerk = phases[at + Phase.SPEED], phases[at + Phase.PULL], phases[at + Phase.JERK]
+    time = now
+    for _ in range(40):
+        off = time * (speed + time * (0.5 * pull + time * jerk / 6.0)) - goal
+        if off > 0.0:
+            high = time
+        else:
+            low = time
+        fast = speed + time * (pull + 0.5 * time * jerk)
+        step = off / fast if fast > 0.0 else 0.0
+        new = time - step
+        if not low < new < high or fast <= 0.0:
+            new = 0.5 * (low + high)
+        if abs(new - time) <= 1e-13 * high:
+            return new
+        time = new
+    return time
+
+
+def _piece(
+    course: Course,
+    axes: Axes,
+    phases: Floats,
+    at: int,
+    p: int,
+    now: float,
+    until: float,
+    most: Floats,
+    to: int,
+) -> None:
+    """Raise the bounds by what a piece needs in a part of a phase."""
+    top = 1.0 / course.cap2[p]
+    whole = 1 << HALVINGS
+    done, parts = 0, whole  # small parts of the time
+    while done < whole:
+        begin, end = now + (until - now) * (done / whole), now + (until - now) * ((done + parts) / whole)
+        used = _used(course, axes, phases, at, p, begin, end, top)
+        above = max(used[0] - used[3], used[1] - used[4], used[2] - used[5])
+        if parts > 1 and above > CLOSE_BY and max(used[0], used[1], used[2]) > KEPT:
+            parts //= 2
+            continue
+        most[to] = max(most[to], used[0])
+        most[to + 1] = max(most[to + 1], used[1])
+        most[to + 2] = max(most[to + 2], used[2])
+        done += parts
+        while parts < whole and done % (2 * parts) == 0:
+            parts *= 2
+
+
+def _used(
+    course: Course, axes: Axes, phases: Floats, at: int, p: int, begin: float, end: float, top: float
+) -> tuple[float, float, float, float, float, float]:
+    """Bounds of the parts used of x, acceleration and jerk, and how much of them is used at the ends."""
+    n, time = len(axes.jerk), end - begin
+    jerk = phases[at + Phase.JERK]
+    pull = phases[at + Phase.PULL] + begin * jerk
+    speed = phases[at + Phase.SPEED] + begin * (phases[at + Phase.PULL] + 0.5 * begin * jerk)
+    way = phases[at + Phase.WAY] + _gone(phases, at, begin) - course.way[p]
+    pull2, speed2 = pull + time * jerk, speed + time * (pull + 0.5 * time * jerk)
+    way2 = way + time * (speed + time * (0.5 * pull + time * jerk / 6.0))
+    hard = abs(jerk)
+    most_pull, eighth = max(abs(pull), abs(pull2)), 0.125 * time * time
+    fast = max(speed, speed2) + eighth * hard
+    high, high_a = max(speed, speed2) ** 2 * top, 0.0
+    length, high_j, bound_a, bound_j = course.way[p + 1] - course.way[p], 0.0, 0.0, 0.0
+    for i in range(n):
+        first, second = course.first[p * n + i], course.second[p * n + i]
+        third = (course.second[p * n + n + i] - second) / length
+        bend, bend2 = second + third * way, second + third * way2
+        turn, turn2 = first + way * (second + 0.5 * third * way), first + way2 * (second + 0.5 * third * way2)
+        used = max(abs(turn * pull + bend * speed * speed), abs(turn2 * pull2 + bend2 * speed2 * speed2))
+        bent, twist = max(abs(bend), abs(bend2)), abs(third)
+        more = eighth * (
+            4.0 * bent * fast * hard + 3.0 * bent * most_pull**2 + 6.0 * twist * fast**2 * most_pull
+        )
+        high_a, bound_a = max(high_a, used / axes.pull[i]), max(bound_a, (used + more) / axes.pull[i])
+        used = max(
+            abs(turn * jerk + speed * (3.0 * bend * pull + third * speed * speed)),
+            abs(turn2 * jerk + speed2 * (3.0 * bend2 * pull2 + third * speed2 * speed2)),
+        )
+        more = eighth * (
+            twist * fast * (10.0 * fast * hard + 15.0 * most_pull**2) + 10.0 * bent * most_pull * hard
+        )
+        high_j, bound_j = max(high_j, used / axes.jerk[i]), max(bound_j, (used + more) / axes.jerk[i])
+    return fast * fast * top, bound_a, bound_j, high, high_a, high_j

@@ -1,0 +1,162 @@
+"""The law of a path: nodes, Newton's method, phases, proof; where a limit is not kept, again with less room there."""
+
+from __future__ import annotations
+
+from math import sqrt
+
+from polycnc.kernels.layout import Floats
+from polycnc.motion.third_order.laws.barrier import begin, improve, lay_stencils
+from polycnc.motion.third_order.laws.courses import Axes, Course, Ends, Nodes, Phase
+from polycnc.motion.third_order.laws.grid import cut, estimate, gather, spread
+from polycnc.motion.third_order.laws.phases import PAIR, examine, lay_phases
+
+#: Weights of the barriers in each pass; the last one is for the passes of repairs, too.
+WEIGHTS = (0.05, 0.05, 0.03, 0.03, 0.02, 0.02)
+#: The part of the estimate that the first pass begins with.
+SHARE = 0.7
+#: Rounds of repairs at most, passes in each, and nodes around a place that go along.
+ROUNDS, PASSES, AROUND = 10, 2, 15
+#: What counts as kept; beyond this much a first round may help by itself; how much more room is taken away, and how
+#: much at most.
+KEPT, FAR, MORE, MOST = 1.0 + 4e-7, 1.2, 0.003, 1.5
+
+
+def place_nodes(
+    course: Course, axes: Axes, ends: Floats, places: Floats, squares: Floats, gaps: Floats, nodes: Floats
+) -> int:
+    """Estimate a law and spread nodes over the path; see `cut` and `spread`. Gives their number; minus it without room.
+
+    Args:
+        course: The path; its estimate is made.
+        axes: Limits.
+        ends: Speed and acceleration at both ends, see `Ends`.
+        places: For 3·m + 2 numbers: the way at places of the estimate; the last number is their count.
+        squares: For as many: the square of the speed there.
+        gaps: For as many: the distance of nodes there.
+        nodes: For the way at the nodes.
+    """
+    estimate(course, axes, ends)
+    count = cut(course, axes, places, squares, gaps)
+    places[len(places) - 1] = float(count)
+    return spread(axes, count, places, squares, gaps, nodes)
+
+
+def find_law(
+    course: Course,
+    axes: Axes,
+    ends: Floats,
+    places: Floats,
+    squares: Floats,
+    nodes: Nodes,
+    bands: Floats,
+    phases: Floats,
+    most: Floats,
+) -> int:
+    """Find the quickest law at nodes, as phases of constant jerk; gives the rounds of repairs that it took.
+
+    Where after all rounds a limit is exceeded still, a law from rest to rest is stretched in time as a whole, which
+    keeps it for sure; from or to a motion there is none, and -1 is given.
+
+    Args:
+        course: The path, as `place_nodes` left it.
+        axes: Limits.
+        ends: Speed and acceleration at both ends, see `Ends`.
+        places: As there.
+        squares: As there.
+        nodes: k nodes with their ways.
+        bands: For `BANDS` numbers a node.
+        phases: The law: `PAIR` phases between two nodes.
+        most: For three numbers a phase, see `examine`.
+    """
+    last = len(nodes.way) - 1
+    gather(course, axes, nodes)
+    begin(places, squares, int(places[len(places) - 1]), nodes, axes, ends, SHARE)
+    lay_stencils(nodes, ends)
+    for weight in WEIGHTS:
+        improve(nodes, axes, weight, bands, 0, last)
+    lay_phases(nodes, phases, 0, last)
+    examine(course, axes, phases, most, 0, PAIR * last)
+    rounds = 0
+    while rounds < ROUNDS and _repair(course, axes, nodes, bands, phases, most, rounds):
+        rounds += 1
+    if rounds == ROUNDS and _worst(most) > KEPT:
+        if ends[Ends.START_SPEED] > 0.0 or ends[Ends.END_SPEED] > 0.0:
+            return -1
+        _stretch(phases, most)
+    return rounds
+
+
+def _worst(most: Floats) -> float:
+    """The largest part of any limit that is used anywhere."""
+    high = 0.0
+    for k in range(len(most)):
+        high = max(high, most[k])
+    return high
+
+
+def _over(most: Floats, k: int) -> float:
+    """The largest part of any limit that is used between two nodes."""
+    high = 0.0
+    for i in range(3 * PAIR * k, 3 * PAIR * (k + 1)):
+        high = max(high, most[i])
+    return high
+
+
+def _repair(
+    course: Course, axes: Axes, nodes: Nodes, bands: Floats, phases: Floats, most: Floats, rounds: int
+) -> bool:
+    """Take room away around every place where a limit is exceeded, look for x anew there; says whether one was."""
+    last, k, any_ = len(nodes.way) - 1, 0, False
+    while k < last:
+        over = _over(most, k)
+        if over <= KEPT:
+            k += 1
+            continue
+        any_, first, end = True, max(k - AROUND, 0), k
+        while k < min(end + 2 * AROUND, last):
+            over = _over(most, k)
+            if over > KEPT:
+                end = k
+                if rounds > 0 or over < FAR:
+                    _lower(nodes, most, k, over)
+            k += 1
+        k = end = min(end + 1 + AROUND, last)
+        for _ in range(PASSES):
+            improve(nodes, axes, WEIGHTS[len(WEIGHTS) - 1], bands, first, end)
+        first, end = max(first - 1, 0), min(end + 1, last)
+        lay_phases(nodes, phases, first, end)
+        examine(course, axes, phases, most, PAIR * first, PAIR * end)
+    return any_
+
+
+def _lower(nodes: Nodes, most: Floats, k: int, over: float) -> None:
+    """Take room away at the nodes on both sides of phases that exceed a limit."""
+    speed = 0.0
+    for i in range(PAIR):
+        speed = max(speed, most[3 * (PAIR * k + i)])
+    less = min(over + MORE, MOST)
+    for q in (k, k + 1):
+        if speed > KEPT:
+            nodes.cap2[q] /= min(speed + MORE, MOST)
+        elif nodes.x[k] == 0.0 or nodes.x[k + 1] == 0.0:
+            nodes.cap2[q] /= less ** (2.0 / 3.0)
+        else:
+            nodes.room[q] /= less
+
+
+def _stretch(phases: Floats, most: Floats) -> None:
+    """Make a law so much slower as a whole that all limits are kept."""
+    slower = 1.0
+    for k in range(len(phases) // Phase.SIZE):
+        slower = max(slower, sqrt(max(most[3 * k], most[3 * k + 1])), most[3 * k + 2] ** (1.0 / 3.0))
+    if slower <= 1.0:
+        return
+    for k in range(len(phases) // Phase.SIZE):
+        phases[k * Phase.SIZE + Phase.TIME] *= slower
+        phases[k * Phase.SIZE + Phase.SPEED] /= slower
+        phases[k * Phase.SIZE + Phase.PULL] /= slower**2
+        phases[k * Phase.SIZE + Phase.JERK] /= slower**3
+    for k in range(len(most) // 3):
+        most[3 * k] /= slower**2
+        most[3 * k + 1] /= slower**2
+        most[3 * k + 2] /= slower**3

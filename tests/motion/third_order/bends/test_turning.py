@@ -1,0 +1,51 @@
+"""How far apart knots may be: by the tent moment of the turning."""
+
+from __future__ import annotations
+
+from array import array
+from math import pi
+
+import pytest
+
+from polycnc.motion.third_order.bends.programmed import Bounds
+from polycnc.motion.third_order.bends.turning import FULL, SHARE, Turning, reach, sum_turning
+from tests.motion.third_order.programmed_paths import Drawn
+
+
+def turning_of(drawn: Drawn) -> Turning:
+    path = drawn.path.path
+    room = [array("d", bytes(8 * len(path.way))) for _ in range(3)]
+    turning = Turning(room[0], room[1], room[2], array("d", (1.0,)) * len(path.form))
+    sum_turning(path, 4, turning)
+    return turning
+
+
+@pytest.mark.parametrize("guess", [0.001, 0.1, 10.0])
+def test_a_corner_by_its_turn(guess: float) -> None:
+    drawn = Drawn()
+    drawn.line(10.0, 0.0, 0.0, 0.0, Bounds(0.01))
+    drawn.line(10.0, 0.1, 0.0, 0.0, Bounds(0.02))
+    h = reach(drawn.path.path, turning_of(drawn), 1, 10.0, guess, 20.0)
+    assert h == pytest.approx(FULL * SHARE * 0.01 / 0.1, rel=0.01)
+
+
+def test_an_arc_by_its_curvature() -> None:
+    drawn = Drawn()
+    drawn.arc(20.0, pi, 0.0, 0.0, 0.0, Bounds(0.01))
+    h = reach(drawn.path.path, turning_of(drawn), 12, 31.0, 1.0, 60.0)
+    assert h == pytest.approx((FULL * SHARE * 0.01 * 20.0) ** 0.5, rel=0.02)
+
+
+def test_a_straight_line_allows_any_distance() -> None:
+    drawn = Drawn()
+    for _ in range(3):
+        drawn.line(10.0, 0.0, 0.0, 0.0, Bounds(0.01))
+    assert reach(drawn.path.path, turning_of(drawn), 1, 15.0, 0.1, 30.0) == 30.0
+
+
+def test_rotary_axes_count_by_their_own_tolerance() -> None:
+    drawn = Drawn()
+    drawn.line(10.0, 0.0, 0.0, 0.0, Bounds(0.01, turn_tolerance=0.5))
+    drawn.line(10.0, 0.0, 0.0, 20.0, Bounds(0.01, turn_tolerance=0.5))
+    h = reach(drawn.path.path, turning_of(drawn), 1, 10.0, 1.0, 20.0)
+    assert h == pytest.approx(FULL * SHARE * 0.5 / 2.0, rel=0.01)

@@ -1,0 +1,129 @@
+"""Jerk laws: limits of every axis at every moment, the time from one end to the other, both ways to run the kernels."""
+
+from __future__ import annotations
+
+from array import array
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from polycnc.motion.third_order.law import NoLawError, quickest_law
+from polycnc.motion.third_order.laws import compiled
+from tests.kernels.strict import strict
+from tests.motion.jerk_paths import JerkPath, jerk_paths
+from tests.motion.optimum import least_time
+from tests.motion.paths import MILL
+from tests.motion.third_order.even_path import even_path
+from tests.motion.third_order.laws import AXES, bow, line, used, wild
+
+#: What a limit may be exceeded by: a part in a million.
+KEPT = 1.0 + 1e-6
+#: Times over the least time on paths rounded evenly: the median, and the worst. Three zigzags of small angles are left
+#: out: there the even rounding itself is slower than the one that the least time is of.
+MEDIAN, WORST = 1.08, 1.25
+EVEN_IS_SLOWER = {"zigzag 0.5 mm, 5°, 0.01 mm", "zigzag 2 mm, 20°, 0.05 mm", "zigzag 5 mm, 5°, 0.01 mm"}
+
+
+def test_paths_are_run_close_to_the_least_time_and_within_all_limits() -> None:
+    pytest.importorskip("scipy", reason="scipy, which solves the linear programmes, is not installed")
+    ratios = {}
+    for path in jerk_paths():
+        points = np.array(path.points)
+        bent = even_path(points, path.tolerance, path.feed, MILL)
+        law = quickest_law(bent, AXES)
+        assert used(bent, law).max() <= KEPT, path.name
+        ratios[path.name] = law.seconds / least_time(points, path.tolerance, path.feed, MILL)
+    compared = [ratio for name, ratio in ratios.items() if name not in EVEN_IS_SLOWER]
+    assert len(compared) == 27
+    assert float(np.median(compared)) <= MEDIAN, ratios
+    assert max(compared) <= WORST, ratios
+
+
+@pytest.mark.parametrize("length", [0.01, 1.0, 20.0, 100.0, 2000.0])
+def test_a_line_takes_little_more_than_seven_phases(length: float) -> None:
+    speed, pull, jerk = AXES.speed[0], AXES.pull[0], AXES.jerk[0]
+    least = length / speed + speed / pull + pull / jerk
+    if speed * (speed / pull + pull / jerk) > length:  # it does not reach the speed
+        reached = 0.5 * (((pull / jerk) ** 2 + 4.0 * length / pull) ** 0.5 - pull / jerk) * pull
+        least = length / reached + reached / pull + pull / jerk
+        if reached < pull**2 / jerk:  # nor the acceleration
+            least = (32.0 * length / jerk) ** (1.0 / 3.0)
+    law = quickest_law(line(length), AXES)
+    assert least <= law.seconds <= 1.05 * least
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.integers(0, 2**32 - 1), st.integers(1, 60))
+def test_random_paths_keep_every_limit(seed: int, count: int) -> None:
+    path = wild(seed, count)
+    law = quickest_law(path, AXES)
+    assert used(path, law).max() <= KEPT
+    ends = np.array([0.0, law.seconds])
+    way, speed, *_ = law.at(ends)
+    assert np.abs(way - [0.0, path.way[-1]]).max() <= 1e-9 * path.way[-1]
+    assert np.abs(speed).max() <= 1e-6
+    # phases go over into each other, and on
+    parts = np.diff(np.append(law.start, law.seconds))
+    there = law.way + parts * (law.speed + parts * (0.5 * law.pull + parts * law.jerk / 6.0))
+    fast = law.speed + parts * (law.pull + 0.5 * parts * law.jerk)
+    assert np.all(parts > 0.0)
+    assert np.all(np.diff(law.way) > 0.0)
+    assert np.abs(there[:-1] - law.way[1:]).max() <= 1e-9 * path.way[-1]
+    assert np.abs(fast[:-1] - law.speed[1:]).max() <= 1e-6 * max(1.0, float(law.speed.max()))
+    assert np.abs((law.pull + parts * law.jerk)[:-1] - law.pull[1:]).max() <= 1e-5 * max(AXES.pull)
+
+
+def test_differences_of_positions_keep_the_limits() -> None:
+    path = bow(12.0, 5.0)
+    law, step = quickest_law(path, AXES), 1e-3
+    times = np.arange(-4.0 * step, law.seconds + 4.0 * step, step)
+    place = path.at(law.at(times)[0])[0]
+    for order, limit in ((1, AXES.speed), (2, AXES.pull), (3, AXES.jerk)):
+        assert np.abs(np.diff(place, order, axis=0) / step**order / np.array(limit)).max() <= 1.0 + 1e-5
+
+
+def test_the_time_of_a_place_is_that_at_which_it_is_reached() -> None:
+    path = wild(5, 20)
+    law = quickest_law(path, AXES)
+    ways = np.linspace(0.0, path.way[-1], 400)
+    times = law.times_at(ways)
+    assert np.all(np.diff(times) > 0.0)
+    assert np.abs(law.at(times)[0] - ways).max() <= 1e-9 * path.way[-1]
+    assert times[-1] == law.seconds
+
+
+def test_a_law_from_a_motion_goes_on_with_it() -> None:
+    path = bow(30.0, 4.0, feed=80.0)
+    whole = quickest_law(path, AXES)
+    _, speed, pull, _ = (float(values[0]) for values in whole.at(np.array([0.06])))
+    rest = quickest_law(path, AXES, start=(speed, pull))
+    assert rest.speed[0] == pytest.approx(speed)
+    assert rest.pull[0] == pytest.approx(pull)
+    assert used(path, rest).max() <= KEPT
+    assert rest.seconds < whole.seconds
+    to = quickest_law(path, AXES, end=(60.0, 0.0))
+    assert float(to.at(np.array([to.seconds]))[1][0]) == pytest.approx(60.0)
+    assert used(path, to).max() <= KEPT
+
+
+def test_a_motion_that_cannot_come_to_rest_has_no_law() -> None:
+    with pytest.raises(NoLawError):
+        quickest_law(line(1.0), AXES, start=(200.0, 0.0))
+
+
+@pytest.mark.parametrize("path", [wild(3, 12), jerk_paths()[5]], ids=["wild", "zigzag"])
+def test_both_ways_to_run_the_kernels_give_the_same_bits(
+    path: object, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    if isinstance(path, JerkPath):
+        path = even_path(np.array(path.points), path.tolerance, path.feed, MILL)
+    if compiled.LIBRARY.lack is not None:
+        pytest.skip("no machine code")
+    quick = quickest_law(path, AXES)  # type: ignore[arg-type]
+    plain = compiled.Kernels(strict(compiled.PLAIN.place_nodes), strict(compiled.PLAIN.find_law))
+    monkeypatch.setattr("polycnc.motion.third_order.law.kernels", lambda: plain)
+    slow = quickest_law(path, AXES)  # type: ignore[arg-type]
+    for name in ("start", "way", "speed", "pull", "jerk"):
+        assert array("d", getattr(quick, name).tobytes()) == array("d", getattr(slow, name).tobytes())
