@@ -162,6 +162,8 @@ class ContextRecord(Places):
     BEHIND_S = place()
     #: Speed of a cut in which nothing moves but rotary axes, degrees/s (0: its feed).
     TURN_SPEED = place()
+    #: How many millimetres of that feed are a degree.
+    TURN_WEIGHT = place()
     #: Nine numbers by rows, then the shift.
     FRAME = place(12)
     OFFSETS = place(0)

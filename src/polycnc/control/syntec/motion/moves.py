@@ -18,6 +18,7 @@ from polycnc.control.word_address.auxiliary import functions
 from polycnc.control.word_address.block import repeated_codes
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.coordinates.frames import PolarCoordinateState, polar_target, scale_of
+from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.cycles.drilling import CycleState
 from polycnc.control.word_address.motion import path, skip
 from polycnc.control.word_address.motion.arcs import emit_arc
@@ -337,8 +338,17 @@ def _end(channel: SyntecChannel, plan: Plan, values: list[float]) -> list[float]
 
 
 def _way(channel: SyntecChannel, end: list[float]) -> float:
-    """The straight way to a position over all axes, as its feed counts it: under G70 a degree is an inch."""
+    """The straight way to a position, as its feed counts it: over all axes, under tip control that of a tip that moves.
+
+    Under G70 a degree is an inch.
+    """
     ways = [e - s for s, e in zip(channel.coordinates.position, end, strict=True)]
+    if TipState.of(channel).is_leading(channel):
+        from polycnc.transformation.orientation.linkage import STANDS_MM
+
+        tip = hypot(*(way for way, data in zip(ways, channel.axis_data, strict=True) if not data.rotary))
+        if tip >= STANDS_MM:
+            return tip
     if channel.memory.is_inch:
         for axis, data in enumerate(channel.axis_data):
             if data.rotary and not is_length(channel, axis):
