@@ -263,6 +263,7 @@ class RunState(Structure):
         behind: BEHIND_S of it, seconds; 0 of a rapid.
         free: Who says how fast feeds are (0: the plan): MAIN_RUN with overrides, 1 a dry run, 2 one that acts on
             threads too. `kernels/feeds.py` says what 1 and 2 mean, `kernels/alone.py` what MAIN_RUN does.
+        override: Factor of overrides on the feed of the row at hand, which that has in it already.
         straight_pieces: Of the straight run from rest that the row at hand goes on with.
         ease: Factor on the limits at the end of the row before; `corner_ease` for its corner.
         overlap: OVERLAP of the row before; `rapid_overlap` likewise, 0 behind a cut.
@@ -300,6 +301,7 @@ class RunState(Structure):
     wanted: float
     behind: float
     free: float
+    override: float
     straight_pieces: int
     ease: float
     corner_ease: float
@@ -422,7 +424,7 @@ class State(NamedTuple):
 
 def new_state(n: int, start: Sequence[float] = ()) -> State:
     """The state before the first row of n axes that stand at a machine position, at zero where it is left out."""
-    run = RunState(stop=1.0, low2=inf, low_pull=inf)
+    run = RunState(stop=1.0, low2=inf, low_pull=inf, override=1.0)
     records = run, JointState(top2=inf), RowState(), ArcState()
     position = zeros(n)
     position[: len(start)] = array("d", start)

@@ -143,7 +143,7 @@ def straight_speed(
     if not turns or contexts[record + ContextRecord.INVERSE_TIME] != 0.0:
         return asked
     own: float = contexts[record + ContextRecord.TURN_SPEED]
-    return own if own > 0.0 else asked / contexts[record + ContextRecord.TURN_WEIGHT]
+    return own * state.run.override if own > 0.0 else asked / contexts[record + ContextRecord.TURN_WEIGHT]
 
 
 def lagging_pull(contexts: Floats, record: int, speed: float) -> float:
