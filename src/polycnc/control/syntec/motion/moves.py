@@ -317,8 +317,10 @@ def _tells_direction(builder: Builder, plan: Plan) -> bool:
     """Whether a block says how the tool stands, so that rotary axes turn without their words or beside them."""
     if builder.mode["length"] == "G43.5":
         return any(builder.has(letter) for letter in "IJK") and builder.mode["motion"] == "G1"
-    rotary = any(builder.channel.axis_data[word.axis].rotary for word in plan.axis_words)
-    return builder.mode[POSTURE] != "" and rotary
+    standing = builder.channel.control.kinematics(builder.channel).axes
+    return builder.mode[POSTURE] != "" and any(
+        builder.channel.axes[word.axis] in standing for word in plan.axis_words
+    )
 
 
 def feed_to(channel: SyntecChannel, end: list[float]) -> float:
