@@ -140,9 +140,9 @@ def test_a_rotary_axis_that_stands_no_tool_tells_no_direction() -> None:
     text = "G54.4 P1\nG43.4 H1 Q1\nG00 X0 Y0 Z0 A0 C0\nG91 G93 G01 B10. F2.\nM30\n"
     result = turned_work(text, str(BESIDE), [30.0, 0.0, 0.0])
     assert result.ok, result.alarms
-    machine = [row["machine"] for row in result.rows if "machine" in row][-1]
-    assert (machine["A"], machine["B"]) == pytest.approx((-30.0, 10.0), abs=1e-9)
-    assert result.rows[-1]["feed"] == pytest.approx(20.0)
+    row = [row for row in result.rows if "machine" in row][-1]
+    assert (row["machine"]["A"], row["machine"]["B"]) == pytest.approx((-30.0, 10.0), abs=1e-9)
+    assert row["feed"] == pytest.approx(20.0)
 
 
 def test_a_channel_runs_its_own_section_of_a_file() -> None:
