@@ -63,6 +63,7 @@ from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS, RAPID_KINDS
 from polycnc.toolpath.modes import AccelerationMode, FeedMode
 from polycnc.toolpath.row_path import arc_path, line_path
 from polycnc.toolpath.table import CURVE_WIDTH
+from polycnc.transformation.orientation.linkage import STANDS_MM
 from polycnc.transformation.orientation.linked import linkage_of
 from polycnc.transformation.pole import is_at
 
@@ -487,7 +488,9 @@ class RealAxes:
 
     def _length(self, context: Context, start: Sequence[float], end: Sequence[float]) -> float:
         """Length of a way, as the feed counts it."""
-        return hypot(*self._counted(context, start, end)) or hypot(*map(sub, end, start))
+        counted = hypot(*self._counted(context, start, end))
+        stands = counted < STANDS_MM and rotary_weight(context, self._settings) == 0.0
+        return hypot(*map(sub, end, start)) if stands else counted
 
     def _counted(self, context: Context, start: Sequence[float], end: Sequence[float]) -> list[float]:
         """How far each column goes, as the feed counts it, mm."""

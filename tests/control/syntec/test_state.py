@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from math import cos, radians, sin
+from pathlib import Path
 from typing import Any
 
 import pytest
 
 from polycnc.memory.retained import WORK_TURNS, InMemoryStore
 from polycnc.session import Result, open_session
+
+#: A rotary axis B beside the table A, C.
+BESIDE = Path(__file__).parents[2] / "conformance" / "machines" / "mill6-ac-table-b.toml"
 
 
 def run(program: str, files: dict[str, str] | None = None, **setup: Any) -> Result:
@@ -129,6 +133,16 @@ def test_directions_of_the_machine_count_again_behind_q0() -> None:
     result = turned_work(text, "mill5-bc-head", [0.0, 30.0, 0.0])
     places = [row["machine"]["B"] for row in result.rows if "machine" in row]
     assert places == pytest.approx([30.0, 0.0])
+
+
+def test_a_rotary_axis_that_stands_no_tool_tells_no_direction() -> None:
+    # The work is turned by 30 degrees about X: A-30 stands the tool along its Z.
+    text = "G54.4 P1\nG43.4 H1 Q1\nG00 X0 Y0 Z0 A0 C0\nG91 G93 G01 B10. F2.\nM30\n"
+    result = turned_work(text, str(BESIDE), [30.0, 0.0, 0.0])
+    assert result.ok, result.alarms
+    row = [row for row in result.rows if "machine" in row][-1]
+    assert (row["machine"]["A"], row["machine"]["B"]) == pytest.approx((-30.0, 10.0), abs=1e-9)
+    assert row["feed"] == pytest.approx(20.0)
 
 
 def test_a_channel_runs_its_own_section_of_a_file() -> None:

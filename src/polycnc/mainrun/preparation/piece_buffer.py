@@ -109,6 +109,7 @@ class PieceBuffer:
             state.run.stop = 1.0
         self.led, self.use = prepared.limits, prepared.use
         contexts = self.tables.of(prepared.use)
+        state.run.override = prepared.factor(layout)
         # What a tap may do at an override, others decide (`Rates`).
         state.run.free = 1.0 if rows.kind[0] == TAP and layout.free <= 0.0 else layout.free
         while not self._kernels.lay(

@@ -162,6 +162,8 @@ class ContextRecord(Places):
     BEHIND_S = place()
     #: Speed of a cut in which nothing moves but rotary axes, degrees/s (0: its feed).
     TURN_SPEED = place()
+    #: How many millimetres of that feed are a degree.
+    TURN_WEIGHT = place()
     #: Nine numbers by rows, then the shift.
     FRAME = place(12)
     OFFSETS = place(0)
@@ -261,6 +263,7 @@ class RunState(Structure):
         behind: BEHIND_S of it, seconds; 0 of a rapid.
         free: Who says how fast feeds are (0: the plan): MAIN_RUN with overrides, 1 a dry run, 2 one that acts on
             threads too. `kernels/feeds.py` says what 1 and 2 mean, `kernels/alone.py` what MAIN_RUN does.
+        override: Factor of overrides on the feed of the row at hand, which that has in it already.
         straight_pieces: Of the straight run from rest that the row at hand goes on with.
         ease: Factor on the limits at the end of the row before; `corner_ease` for its corner.
         overlap: OVERLAP of the row before; `rapid_overlap` likewise, 0 behind a cut.
@@ -298,6 +301,7 @@ class RunState(Structure):
     wanted: float
     behind: float
     free: float
+    override: float
     straight_pieces: int
     ease: float
     corner_ease: float
@@ -420,7 +424,7 @@ class State(NamedTuple):
 
 def new_state(n: int, start: Sequence[float] = ()) -> State:
     """The state before the first row of n axes that stand at a machine position, at zero where it is left out."""
-    run = RunState(stop=1.0, low2=inf, low_pull=inf)
+    run = RunState(stop=1.0, low2=inf, low_pull=inf, override=1.0)
     records = run, JointState(top2=inf), RowState(), ArcState()
     position = zeros(n)
     position[: len(start)] = array("d", start)

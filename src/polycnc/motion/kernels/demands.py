@@ -13,6 +13,7 @@ from polycnc.motion.kernels.columns import AT_END, AT_START, DWELL, FEED, RAPID,
 from polycnc.motion.kernels.feeds import norm
 from polycnc.transformation.orientation.linkage import (
     RADIAN,
+    STANDS_MM,
     Block,
     Room,
     ask,
@@ -32,8 +33,6 @@ NOTHING = 1e-9
 LOOKS, FEW_LOOKS, LITTLE_DEG, UNEVEN, LOOK_DEG = 4, 1, 0.5, 1.3, 15.0
 #: A row of more than fifty turns has no more places than this. Being prime, it puts them at ever other angles.
 MOST_LOOKS = 1201
-#: Rows without a way to speak of are looked at one by one, mm.
-SHORT = 1e-9
 
 
 def share_rows(
@@ -79,7 +78,7 @@ def share_rows(
             for i in range(n):
                 unit[i] = ends[row * n + i] - start[i]
             length = norm(unit, n, limits, weight)
-            if length > SHORT:
+            if length >= STANDS_MM:  # others are looked at one by one
                 turned = turned_by(linkage, unit)
                 for i in range(n):
                     room[Room.BLOCKS + Block.ORIGIN * n + i] = start[i]

@@ -21,6 +21,7 @@ from polycnc.motion.kernels.columns import (
     State,
     piece_width,
 )
+from polycnc.transformation.orientation.linkage import STANDS_MM
 
 #: A smaller feed counts as this one, mm/s: squares of speeds and all times stay numbers.
 SLOWEST = 1e-9
@@ -119,7 +120,7 @@ def counted_length(
     """Length that the feed of the row at hand counts, and the weight of degrees in it; 1 where nothing else moves."""
     weight: float = contexts[record + ContextRecord.ROTARY_WEIGHT]
     length = norm(state.delta, n, limits, weight)
-    if length == 0.0:
+    if weight == 0.0 and length < STANDS_MM:
         return norm(state.delta, n, limits, 1.0), 1.0
     return length, weight
 
@@ -133,12 +134,16 @@ def straight_speed(
     radius_mm: float,
     weight: float,
 ) -> float:
-    """As `asked_speed`; a cut that moves nothing but rotary axes may have a speed of its own, if it names no time."""
-    own: float = contexts[record + ContextRecord.TURN_SPEED]
+    """As `asked_speed`; a cut that moves nothing but rotary axes has a speed in degrees, if it names no time.
+
+    That is one of its own, or its feed, of which so many millimetres are a degree.
+    """
+    asked = asked_speed(curves, contexts, record, state, length, radius_mm)
     turns = weight != contexts[record + ContextRecord.ROTARY_WEIGHT] and not is_rapid(state)
-    if turns and own > 0.0 and contexts[record + ContextRecord.INVERSE_TIME] == 0.0:
-        return own
-    return asked_speed(curves, contexts, record, state, length, radius_mm)
+    if not turns or contexts[record + ContextRecord.INVERSE_TIME] != 0.0:
+        return asked
+    own: float = contexts[record + ContextRecord.TURN_SPEED]
+    return own * state.run.override if own > 0.0 else asked / contexts[record + ContextRecord.TURN_WEIGHT]
 
 
 def lagging_pull(contexts: Floats, record: int, speed: float) -> float:

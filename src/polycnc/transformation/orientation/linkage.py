@@ -16,6 +16,8 @@ MOST_JOINTS = 6
 #: Numbers of a joint: column of its axis, direction, offset from the joint before.
 JOINT_WIDTH = 7
 RADIAN = pi / 180.0
+#: A tip that goes less than this (mm) stands: it comes from turns of the table, there and back.
+STANDS_MM = 1e-6
 
 
 class Linkage(Places):

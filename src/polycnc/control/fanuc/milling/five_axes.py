@@ -166,7 +166,15 @@ def _plan_direction(builder: Builder, plan: Plan) -> Step | None:
     """I J K of G41.6, G42.6 without tip control, on machines whose tool turns: the tool stands so at the end."""
     if builder.mode["length"] in TIP_CODES:
         return None
+    refuse_two_directions(builder, plan)
     return plan_with_direction(builder, plan)
+
+
+def refuse_two_directions(builder: Builder, plan: Plan) -> None:
+    """PS5421 for rotary words beside I J K, as under G43.5: both say how the tool stands."""
+    rotary = [word for word in plan.axis_words if builder.channel.axis_data[word.axis].rotary]
+    if rotary and any(builder.has(letter) and builder.is_free(letter) for letter in "IJK"):
+        raise builder.control.fail("tip_company", address=rotary[0].address)
 
 
 #: Blocks that name the direction of the tool by a vector.

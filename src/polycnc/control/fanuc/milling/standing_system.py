@@ -16,6 +16,7 @@ from polycnc.control.fanuc.milling import leaning
 from polycnc.control.fanuc.milling.five_axes import not_yet
 from polycnc.control.fanuc.milling.parameters import FanucMillingParameters
 from polycnc.control.word_address.block.rules import Rule
+from polycnc.control.word_address.coordinates import on_table
 from polycnc.control.word_address.coordinates.on_table import OnTable
 from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.motion import path
@@ -210,6 +211,8 @@ def _plan_start(builder: Builder, plan: Plan) -> Step | None:
             channel.straight(kind, c.from_machine(machine), feed)
             channel.flush()
         c.transform(led)
+        standing = channel.control.kinematics(channel).axes
+        on_table.begin_posture(channel, told=any(channel.axes[word.axis] in standing for word in words))
         channel.context_changed()
 
     return move

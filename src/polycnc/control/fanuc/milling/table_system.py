@@ -103,6 +103,8 @@ def _plan(builder: Builder, plan: Plan) -> Step | None:
     letters = [letter for letter in "IJK" if side in spatial.BY_VECTOR and builder.has(letter)]
     if not (words or letters) or motion not in STRAIGHT or side not in spatial.SIDES:
         return None
+    if letters:
+        five_axes.refuse_two_directions(builder, plan)
     builder.take(*letters)
     kind, names_feed = STRAIGHT[motion], builder.has("F")
 

@@ -30,7 +30,8 @@ STRAIGHT = {"G0": Kind.RAPID, "G1": Kind.FEED}
 def _plan(builder: Builder, plan: Plan) -> Step | None:
     """A straight block with rotary words: its end stands the tool in the work system as they say."""
     words = plan.axis_words
-    rotary = [word for word in words if builder.channel.axis_data[word.axis].rotary]
+    standing = builder.channel.control.kinematics(builder.channel).axes
+    rotary = [word for word in words if builder.channel.axes[word.axis] in standing]
     if not rotary or builder.mode["length"] != "G43.4":
         return None
     motion = builder.mode["motion"]

@@ -18,6 +18,7 @@ from polycnc.control.word_address.auxiliary import functions
 from polycnc.control.word_address.block import repeated_codes
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.coordinates.frames import PolarCoordinateState, polar_target, scale_of
+from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.cycles.drilling import CycleState
 from polycnc.control.word_address.motion import path, skip
 from polycnc.control.word_address.motion.arcs import emit_arc
@@ -316,8 +317,10 @@ def _tells_direction(builder: Builder, plan: Plan) -> bool:
     """Whether a block says how the tool stands, so that rotary axes turn without their words or beside them."""
     if builder.mode["length"] == "G43.5":
         return any(builder.has(letter) for letter in "IJK") and builder.mode["motion"] == "G1"
-    rotary = any(builder.channel.axis_data[word.axis].rotary for word in plan.axis_words)
-    return builder.mode[POSTURE] != "" and rotary
+    standing = builder.channel.control.kinematics(builder.channel).axes
+    return builder.mode[POSTURE] != "" and any(
+        builder.channel.axes[word.axis] in standing for word in plan.axis_words
+    )
 
 
 def feed_to(channel: SyntecChannel, end: list[float]) -> float:
@@ -337,8 +340,17 @@ def _end(channel: SyntecChannel, plan: Plan, values: list[float]) -> list[float]
 
 
 def _way(channel: SyntecChannel, end: list[float]) -> float:
-    """The straight way to a position over all axes, as its feed counts it: under G70 a degree is an inch."""
+    """The straight way to a position, as its feed counts it: over all axes, under tip control that of a tip that moves.
+
+    Under G70 a degree is an inch.
+    """
     ways = [e - s for s, e in zip(channel.coordinates.position, end, strict=True)]
+    if TipState.of(channel).is_leading(channel):
+        from polycnc.transformation.orientation.linkage import STANDS_MM
+
+        tip = hypot(*(way for way, data in zip(ways, channel.axis_data, strict=True) if not data.rotary))
+        if tip >= STANDS_MM:
+            return tip
     if channel.memory.is_inch:
         for axis, data in enumerate(channel.axis_data):
             if data.rotary and not is_length(channel, axis):

@@ -102,12 +102,15 @@ def follow(channel: WordAddressChannel, angles: Angles | None = None) -> None:
     refresh_zero(channel)
 
 
-def begin_posture(channel: WordAddressChannel) -> None:
-    """Tip control begins: the tool stands as its rotary axes do, unless those are where words had led them before."""
+def begin_posture(channel: WordAddressChannel, *, told: bool = False) -> None:
+    """Tip control begins: the tool stands as its rotary axes do, unless those are where words had led them before.
+
+    `told`: words of the block in which it begins have led them, as they do without tip control.
+    """
     state, here = OnTable.of(channel), dict(zip(channel.axes, channel.coordinates.machine, strict=True))
     axes = channel.control.kinematics(channel).axes
     led = bool(state.stood) and all(abs(state.stood[name] - here[name]) < NOT_MOVED_DEG for name in axes)
-    if not (state.error and led):
+    if told or not (state.error and led):
         state.posture, state.stood = {name: here[name] for name in axes}, {}
 
 

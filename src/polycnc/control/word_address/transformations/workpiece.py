@@ -221,7 +221,7 @@ def _reach_posed(
 ) -> list[float]:
     """The programmed end of a block, its rotary axes where they stand the tool on the work as it lies."""
     c, state = channel.coordinates, OnTable.of(channel)
-    before, rotary = c.programmed, [word for word in words if channel.axis_data[word.axis].rotary]
+    before, rotary = c.programmed, [word for word in words if channel.axes[word.axis] in state.posture]
     goal = reach(channel, words, values)
     for word in rotary:
         name = channel.axes[word.axis]
