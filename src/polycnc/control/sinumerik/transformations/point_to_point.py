@@ -31,6 +31,8 @@ if TYPE_CHECKING:
 #: TU says something of so many rotary axes, and STAT and TU have so many bits.
 MOST_AXES, BITS = 3, 8
 TURN = 360.0
+#: A turn that is shorter than half a round by less goes forward, degrees.
+HALF_TURN = 1e-6
 
 
 @dataclass(slots=True)
@@ -178,8 +180,9 @@ def _goes_across(channel: SinumerikChannel) -> bool:
 
 
 def _shortest(angle: float, here: float) -> float:
-    """The same direction on the turn that is nearest."""
-    return here + (angle - here + TURN / 2.0) % TURN - TURN / 2.0
+    """The same direction on the turn that is nearest; half a turn goes forward, however its digits fall."""
+    forward = TURN / 2.0 - HALF_TURN
+    return here + (angle - here + forward) % TURN - forward
 
 
 def _reaches(channel: SinumerikChannel, column: int, angle: float) -> bool:
