@@ -31,6 +31,8 @@ if TYPE_CHECKING:
 #: TU says something of so many rotary axes, and STAT and TU have so many bits.
 MOST_AXES, BITS = 3, 8
 TURN = 360.0
+#: An axis that goes less far (mm, degrees) stands: digits of the transformation are no way on which F would count.
+NO_WAY = 1e-9
 #: A turn that is shorter than half a round by less goes forward, degrees.
 HALF_TURN = 1e-6
 
@@ -42,11 +44,14 @@ class PointToPoint(State, lifetime=Lifetime.RESET):
     Attributes:
         turns: TU of the running block; None where it is not programmed.
         placed: Columns of the axes that the running block sends to a place.
+        across: STAT = 1 was programmed, and no block has gone with the axes since: under TRANSMIT that goes to the
+            other side of the centre.
         shown_by: What shows its end while it is written.
     """
 
     turns: int | None = None
     placed: frozenset[int] = frozenset()
+    across: bool = False
     shown_by: Transformation | None = None
 
 
@@ -94,6 +99,7 @@ def _noted(places: dict[str, int]) -> Step:
                 raise WordAlarm("12560", place, text=address)
             if address == "STAT":
                 Orienting.of(channel).stat = int(value)
+                PointToPoint.of(channel).across = bool(int(value) & 1)
             else:
                 PointToPoint.of(channel).turns = int(value)
 
@@ -139,6 +145,7 @@ def go(channel: SinumerikChannel, kind: Kind, end: list[float], feed: float) -> 
     coordinates.arrive(end if same else back)
     if plane is not None:
         stand(channel, -plane.side if across else plane.side, machine[plane.rotary])
+    state.across = False
 
 
 def _configured(channel: SinumerikChannel, transformation: Transformation, end: list[float]) -> list[float]:
@@ -162,7 +169,7 @@ def _configured(channel: SinumerikChannel, transformation: Transformation, end: 
             places = (near, machine[column], near - TURN, near + TURN)
             within = (angle for angle in places if is_polar or _reaches(channel, column, angle))
             machine[column] = next(within, machine[column])
-    return machine
+    return [b if abs(a - b) < NO_WAY else a for a, b in zip(machine, here, strict=True)]
 
 
 def _is_told_by_turns(channel: SinumerikChannel, column: int) -> bool:
@@ -174,9 +181,12 @@ def _is_told_by_turns(channel: SinumerikChannel, column: int) -> bool:
 
 
 def _goes_across(channel: SinumerikChannel) -> bool:
-    """Whether the infeed axis of TRANSMIT goes to the other side of the centre: STAT asks, MD24911 allows it."""
+    """Whether the infeed axis of TRANSMIT goes to the other side of the centre: STAT asks, MD24911 allows it.
+
+    It does so once for each STAT: blocks that follow stay there, while STAT holds.
+    """
     build = seat.Transformations.of(channel).build
-    return build is not None and build.changes_sides and bool(Orienting.of(channel).stat & 1)
+    return build is not None and build.changes_sides and PointToPoint.of(channel).across
 
 
 def _shortest(angle: float, here: float) -> float:
