@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import pytest
+
+from polycnc.mainrun import State
 from tests.control.sinumerik.support import codes, run
+from tests.mainrun.support import power_on, run_through
 
 
 def test_a_spindle_that_is_no_axis_leaves_all_axes() -> None:
@@ -29,3 +33,12 @@ def test_an_axis_that_a_transformation_uses_up_is_not_positioned() -> None:
 def test_a_program_that_is_executed_in_time_waits_for_the_axis() -> None:
     result = run("ID=1 WHEN $AA_IM[X]>1 DO $R9=1", "SPOS=45", "R1=$AA_IM[C]", "G0 X10", machine="lathe-c")
     assert result.variables["R1"] == 45.0
+
+
+@pytest.mark.parametrize(("wait", "waits"), [("WAITS", True), ("WAITS(1)", True), ("", False)])
+def test_waits_waits_for_the_axis_that_sposa_moves(wait: str, waits: bool) -> None:  # noqa: FBT001 - a table's column
+    virtual = power_on(f"SPOSA=90\n{wait}\nG4 F1\nM30\n", "sinumerik-840d", machine="lathe-c")
+    virtual.cycle_start()
+    assert virtual.run_until(lambda control: control.active_block.line == 3, limit_s=10.0)
+    assert (virtual.positions.machine["C"] == pytest.approx(90.0)) is waits
+    assert run_through(virtual) is State.READY
