@@ -6,7 +6,7 @@ import pytest
 
 from polycnc.mainrun import State
 from tests.control.sinumerik.support import codes, run
-from tests.mainrun.support import power_on, run_through
+from tests.mainrun.support import power_on
 
 
 def test_a_spindle_that_is_no_axis_leaves_all_axes() -> None:
@@ -36,9 +36,9 @@ def test_a_program_that_is_executed_in_time_waits_for_the_axis() -> None:
 
 
 @pytest.mark.parametrize(("wait", "waits"), [("WAITS", True), ("WAITS(1)", True), ("", False)])
-def test_waits_waits_for_the_axis_that_sposa_moves(wait: str, waits: bool) -> None:  # noqa: FBT001 - a table's column
+def test_waits_waits_for_the_axis_that_sposa_moves(wait: str, waits: bool) -> None:
     virtual = power_on(f"SPOSA=90\n{wait}\nG4 F1\nM30\n", "sinumerik-840d", machine="lathe-c")
     virtual.cycle_start()
     assert virtual.run_until(lambda control: control.active_block.line == 3, limit_s=10.0)
     assert (virtual.positions.machine["C"] == pytest.approx(90.0)) is waits
-    assert run_through(virtual) is State.READY
+    assert virtual.run() is State.READY
