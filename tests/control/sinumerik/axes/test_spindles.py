@@ -42,3 +42,16 @@ def test_waits_waits_for_the_axis_that_sposa_moves(wait: str, waits: bool) -> No
     assert virtual.run_until(lambda control: control.active_block.line == 3, limit_s=10.0)
     assert (virtual.positions.machine["C"] == pytest.approx(90.0)) is waits
     assert virtual.run() is State.READY
+
+
+@pytest.mark.parametrize("block", ["SPOS=90", "SPOSA=90", "POS[C]=90", "G0 C90"])
+def test_a_transformation_begins_where_the_axis_stands(block: str) -> None:
+    lines = ("G0 X40 C30", block, "TRANSMIT", "G1 X20 Y0 F1000")
+    found = run(*lines, machine="lathe-c-transmit")
+    there = run("G0 X40 C30", "G0 C90", *lines[2:], machine="lathe-c-transmit")
+    assert found.plan.row_s[-1] == pytest.approx(there.plan.row_s[-1])
+    virtual = power_on("\n".join((*lines, "M30")), "sinumerik-840d", machine="lathe-c-transmit")
+    virtual.block_search(4)
+    virtual.cycle_start()
+    assert virtual.run_until(lambda control: control.active_block.line == 4, limit_s=10.0)
+    assert virtual.positions.machine["C"] == pytest.approx(90.0, abs=2.0)

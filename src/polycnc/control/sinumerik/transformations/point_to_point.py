@@ -17,6 +17,7 @@ from polycnc.control.sinumerik.transformations.pole_sides import plane_of, stand
 from polycnc.control.sinumerik.transformations.posture import Orienting, Posture
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY
+from polycnc.geometry.tolerances import NO_WAY
 from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError
 from polycnc.transformation.orientation.choice import is_within
@@ -31,8 +32,6 @@ if TYPE_CHECKING:
 #: TU says something of so many rotary axes, and STAT and TU have so many bits.
 MOST_AXES, BITS = 3, 8
 TURN = 360.0
-#: An axis that goes less far (mm, degrees) stands: digits of the transformation are no way on which F would count.
-NO_WAY = 1e-9
 #: A turn that is shorter than half a round by less goes forward, degrees.
 HALF_TURN = 1e-6
 
@@ -169,6 +168,7 @@ def _configured(channel: SinumerikChannel, transformation: Transformation, end: 
             places = (near, machine[column], near - TURN, near + TURN)
             within = (angle for angle in places if is_polar or _reaches(channel, column, angle))
             machine[column] = next(within, machine[column])
+    # Digits of the transformation are no way on which F would count.
     return [b if abs(a - b) < NO_WAY else a for a, b in zip(machine, here, strict=True)]
 
 
