@@ -58,8 +58,9 @@ def turn_s(degrees: float) -> float:
 
 
 def seconds_of(result: polycnc.Result, line: int) -> float:
-    """Planned time of the row of a line."""
-    return result.plan.row_s[next(i for i, row in enumerate(result.rows) if row.get("line") == line)]
+    """Planned time of the rows of a line: a path through the pole is cut there."""
+    lines = [own for chunk in result.toolpath.chunks for own in chunk.line]
+    return sum(time for time, own in zip(result.plan.row_s, lines, strict=True) if own == line)
 
 
 THROUGH = [

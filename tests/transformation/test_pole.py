@@ -5,7 +5,9 @@ from math import pi
 import pytest
 
 from polycnc.toolpath.row_path import arc_path, line_path
+from polycnc.transformation.kinematic.polar import PolarPlane
 from polycnc.transformation.pole import POLE_MM, Pole, is_at, shares_at_pole
+from polycnc.transformation.seated import Seated
 
 POLE = Pole((0, 1), (10.0, 0.0), 0, 2)
 GEOMETRY = (0, 1, -1)
@@ -39,3 +41,11 @@ def test_an_arc_of_several_turns_comes_to_the_pole_in_each() -> None:
     arc = arc_path(start, start, (15.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0), GEOMETRY, ccw=True)
     assert arc.angle == pytest.approx(4.0 * pi)
     assert shares_at_pole(POLE, arc.at, arc, start, start) == pytest.approx([0.25, 0.75])
+
+
+def test_a_tool_along_the_linear_axis_lies_between_it_and_the_pole() -> None:
+    plane = Seated(PolarPlane(0, 2, (0, 2, 1), side=-1.0), offsets=(4.0, 0.0, 0.0))
+    pole = plane.pole
+    assert pole is not None
+    assert pole.axes_beside([4.0, 0.0, 30.0], 0.1) == pytest.approx([3.9, 0.0, 30.0])
+    assert pole.distance(plane.to_work(pole.axes_beside([4.0, 0.0, 30.0], 0.1))) == pytest.approx(0.1)

@@ -43,6 +43,7 @@ class Pole:
         place: Their numbers there, mm.
         linear: Column of the axis that leads away from the pole; `side` is its sign on the side where it is.
         rotary: Column of the rotary axis.
+        zero: Where the linear axis is in the pole: a tool along it lies between, mm.
     """
 
     columns: tuple[int, int]
@@ -50,6 +51,7 @@ class Pole:
     linear: int
     rotary: int
     side: float = 1.0
+    zero: float = 0.0
 
     def away(self, point: Sequence[float]) -> tuple[float, float]:
         """From the pole to a point of the path."""
@@ -70,7 +72,7 @@ class Pole:
     def axes_beside(self, axes: Sequence[float], radius: float) -> list[float]:
         """Positions of the axes at a distance from the pole, in the direction in which the rotary axis stands."""
         moved = list(axes)
-        moved[self.linear] = self.side * radius
+        moved[self.linear] = self.zero + self.side * radius
         return moved
 
 

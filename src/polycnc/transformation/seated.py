@@ -66,7 +66,8 @@ class Seated:
         for at, column, value in zip((i, j), pole.columns, pole.place, strict=True):
             place[at] = value - (self.shifts[column] if self.shifts else 0.0)
         centre = back.apply(place[0], place[1], place[2])
-        return replace(pole, place=(centre[i], centre[j]))
+        zero = pole.zero + (self.offsets[pole.linear] if self.offsets else 0.0)
+        return replace(pole, place=(centre[i], centre[j]), zero=zero)
 
     def to_machine(self, work: Sequence[N]) -> list[N]:
         """Positions of the machine's axes at a point of the work."""
@@ -74,8 +75,7 @@ class Seated:
 
     def to_work(self, axes: Sequence[N]) -> list[N]:
         """The point of the work for positions of the machine's axes."""
-        own = axes if self.driven is None else self.driven.to_work(axes)
-        point = _added(self.inner.to_work(_taken(own, self.offsets)), ())
+        point = _added(self.inner.to_work(self.behind(axes)), ())
         if self.led is not None:
             point = self.led.to_work(point)
         return self._mapped(self.frame.inverse(), _taken(point, self.shifts))
@@ -84,6 +84,10 @@ class Seated:
         """The point of the basic system for one of the work."""
         point = self._shifted(work)
         return point if self.led is None else self.led.to_machine(point)
+
+    def behind(self, axes: Sequence[N]) -> list[N]:
+        """Positions of the axes as the transformation makes them: those of the machine without tool and slaves."""
+        return _taken(axes if self.driven is None else self.driven.to_work(axes), self.offsets)
 
     def jacobian(self, work: Sequence[N]) -> list[list[N | float]]:
         """That of the transformation, seen through the frame and with the axes that follow others."""

@@ -42,3 +42,20 @@ def test_reset_under_polar_interpolation_leaves_the_axes_where_they_are() -> Non
     virtual.reset()
     assert virtual.machine_position == pytest.approx(here)
     assert virtual.positions.work["C"] == pytest.approx(virtual.positions.machine["C"])
+
+
+@pytest.mark.parametrize("length", [4.0, -4.0])
+def test_no_axis_jumps_where_a_tool_along_the_infeed_comes_through_the_centre(length: float) -> None:
+    text = "T1 D1 F1000\nG0 X20\nTRANSMIT\nG1 X5 Y0\nX0\nX-5\nX0\nX0 Y-5\nX0 Y0\nX5\nM30\n"
+    setup = {"tools": {1: {"type": 120, "x": length}}}
+    virtual = power_on(text, "sinumerik-840d", machine="lathe-c-transmit", setup=setup)
+    virtual.cycle_start()
+    before = virtual.machine_position
+    while virtual.state is State.RUNNING:
+        virtual.step()
+        now = virtual.machine_position
+        ways = [abs(a - b) for a, b in zip(now, before, strict=True)]
+        ways[2] = abs((now[2] - before[2] + 180.0) % 360.0 - 180.0)
+        assert max(ways) < 3.0
+        before = now
+    assert virtual.state is State.READY

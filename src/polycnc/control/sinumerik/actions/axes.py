@@ -7,6 +7,7 @@ reorganised: the block waits until everything before it is executed and the axis
 from __future__ import annotations
 
 from dataclasses import field
+from math import nan
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, lasting
@@ -21,6 +22,7 @@ from polycnc.geometry.tolerances import NO_WAY
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import Deed
+from polycnc.toolpath.kinds import Kind
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -176,6 +178,11 @@ def position_beside(channel: SinumerikChannel, column: int, end: list[float]) ->
     """
     clocked, coordinates = channel.actual.clocked, channel.coordinates
     if clocked is None:
+        return
+    if channel.is_searched and not channel.path.changes_ends:
+        channel.straight(
+            Kind.RAPID, end, nan
+        )  # nothing moves in a block search: what is sought begins behind the axis
         return
     before, after = coordinates.machine, coordinates.to_machine(end)
     moved = [i for i, (a, b) in enumerate(zip(before, after, strict=True)) if abs(a - b) > NO_WAY]

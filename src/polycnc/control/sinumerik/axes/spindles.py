@@ -50,3 +50,10 @@ def stand(channel: SinumerikChannel, spindle: Spindle, *, awaited: bool) -> None
     coordinates.arrive(end)
     if awaited:
         action_axes.await_positioned(channel, column)
+
+
+def wait(channel: SinumerikChannel, number: int) -> None:
+    """WAITS: the block ends when the axis of a spindle stands that SPOSA has positioned."""
+    column = axis_of(channel, number)
+    if column >= 0:
+        action_axes.await_positioned(channel, column)

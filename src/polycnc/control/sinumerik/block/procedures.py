@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from polycnc.control.sinumerik.actions import actions, fixed_stop, overlay, polynomials
 from polycnc.control.sinumerik.actions import axes as action_axes
 from polycnc.control.sinumerik.axes import geometry
+from polycnc.control.sinumerik.axes import spindles as spindle_axes
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.arguments import Arguments
 from polycnc.control.sinumerik.block.positions import DIAMETER_OF_AXIS, diameter_of_channel
@@ -172,9 +173,10 @@ def wait_for_axes(channel: SinumerikChannel, args: Arguments) -> None:
 
 
 def wait_for_spindles(channel: SinumerikChannel, args: Arguments) -> None:
-    """WAITS(n, …): spindles stand at their positions."""
-    for number in args:
-        channel.memory.spindles.get(arguments.spindle(number))
+    """WAITS(n, …): spindles stand at their positions; without a number the master spindle does."""
+    spindles = channel.memory.spindles
+    for number in [arguments.spindle(each) for each in args] or [spindles.master]:
+        spindle_axes.wait(channel, spindles.get(number).number)
 
 
 def preset(channel: SinumerikChannel, args: Arguments) -> None:

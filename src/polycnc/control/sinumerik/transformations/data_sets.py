@@ -36,7 +36,7 @@ TYPES: dict[str, range] = {
 }
 #: Types of TRACYL: groove walls by a linear axis, always or by the third argument.
 WITH_WALLS, WALLS_BY_ARGUMENT = 513, 514
-#: Sides of the pole of TRANSMIT by MD24911 and MD24951.
+#: Sides of the pole of TRANSMIT by MD24911 and MD24951; 0, as delivered, leaves both.
 SIDES = {1: 1.0, 2: -1.0}
 #: As many transformations as machine data can name.
 COUNT = 10
@@ -248,18 +248,12 @@ def polar(channel: SinumerikChannel, found: DataSet, infeed: int = -1) -> Build:
     if geometry[0] < 0:
         raise AlarmError("14401", text="TRANSMIT")
     virtual = second if second != rotary else -1
-    inner = PolarPlane(geometry[0], rotary, (geometry[0], second, geometry[2]), virtual=virtual)
-    fixed = _side(channel, found)
-    here = channel.coordinates.machine
-    side = fixed or (-1.0 if here[inner.linear] < -_TURNS else 1.0)
-    inner = replace(inner, side=side, pole_deg=here[rotary])
-    return Build(inner, frozenset((rotary,)), changes_sides=fixed is None)
-
-
-def _side(channel: SinumerikChannel, found: DataSet) -> float | None:
-    """The side of the centre that MD24911 and MD24951 name (1 plus, 2 minus); None for both (0, as delivered)."""
-    name = f"$MC_TRANSMIT_POLE_SIDE_FIX_{order(channel, found)}"
-    return SIDES.get(int(number_of(channel, name, 0, 0.0)))
+    n = order(channel, found)
+    fixed = SIDES.get(int(number_of(channel, f"$MC_TRANSMIT_POLE_SIDE_FIX_{n}", 0, 0.0)))
+    inner = PolarPlane(
+        geometry[0], rotary, (geometry[0], second, geometry[2]), side=fixed or 1.0, virtual=virtual
+    )  # fmt: skip
+    return Build(inner, frozenset((rotary,)), order=n, changes_sides=fixed is None)
 
 
 def cylinder(

@@ -17,6 +17,7 @@ from polycnc.control.sinumerik.transformations.pole_sides import plane_of, stand
 from polycnc.control.sinumerik.transformations.posture import Orienting, Posture
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY
+from polycnc.geometry.tolerances import NO_WAY
 from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError
 from polycnc.transformation.orientation.choice import is_within
@@ -31,6 +32,8 @@ if TYPE_CHECKING:
 #: TU says something of so many rotary axes, and STAT and TU have so many bits.
 MOST_AXES, BITS = 3, 8
 TURN = 360.0
+#: A turn that is shorter than half a round by less goes forward, degrees.
+HALF_TURN = 1e-6
 
 
 @dataclass(slots=True)
@@ -40,11 +43,14 @@ class PointToPoint(State, lifetime=Lifetime.RESET):
     Attributes:
         turns: TU of the running block; None where it is not programmed.
         placed: Columns of the axes that the running block sends to a place.
+        across: STAT = 1 was programmed, and no block has gone with the axes since: under TRANSMIT that goes to the
+            other side of the centre.
         shown_by: What shows its end while it is written.
     """
 
     turns: int | None = None
     placed: frozenset[int] = frozenset()
+    across: bool = False
     shown_by: Transformation | None = None
 
 
@@ -92,6 +98,7 @@ def _noted(places: dict[str, int]) -> Step:
                 raise WordAlarm("12560", place, text=address)
             if address == "STAT":
                 Orienting.of(channel).stat = int(value)
+                PointToPoint.of(channel).across = bool(int(value) & 1)
             else:
                 PointToPoint.of(channel).turns = int(value)
 
@@ -137,6 +144,7 @@ def go(channel: SinumerikChannel, kind: Kind, end: list[float], feed: float) -> 
     coordinates.arrive(end if same else back)
     if plane is not None:
         stand(channel, -plane.side if across else plane.side, machine[plane.rotary])
+    state.across = False
 
 
 def _configured(channel: SinumerikChannel, transformation: Transformation, end: list[float]) -> list[float]:
@@ -160,7 +168,8 @@ def _configured(channel: SinumerikChannel, transformation: Transformation, end: 
             places = (near, machine[column], near - TURN, near + TURN)
             within = (angle for angle in places if is_polar or _reaches(channel, column, angle))
             machine[column] = next(within, machine[column])
-    return machine
+    # Digits of the transformation are no way on which F would count.
+    return [b if abs(a - b) < NO_WAY else a for a, b in zip(machine, here, strict=True)]
 
 
 def _is_told_by_turns(channel: SinumerikChannel, column: int) -> bool:
@@ -172,14 +181,18 @@ def _is_told_by_turns(channel: SinumerikChannel, column: int) -> bool:
 
 
 def _goes_across(channel: SinumerikChannel) -> bool:
-    """Whether the infeed axis of TRANSMIT goes to the other side of the centre: STAT asks, MD24911 allows it."""
+    """Whether the infeed axis of TRANSMIT goes to the other side of the centre: STAT asks, MD24911 allows it.
+
+    It does so once for each STAT: blocks that follow stay there, while STAT holds.
+    """
     build = seat.Transformations.of(channel).build
-    return build is not None and build.changes_sides and bool(Orienting.of(channel).stat & 1)
+    return build is not None and build.changes_sides and PointToPoint.of(channel).across
 
 
 def _shortest(angle: float, here: float) -> float:
-    """The same direction on the turn that is nearest."""
-    return here + (angle - here + TURN / 2.0) % TURN - TURN / 2.0
+    """The same direction on the turn that is nearest; half a turn goes forward, however its digits fall."""
+    forward = TURN / 2.0 - HALF_TURN
+    return here + (angle - here + forward) % TURN - forward
 
 
 def _reaches(channel: SinumerikChannel, column: int, angle: float) -> bool:

@@ -26,6 +26,7 @@ from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES
 from polycnc.messages import AlarmError
 from polycnc.transformation.chain import Chain
 from polycnc.transformation.kinematic.parallel import ParallelAxes
+from polycnc.transformation.kinematic.polar import CLOSEST_MM, PolarPlane
 from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
 from polycnc.transformation.seated import Seated
 
@@ -144,12 +145,39 @@ def _take_seat(channel: SinumerikChannel, total: NcFrame, *, travelled: bool) ->
         channel.context_changed()
         return
     seated = _seated(channel, state.build, total)
+    build = _on_its_side(channel, state.build, seated)
+    if build is not state.build:
+        state.build, seated = build, _seated(channel, build, total)
     links.take_seat(channel, seated)
     if seated == state.seated:
         return
     state.seated = seated
     _sit(channel, seated)
     _name_axes(channel, state.build.used)
+
+
+def _on_its_side(channel: SinumerikChannel, build: Build, seated: Seated) -> Build:
+    """TRANSMIT on the side of the centre where the tip is that a tool brings there; in the centre C stands.
+
+    Raises:
+        AlarmError: PC0001 where MD24911 or MD24951 keeps it on the other side: no motion leads there.
+    """
+    first, *others = build.inner.links if isinstance(build.inner, Chain) else (build.inner,)
+    if not isinstance(first, PolarPlane):
+        return build
+    axes = seated.behind(channel.coordinates.machine)
+    for link in reversed(others):
+        axes = link.to_work(axes)
+    away = axes[first.linear] * first.side
+    if abs(away) < CLOSEST_MM:
+        plane = replace(first, pole_deg=axes[first.rotary])
+    elif away < 0.0:
+        if not build.changes_sides:
+            raise not_supported(f"$MC_TRANSMIT_POLE_SIDE_FIX_{build.order}")
+        plane = replace(first, side=-first.side)
+    else:
+        return build
+    return replace(build, inner=Chain((plane, *others)) if others else plane)
 
 
 def _sit(channel: SinumerikChannel, seated: Seated) -> None:

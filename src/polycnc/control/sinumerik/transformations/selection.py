@@ -6,6 +6,7 @@ A change of transformation deselects the frames (6.10; MD10602 keeps them), the 
 from __future__ import annotations
 
 from dataclasses import replace
+from math import nan
 from typing import TYPE_CHECKING
 
 from polycnc.channel.failure import stand_at_last_row
@@ -17,7 +18,7 @@ from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.frames.memory import OF_PLANES
 from polycnc.control.sinumerik.limits import protection, working_area
 from polycnc.control.sinumerik.motion import splines
-from polycnc.control.sinumerik.tables import length_factor
+from polycnc.control.sinumerik.tables import TURN, length_factor
 from polycnc.control.sinumerik.tools import selection as lengths_of_edge
 from polycnc.control.sinumerik.tools import stages
 from polycnc.control.sinumerik.tools.holders.active import ActiveCarrier
@@ -26,8 +27,10 @@ from polycnc.control.sinumerik.transformations.data_sets import Build
 from polycnc.control.sinumerik.transformations.pole_sides import PoleSides, plane_of
 from polycnc.control.sinumerik.transformations.seat import Transformations
 from polycnc.control.sinumerik.transformations.walls import WallStage
+from polycnc.geometry.tolerances import NO_WAY
 from polycnc.language.sinumerik.names.frame import NEUTRAL
 from polycnc.messages import AlarmError
+from polycnc.toolpath.kinds import Kind
 from polycnc.transformation.chain import Chain
 
 if TYPE_CHECKING:
@@ -217,6 +220,8 @@ def _change(channel: SinumerikChannel, kind: str, build: Build | None) -> None:
     state, memory = Transformations.of(channel), channel.memory
     channel.path.take(WallStage, PoleSides)
     switching.check_change(channel, build)
+    if state.build is None:
+        _begin_where_axes_stand(channel)
     state.kind, state.build = kind, build
     seat.regroup(channel, None)  # a transformation has geometry axes of its own
     swivelled = any(memory.frames.system[name] != NEUTRAL for name in OF_SWIVEL)
@@ -235,6 +240,22 @@ def _change(channel: SinumerikChannel, kind: str, build: Build | None) -> None:
     channel.context_changed()
     if plane_of(channel) is not None:
         channel.path.put(PoleSides(channel))
+
+
+def _begin_where_axes_stand(channel: SinumerikChannel) -> None:
+    """Axes that SPOS or POS has moved beside the path get a row: the path of the transformation begins behind it."""
+    coordinates, toolpath = channel.coordinates, channel.toolpath
+    context, end, here = toolpath.last_context(), toolpath.last_end(), coordinates.machine
+    last = toolpath.to_machine(end, context, coordinates.geometry) if end and context else channel.stands_at
+    ways = [
+        (a - b + 0.5 * TURN) % TURN - 0.5 * TURN if axis.rotary else a - b
+        for axis, a, b in zip(channel.axis_data, here, last, strict=True)
+    ]
+    if any(abs(way) > NO_WAY for way in ways):
+        coordinates.arrive_machine(list(last))
+        channel.straight(Kind.RAPID, coordinates.from_machine(here), nan)
+        channel.flush()
+        coordinates.arrive_machine(here)
 
 
 def deselect_frames(channel: SinumerikChannel) -> None:
