@@ -167,14 +167,16 @@ class PoleStage(Stage):
         )
 
 
-def standing(made: Made, side: float, pole_deg: float | None) -> Made:
-    """A transformation whose polar plane is on a side; any other one as it is."""
+def standing(made: Made, side: float, pole_deg: float | None, turns_deg: float = 0.0) -> Made:
+    """A transformation whose polar plane is on a side, its rotary axis so many turns on; any other one as it is."""
     if isinstance(made, Seated):
-        return replace(made, inner=standing(made.inner, side, pole_deg))
+        return replace(made, inner=standing(made.inner, side, pole_deg, turns_deg))
     if isinstance(made, Chain):
         first, *others = made.links
-        return replace(made, links=(standing(first, side, pole_deg), *others))
-    return replace(made, side=side, pole_deg=pole_deg) if isinstance(made, PolarPlane) else made
+        return replace(made, links=(standing(first, side, pole_deg, turns_deg), *others))
+    if not isinstance(made, PolarPlane):
+        return made
+    return replace(made, side=side, pole_deg=pole_deg, start_deg=made.start_deg + turns_deg)
 
 
 def _beside(pole: Pole, path: Path, here: float, other: float) -> list[float] | None:

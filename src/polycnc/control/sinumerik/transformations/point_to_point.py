@@ -143,7 +143,10 @@ def go(channel: SinumerikChannel, kind: Kind, end: list[float], feed: float) -> 
     same = all(abs(a - b) < 1e-6 for a, b in zip(back, end, strict=True))
     coordinates.arrive(end if same else back)
     if plane is not None:
-        stand(channel, -plane.side if across else plane.side, machine[plane.rotary])
+        side, at = -plane.side if across else plane.side, machine[plane.rotary]
+        stand(channel, side, at)
+        # The way may have led past half a turn: the path goes on from the turn on which the axis stands.
+        stand(channel, side, at, TURN * round((at - coordinates.machine[plane.rotary]) / TURN))
     state.across = False
 
 

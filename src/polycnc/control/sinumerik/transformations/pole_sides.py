@@ -55,17 +55,20 @@ def plane_of(channel: SinumerikChannel) -> PolarPlane | None:
     return first if isinstance(first, PolarPlane) else None
 
 
-def stand(channel: SinumerikChannel, side: float, pole_deg: float | None) -> None:
-    """The infeed axis is on a side of the centre, and the rotary axis in it at an angle; nothing moves."""
+def stand(channel: SinumerikChannel, side: float, pole_deg: float | None, turns_deg: float = 0.0) -> None:
+    """The infeed axis is on a side of the centre, and the rotary axis in it at an angle; nothing moves.
+
+    From here on the rotary axis counts `turns_deg` more, whole turns.
+    """
     state, coordinates = Transformations.of(channel), channel.coordinates
     build, seated = state.build, state.seated
     assert build is not None
     assert seated is not None
-    inner = standing(build.inner, side, pole_deg)
+    inner = standing(build.inner, side, pole_deg, turns_deg)
     if inner == build.inner:
         return
     state.build = replace(build, inner=inner)
-    state.seated = replace(seated, inner=standing(seated.inner, side, pole_deg))
+    state.seated = replace(seated, inner=standing(seated.inner, side, pole_deg, turns_deg))
     links.take_seat(channel, state.seated)
     if coordinates.transformation is seated:
         coordinates.transformation = state.seated
