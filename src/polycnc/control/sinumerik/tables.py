@@ -86,6 +86,11 @@ def metres_of_cutting_speed(mode: Mode) -> float:
     return M_PER_FOOT if mode["unit"] == "G700" else 1.0
 
 
+def axis_feed_factor(mode: Mode, *, rotary: bool) -> float:
+    """From a programmed feed of a positioning axis to mm/s or degrees/s: inches under G700, degrees never."""
+    return (INCH_MM if mode["unit"] == "G700" and not rotary else 1.0) / MINUTE
+
+
 def feed_type(mode: Mode) -> FeedType:
     """How F is meant in a modal state."""
     code = mode["feed"]

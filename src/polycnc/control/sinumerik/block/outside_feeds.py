@@ -11,8 +11,7 @@ from polycnc.control.sinumerik.block.draft import axis_column
 from polycnc.control.sinumerik.block.positions import number
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
-from polycnc.control.sinumerik.tables import MINUTE
-from polycnc.geometry.units import INCH_MM
+from polycnc.control.sinumerik.tables import axis_feed_factor
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.language.sinumerik.words import WordAlarm, WordShape
 
@@ -91,10 +90,10 @@ def axis_feed_of_block(draft: Draft, position: int, shape: WordShape) -> Step:
         AlarmError: 14810 below zero; PC0001 for 0, where the handwheel alone would move the axis.
     """
     column = axis_column(draft, position, shape)
-    factor = (INCH_MM if draft.mode["unit"] == "G700" else 1.0) / MINUTE
+    factors = [axis_feed_factor(draft.mode, rotary=rotary) for rotary in (False, True)]
 
     def run(channel: SinumerikChannel, values: Values) -> None:
-        value = number(values, position) * factor
+        value = number(values, position) * factors[channel.axis_data[column].rotary]
         if value < 0.0:
             raise WordAlarm("14810", position, axis=channel.axes[column])
         if not value:

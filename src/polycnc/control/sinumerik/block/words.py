@@ -40,7 +40,6 @@ from polycnc.control.sinumerik.tools import master_holder, stages
 from polycnc.control.sinumerik.tools.management import lists
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.transformations.posture import Orienting
-from polycnc.geometry.units import INCH_MM
 from polycnc.language.bulk import Note, declare
 from polycnc.language.sinumerik.names.spindles import spindle_number as named_spindle
 from polycnc.language.sinumerik.names.values import Axis
@@ -125,10 +124,10 @@ def axis_feed(draft: Draft, position: int, shape: WordShape) -> Step:
     if spindle is not None:
         return partial(_positioning_speed, spindle, position)
     column = axis_column(draft, position, shape)
-    factor = (INCH_MM if draft.mode["unit"] == "G700" else 1.0) / tables.MINUTE
+    factors = [tables.axis_feed_factor(draft.mode, rotary=rotary) for rotary in (False, True)]
 
     def run(channel: SinumerikChannel, values: Values) -> None:
-        value = number(values, position) * factor
+        value = number(values, position) * factors[channel.axis_data[column].rotary]
         if value <= 0.0:
             raise WordAlarm("14810" if value < 0.0 else "10861", position, axis=channel.axes[column])
         PathFeed.of(channel).of_axes[column] = value

@@ -154,9 +154,10 @@ def _incremental_linear(terms: list[AxisTerm]) -> Step:
 
 
 def feed_factor(draft: Draft) -> float:
-    """From a programmed feed to internal units, for the feed type and units of the block."""
-    inch = INCH_MM if draft.mode["unit"] == "G700" else 1.0
-    return tables.feed_type(draft.mode).factor * inch
+    """From a programmed feed to internal units, for the feed type and units of the block; a time has no inches."""
+    feed = tables.feed_type(draft.mode)
+    is_length = feed.mode is not FeedMode.INVERSE_TIME
+    return feed.factor * (INCH_MM if is_length and draft.mode["unit"] == "G700" else 1.0)
 
 
 def checked_feed(feed: float) -> float:
