@@ -39,6 +39,7 @@ MODAL_GROUPS = {
     "fixture": "offsets of a fixture that turn with its table: G54.2",
     "tip_lean": "whether the tool leans towards its way: G43.5 Q",
     "tip_system": "where words of G43.4 name the tip while the system does not turn with the table: 19696#5 WKP",
+    "point_system": "where words of G41.2 name points of the table, whatever the work system: 19746#4 TBP",
     "posture": "what rotary words of G43.4 tell directions of in a turned work system: G43.4 Q",
     "workpiece_error": "where a workpiece stands wrong on its table: G54.4",
     # ---- the FANUC lathe

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from array import array
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
+from polycnc.deferred.records import dataclass
 from polycnc.motion.third_order.laws.barrier import BANDS
 from polycnc.motion.third_order.laws.compiled import kernels
 from polycnc.motion.third_order.laws.courses import Axes, Course, Nodes, Phase, Shape, Stencil
