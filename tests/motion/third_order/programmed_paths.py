@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from array import array
 from dataclasses import dataclass, field
 from math import cos, pi, sin
 from typing import TYPE_CHECKING, TypeAlias
@@ -9,12 +10,14 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 from hypothesis import strategies as st
 
+from polycnc.motion.third_order.bend import legs
 from polycnc.motion.third_order.bends.programmed import Bounds, ProgrammedPath
-from polycnc.motion.third_order.bends.stretches import LINE
+from polycnc.motion.third_order.bends.stretches import LINE, curve_lines
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from polycnc.motion.third_order.bends.stretches import Stretches
     from polycnc.motion.third_order.bent_path import BentPath
 
 Numbers: TypeAlias = "NDArray[np.float64]"
@@ -123,24 +126,28 @@ def parts_of_tolerance(drawn: Drawn, bent: list[BentPath], each: int = 8) -> tup
     The distance is that from the place of the programmed path at the same way: no less than that to the path. A line
     counts as one; arcs and chords of splines are the curves of their stretches.
     """
-    path = drawn.path.path
-    way, n = np.asarray(path.way), 4
+    lines = turns = 0.0
+    for part, leg in zip(legs(drawn.path.path), bent, strict=True):
+        line, turn = _parts_of_leg(part, leg, each)
+        lines, turns = max(lines, line), max(turns, turn)
+    return float(lines), float(turns)
+
+
+def _parts_of_leg(path: Stretches, leg: BentPath, each: int) -> tuple[float, float]:
+    n = len(path.rotary)
+    curve_lines(path, n, array("q", bytes(8 * len(path.way))))
+    way, form = np.asarray(path.way), np.asarray(path.form)
     place = np.asarray(path.place).reshape(-1, n)
     leave, arrive = (np.asarray(v).reshape(-1, n) for v in (path.leave, path.arrive))
-    form = np.asarray(path.form)
-    lines = turns = start = 0.0
-    for leg in bent:
-        inner = leg.way[:-1, None] + np.diff(leg.way)[:, None] * (np.arange(each) / each)
-        ends = way[(way >= start) & (way <= start + leg.way[-1])] - start
-        s = np.clip(np.concatenate([inner.ravel(), ends, leg.way[-1:]]), 0.0, leg.way[-1])
-        k = np.clip(np.searchsorted(way, s + start, "right") - 1, 0, len(form) - 1)
-        length = (way[k + 1] - way[k])[:, None]
-        f = np.clip((s + start - way[k])[:, None] / length, 0.0, 1.0)
-        chord = place[k + 1] - place[k]
-        curve = (1.0 - f) * (leave[k] * length - chord) - f * (arrive[k] * length - chord)
-        there = place[k] + f * (chord + np.where(form[k, None] == LINE, 0.0, 1.0 - f) * curve)
-        apart = leg.at(s)[0] - there
-        part = np.sqrt((apart[:, :3] ** 2).sum(1)) / np.asarray(path.tolerance)[k]
-        turned = np.abs(apart[:, 3]) / np.asarray(path.turn_tolerance)[k]
-        lines, turns, start = max(lines, part.max()), max(turns, turned.max()), start + leg.way[-1]
-    return float(lines), float(turns)
+    inner = leg.way[:-1, None] + np.diff(leg.way)[:, None] * (np.arange(each) / each)
+    s = np.concatenate([inner.ravel(), way])
+    k = np.clip(np.searchsorted(way, s, "right") - 1, 0, len(form) - 1)
+    length = (way[k + 1] - way[k])[:, None]
+    f = np.clip((s - way[k])[:, None] / length, 0.0, 1.0)
+    chord = place[k + 1] - place[k]
+    curve = (1.0 - f) * (leave[k] * length - chord) - f * (arrive[k] * length - chord)
+    there = place[k] + f * (chord + np.where(form[k, None] == LINE, 0.0, 1.0 - f) * curve)
+    apart = leg.at(s)[0] - there
+    part = np.sqrt((apart[:, :3] ** 2).sum(1)) / np.asarray(path.tolerance)[k]
+    turned = np.abs(apart[:, 3]) / np.asarray(path.turn_tolerance)[k]
+    return float(part.max()), float(turned.max())

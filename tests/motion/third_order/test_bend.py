@@ -1,4 +1,4 @@
-"""Bent paths of random programmed ones: ends, continuity, rows, speeds; and of known ones."""
+"""Bent paths of random programmed ones: tolerance, ends, continuity, rows, speeds; and of known ones."""
 
 from __future__ import annotations
 
@@ -7,31 +7,25 @@ from math import pi, sqrt
 
 import numpy as np
 import pytest
-from hypothesis import given, reject, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from polycnc.motion.third_order.bend import bend
 from polycnc.motion.third_order.bends.programmed import Bounds, ProgrammedPath
-from polycnc.motion.third_order.bent_path import BentPath
 from tests.motion.third_order.programmed_paths import TOPS, Drawn, drawn_paths, parts_of_tolerance
 
 SURELY = 1.0 + 1e-6
 TOLERANCES = st.sampled_from((0.001, 0.01, 0.1))
 
 
-def bent_or_refused(drawn: Drawn) -> list[BentPath]:
-    """The bent paths; a path that is refused says nothing here."""
-    try:
-        return bend(drawn.path.path)
-    except ValueError:
-        reject()
-
-
 @settings(max_examples=40, deadline=None)
 @given(drawn_paths(TOLERANCES))
-def test_random_paths_lead_from_end_to_end(drawn: Drawn) -> None:
+def test_random_paths_are_bent_within_their_tolerance(drawn: Drawn) -> None:
     path = drawn.path.path
-    legs = bent_or_refused(drawn)
+    legs = bend(path)
+    lines, turns = parts_of_tolerance(drawn, legs)
+    assert lines <= SURELY
+    assert turns <= SURELY
     assert legs[0].place[0].tolist() == list(path.place[:4])
     assert np.abs(legs[-1].place[-1] - drawn.path.position).max() < 1e-9
     for before, behind in pairwise(legs):
@@ -42,7 +36,7 @@ def test_random_paths_lead_from_end_to_end(drawn: Drawn) -> None:
 @settings(max_examples=40, deadline=None)
 @given(drawn_paths(TOLERANCES))
 def test_pieces_go_over_into_each_other(drawn: Drawn) -> None:
-    for leg in bent_or_refused(drawn):
+    for leg in bend(drawn.path.path):
         step, third = np.diff(leg.way)[:, None], leg.third
         assert (step > 0.0).all()
         second = leg.second[:-1] + step * third
@@ -56,7 +50,7 @@ def test_pieces_go_over_into_each_other(drawn: Drawn) -> None:
 @settings(max_examples=40, deadline=None)
 @given(drawn_paths(TOLERANCES))
 def test_rows_and_speeds_are_known(drawn: Drawn) -> None:
-    legs = bent_or_refused(drawn)
+    legs = bend(drawn.path.path)
     for leg in legs:
         assert (np.diff(leg.rows) > 0).all()
         assert (np.diff(leg.row_way) > 0.0).all()

@@ -49,3 +49,15 @@ def test_rotary_axes_count_by_their_own_tolerance() -> None:
     drawn.line(10.0, 0.0, 0.0, 20.0, Bounds(0.01, turn_tolerance=0.5))
     h = reach(drawn.path.path, turning_of(drawn), 1, 10.0, 1.0, 20.0)
     assert h == pytest.approx(FULL * SHARE * 0.5 / 2.0, rel=0.01)
+
+
+def test_a_sharp_corner_far_off_does_not_hide_one_nearby() -> None:
+    """Newton's steps are short on the steep side of the far one."""
+    drawn = Drawn()
+    drawn.line(1.0, 0.0, 0.0, 0.0, Bounds(0.001))
+    drawn.line(6.0, 0.1, 0.0, 0.0, Bounds(0.001))
+    drawn.line(1.0, 0.0, 0.0, 500.0, Bounds(0.001))
+    # From the first end the corner at 1 mm turns by 100 tolerances.
+    assert reach(drawn.path.path, turning_of(drawn), 0, 0.0, 7.03, 8.0) == pytest.approx(
+        1.0 + FULL * SHARE / 100.0, rel=0.01
+    )

@@ -14,7 +14,7 @@ from typing import NamedTuple
 from polycnc.kernels.layout import Floats
 from polycnc.motion.third_order.bends.stretches import Stretches, between
 
-#: M at which the tolerance is used up, the share of it that is, and part of the distance to which it is found.
+#: M at which the tolerance is used up, the share of it that is, and part of it to which that is met.
 FULL, SHARE, EXACT = 6.0, 0.985, 0.01
 STEPS = 60
 
@@ -75,7 +75,8 @@ def area_to(path: Stretches, turning: Turning, e: int, way: float) -> float:
 def reach(path: Stretches, turning: Turning, e: int, way: float, guess: float, most: float) -> float:
     """The largest distance h of knots around a way on stretch e that the tolerance allows, `most` at most.
 
-    M grows ever faster with h, so that Newton's steps come down to it from above.
+    M grows ever faster with h, so that Newton's steps come down to it from above; where a corner lies between they may
+    be short far off.
     """
     here, h, low, high, last = area_to(path, turning, e, way), min(guess, most), e, e, len(path.form) - 1
     for _ in range(STEPS):
@@ -92,11 +93,7 @@ def reach(path: Stretches, turning: Turning, e: int, way: float, guess: float, m
         over = moment - SHARE * FULL
         if over <= 0.0 and h >= most:
             return most
-        if slope <= 0.0:
-            h = min(2.0 * h, most)
-            continue
-        new = min(h - over / slope, 4.0 * h, most)
-        if abs(new - h) <= EXACT * h:
-            return min(new, h)
-        h = new
+        if abs(over) <= EXACT * FULL:
+            return h
+        h = min(h - over / slope, 4.0 * h, most) if slope > 0.0 else min(2.0 * h, most)
     return h if h < inf else most
