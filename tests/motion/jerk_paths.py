@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
+from polycnc.motion.third_order.bends.programmed import Bounds, ProgrammedPath
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.modes import CornerMode
-from tests.motion.paths import Build
+from tests.motion.paths import MILL, Build
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -22,7 +23,7 @@ AROUND = 2000
 
 @dataclass
 class JerkPath:
-    """A path as rows, and as points so close together that lines between them are the path."""
+    """A path as rows, as points so close together that lines between them are the path, and for `bend`."""
 
     name: str
     tolerance: float
@@ -32,10 +33,13 @@ class JerkPath:
         context = Context(corner_mode=CornerMode.ROUNDED, tolerance_mm=self.tolerance)
         self.rows = Build(context=context)
         self.points: list[Place] = [(0.0, 0.0, 0.0)]
+        self.programmed = ProgrammedPath([0.0] * 3, [axis.max_feed for axis in MILL.axes[:3]])
+        self._bounds = Bounds(self.tolerance, self.feed)
 
     def line(self, *end: float) -> JerkPath:
         self.rows.feed(*end, feed=self.feed)
         self.points.append((end[0], end[1], end[2]))
+        self.programmed.line(end, self.rows.line, self._bounds)
         return self
 
     def arc(self, cx: float, cy: float, angle: float, rise: float = 0.0, growth: float = 0.0) -> JerkPath:
@@ -52,12 +56,16 @@ class JerkPath:
             (angle > 0.0, rise != 0.0), Kind.HELIX_CW
         )
         self.rows.row(kind, *self.points[-1], feed=self.feed, curve=curve)
+        centre, up = (cx, cy, 0.0), (0.0, 0.0, 1.0)
+        self.programmed.arc(self.points[-1], centre, up, angle, self.rows.line, self._bounds)
         return self
 
     def through(self, place: Callable[[float], Place], count: int, kind: Kind) -> JerkPath:
         """Rows through `count` even places of a curve by a parameter from 0 to 1: facets, or a spline."""
         for k in range(1, count + 1):
             self.rows.row(kind, *place(k / count), feed=self.feed)
+            lead = self.programmed.line if kind is Kind.FEED else self.programmed.chord
+            lead(place(k / count), self.rows.line, self._bounds)
         fine = count if kind is Kind.FEED else 8 * count
         self.points += [place(k / fine) for k in range(1, fine + 1)]
         return self
