@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import field
 from enum import StrEnum
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, Protocol
 
 from polycnc.channel.family import ProgramT_co
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -8,7 +8,6 @@ own.
 
 from __future__ import annotations
 
-from dataclasses import field, replace
 from enum import Enum
 from math import degrees, hypot, isnan, nan, radians
 from typing import TYPE_CHECKING, Any
@@ -16,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 from polycnc.channel.moves import origins
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import END_OF_BLOCK, EndOfBlock, Item, Move, PlacedEvent, Rank, Stage
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field, replace
 from polycnc.geometry import arcs, offset
 from polycnc.geometry.tolerances import SAME_POINT_MM
 from polycnc.messages import AlarmError

@@ -25,7 +25,6 @@ while a vector stands, this shift stands with it (FANUC 0i-TF Plus 5.2).
 
 from __future__ import annotations
 
-from dataclasses import replace
 from itertools import pairwise
 from math import hypot, nan
 from typing import TYPE_CHECKING
@@ -37,6 +36,7 @@ from polycnc.compensation.interference import InterferenceCheck, Objections
 from polycnc.compensation.policy import BENDS, Approach, Violation
 from polycnc.compensation.rows import RowWriter
 from polycnc.compensation.step import NO_VECTOR, Role, Step
+from polycnc.deferred.records import replace
 from polycnc.geometry import arcs, offset
 from polycnc.geometry.offset import Corner
 from polycnc.geometry.tolerances import NO_WAY, ROUNDED_MM, SAME_POINT_MM

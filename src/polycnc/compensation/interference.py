@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections import deque
-from dataclasses import replace
 from itertools import pairwise
 from math import pi
 from typing import TYPE_CHECKING
@@ -19,6 +18,7 @@ from polycnc.compensation.avoidance import (
 )
 from polycnc.compensation.policy import Violation
 from polycnc.compensation.step import Role
+from polycnc.deferred.records import replace
 from polycnc.geometry import arcs, offset
 from polycnc.geometry.offset import Corner
 from polycnc.messages import AlarmError

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import hypot
 from typing import TYPE_CHECKING
 
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, replace
 from polycnc.geometry import arcs, offset
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.toolpath.kinds import CCW_KINDS, Kind, arc_kind

@@ -8,10 +8,9 @@ from one rule: *a block is executed as soon as it and N - 1 more blocks have bee
 
 from __future__ import annotations
 
-from dataclasses import field
 from enum import Enum
 
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.geometry.offset import Outer
 
 

@@ -8,7 +8,6 @@ turns the tool at a corner (`Rules.turns`), it does that before the arc about it
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import partial
 from itertools import pairwise
 from math import acos, ceil, degrees, dist, sqrt
@@ -18,7 +17,7 @@ from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move, PlacedEvent, Rank, Stage
 from polycnc.compensation.spatial_arcs import Rest, between, crossing, is_across, meeting, turns_left
 from polycnc.compensation.spatial_rules import TURNS_ALONG, TURNS_BEFORE, TURNS_NOT
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, replace
 from polycnc.geometry.arcs import parts_for_chord_error
 from polycnc.geometry.vectors import cross, dot, minus, times
 from polycnc.messages import AlarmError

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import field
 from enum import Enum
 from itertools import pairwise
 from math import hypot
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.records import dataclass, field
 from polycnc.geometry import arcs, offset
 from polycnc.geometry.offset import Joint
 from polycnc.geometry.tolerances import NO_WAY

@@ -9,7 +9,6 @@ one name in the lists of all; `word_address/parameters.py` says which these are.
 
 from __future__ import annotations
 
-import inspect
 import tomllib
 from functools import cache, cached_property
 from pathlib import Path
@@ -332,8 +331,9 @@ class ControlParameters(Parameters, Generic[A_co]):
         """The delivered value of every number and bit that has one; the machine says the others."""
         found: dict[ParameterKey, float] = {}
         for of in (type(self), self.axis_class):
-            for name in dir(of):
-                parameter = inspect.getattr_static(of, name)
+            # What a class itself has of them, not their values.
+            named = {name: each for base in reversed(of.__mro__) for name, each in vars(base).items()}
+            for _, parameter in sorted(named.items()):
                 if isinstance(parameter, Parameter):
                     each = parameter.delivered
                     pairs = zip(parameter.keys, each if isinstance(each, tuple) else (each,), strict=False)

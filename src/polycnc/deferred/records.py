@@ -1,24 +1,24 @@
 """`dataclass` as that of the standard library, with methods that are written when they are first called.
 
 The library's own compiles up to seven functions for a class where the class is defined. For the classes of a control
-that is more work than a short program, which makes objects of few of them and compares fewer. This one lets the library
-find the fields and make the slots, and puts in the place of each method a function that, when it is called, writes the
-method and leaves its place to it. `fields`, `replace` and `is_dataclass` of the library work on such classes.
+that is more work than a short program, which makes objects of few of them and compares fewer. This one notes the
+annotated names, makes the slots, and puts in the place of each method a function that, when it is called, writes the
+method and leaves its place to it. The library itself, which loads a dozen modules, describes a class when somebody asks
+it to: its `fields`, `replace` and `is_dataclass` work on these classes. `field`, `fields` and `replace` of this module
+say the same and need no library.
 
 What nothing here uses is left out: `InitVar`, `kw_only`, `order` and `unsafe_hash`.
 """
 
 from __future__ import annotations
 
-import dataclasses
-from dataclasses import MISSING, FrozenInstanceError, fields
 from reprlib import recursive_repr
-from types import FunctionType, MemberDescriptorType
-from typing import TYPE_CHECKING, Any
+from types import FunctionType, MappingProxyType, MemberDescriptorType
+from typing import TYPE_CHECKING, Any, ClassVar, get_origin
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-    from dataclasses import Field, dataclass
+    from collections.abc import Callable, Iterator, Mapping
+    from dataclasses import MISSING, dataclass, field, fields, is_dataclass, replace
 else:
 
     def dataclass(cls=None, /, *, frozen=False, slots=False, eq=True):
@@ -27,10 +27,45 @@ else:
             return lambda cls: _dataclass(cls, frozen=frozen, slots=slots, eq=eq)
         return _dataclass(cls, frozen=frozen, slots=slots, eq=eq)
 
+    def field(**told):
+        """What is to be known of a field; see `dataclasses.field`."""
+        return Field(**told)
 
-__all__ = ["dataclass", "is_frozen"]
+    def fields(of):
+        """The fields of a dataclass or of an object of one, in order; see `dataclasses.fields`."""
+        cls = of if isinstance(of, type) else type(of)
+        for each in cls.__mro__:
+            if _NOTED in each.__dict__:
+                return _fields_of(each)
+            if _OF_LIBRARY in each.__dict__:
+                import dataclasses
+
+                return dataclasses.fields(each)
+        raise TypeError("must be called with a dataclass type or instance")
+
+    def is_dataclass(of):
+        """Whether it is a dataclass or an object of one; see `dataclasses.is_dataclass`."""
+        cls = of if isinstance(of, type) else type(of)
+        return any(_OF_LIBRARY in each.__dict__ for each in cls.__mro__)
+
+    def replace(thing, /, **changes):
+        """An object like another one but for some fields; see `dataclasses.replace`."""
+        for each in fields(thing):
+            if each.init and each.name not in changes:
+                changes[each.name] = getattr(thing, each.name)
+        return type(thing)(**changes)
+
+    class MISSING:
+        """What stands for no default."""
+
+
+__all__ = ["MISSING", "dataclass", "field", "fields", "is_dataclass", "is_frozen", "replace"]
 #: What a parameter holds whose value comes from a `default_factory`.
 _LATER = object()
+#: Where a class keeps its own annotated names with what was assigned to them; where its fields, when asked for.
+_NOTED, _FIELDS = "__noted_fields__", "__described_fields__"
+#: Where the library keeps its fields.
+_OF_LIBRARY = "__dataclass_fields__"
 
 
 def is_frozen(cls: type) -> bool:
@@ -38,33 +73,119 @@ def is_frozen(cls: type) -> bool:
     return getattr(cls, "__frozen__", False)
 
 
-def _dataclass(cls: type, *, frozen: bool, slots: bool, eq: bool) -> type:
-    if frozen and slots:  # what pickle would otherwise set by `setattr`
-        _add(cls, "__getstate__", _state)
-        _add(cls, "__setstate__", _put_state)
-    is_hashed = cls.__dict__.get("__hash__") is not None
-    cls.__doc__ = cls.__doc__ or cls.__name__  # else the library would write down its signature
-    cls = dataclasses.dataclass(init=False, repr=False, eq=False, slots=slots)(cls)
+class Field:
+    """A field, with the attributes that the library's has."""
+
+    __slots__ = ("compare", "default", "default_factory", "hash", "init", "metadata", "name", "repr", "type")
+    __hash__ = None  # type: ignore[assignment]  # the library's decorator refuses it as a default
+
+    def __init__(
+        self,
+        *,
+        default: object = MISSING,
+        default_factory: Any = MISSING,
+        init: bool = True,
+        repr: bool = True,  # noqa: A002 - as the library has it
+        hash: bool | None = None,  # noqa: A002
+        compare: bool = True,
+        metadata: Mapping[str, object] | None = None,
+    ) -> None:
+        self.default = default
+        self.default_factory = default_factory
+        self.init = init
+        self.repr = repr
+        self.hash = hash
+        self.compare = compare
+        self.metadata: Mapping[str, object] = MappingProxyType(metadata or {})
+        self.name = ""
+        self.type: object = None
+
+    def of_library(self) -> Any:
+        """The same for the library."""
+        import dataclasses
+
+        told = {name: getattr(self, name) for name in self.__slots__ if name not in ("name", "type")}
+        given = {name: value for name, value in told.items() if value is not MISSING}
+        made = dataclasses.field(**given)
+        made.type = self.type  # type: ignore[assignment]  # a text or a type, as everywhere
+        return made
+
+
+def _dataclass(cls: Any, *, frozen: bool, slots: bool, eq: bool) -> type:
+    body = cls.__dict__
+    annotations = body.get("__annotations__", {})
+    noted = {
+        name: _told(body.get(name, MISSING)) for name, hint in annotations.items() if not _is_of_class(hint)
+    }
+    added = _methods(lambda: cls, body, frozen=frozen, eq=eq)
+    added |= {_NOTED: noted, _OF_LIBRARY: _Described(), "__frozen__": frozen}
+    # Else the library would write down its signature.
+    added["__doc__"] = body.get("__doc__") or cls.__name__
+    if "__match_args__" not in body:
+        added["__match_args__"] = _positional(cls, noted)
     if slots:
+        if frozen:  # what pickle would otherwise set by `setattr`
+            added.setdefault("__getstate__", body.get("__getstate__", _state))
+            added.setdefault("__setstate__", body.get("__setstate__", _put_state))
+        cls = _with_slots(cls, noted, added)
         _lead_super(cls)
-    cls.__frozen__ = frozen  # type: ignore[attr-defined]
-    _add(cls, "__init__", _written_later(cls, "__init__", lambda: _init(cls, frozen=frozen, slots=slots)))
-    _add(cls, "__repr__", _repr)
-    if eq:
-        _add(cls, "__eq__", _written_later(cls, "__eq__", lambda: _eq(cls)))
-        if frozen and not is_hashed:
-            cls.__hash__ = _written_later(cls, "__hash__", lambda: _hash(cls))  # type: ignore[method-assign]
-        elif not is_hashed:
-            cls.__hash__ = None  # type: ignore[assignment]
-    if frozen:
-        cls.__setattr__, cls.__delattr__ = _refusals(cls)  # type: ignore[method-assign]
-    return cls
+        return cls  # type: ignore[no-any-return]
+    for name, value in noted.items():
+        if isinstance(value, Field):
+            if value.default is MISSING:
+                delattr(cls, name)
+            else:
+                setattr(cls, name, value.default)
+    for name, value in added.items():
+        setattr(cls, name, value)
+    return cls  # type: ignore[no-any-return]
 
 
-def _add(cls: type, name: str, method: Callable[..., Any]) -> None:
-    """A method, unless the class has its own."""
-    if name not in cls.__dict__:
-        setattr(cls, name, method)
+def _told(value: object) -> object:
+    """What a class says of a field; what the library's `field` says as a `Field` of ours."""
+    if type(value).__module__ != "dataclasses":
+        return value
+    import dataclasses
+
+    if not isinstance(value, dataclasses.Field):
+        return value
+    told = {name: getattr(value, name) for name in Field.__slots__ if name not in ("name", "type")}
+    return Field(**{name: each for name, each in told.items() if each is not dataclasses.MISSING})
+
+
+def _is_of_class(hint: object) -> bool:
+    """Whether an annotation is no field's."""
+    if isinstance(hint, str):
+        return hint.startswith(("ClassVar", "typing.ClassVar"))
+    return hint is ClassVar or get_origin(hint) is ClassVar
+
+
+def _positional(cls: type, noted: Mapping[str, object]) -> tuple[str, ...]:
+    """The fields that `__init__` takes, in order."""
+    names: dict[str, bool] = {}
+    for each in reversed(cls.__mro__[1:]):
+        names |= _taken(each.__dict__.get(_NOTED, {}))
+    names |= _taken(noted)
+    return tuple(name for name, is_taken in names.items() if is_taken)
+
+
+def _taken(noted: Mapping[str, object]) -> dict[str, bool]:
+    return {name: not isinstance(value, Field) or value.init for name, value in noted.items()}
+
+
+def _with_slots(cls: type, noted: Mapping[str, object], added: Mapping[str, object]) -> type:
+    """The class once more, with a slot for every field that no base has one for."""
+    inherited: set[str] = set()
+    for each in cls.__mro__[1:-1]:
+        slots = each.__dict__.get("__slots__", ())
+        inherited.update((slots,) if isinstance(slots, str) else slots)
+        noted = {**dict.fromkeys(each.__dict__.get(_NOTED, ()), MISSING), **noted}
+    body = {**cls.__dict__, **added}
+    body["__slots__"] = tuple(name for name in noted if name not in inherited)
+    for name in (*noted, "__dict__", "__weakref__"):
+        body.pop(name, None)
+    body["__qualname__"] = cls.__qualname__
+    return type(cls)(cls.__name__, cls.__bases__, body)
 
 
 def _lead_super(cls: type) -> None:
@@ -79,14 +200,84 @@ def _lead_super(cls: type) -> None:
             return
 
 
+# ---- fields ----------------------------------------------------------------------------------------------------
+
+
+def _fields_of(cls: type) -> tuple[Field, ...]:
+    """All fields of a class of ours, those of its bases first."""
+    known: tuple[Field, ...] | None = cls.__dict__.get(_FIELDS)
+    if known is None:
+        found: dict[str, Field] = {}
+        for base in reversed(cls.__mro__):
+            if _NOTED in base.__dict__:
+                found |= _described(base)
+        known = tuple(found.values())
+        setattr(cls, _FIELDS, known)
+    return known
+
+
+def _described(cls: type) -> dict[str, Field]:
+    """The fields that a class itself adds."""
+    found: dict[str, Field] = {}
+    for name, value in cls.__dict__[_NOTED].items():
+        if isinstance(value, Field):
+            each = value
+        else:
+            each = Field(default=MISSING if isinstance(value, MemberDescriptorType) else value)
+        if type(each.default).__hash__ is None:
+            raise ValueError(
+                f"mutable default {type(each.default)} for field {name} is not allowed: use default_factory"
+            )
+        each.name, each.type = name, cls.__annotations__[name]
+        found[name] = each
+    return found
+
+
+class _Described:
+    """Stands where the library looks for its fields, and lets it make them when it does."""
+
+    def __get__(self, instance: object, owner: type) -> Any:
+        import dataclasses
+
+        cls: Any = next(each for each in owner.__mro__ if _OF_LIBRARY in each.__dict__)
+        known = _fields_of(cls)
+        body: dict[str, Any] = {each.name: each.of_library() for each in known}
+        body |= {"__annotations__": {each.name: each.type for each in known}, "__module__": cls.__module__}
+        described: Any = dataclasses.dataclass(init=False, repr=False, eq=False)(type(cls.__name__, (), body))
+        cls.__dataclass_params__ = described.__dataclass_params__
+        cls.__dataclass_fields__ = described.__dataclass_fields__
+        return cls.__dataclass_fields__
+
+
 # ---- methods that are written ----------------------------------------------------------------------------------
 
 
-def _written_later(cls: type, name: str, write: Callable[[], Callable[..., Any]]) -> Callable[..., Any]:
+def _methods(
+    made: Callable[[], type], body: Mapping[str, object], *, frozen: bool, eq: bool
+) -> dict[str, Any]:
+    """The methods of a class, but for those of its own; `made` gives it when they are called."""
+    added: dict[str, Any] = {
+        "__init__": _written_later(made, "__init__", _init),
+        "__repr__": _repr,
+    }
+    if eq:
+        added["__eq__"] = _written_later(made, "__eq__", _eq)
+    kept = {name: method for name, method in added.items() if name not in body}
+    if eq and body.get("__hash__") is None:
+        kept["__hash__"] = _written_later(made, "__hash__", _hash) if frozen else None
+    if frozen:
+        kept["__setattr__"], kept["__delattr__"] = _refuse_to_set, _refuse_to_delete
+    return kept
+
+
+def _written_later(
+    made: Callable[[], type], name: str, write: Callable[[type], Callable[..., Any]]
+) -> Callable[..., Any]:
     """What stands in the place of a method until it is first called."""
 
     def first_call(self: object, *args: object, **named: object) -> object:
-        method = write()
+        cls = made()
+        method = write(cls)
         setattr(cls, name, method)
         return method(self, *args, **named)
 
@@ -103,10 +294,13 @@ def _written(cls: type, head: str, body: Iterator[str], names: dict[str, Any]) -
     return method
 
 
-def _init(cls: type, *, frozen: bool, slots: bool) -> Callable[..., Any]:
+def _init(cls: type) -> Callable[..., Any]:
+    frozen, slots = is_frozen(cls), "__slots__" in cls.__dict__
     parameters, values, names = ["self"], {}, {"_LATER": _LATER, "_set": object.__setattr__}
-    for each in fields(cls):
-        names[f"_default_{each.name}"] = _default(each)
+    for each in _fields_of(cls):
+        names[f"_default_{each.name}"] = (
+            each.default if each.default_factory is MISSING else each.default_factory
+        )
         parameter, value = _parameter_and_value(each, slots=slots)
         if parameter:
             parameters.append(parameter)
@@ -128,11 +322,7 @@ def _init(cls: type, *, frozen: bool, slots: bool) -> Callable[..., Any]:
     return _written(cls, f"__init__({', '.join(parameters)})", body(), names)
 
 
-def _default(each: Field[Any]) -> object:
-    return each.default if each.default_factory is MISSING else each.default_factory
-
-
-def _parameter_and_value(each: Field[Any], *, slots: bool) -> tuple[str, str]:
+def _parameter_and_value(each: Field, *, slots: bool) -> tuple[str, str]:
     """How `__init__` declares a field and what it puts into it; empty where it does not."""
     name, default = each.name, f"_default_{each.name}"
     if each.default_factory is not MISSING:
@@ -146,7 +336,7 @@ def _parameter_and_value(each: Field[Any], *, slots: bool) -> tuple[str, str]:
 
 
 def _eq(cls: type) -> Callable[..., Any]:
-    compared = [each.name for each in fields(cls) if each.compare]
+    compared = [each.name for each in _fields_of(cls) if each.compare]
 
     def body() -> Iterator[str]:
         yield "if other.__class__ is self.__class__:"
@@ -157,7 +347,7 @@ def _eq(cls: type) -> Callable[..., Any]:
 
 
 def _hash(cls: type) -> Callable[..., Any]:
-    hashed = [each.name for each in fields(cls) if (each.compare if each.hash is None else each.hash)]
+    hashed = [each.name for each in _fields_of(cls) if (each.compare if each.hash is None else each.hash)]
     return _written(cls, "__hash__(self)", iter([f"return hash({_tuple_of('self', hashed)})"]), {})
 
 
@@ -183,18 +373,25 @@ def _put_state(self: Any, state: list[object]) -> None:
         object.__setattr__(self, each.name, value)
 
 
-def _refusals(cls: Any) -> tuple[Callable[..., None], Callable[..., None]]:
-    """`__setattr__` and `__delattr__` of a frozen class; a class that inherits from it may have more attributes."""
-    names = frozenset(each.name for each in fields(cls))
+def _refuse(thing: object, name: str, doing: str) -> None:
+    """Raise `FrozenInstanceError` for a field, and for every attribute where the class itself is frozen.
 
-    def set_attribute(self: object, name: str, value: object) -> None:
-        if type(self) is cls or name in names:
-            raise FrozenInstanceError(f"cannot assign to field {name!r}")
-        super(cls, self).__setattr__(name, value)
+    A class that inherits from a frozen one may have more attributes.
+    """
+    for cls in type(thing).__mro__:
+        if cls.__dict__.get("__frozen__") and (
+            cls is type(thing) or any(each.name == name for each in _fields_of(cls))
+        ):
+            from dataclasses import FrozenInstanceError
 
-    def delete_attribute(self: object, name: str) -> None:
-        if type(self) is cls or name in names:
-            raise FrozenInstanceError(f"cannot delete field {name!r}")
-        super(cls, self).__delattr__(name)
+            raise FrozenInstanceError(f"cannot {doing} field {name!r}")
 
-    return set_attribute, delete_attribute
+
+def _refuse_to_set(self: object, name: str, value: object) -> None:
+    _refuse(self, name, "assign to")
+    object.__setattr__(self, name, value)
+
+
+def _refuse_to_delete(self: object, name: str) -> None:
+    _refuse(self, name, "delete")
+    object.__delattr__(self, name)

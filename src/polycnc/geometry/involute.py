@@ -7,11 +7,10 @@ and the length from the base circle is `r·p²/2`.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import atan, cos, hypot, sin, sqrt
 from typing import TYPE_CHECKING
 
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, replace
 from polycnc.geometry import arcs
 
 if TYPE_CHECKING:

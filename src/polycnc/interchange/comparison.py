@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import fields, is_dataclass
 from enum import Enum
 from math import isclose
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.records import fields, is_dataclass
 from polycnc.memory import retained
 
 if TYPE_CHECKING:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.records import replace
 from polycnc.interchange.controls.kinds import ARCHIVE, TAPE
 from polycnc.interchange.errors import InterchangeError, ReadingError
 from polycnc.memory.retained import PROGRAMS

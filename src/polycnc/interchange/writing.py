@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.interchange import comparison, programs, setups
 from polycnc.interchange.controls.kinds import PROGRAMS, SETUP, texts_of
 from polycnc.interchange.errors import InterchangeError

@@ -10,7 +10,9 @@ import sys
 from collections.abc import MutableSequence
 from enum import Enum, auto
 from functools import cache, partial
-from typing import TYPE_CHECKING, Annotated, Any, ForwardRef, NamedTuple, TypeVar, cast, get_args
+from typing import TYPE_CHECKING, Annotated, Any, ForwardRef, TypeVar, cast, get_args
+
+from polycnc.deferred.named_tuples import NamedTuple
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

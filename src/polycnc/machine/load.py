@@ -10,8 +10,9 @@ import tomllib
 from functools import cache
 from math import inf
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal, NamedTuple, TypeVar, cast
+from typing import TYPE_CHECKING, Literal, TypeVar, cast
 
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.machine.builder import BUILDERS, Builder, builder_names
 from polycnc.machine.documents import DocumentError, toml_values
 from polycnc.machine.errors import MachineFileError

@@ -7,12 +7,11 @@ coordinates.
 
 from __future__ import annotations
 
-from dataclasses import field, replace
 from functools import cached_property
 from math import inf
 from typing import TYPE_CHECKING, Literal
 
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field, replace
 from polycnc.machine.builder import NO_BUILDER
 from polycnc.machine.plc import Plc
 

@@ -15,11 +15,11 @@ lower layers have their names at the end of this module.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import fields, is_dataclass
 from enum import Enum
 from math import isfinite
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from polycnc.deferred.records import fields, is_dataclass
 from polycnc.machine.setup.values import ParameterKey
 from polycnc.messages import Alarm
 from polycnc.program.program import Form, Program

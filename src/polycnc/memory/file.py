@@ -15,8 +15,9 @@ import os
 import sqlite3
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar
 
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import is_frozen
 from polycnc.memory.encoding import decode, encode
 from polycnc.messages import UserError

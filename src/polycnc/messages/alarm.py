@@ -6,10 +6,9 @@ place at the block boundary and keeps the resulting `Alarm`.
 
 from __future__ import annotations
 
-from dataclasses import field, replace
 from typing import TYPE_CHECKING, Literal
 
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field, replace
 from polycnc.messages.catalogue import language, text
 
 if TYPE_CHECKING:

@@ -10,8 +10,9 @@ from __future__ import annotations
 from array import array
 from enum import StrEnum
 from math import hypot, inf, sqrt
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.motion.kernels.columns import PLACES, UNEVEN_FORMS, Form, PieceRecord, piece_width
 from polycnc.motion.time_constants import Use
 from polycnc.toolpath import Kind

@@ -6,9 +6,9 @@ the real axes; under one (polar interpolation, tool centre point) they are those
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.records import replace
 from polycnc.transformation.rows import machine_rows, mapped_rows
 
 if TYPE_CHECKING:

@@ -13,8 +13,9 @@ from __future__ import annotations
 
 from itertools import pairwise
 from math import cos, inf, sqrt
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.motion.demand import PATH_STEP
 from polycnc.motion.kernels.demands import NOTHING
 from polycnc.motion.pace import left_of

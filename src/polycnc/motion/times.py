@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import field, fields
 from typing import TYPE_CHECKING, Self
 
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field, fields
 
 if TYPE_CHECKING:
     from array import array

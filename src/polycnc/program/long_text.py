@@ -12,13 +12,12 @@ import os
 from array import array
 from bisect import bisect_right
 from collections.abc import Sequence
-from dataclasses import field
 from functools import lru_cache
 from pathlib import Path
 from stat import S_ISREG
 from typing import TYPE_CHECKING, overload
 
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.messages.files import reason_of
 from polycnc.program.encoding import codec_of, has_byte_order_mark
 from polycnc.program.errors import ProgramFileError

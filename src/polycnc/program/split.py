@@ -8,11 +8,10 @@ blocks costs little more than its list of lines.
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, replace
 from polycnc.deferred.regexes import regex
 from polycnc.program.long_text import HEADING_STARTS, LongText
 from polycnc.program.names import default_directory, program_name, stored_directory, stored_name

@@ -8,10 +8,10 @@ read when a call asks for them, once.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
+from polycnc.deferred.records import replace
 from polycnc.messages.catalogue import listed
 from polycnc.program import names
 from polycnc.program.encoding import decode

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field
 from functools import cached_property
 from importlib import import_module
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any, TypedDict
 
 from polycnc.control.alarm_text import catalogue_of
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.machine.layout import axis_layout
 from polycnc.messages import AlarmError, text
 from polycnc.messages.catalogue import language, listed

@@ -7,8 +7,7 @@ without zeros at the end: any two numbers of so many digits are different double
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.kernels.layout import Bytes, Floats, Ints, Ints32
 
 #: Steps of a unit that the displays resolve: finer than any control, far above rounding noise.

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, fields
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping

@@ -10,8 +10,9 @@ import re
 from array import array
 from importlib.util import find_spec
 from operator import itemgetter
-from typing import TYPE_CHECKING, NamedTuple, Protocol, cast
+from typing import TYPE_CHECKING, Protocol, cast
 
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.toolpath.compiled import fill
 from polycnc.toolpath.digits import ALONE, END, LEFT_OUT, LONGEST_NUMBER, PLACE, WHOLE, Forms
 from polycnc.toolpath.kinds import ARC_KINDS, Kind

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import field
 from enum import StrEnum
 from math import inf
 from typing import TYPE_CHECKING, Literal
 
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.toolpath.modes import AccelerationMode
 
 if TYPE_CHECKING:

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import field
 from math import atan2, cos, dist, sin, sqrt, tau
 from typing import TYPE_CHECKING
 
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.geometry.arcs import parts_for_chord_error
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.geometry.vectors import cross, dot, minus

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from array import array
 from math import atan2, inf, sqrt, tau
-from typing import NamedTuple
 
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.kernels.layout import Bytes, Floats, Ints, Ints32, Words32
 from polycnc.toolpath.kinds import Kind
 from polycnc.toolpath.table import CURVE_WIDTH

@@ -8,13 +8,13 @@ image of their box.
 from __future__ import annotations
 
 from array import array
-from dataclasses import field
 from importlib.util import find_spec
 from itertools import product
 from math import inf
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.records import dataclass, field
 from polycnc.toolpath.compiled import survey
 from polycnc.toolpath.kinds import RAPID_KINDS, Kind
 from polycnc.toolpath.modes import FeedMode

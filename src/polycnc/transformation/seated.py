@@ -7,10 +7,9 @@ machine. Couplings stand on both sides: `led` are those of the basic system, `dr
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, replace
 from polycnc.geometry.frames import IDENTITY, Frame
 from polycnc.transformation.contract import product
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import importlib
 import pkgutil
-from dataclasses import dataclass, field, fields
 
 import pytest
 
@@ -21,6 +20,7 @@ from polycnc.channel.states.state import (
     tables,
 )
 from polycnc.control.registry import control
+from polycnc.deferred.records import dataclass, field, fields
 from polycnc.machine import load_machine
 from polycnc.machine.setup.values import Setup
 from polycnc.program import ProgramStore

@@ -6,12 +6,12 @@ motion, and the main run counts them as one block.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from itertools import pairwise
 from math import dist, hypot
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.move_path import MovePath
+from polycnc.deferred.records import replace
 from polycnc.toolpath.kinds import ARC_KINDS, Kind
 from polycnc.toolpath.modes import FeedMode
 

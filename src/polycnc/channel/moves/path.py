@@ -12,13 +12,12 @@ from __future__ import annotations
 
 from array import array
 from contextlib import contextmanager
-from dataclasses import replace
 from enum import IntEnum, auto
 from itertools import pairwise
 from math import nan
 from typing import TYPE_CHECKING, ClassVar, TypeVar
 
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, replace
 from polycnc.toolpath.context import PROGRAMMED
 from polycnc.toolpath.kinds import Kind
 

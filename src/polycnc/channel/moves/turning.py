@@ -6,12 +6,12 @@ one motion.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.knots import share_time
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move, Rank, Stage
+from polycnc.deferred.records import replace
 from polycnc.toolpath.modes import CornerMode
 
 if TYPE_CHECKING:

@@ -21,11 +21,10 @@ the channel (one number for each axis) come from `first`.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import MISSING, field, fields, is_dataclass
 from enum import IntEnum
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar, overload
 
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import MISSING, dataclass, field, fields, is_dataclass
 from polycnc.machine.setup.values import Parameters
 
 if TYPE_CHECKING:

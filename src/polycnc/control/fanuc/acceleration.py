@@ -12,10 +12,10 @@ behind the interpolation, 1769.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import inf
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.records import replace
 from polycnc.toolpath.motion_settings import Ramp
 
 if TYPE_CHECKING:

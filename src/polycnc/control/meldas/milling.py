@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.control.fanuc.milling.codes import ADDRESSES, POWER_ON
@@ -17,6 +16,7 @@ from polycnc.control.word_address.coordinates import frames
 from polycnc.control.word_address.machining_centre import HARTFORD, MillingControl
 from polycnc.control.word_address.macro_b.variables import MacroMemory
 from polycnc.control.word_address.tools import length
+from polycnc.deferred.records import replace
 from polycnc.toolpath.motion_settings import Ramp
 
 if TYPE_CHECKING:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import cached_property
 from math import hypot, inf
 from typing import TYPE_CHECKING, ClassVar
@@ -36,6 +35,7 @@ from polycnc.control.word_address.cycles import drilling as drilling_cycles
 from polycnc.control.word_address.motion import corners, line_by_angle, nurbs
 from polycnc.control.word_address.tools import spatial
 from polycnc.control.word_address.transformations import normal_line
+from polycnc.deferred.records import replace
 from polycnc.language.syntec import executable, iso_grammar
 from polycnc.messages import AlarmError
 from polycnc.program import Form

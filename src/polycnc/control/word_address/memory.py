@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import field, replace
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.channel.states.state import Lifetime, State, retained
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field, replace
 from polycnc.geometry.frames import IDENTITY, Frame
 from polycnc.memory.encoding import encoded
 from polycnc.memory.retained import PARAMETERS, TOOL_OFFSETS, WORK_OFFSETS

@@ -5,10 +5,11 @@ Source: SINUMERIK cycles, deep hole drilling (CYCLE83, CYCLE830) and tapping in 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from polycnc.cycles.count import checked
 from polycnc.cycles.drilling.holes import Action, Stroke
+from polycnc.deferred.named_tuples import NamedTuple
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence

@@ -6,9 +6,10 @@ Source: SINUMERIK milling cycles (CYCLE76, CYCLE77, CYCLE79).
 from __future__ import annotations
 
 from math import pi, tan
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from polycnc.cycles.milling.stroke import Place, arc, cut, rapid, ring
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:

@@ -6,14 +6,13 @@ Points are (a, b): `a` runs along the strokes, `b` is the direction of infeed. F
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import lru_cache
 from itertools import pairwise
 from math import pi, sqrt
 from typing import TYPE_CHECKING
 
 from polycnc.cycles.turning.stroke import PlaneStroke
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, replace
 from polycnc.geometry import arcs, offset
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.toolpath import Kind

@@ -6,9 +6,10 @@ Points are (a, b): `a` along the thread, `b` the radius.
 from __future__ import annotations
 
 from math import copysign, radians, sqrt, tan
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from polycnc.cycles import count
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:

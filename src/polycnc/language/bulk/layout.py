@@ -8,8 +8,8 @@ from __future__ import annotations
 from array import array
 from ctypes import Structure
 from math import inf
-from typing import NamedTuple
 
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.kernels.layout import Bytes, Floats, Ints, Ints32, Places, place, record
 from polycnc.language.bulk.routines.layout import Frame
 from polycnc.transformation.orientation.standing import StandRecord

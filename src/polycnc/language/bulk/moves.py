@@ -8,8 +8,8 @@ end in an alarm are a trifle stricter than there: what they refuse, the interpre
 from __future__ import annotations
 
 from math import copysign, floor, nan, sqrt
-from typing import NamedTuple
 
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.kernels.layout import Bytes, Floats, Ints, Ints32, Words16, Words32
 from polycnc.language.bulk.layout import (
     HALF,

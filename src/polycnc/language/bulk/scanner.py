@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from array import array
 from math import inf
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from polycnc.channel.states.unchanging import unchanging
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.language.bulk import layout
 from polycnc.language.bulk.guard import Guard, notes_before
 from polycnc.language.bulk.layout import State, Tables, new_state

@@ -9,8 +9,9 @@ from __future__ import annotations
 import ast
 from abc import ABC, abstractmethod
 from sys import float_info
-from typing import Generic, NamedTuple, TypeVar
+from typing import Generic, TypeVar
 
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.language.expressions import code
 from polycnc.language.expressions.code import Code, Lifted
 

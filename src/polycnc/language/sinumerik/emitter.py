@@ -7,8 +7,9 @@ once for each shape of block, not for each block.
 from __future__ import annotations
 
 import ast
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.language.expressions.code import (
     PASS,
     Code,

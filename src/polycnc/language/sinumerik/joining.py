@@ -13,8 +13,9 @@ block runs.
 from __future__ import annotations
 
 import ast
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.language.expressions.code import (
     BREAK,
     PASS,

@@ -8,8 +8,7 @@ array, `W` a row of an array (`TABLE[1]`); a small letter may be left out.
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.language.sinumerik.names.values import Type
 
 TYPE_LETTERS = {

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import re
 from math import isinf
-from typing import NamedTuple
 
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.regexes import regex
 from polycnc.language.sinumerik.errors import NcSyntaxError, syntax
 

@@ -8,8 +8,9 @@ code. A shape is learnt only if the compiler itself lifted exactly the numbers t
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.regexes import regex
 
 if TYPE_CHECKING:

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from copy import copy
-from dataclasses import field
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 from polycnc.channel.stack import Executable
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.language.syntec.values import Text, Vacant, is_true, storable, whole
 from polycnc.messages import AlarmError
 

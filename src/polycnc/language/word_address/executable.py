@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_right
-from dataclasses import field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.unchanging import unchanging
 from polycnc.channel.steps import kept_steps, several
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.deferred.regexes import regex
 from polycnc.language.expressions.code import listed
 from polycnc.language.expressions.hot_loop import HotLoop

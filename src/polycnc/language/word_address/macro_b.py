@@ -11,8 +11,9 @@ from __future__ import annotations
 import ast
 import re
 from math import isinf
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.regexes import regex
 from polycnc.language.expressions.code import (
     Code,

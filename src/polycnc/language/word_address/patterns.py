@@ -11,8 +11,9 @@ as they are written, so a number of which the reader says nothing is never taken
 from __future__ import annotations
 
 from operator import call, itemgetter
-from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Protocol, TypeAlias
 
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.regexes import regex
 
 if TYPE_CHECKING:

@@ -7,10 +7,10 @@ example): only the control knows what they mean.
 from __future__ import annotations
 
 import re
-from dataclasses import field
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.records import dataclass, field
 from polycnc.deferred.regexes import regex
 
 if TYPE_CHECKING:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.records import replace
 from polycnc.mainrun.errors import CommandRefused
 from polycnc.program import Form, ProgramStore, decode, names
 from polycnc.program.heads import sequence_number

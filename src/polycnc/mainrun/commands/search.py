@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import field
 from enum import StrEnum
 from typing import TYPE_CHECKING
 
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.mainrun.errors import CommandRefused
 from polycnc.mainrun.preparation.items import Block, Happening, Move
 from polycnc.toolpath import Context

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import inf
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.records import replace
 from polycnc.mainrun.preparation.items import Rates
 from polycnc.mainrun.reading.snapshot import PanelSwitches
 

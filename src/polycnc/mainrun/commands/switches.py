@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from polycnc.deferred.records import replace
 from polycnc.mainrun.commands.programs import forget_skipped
 from polycnc.mainrun.commands.settings import SINGLE_BLOCK_KINDS
 from polycnc.mainrun.commands.states import Command, Mode

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import field, replace
 from math import inf
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.motion.skip import LastSkip
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field, replace
 from polycnc.mainrun.commands.programs import text_of
 from polycnc.mainrun.execution.interpolator import ChannelInterpolator
 from polycnc.mainrun.reading.snapshot import ActiveBlock, ChannelSnapshot, Positions, SpindleState, ToolState

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import inf, sqrt
 from typing import TYPE_CHECKING, Any, Protocol
 
+from polycnc.deferred.records import replace
 from polycnc.mainrun.motion.axis_move import AxisMove, axis_move
 from polycnc.mainrun.motion.geometry import Line
 from polycnc.mainrun.motion.speed import (

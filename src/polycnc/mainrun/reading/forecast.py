@@ -7,7 +7,6 @@ power-on. Where the program needs the clock or another channel it ends.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -16,7 +15,7 @@ from polycnc.channel.states.passes import Passes
 from polycnc.channel.states.standstill import Standstill
 from polycnc.channel.waits import CHUNK, Why
 from polycnc.control.registry import control as control_of
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, replace
 from polycnc.language.bulk.settings import Bulk
 from polycnc.memory.retained import copied
 from polycnc.toolpath import Toolpath

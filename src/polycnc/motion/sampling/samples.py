@@ -7,8 +7,9 @@ gives columns of samples, run by run; what it has given it forgets.
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.motion.kernels.columns import PieceRecord, piece_width
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.table import CURVE_WIDTH

@@ -6,7 +6,9 @@ those of its clock.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Protocol
+
+from polycnc.deferred.named_tuples import NamedTuple
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from array import array
 from math import pi
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal
 
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.motion.standing.beside import Awaits, Begins, Search, Turning
 from polycnc.toolpath import Kind
 from polycnc.toolpath.events import (

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.kernels.library import Library
 from polycnc.motion.third_order.bends import (
     bending,

@@ -8,12 +8,11 @@ both, as real controls show it.
 from __future__ import annotations
 
 import tomllib
-from dataclasses import field, replace
 from functools import cache
 from importlib import resources
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field, replace
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import field
-
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 
 
 @dataclass(frozen=True, slots=True)

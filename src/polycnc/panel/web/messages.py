@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping
-from dataclasses import fields, is_dataclass
 from inspect import signature
 from math import isfinite
 from typing import TYPE_CHECKING, Any
 
+from polycnc.deferred.records import fields, is_dataclass
 from polycnc.messages import AlarmError, UserError, text
 from polycnc.messages.catalogue import language
 

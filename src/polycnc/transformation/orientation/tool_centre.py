@@ -8,10 +8,9 @@ orientation: they matter where rotary positions are *found* for a direction (`so
 
 from __future__ import annotations
 
-from dataclasses import field
 from typing import TYPE_CHECKING
 
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.machine.kinematics import unit
 from polycnc.transformation.contract import unchanged
 from polycnc.transformation.numbers import RADIAN, cosine_and_sine_deg

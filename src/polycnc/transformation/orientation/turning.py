@@ -9,12 +9,11 @@ linear axes all the way: it does not notice.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from itertools import pairwise
 from math import dist, radians, sqrt
 from typing import TYPE_CHECKING
 
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, replace
 from polycnc.transformation.orientation.choice import nearest
 from polycnc.transformation.orientation.directions import angle_between
 from polycnc.transformation.orientation.solutions import pole_angle, solutions_for

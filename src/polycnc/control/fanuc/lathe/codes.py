@@ -6,7 +6,6 @@ whatever the system: that of system A, and of B and C where A has none. So handl
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import cache
 from typing import TYPE_CHECKING
 
@@ -33,7 +32,7 @@ from polycnc.control.word_address.transformations import (
     polar_interpolation,
     tilted_plane,
 )
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, replace
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.channel.stack import LevelKind
@@ -50,6 +49,7 @@ from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations import cylinder, normal_line, polar_interpolation
 from polycnc.control.word_address.transformations.normal_line import NormalLineRules
 from polycnc.control.word_address.transformations.polar_interpolation import PolarState
+from polycnc.deferred.records import replace
 from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:

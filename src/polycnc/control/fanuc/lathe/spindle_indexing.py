@@ -5,11 +5,10 @@ The order goes to the machine as an event with its words. The angle is no place 
 
 from __future__ import annotations
 
-from dataclasses import field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.toolpath.events import BuilderCode, SpindleWait
 
 if TYPE_CHECKING:

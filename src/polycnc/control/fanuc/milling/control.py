@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.compensation.policy import Approach, Policy
@@ -22,6 +21,7 @@ from polycnc.control.word_address.macro_b import interruption
 from polycnc.control.word_address.macro_b.variables import MacroMemory
 from polycnc.control.word_address.motion import path
 from polycnc.control.word_address.tools import length, look_ahead
+from polycnc.deferred.records import replace
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -9,7 +9,6 @@ What nobody here knows for sure is PC0001.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from polycnc.compensation.spatial_rules import INTERSECTION_FIRST, Corners, Rules
@@ -21,6 +20,7 @@ from polycnc.control.word_address.tools import radius, spatial
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.tilted_plane import TiltState
 from polycnc.control.word_address.transformations.tool_center_point import TIP_CODES, plan_with_direction
+from polycnc.deferred.records import replace
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:

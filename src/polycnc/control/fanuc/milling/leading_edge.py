@@ -8,7 +8,6 @@ of the next one; in between the tip goes straight. G41.3 and G40 move the tool b
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import acos, degrees, sqrt
 from typing import TYPE_CHECKING
 
@@ -20,6 +19,7 @@ from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.tools.radius import RadiusState, place_of_block
 from polycnc.control.word_address.tools.spatial import posture_of
 from polycnc.control.word_address.transformations.tool_center_point import TIP_CODES
+from polycnc.deferred.records import replace
 from polycnc.geometry.vectors import dot, minus, times
 from polycnc.messages import AlarmError
 

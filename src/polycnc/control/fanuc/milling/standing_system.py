@@ -8,7 +8,6 @@ words, G92, G16, chamfers, and a system that is mirrored, scaled or rotated.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import nan
 from typing import TYPE_CHECKING
 
@@ -22,6 +21,7 @@ from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.motion import path
 from polycnc.control.word_address.motion.arcs import emit_arc, write_with_rest
 from polycnc.control.word_address.transformations import tool_center_point
+from polycnc.deferred.records import replace
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.vectors import axis_vector, cross, dot
 from polycnc.machine.kinematics import unit

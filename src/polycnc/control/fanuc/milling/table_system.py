@@ -7,7 +7,6 @@ I J K of G41.6 name directions in it. With 19696#5 WKP = 1 words name points of 
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import nan
 from typing import TYPE_CHECKING
 
@@ -22,7 +21,7 @@ from polycnc.control.word_address.motion import path
 from polycnc.control.word_address.tools import spatial
 from polycnc.control.word_address.transformations.tilted_plane import turn_to
 from polycnc.control.word_address.transformations.tool_center_point import TIP_CODES, angles_named
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, replace
 from polycnc.geometry.frames import translation
 from polycnc.toolpath import Kind
 

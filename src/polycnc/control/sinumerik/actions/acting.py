@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik.actions import polynomials
 from polycnc.control.sinumerik.actions.cycles import RunningCycle
@@ -12,6 +12,7 @@ from polycnc.control.sinumerik.actions.words import WORDS
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.positions import ModuloRange
 from polycnc.control.sinumerik.errors import not_supported
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.language.sinumerik.runtime import elements_left, read_length, set_elements, write_length
 from polycnc.messages import AlarmError
 

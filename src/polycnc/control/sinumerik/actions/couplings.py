@@ -8,7 +8,6 @@ its place on the table waits until that comes to where it stands (9.3).
 
 from __future__ import annotations
 
-from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.interpolator import PassiveWatcher
@@ -21,7 +20,7 @@ from polycnc.control.sinumerik.couplings.links import Couplings
 from polycnc.control.sinumerik.curve_tables.memory import CurveTables, table_of
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.variables import in_force
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError
 from polycnc.transformation.couplings.graph import CircularCouplingError

@@ -5,10 +5,9 @@ ICYCOF runs all lines that follow in one cycle, and waits for no axis.
 
 from __future__ import annotations
 
-from dataclasses import field
 from typing import TYPE_CHECKING, Any, Protocol
 
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.language.sinumerik.actions.code import Acting
 from polycnc.messages import AlarmError
 

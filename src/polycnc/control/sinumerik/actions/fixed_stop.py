@@ -5,13 +5,12 @@ No machine of polycnc has a fixed stop: the selection is kept with its torque an
 
 from __future__ import annotations
 
-from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.variables import in_force
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.messages import AlarmError
 

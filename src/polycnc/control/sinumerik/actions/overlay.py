@@ -9,16 +9,16 @@ CORROF takes them away, DRFOF the handwheel's: the axis stays, coordinates know 
 
 from __future__ import annotations
 
-from dataclasses import field
 from math import inf
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from polycnc.channel.interpolator import HANDWHEEL_OFFSET
 from polycnc.channel.states.state import Lifetime, State, lasting
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.actions import axes as action_axes
 from polycnc.control.sinumerik.block import arguments
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.records import dataclass, field
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import Deed

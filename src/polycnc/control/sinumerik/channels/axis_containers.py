@@ -9,7 +9,6 @@ Source: job planning 14.3; Function Manual B3 (machine data).
 
 from __future__ import annotations
 
-from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.states.state import Lifetime, State
@@ -18,7 +17,7 @@ from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.couplings.links import coupled
 from polycnc.control.sinumerik.data.machine_data import MachineData
 from polycnc.control.sinumerik.errors import not_supported
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.messages import AlarmError
 

@@ -6,9 +6,8 @@ noted as its block means it, before roundings and chamfers are put in, which bec
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import isnan
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.moves.path import Rank, Stage
 from polycnc.channel.states.state import Lifetime, State
@@ -28,7 +27,8 @@ from polycnc.control.sinumerik.motion.contour_reading import (
 )
 from polycnc.control.sinumerik.tables import feed_type, length_factor
 from polycnc.control.sinumerik.transformations import seat
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.records import dataclass, replace
 from polycnc.geometry import offset
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY

@@ -8,7 +8,6 @@ again. A coupling takes a seat of its own, or a side of that of the transformati
 
 from __future__ import annotations
 
-from dataclasses import field, replace
 from enum import IntEnum
 from typing import TYPE_CHECKING
 
@@ -16,7 +15,7 @@ from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.curve_tables.memory import CurveTables
 from polycnc.control.sinumerik.data.machine_data import MachineData
 from polycnc.control.sinumerik.errors import not_supported
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field, replace
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.transformation.couplings.coupled import Coupled, Shown

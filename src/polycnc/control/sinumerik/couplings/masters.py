@@ -7,7 +7,6 @@ effect on it, and NEWCONF lets a new value of the datum act.
 
 from __future__ import annotations
 
-from dataclasses import field
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -18,7 +17,7 @@ from polycnc.control.sinumerik.couplings import spindle_pairs, switching, synchr
 from polycnc.control.sinumerik.couplings.links import Couplings, Kind, Link
 from polycnc.control.sinumerik.couplings.spindle_pairs import Pair, SpindlePairs, turns
 from polycnc.control.sinumerik.errors import not_supported
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.language.sinumerik.names.spindles import spindle_number
 from polycnc.language.sinumerik.names.values import Axis

@@ -7,7 +7,6 @@ angle while they turn.
 
 from __future__ import annotations
 
-from dataclasses import field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
@@ -15,7 +14,7 @@ from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.block.positions import ModuloRange
 from polycnc.control.sinumerik.data.machine_data import MachineData
 from polycnc.control.sinumerik.feed import spindle_speed
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.messages import AlarmError
 from polycnc.transformation.couplings.graph import CircularCouplingError, in_order
 from polycnc.transformation.couplings.laws import Ratio

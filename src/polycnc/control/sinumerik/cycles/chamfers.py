@@ -7,11 +7,12 @@ wall on the same path.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.cycles.levels import Levels, levels, sign
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tools.edges import DP_CLEARANCE, DP_SIDE_ANGLE
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import radians, sin
 from typing import TYPE_CHECKING
 
@@ -17,6 +16,7 @@ from polycnc.cycles.milling import pockets, slots
 from polycnc.cycles.milling.open_slot import OpenSlot
 from polycnc.cycles.milling.pockets import Insertion, Pocket
 from polycnc.cycles.milling.stroke import MillStroke, Place, steps
+from polycnc.deferred.records import replace
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind

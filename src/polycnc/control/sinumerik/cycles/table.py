@@ -5,7 +5,7 @@ Source: SINUMERIK standard cycles, manual of the cycles (signatures, sequences, 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.cycles import (
     deep_holes,
@@ -28,6 +28,7 @@ from polycnc.control.sinumerik.cycles.turning import (
     threads,
     undercuts,
 )
+from polycnc.deferred.named_tuples import NamedTuple
 
 if TYPE_CHECKING:
     from collections.abc import Callable

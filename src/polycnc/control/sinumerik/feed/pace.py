@@ -5,7 +5,6 @@ Source: Fundamentals; job planning 16.1 (statement list).
 
 from __future__ import annotations
 
-from dataclasses import field
 from math import hypot, inf, pi
 from typing import TYPE_CHECKING
 
@@ -17,7 +16,7 @@ from polycnc.control.sinumerik.couplings.links import Couplings
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.tables import MINUTE
 from polycnc.control.sinumerik.transformations import seat
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.geometry.arcs import EVEN
 from polycnc.toolpath.context import Pace
 from polycnc.toolpath.modes import FeedMode

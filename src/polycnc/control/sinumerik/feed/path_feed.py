@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import field
 from math import nan
-from typing import NamedTuple
 
 from polycnc.channel.states.state import Lifetime, State, lasting
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.records import dataclass, field
 from polycnc.toolpath.modes import FeedMode
 
 

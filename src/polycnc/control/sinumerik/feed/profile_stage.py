@@ -6,7 +6,6 @@ it, so a row of such blocks is held until another one comes.
 
 from __future__ import annotations
 
-from dataclasses import field
 from math import hypot
 from typing import TYPE_CHECKING
 
@@ -15,7 +14,7 @@ from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import EndOfBlock, Item, Move, PlacedEvent, Rank, Stage
 from polycnc.control.sinumerik.feed import profiles
 from polycnc.control.sinumerik.feed.profiles import CONSTANT, CUBIC, Course, Profile
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.toolpath.events import Event
 from polycnc.toolpath.kinds import Kind
 from polycnc.toolpath.modes import FeedMode

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import field
 from math import hypot, prod
 from typing import TYPE_CHECKING
 
@@ -15,7 +14,7 @@ from polycnc.control.sinumerik.feed.axis_settings import axis_of
 from polycnc.control.sinumerik.tables import length_factor
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.variables.row import RowWithStop
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.language.sinumerik.words import WordAlarm

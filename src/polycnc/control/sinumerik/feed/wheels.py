@@ -8,7 +8,6 @@ Source: Fundamentals (GWPSON, GWPSOF), job planning 13.1.
 
 from __future__ import annotations
 
-from dataclasses import field
 from math import inf, pi
 from typing import TYPE_CHECKING
 
@@ -17,7 +16,7 @@ from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tables import MINUTE, MM_PER_M
 from polycnc.control.sinumerik.tools.edges import DP_LENGTH, DP_RADIUS, GRINDING_TYPES
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import SignalWrite
 

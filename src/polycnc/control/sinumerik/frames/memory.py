@@ -10,7 +10,6 @@ SUPA).
 
 from __future__ import annotations
 
-from dataclasses import field
 from functools import reduce
 from operator import matmul
 from typing import TYPE_CHECKING
@@ -18,7 +17,7 @@ from typing import TYPE_CHECKING
 from polycnc.channel.states.state import Lifetime, State, lasting, retained
 from polycnc.control.sinumerik import gcodes
 from polycnc.control.sinumerik.data.machine_data import MachineData
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.language.sinumerik.names.frame import NEUTRAL, NcFrame, ctrans
 from polycnc.memory.retained import WORK_OFFSETS, filled
 from polycnc.messages import AlarmError

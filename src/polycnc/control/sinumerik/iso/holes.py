@@ -7,9 +7,8 @@ counts from where the tool began and the depth from R. K repeats, and under G91 
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.cycles import calls, drilling
 from polycnc.control.sinumerik.cycles.table import Cycle
@@ -17,6 +16,8 @@ from polycnc.control.sinumerik.iso.running import Datum, HoleCycle
 from polycnc.cycles.count import checked
 from polycnc.cycles.drilling import deep_hole, holes
 from polycnc.cycles.drilling.holes import Hole
+from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.records import replace
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.language.sinumerik.iso_dialect import CORNERS, MOTIONS

@@ -7,7 +7,6 @@ zones of the machine, 10701 for those of the channel). Without a zone of the too
 
 from __future__ import annotations
 
-from dataclasses import field
 from itertools import pairwise
 from math import inf
 from typing import TYPE_CHECKING
@@ -23,7 +22,7 @@ from polycnc.control.sinumerik.motion.contour_reading import (
     reading_from_here,
     without_away,
 )
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.geometry import arcs, zones
 from polycnc.geometry.planes import PLANES
 from polycnc.language.sinumerik.names.frame import NcFrame

@@ -8,7 +8,7 @@ Fundamentals (G25, G26, WALIMON, WALIMOF; WALCS0 to WALCS10), machine data 36100
 from __future__ import annotations
 
 from math import inf
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.moves.path import Move
 from polycnc.channel.moves.travel import Travel
@@ -17,6 +17,7 @@ from polycnc.control.sinumerik import gcodes
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.variables.row import Indices, Row
 from polycnc.control.sinumerik.variables.stored import Stored
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.planes import PLANES

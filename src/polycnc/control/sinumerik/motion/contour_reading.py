@@ -7,14 +7,13 @@ back behind them, or by a reset.
 from __future__ import annotations
 
 from copy import copy
-from dataclasses import field
 from math import isnan
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.path import Recorder
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.motion.last_move import LastMove
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 
 if TYPE_CHECKING:
     from collections.abc import Container

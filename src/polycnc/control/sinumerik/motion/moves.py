@@ -6,7 +6,6 @@ Source: Fundamentals (G0, G1, G4, G33 to G35, G331/G332, G63, G74, G75, POS, POS
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import field
 from math import cos, isnan, nan, radians, sin, tan
 from typing import TYPE_CHECKING, Any
 
@@ -25,7 +24,7 @@ from polycnc.control.sinumerik.signals import measuring
 from polycnc.control.sinumerik.tables import length_factor
 from polycnc.control.sinumerik.transformations import point_to_point, seat
 from polycnc.control.sinumerik.variables.clock import Clock
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.geometry.units import INCH_MM

@@ -7,7 +7,6 @@ first points are passed on when so many are known behind them that others change
 
 from __future__ import annotations
 
-from dataclasses import replace
 from itertools import pairwise
 from math import hypot
 from typing import TYPE_CHECKING
@@ -17,6 +16,7 @@ from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Rank, Stage
 from polycnc.control.sinumerik.motion.last_move import LastMove
 from polycnc.control.sinumerik.motion.spline_stage import TOLERANCE_MM
+from polycnc.deferred.records import replace
 from polycnc.geometry.through_points import End, akima_tangents, chords, cubic_tangents
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.geometry.vectors import cross, minus

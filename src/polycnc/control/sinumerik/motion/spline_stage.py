@@ -6,12 +6,12 @@ The curve begins at the first and ends at the last control point, and touches th
 
 from __future__ import annotations
 
-from dataclasses import replace
 from itertools import groupby
 from operator import itemgetter
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.path import Rank, Stage
+from polycnc.deferred.records import replace
 from polycnc.geometry.nurbs import nurbs_chords
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.toolpath import Kind

@@ -6,11 +6,10 @@ spline and the coefficients of a polynomial give curves of their own. All are cu
 
 from __future__ import annotations
 
-from dataclasses import field
 from functools import partial
 from itertools import pairwise
 from math import hypot
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.moves.chord_path import ChordPath
 from polycnc.channel.moves.knots import write_chords
@@ -27,7 +26,8 @@ from polycnc.control.sinumerik.motion.polynomial_groups import AXES, PolynomialG
 from polycnc.control.sinumerik.motion.spline_stage import TOLERANCE_MM
 from polycnc.control.sinumerik.tables import length_factor
 from polycnc.control.sinumerik.tools import stages
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.records import dataclass, field
 from polycnc.geometry.through_points import End
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.language.sinumerik.words import WordAlarm

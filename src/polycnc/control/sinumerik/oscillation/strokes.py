@@ -6,7 +6,6 @@ reversal point.
 
 from __future__ import annotations
 
-from dataclasses import field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.interpolator import PassiveWatcher
@@ -14,7 +13,7 @@ from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.actions.axes import ActionAxes
 from polycnc.control.sinumerik.block.positions import ModuloRange
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.geometry.tolerances import NO_WAY
 
 if TYPE_CHECKING:

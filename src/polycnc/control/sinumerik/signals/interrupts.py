@@ -8,7 +8,6 @@ still made; a routine that ends without REPOS leaves it, and the next block goes
 
 from __future__ import annotations
 
-from dataclasses import field, replace
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.moves.move_path import MovePath
@@ -19,7 +18,7 @@ from polycnc.control.sinumerik.actions import actions
 from polycnc.control.sinumerik.block import arguments, single_block
 from polycnc.control.sinumerik.block.positions import of_display
 from polycnc.control.sinumerik.signals import retraction
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field, replace
 from polycnc.language.sinumerik.statements.calls import call_without_arguments, named_program
 from polycnc.messages import AlarmError
 

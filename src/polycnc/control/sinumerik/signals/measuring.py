@@ -7,7 +7,6 @@ running block. A job that deletes the distance to go ends the move there, withou
 
 from __future__ import annotations
 
-from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.moves.move_path import MovePath
@@ -17,7 +16,7 @@ from polycnc.control.sinumerik.actions import fifo as fifos
 from polycnc.control.sinumerik.block.positions import of_display, shown
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.variables.row import Indices, RowWithStop
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError

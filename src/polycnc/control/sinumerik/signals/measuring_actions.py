@@ -6,7 +6,6 @@ the place of an edge is exact on lines.
 
 from __future__ import annotations
 
-from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.interpolator import PassiveWatcher
@@ -25,7 +24,7 @@ from polycnc.control.sinumerik.signals.measuring import (
     Job,
     Measuring,
 )
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind

@@ -6,7 +6,6 @@ effect. Blocks of G331 and G332 are a section for stops by themselves, as long a
 
 from __future__ import annotations
 
-from dataclasses import field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
@@ -16,7 +15,7 @@ from polycnc.control.sinumerik.couplings.generated import MasterValues
 from polycnc.control.sinumerik.couplings.links import Couplings, Kind
 from polycnc.control.sinumerik.data.machine_data import MachineData
 from polycnc.control.sinumerik.variables.row import Indices, RowWithStop
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.language.sinumerik.statements.sections import ENDS_CONTEXT
 

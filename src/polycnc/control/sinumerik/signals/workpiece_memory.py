@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import field
 from enum import IntEnum
 
 from polycnc.channel.states.state import Lifetime, State
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.language.sinumerik.names.frame import NEUTRAL, NcFrame
 
 #: A geometry axis by its number, another one by its name.

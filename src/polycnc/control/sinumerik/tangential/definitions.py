@@ -5,9 +5,8 @@ A word of a coupled axis is put to its offset angle: absolute ones take the plac
 
 from __future__ import annotations
 
-from dataclasses import field, replace
 from math import inf, nan, pi
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.path import PlacedEvent
 from polycnc.channel.states.state import Lifetime, State
@@ -20,7 +19,8 @@ from polycnc.control.sinumerik.feed.pace import Overrides
 from polycnc.control.sinumerik.motion import moves
 from polycnc.control.sinumerik.tangential.coupling import Coupling
 from polycnc.control.sinumerik.tangential.stage import Positioned, TangentialStage
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.records import dataclass, field, replace
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind

@@ -7,7 +7,6 @@ the latest up to the end of the move.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import inf
 from typing import TYPE_CHECKING
 
@@ -17,7 +16,7 @@ from polycnc.channel.moves.path import Move, Rank, Stage
 from polycnc.control.sinumerik.limits.working_area import WORKING_AREA, Ranges
 from polycnc.control.sinumerik.tangential.coupling import SAME_DEG, Coupling, Course, course
 from polycnc.control.sinumerik.transformations import seat
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, replace
 from polycnc.toolpath.events import Event
 from polycnc.toolpath.kinds import ARC_KINDS, Kind
 from polycnc.toolpath.modes import FeedMode

@@ -9,10 +9,11 @@ Source: job planning 7.11.
 from __future__ import annotations
 
 from math import atan2, degrees, hypot
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from polycnc.compensation.tips import tip_direction
 from polycnc.control.sinumerik.tools.edges import DP_CLEARANCE, DP_DIRECTION, DP_HOLDER_ANGLE, DP_TIP
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.vectors import axis_vector, dot
 

@@ -5,9 +5,7 @@ Source: job planning 7.1 (tool parameters), 7.2 (additive offsets).
 
 from __future__ import annotations
 
-from dataclasses import field
-
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.memory.encoding import encoded
 
 #: Parameters of a cutting edge: $TC_DP1 … $TC_DP25.

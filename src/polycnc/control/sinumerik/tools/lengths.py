@@ -9,7 +9,7 @@ Source: job planning 7.3 (SD42900 to SD42960, TOWSTD …); Function Manual W1 (b
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.tools.edges import (
     COARSE,
@@ -19,6 +19,7 @@ from polycnc.control.sinumerik.tools.edges import (
     DP_WEAR_LENGTH,
     FINE,
 )
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.geometry.frames import IDENTITY, Frame, Vector
 
 if TYPE_CHECKING:

@@ -5,7 +5,6 @@ Source: job planning 7.1 (tool parameters), 7.3 (assignment of lengths); Fundame
 
 from __future__ import annotations
 
-from dataclasses import field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, retained
@@ -29,7 +28,7 @@ from polycnc.control.sinumerik.tools.lengths import (
     Rules,
     along_axes,
 )
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.vectors import minus, times
 from polycnc.memory.encoding import encoded

@@ -8,7 +8,6 @@ Source: job planning 7.4 (FTOCON, PUTFTOC), 7.10 (TOFFON, TOFFOF, `$AA_TOFF`).
 
 from __future__ import annotations
 
-from dataclasses import field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
@@ -18,7 +17,7 @@ from polycnc.control.sinumerik.tables import data_factor
 from polycnc.control.sinumerik.tools import selection
 from polycnc.control.sinumerik.tools.edges import DP_WEAR_LENGTH
 from polycnc.control.sinumerik.tools.holders.active import ActiveCarrier
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.messages import AlarmError
 

@@ -17,7 +17,6 @@ As its direction is that of the contour's first move, an approach waits for that
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import isnan, nan
 from typing import TYPE_CHECKING
 
@@ -40,7 +39,7 @@ from polycnc.control.sinumerik.tools.smooth_stage import (
     height_of,
     with_value,
 )
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, replace
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.units import INCH_MM
 from polycnc.messages import AlarmError

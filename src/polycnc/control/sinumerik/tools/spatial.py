@@ -9,9 +9,8 @@ Source: job planning 7.5 (CUT3D…, ISD), 7.6 (ORIC, ORID).
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple, Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 from polycnc.channel.moves.knots import join
 from polycnc.compensation.limiting_surface import Mill, across, infeed
@@ -27,7 +26,8 @@ from polycnc.compensation.spatial_rules import (
 from polycnc.control.sinumerik.tools.edges import DP_CORNER_RADIUS, DP_RADIUS
 from polycnc.control.sinumerik.tools.sides import SIDES, Contour
 from polycnc.control.sinumerik.transformations.posture import Orienting
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.records import dataclass, replace
 from polycnc.machine.kinematics import unit
 from polycnc.messages import AlarmError
 from polycnc.transformation.chain import Chain

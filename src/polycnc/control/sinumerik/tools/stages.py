@@ -7,7 +7,6 @@ RNDM, G40 to G42, NORM, KONT, KONTT, KONTC, G450, G451).
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import partial
 from math import hypot, nan
 from typing import TYPE_CHECKING
@@ -25,6 +24,7 @@ from polycnc.control.sinumerik.tools.smooth_stage import SmoothApproach
 from polycnc.control.sinumerik.tools.tool_plane import lead, tool_plane
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.transformations.walls import WallStage
+from polycnc.deferred.records import replace
 from polycnc.geometry.arcs import EVEN
 from polycnc.geometry.frames import Frame
 from polycnc.geometry.offset import Joint, Outer

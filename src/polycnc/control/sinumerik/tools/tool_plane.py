@@ -8,10 +8,9 @@ system of the tool in front of compensation, and back behind it.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from itertools import pairwise
 from math import hypot
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.knots import join
 from polycnc.channel.moves.move_path import MovePath
@@ -19,6 +18,8 @@ from polycnc.channel.moves.path import Move, Rank, Stage
 from polycnc.compensation.cutter import CutterCompensation
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.transformations import seat
+from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.records import replace
 from polycnc.geometry.arcs import EVEN, circle_image, is_even
 from polycnc.geometry.frames import IDENTITY, Frame, Vector
 from polycnc.geometry.planes import PLANES

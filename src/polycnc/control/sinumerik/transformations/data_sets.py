@@ -6,11 +6,11 @@ whose data say nothing has what its kinematic chain allows, one of each kind. Th
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import atan2, degrees
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.records import dataclass, replace
 from polycnc.geometry.vectors import dot
 from polycnc.machine.kinematics import Kinematics, unit
 from polycnc.messages import AlarmError

@@ -7,7 +7,6 @@ blocks begins and ends the tool stands as programmed.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from itertools import pairwise
 from math import radians
 from typing import TYPE_CHECKING
@@ -16,6 +15,7 @@ from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import EndOfBlock, Move, PlacedEvent, Rank, Stage
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.transformations.posture import Posture
+from polycnc.deferred.records import replace
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 from polycnc.transformation.orientation.directions import angle_between

@@ -7,7 +7,6 @@ or the tool calls `stand`, by way of `frames.active.apply`.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import inf
 from typing import TYPE_CHECKING, Any
 
@@ -19,7 +18,7 @@ from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tools.lengths import OF_MACHINE
 from polycnc.control.sinumerik.transformations import data_sets
 from polycnc.control.sinumerik.transformations.data_sets import Build
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, replace
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.vectors import minus
 from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES

@@ -5,7 +5,6 @@ A change of transformation deselects the frames (6.10; MD10602 keeps them), the 
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import nan
 from typing import TYPE_CHECKING
 
@@ -27,6 +26,7 @@ from polycnc.control.sinumerik.transformations.data_sets import Build
 from polycnc.control.sinumerik.transformations.pole_sides import PoleSides, plane_of
 from polycnc.control.sinumerik.transformations.seat import Transformations
 from polycnc.control.sinumerik.transformations.walls import WallStage
+from polycnc.deferred.records import replace
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.language.sinumerik.names.frame import NEUTRAL
 from polycnc.messages import AlarmError

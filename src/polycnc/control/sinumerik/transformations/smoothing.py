@@ -6,11 +6,12 @@ fast as the tolerances allow. OSC turns the tool evenly along its block, as it t
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.feed.tolerances import Smoothing, contour_tolerance
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.transformations.words import BY_PATH, CONES
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.toolpath.modes import CornerMode
 
 if TYPE_CHECKING:

@@ -8,14 +8,15 @@ OFFN, it goes evenly.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import ceil, degrees, hypot, sqrt
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from polycnc.channel.moves import origins
 from polycnc.channel.moves.knots import cut
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import END_OF_BLOCK, Item, Move, PlacedEvent, Rank, Stage
+from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.records import replace
 from polycnc.toolpath.kinds import CCW_KINDS
 
 if TYPE_CHECKING:

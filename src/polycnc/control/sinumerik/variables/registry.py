@@ -9,7 +9,6 @@ Source: job planning 1.1.2 (prefixes), 5.1 (actual values), and the manual of sy
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import partial
 from math import isnan
 from typing import TYPE_CHECKING, Any
@@ -61,7 +60,7 @@ from polycnc.control.sinumerik.variables.row import Indices, Reader, Writer
 from polycnc.control.sinumerik.variables.run_times import KEPT_TIMES, RUN_TIMES
 from polycnc.control.sinumerik.variables.stored import Stored
 from polycnc.control.sinumerik.variables.surroundings import SURROUNDINGS
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, replace
 from polycnc.deferred.regexes import regex
 from polycnc.language.sinumerik.names.frame import NcFrame
 from polycnc.language.sinumerik.names.values import Axis, Type

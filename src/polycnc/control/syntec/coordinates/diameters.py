@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 
 if TYPE_CHECKING:
     from polycnc.control.syntec.family import SyntecChannel

@@ -6,7 +6,6 @@ G54.4 P1 is on.
 
 from __future__ import annotations
 
-from dataclasses import field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, lasting, retained
@@ -16,7 +15,7 @@ from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.motion.planes import choose_basic_axes
 from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.tools.radius import active_compensation
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.geometry.frames import IDENTITY, Frame
 from polycnc.machine.kinematics import turn_about
 from polycnc.memory.retained import TILTED_PLANES, WORK_TURNS

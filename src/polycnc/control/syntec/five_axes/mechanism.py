@@ -8,10 +8,10 @@ lies from its last rotary axis.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.units import least_unit
+from polycnc.deferred.records import replace
 from polycnc.geometry.vectors import times
 from polycnc.machine.kinematics import Kinematics
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import inf
 from typing import TYPE_CHECKING
 
@@ -24,7 +23,7 @@ from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.transformations import normal_line, tool_center_point
 from polycnc.control.word_address.transformations.polar_interpolation import PolarState
 from polycnc.control.word_address.transformations.tool_center_point import TIP_CODES
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, replace
 from polycnc.geometry.frames import IDENTITY
 from polycnc.language.bulk import declare, declared
 from polycnc.toolpath.context import Pace

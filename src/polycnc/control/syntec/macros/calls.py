@@ -6,7 +6,6 @@ when it is over (macro language reference, sections 4.2 and 7).
 
 from __future__ import annotations
 
-from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.stack import LevelKind
@@ -19,7 +18,7 @@ from polycnc.control.syntec.macros.variables import INDEXED_LETTERS, Locals
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.macro_b.macro_calls import enter_macro
 from polycnc.control.word_address.macro_b.subprograms import note_call
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.language.syntec.blocks import FORMS
 from polycnc.language.syntec.values import Text, Value
 from polycnc.language.word_address import WordBlock

@@ -6,9 +6,8 @@ whole increment. While M96 is active the modal state says so, so that only then 
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import nan
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from polycnc.channel.stack import LevelKind
 from polycnc.channel.states.state import Lifetime, State
@@ -19,7 +18,8 @@ from polycnc.control.word_address.auxiliary import machine_codes
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion import path, skip
 from polycnc.control.word_address.motion.arc_signals import made_arc
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.records import dataclass, replace
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:

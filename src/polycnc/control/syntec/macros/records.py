@@ -8,11 +8,10 @@ schema of that cycle names. Schemas are the builder's: the setup gives each as a
 from __future__ import annotations
 
 import re
-from dataclasses import field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.deferred.regexes import regex
 from polycnc.language.syntec.values import Text, Vacant, Value, whole
 from polycnc.messages import AlarmError

@@ -5,13 +5,12 @@ What a set holds the manual does not print; here it is the highest speed of the 
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import inf
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, retained
 from polycnc.control.syntec.parameters import SyntecParameters
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, replace
 from polycnc.memory.retained import MACHINING_CONDITIONS
 from polycnc.toolpath.context import Pace
 

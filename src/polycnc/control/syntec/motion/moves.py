@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from contextlib import contextmanager
-from dataclasses import field, replace
 from functools import partial
 from math import copysign, hypot, nan
 from typing import TYPE_CHECKING
@@ -29,7 +28,7 @@ from polycnc.control.word_address.tools.data_input import refuse_words
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.normal_stage import NormalStage
 from polycnc.control.word_address.transformations.polar_interpolation import is_length
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field, replace
 from polycnc.geometry import arcs
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.planes import PLANES

@@ -6,7 +6,6 @@ what lies between them within the tolerance that the mode gives.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
@@ -16,7 +15,7 @@ from polycnc.control.syntec.parameters import SyntecParameters
 from polycnc.control.syntec.units import least_unit
 from polycnc.control.word_address.motion import nurbs
 from polycnc.control.word_address.motion.path_modes import PathModeState
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, replace
 from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath.events import Deed
 from polycnc.toolpath.modes import CornerMode

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, plain
@@ -10,7 +9,7 @@ from polycnc.compensation.corner import CornerStage
 from polycnc.control.tool_change import follow, way_to_change
 from polycnc.control.word_address.motion.path import FEED_MODES
 from polycnc.control.word_address.tools.radius import suspended
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.bulk import Conversion, Note, Scaling, SetFeed, Word, declare
 from polycnc.toolpath.events import SecondAuxiliary, SpindleSpeed, ToolSelection

@@ -5,7 +5,6 @@ What it refuses is asked in `control/machine_words.py`.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from polycnc.control.machine_words import (
@@ -18,6 +17,7 @@ from polycnc.control.machine_words import (
     refuse,
 )
 from polycnc.control.word_address.block.rules import Rule
+from polycnc.deferred.records import replace
 from polycnc.language.bulk import Note, declare, declared
 
 if TYPE_CHECKING:

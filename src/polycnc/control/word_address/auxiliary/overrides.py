@@ -6,12 +6,11 @@ The toolpath's context says which overrides and whether feed hold act; what runs
 from __future__ import annotations
 
 from contextlib import contextmanager
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.macro_b.variables import ControlSwitches
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, replace
 from polycnc.toolpath.modes import CornerMode
 
 if TYPE_CHECKING:

@@ -8,11 +8,10 @@ stand in its tables only where a program can see them (#4001).
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import field
 from enum import IntEnum
 from typing import TYPE_CHECKING, Any
 
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel

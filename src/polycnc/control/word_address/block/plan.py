@@ -9,7 +9,7 @@ modal state; later blocks of the same shape only bring new numbers.
 from __future__ import annotations
 
 from copy import copy
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from polycnc.channel.intervention import NOTHING_BACK, TakesBack
 from polycnc.control.word_address.block.codes import GCode, MCode, Order, Step
@@ -17,6 +17,7 @@ from polycnc.control.word_address.block.numbers import Convert, NumberRules, len
 from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.memory import SentCodes
 from polycnc.control.word_address.motion.path_modes import end_of_exact_stop, exact_stop_block
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass
 from polycnc.language.bulk import Idle, Later, Note, declare, declared
 from polycnc.language.word_address.words import FORMS, is_fixed_code

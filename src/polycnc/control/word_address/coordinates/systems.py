@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from contextlib import nullcontext
-from dataclasses import field
 from math import nan
 from typing import TYPE_CHECKING
 
@@ -12,7 +11,7 @@ from polycnc.control.word_address.auxiliary.interlocks import note_reference_ret
 from polycnc.control.word_address.coordinates import tip
 from polycnc.control.word_address.memory import EXTERNAL
 from polycnc.control.word_address.tools.radius import suspended
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.geometry.frames import IDENTITY, Frame, translation
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind

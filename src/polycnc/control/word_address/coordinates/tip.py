@@ -6,11 +6,10 @@ lies in front. So both are put into it whenever they change.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, replace
 from polycnc.geometry.frames import IDENTITY, Frame
 
 if TYPE_CHECKING:

@@ -8,7 +8,6 @@ from the block that enters the mode until the mode ends.
 
 from __future__ import annotations
 
-from dataclasses import field, replace
 from enum import Enum
 from math import nan
 from typing import TYPE_CHECKING
@@ -28,7 +27,7 @@ from polycnc.control.word_address.motion.path import FEED_MODES, reach
 from polycnc.control.word_address.tools.radius import suspended
 from polycnc.cycles.drilling import lathe
 from polycnc.cycles.drilling.holes import Action, Cycle, Hole, Stroke, tap
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field, replace
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.planes import PLANES
 from polycnc.language.bulk import Straight, declare

@@ -12,10 +12,11 @@ from array import array
 from functools import lru_cache
 from math import nan
 from struct import pack
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.travel import check_point
 from polycnc.cycles.drilling.holes import Action
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.geometry.tolerances import FARTHEST, NO_WAY
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind

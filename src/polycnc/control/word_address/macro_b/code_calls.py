@@ -7,7 +7,6 @@ of blocks differ inside and outside.
 
 from __future__ import annotations
 
-from dataclasses import field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.stack import LevelKind
@@ -18,7 +17,7 @@ from polycnc.control.word_address.block.codes import GCode, MCode, Order
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.macro_b import macro_calls, subprograms
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.machine.model import program_called
 
 if TYPE_CHECKING:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.channel.stack import LevelKind
@@ -13,6 +12,7 @@ from polycnc.control.word_address.control import WordAddressControl
 from polycnc.control.word_address.macro_b import code_calls, interruption, macro_calls, single_block
 from polycnc.control.word_address.macro_b.variables import locals_of
 from polycnc.control.word_address.motion import path_modes
+from polycnc.deferred.records import replace
 from polycnc.messages import AlarmError
 from polycnc.program import ProgramFileError
 from polycnc.toolpath.modes import FeedMode

@@ -6,7 +6,6 @@ follows from what the interruption program does (FANUC macro B §6).
 
 from __future__ import annotations
 
-from dataclasses import field
 from math import dist
 from typing import TYPE_CHECKING
 
@@ -17,7 +16,7 @@ from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.macro_b.variables import LOCALS
 from polycnc.control.word_address.motion.arc_signals import made_arc
 from polycnc.control.word_address.motion.skip import signal_position
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import field
 from typing import TYPE_CHECKING
 
 from polycnc.channel.stack import LevelKind
@@ -13,7 +12,7 @@ from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.macro_b import calls_as_data, subprograms
 from polycnc.control.word_address.macro_b.variables import LOCALS
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.bulk import declare
 

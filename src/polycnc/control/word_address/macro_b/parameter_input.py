@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.memory import ParameterTable
+from polycnc.deferred.records import replace
 from polycnc.machine.setup.values import ParameterKey
 
 if TYPE_CHECKING:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import field
 from functools import partial
 from itertools import pairwise
 from math import dist
@@ -12,7 +11,7 @@ from polycnc.channel.moves.knots import write_chords
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion import path
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
@@ -11,7 +10,7 @@ from polycnc.control.word_address.coordinates.systems import ZeroState
 from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.tools.radius import RadiusState, idle_or_active
 from polycnc.control.word_address.transformations import cylinder
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, replace
 from polycnc.geometry.planes import PLANES
 
 if TYPE_CHECKING:

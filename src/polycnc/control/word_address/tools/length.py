@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import field, replace
 from math import isclose, nan
 from typing import TYPE_CHECKING
 
@@ -10,7 +9,7 @@ from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.coordinates import tip
 from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
 from polycnc.control.word_address.cycles import drilling
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field, replace
 from polycnc.geometry.vectors import times
 from polycnc.toolpath import Kind
 

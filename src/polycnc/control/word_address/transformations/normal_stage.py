@@ -6,12 +6,11 @@ the first part of a long one, or in front of it.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import atan2, degrees, hypot, inf
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.path import Rank, Stage
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, replace
 from polycnc.geometry import arcs
 from polycnc.geometry.angles import nearest_turn
 from polycnc.toolpath.kinds import CCW_KINDS, Kind

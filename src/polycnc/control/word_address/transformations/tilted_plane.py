@@ -6,7 +6,6 @@ with the table when the tool is aligned; on one with a swivel head the length of
 
 from __future__ import annotations
 
-from dataclasses import field
 from math import nan
 from typing import TYPE_CHECKING
 
@@ -26,7 +25,7 @@ from polycnc.control.word_address.motion.planes import choose_basic_axes
 from polycnc.control.word_address.tools import length
 from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.tools.radius import RadiusState
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.geometry.frames import IDENTITY, Frame, rotation, translation
 from polycnc.geometry.vectors import times
 from polycnc.toolpath import Kind

@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import ast
 from enum import Enum, auto
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.language.bulk.formulas.postfix import OtherError
 from polycnc.language.bulk.layout import HELD, STACK, Operation
 from polycnc.language.expressions.code import Code, Lifted, constant

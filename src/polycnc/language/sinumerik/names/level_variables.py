@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.messages import AlarmError
 

@@ -7,10 +7,9 @@ ones (GUD) in a list of their own. An array is an `Array` in its slot, a paramet
 
 from __future__ import annotations
 
-from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.language.sinumerik.names.values import MAX_STRING, Type
 from polycnc.language.sinumerik.runtime import fitting, limited
 

@@ -7,9 +7,9 @@ an alarm.
 from __future__ import annotations
 
 import hashlib
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from polycnc.deferred.records import replace
 from polycnc.language.sinumerik.names.rights import LOWEST
 from polycnc.language.sinumerik.names.values import MAX_STRING, Type
 from polycnc.language.sinumerik.names.variables import Array, Reference

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import ast
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from polycnc.channel.stack import LevelKind
+from polycnc.deferred.records import replace
 from polycnc.language.expressions.code import (
     Code,
     assigned,

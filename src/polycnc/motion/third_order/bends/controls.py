@@ -7,8 +7,7 @@ by its length (C. de Boor, "A Practical Guide to Splines", IX and XI). A curve i
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.kernels.layout import Floats
 from polycnc.motion.third_order.bends.stretches import Stretches, put_place
 

@@ -12,8 +12,8 @@ two kinds are fixed: a knot lies there, for a corner is rounded least around a k
 from __future__ import annotations
 
 from math import ceil, exp, log
-from typing import NamedTuple
 
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.kernels.layout import Floats, Ints
 from polycnc.motion.third_order.bends.stretches import Stretches
 from polycnc.motion.third_order.bends.turning import FULL, SHARE, Turning, reach

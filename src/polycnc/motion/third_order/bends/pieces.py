@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from math import inf
-from typing import NamedTuple
 
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.kernels.layout import Floats, Ints
 from polycnc.motion.third_order.bends.controls import Spline
 from polycnc.motion.third_order.bends.stretches import Stretches

@@ -8,8 +8,8 @@ nobody has programmed.
 from __future__ import annotations
 
 from math import sqrt
-from typing import NamedTuple
 
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.kernels.layout import Floats, Ints
 
 #: Forms of a stretch.

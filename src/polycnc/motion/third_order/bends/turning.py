@@ -9,8 +9,8 @@ of C, M is `A(s + h) - 2·A(s) + A(s - h)`.
 from __future__ import annotations
 
 from math import inf
-from typing import NamedTuple
 
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.kernels.layout import Floats
 from polycnc.motion.third_order.bends.stretches import Stretches, between
 

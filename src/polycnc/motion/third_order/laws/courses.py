@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.kernels.layout import Floats, Places, place
 
 

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import field, replace
 from math import inf
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.fanuc.lathe.coordinates.barrier import barrier, is_described
 from polycnc.control.word_address.coordinates.stroke_check import StrokeZone, refuse_others, zone_between
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field, replace
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

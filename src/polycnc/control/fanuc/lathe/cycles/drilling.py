@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import cache, partial
 from typing import TYPE_CHECKING
 
@@ -15,7 +14,7 @@ from polycnc.control.word_address.cycles import drilling as base
 from polycnc.control.word_address.cycles.drilling import CycleState, DrillCycle, Drilling, Halts
 from polycnc.cycles.drilling import holes, lathe
 from polycnc.cycles.drilling.lathe import Joint
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, replace
 from polycnc.geometry.planes import PLANES
 from polycnc.toolpath.context import OVERLAPS, STROKE
 from polycnc.toolpath.events import Auxiliary

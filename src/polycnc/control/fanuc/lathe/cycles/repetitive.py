@@ -6,7 +6,6 @@ Normal format: two blocks; the first, without shape or end point, stores amounts
 
 from __future__ import annotations
 
-from dataclasses import replace
 from itertools import groupby
 from math import copysign, nan
 from typing import TYPE_CHECKING
@@ -41,6 +40,7 @@ from polycnc.cycles.turning.pattern import repeat_pattern as pattern_strokes
 from polycnc.cycles.turning.peck import Pecks, peck_columns
 from polycnc.cycles.turning.rough import rough
 from polycnc.cycles.turning.thread import ThreadCuts, thread_passes
+from polycnc.deferred.records import replace
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.word_address.functions import round_half_away

@@ -6,7 +6,6 @@ angle only is a line whose end lies where it meets the line of the next block; i
 
 from __future__ import annotations
 
-from dataclasses import field
 from math import nan, radians, sin, tan
 from typing import TYPE_CHECKING
 
@@ -18,7 +17,7 @@ from polycnc.control.word_address.block.numbers import Convert, angle_converter
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion import path
 from polycnc.control.word_address.motion.line_by_angle import leaves_line
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.geometry import offset
 from polycnc.geometry.frames import cos_sin_deg
 from polycnc.toolpath import Kind

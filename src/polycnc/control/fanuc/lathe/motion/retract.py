@@ -6,7 +6,6 @@ has told, and halts; the next start leads it back, and the rest of the move is m
 
 from __future__ import annotations
 
-from dataclasses import field
 from math import nan
 from typing import TYPE_CHECKING
 
@@ -16,7 +15,7 @@ from polycnc.control.fanuc.lathe.tools.offsets import THREADS
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion.arc_signals import made_arc
 from polycnc.control.word_address.motion.skip import fraction_at
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import hypot
 from typing import TYPE_CHECKING
 
@@ -13,7 +12,7 @@ from polycnc.control.fanuc.lathe.tools.offsets import THREADS
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion.arcs import center_by_radius
 from polycnc.control.word_address.motion.path import CENTER_WORDS, reach
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, replace
 from polycnc.geometry import arcs
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY

@@ -7,7 +7,6 @@ overwritten, everything else stays. A damaged file changes nothing at all.
 
 from __future__ import annotations
 
-from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
 from polycnc.control.data_files import DataFileError
@@ -15,7 +14,7 @@ from polycnc.control.fanuc.lathe.tools.data_input import BASIC, GEOMETRY, MAX_OF
 from polycnc.control.fanuc.lathe.tools.offset_memory import OffsetMemory
 from polycnc.control.fanuc.lathe.tools.offsets import MAX_OFFSETS, offset_changed, refresh
 from polycnc.control.word_address.tools.data_input import WORK_SYSTEMS
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 from polycnc.deferred.regexes import regex
 
 if TYPE_CHECKING:

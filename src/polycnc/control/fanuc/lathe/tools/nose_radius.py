@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from polycnc.channel.stack import LevelKind
@@ -13,6 +12,7 @@ from polycnc.control.fanuc.lathe.tools.offsets import OffsetState
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.tools import look_ahead, radius
 from polycnc.control.word_address.tools.radius import RadiusState
+from polycnc.deferred.records import replace
 from polycnc.geometry.offset import Joint, Outer
 from polycnc.geometry.planes import PLANES
 

@@ -5,7 +5,6 @@ Source: SINUMERIK standard cycles, cycles, section 5 (CYCLE62 to CYCLE64): param
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -30,6 +29,7 @@ from polycnc.cycles.milling.contour_pocket import ContourPocket, InsertionError,
 from polycnc.cycles.milling.pockets import Insertion
 from polycnc.cycles.milling.region import RegionError
 from polycnc.cycles.milling.stroke import steps
+from polycnc.deferred.records import replace
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError
 

@@ -6,10 +6,9 @@ G functions, feed and frames are put back.
 
 from __future__ import annotations
 
-from dataclasses import field
 from functools import partial
 from math import nan
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.path import Recorder
 from polycnc.channel.stack import LevelKind
@@ -17,7 +16,8 @@ from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.motion.contour_reading import ContourReading, reading_from_here, without_away
 from polycnc.cycles.turning.contour import Contour, Piece
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.records import dataclass, field
 from polycnc.geometry import offset
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.language.sinumerik.statements.calls import call_section, call_without_arguments, named_program

@@ -5,7 +5,6 @@ Source: SINUMERIK Operate, contour turning; parameter lists of the externally pr
 
 from __future__ import annotations
 
-from dataclasses import field, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -19,7 +18,7 @@ from polycnc.cycles.turning import outline
 from polycnc.cycles.turning.allowance import with_stock
 from polycnc.cycles.turning.contour import Contour, Piece, turned_round
 from polycnc.cycles.turning.stroke import PlaneStroke
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field, replace
 from polycnc.geometry import offset
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind

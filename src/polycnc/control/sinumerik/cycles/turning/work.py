@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import copysign
 from typing import TYPE_CHECKING
 
@@ -12,6 +11,7 @@ from polycnc.cycles.turning.contour import Contour, Piece, parallel, shifted, sw
 from polycnc.cycles.turning.outline import farthest
 from polycnc.cycles.turning.stock_removal import is_clear, way_clear, way_over
 from polycnc.cycles.turning.stroke import PlaneStroke
+from polycnc.deferred.records import replace
 from polycnc.geometry import offset
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError

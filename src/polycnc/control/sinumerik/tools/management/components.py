@@ -5,7 +5,7 @@ Source: job planning 16.1 (what the function does); arguments and results are th
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tables import data_factor
@@ -25,6 +25,7 @@ from polycnc.control.sinumerik.tools.lengths import AGAINST_TOOL, OF_MACHINE, Ru
 from polycnc.control.sinumerik.tools.management.environments import ORDER, Environments, field_of
 from polycnc.control.sinumerik.tools.management.systems import BASIC, MACHINE, SYSTEMS, seen_from
 from polycnc.control.sinumerik.tools.selection import rules_of
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.geometry.frames import IDENTITY
 
 if TYPE_CHECKING:
