@@ -1,6 +1,6 @@
 from __future__ import annotations
 
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import pytest
 
@@ -9,7 +9,9 @@ from polycnc.cases.format import ExpectedAlarm, ExpectedEvent, ExpectedMove, Exp
 from polycnc.control import registry
 from polycnc.control.alarm_text import alarm_key
 from polycnc.messages import Alarm
-from polycnc.toolpath.trace import Record
+
+if TYPE_CHECKING:
+    from polycnc.toolpath.trace import Record
 
 NEAR = compare.Positions(0.001)
 

@@ -8,7 +8,7 @@ words (`plain`, and Typer by way of `typed`) knows commands from here alone.
 from __future__ import annotations
 
 import sys
-from functools import cached_property
+from functools import cache, cached_property
 from typing import TYPE_CHECKING, Any
 
 from polycnc.deferred.named_tuples import NamedTuple
@@ -137,6 +137,7 @@ class Command:
         return {name: _parameter(name, function, given.get(name, REQUIRED)) for name in names}
 
 
+@cache
 def _fields(cls: type) -> dict[str, Parameter]:
     return {name: _parameter(name, cls, vars(cls)[name]) for name in cls.__annotations__}
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import tomllib
 from contextlib import contextmanager, redirect_stdout
 from functools import cache
 from io import StringIO
@@ -55,6 +54,8 @@ def help_in_language(words: Sequence[str]) -> Iterator[None]:
 
 @cache
 def _phrases(lang: str) -> tuple[tuple[re.Pattern[str], str], ...]:
+    import tomllib
+
     source = Path(__file__).with_name("usage.toml").read_text(encoding="utf-8")
     table: dict[str, list[dict[str, str]]] = tomllib.loads(source)
     return tuple((re.compile(row["pattern"], re.MULTILINE), row[lang]) for row in table["phrase"])

@@ -12,6 +12,7 @@ What nothing here uses is left out: `InitVar`, `kw_only`, `order` and `unsafe_ha
 
 from __future__ import annotations
 
+from operator import attrgetter
 from reprlib import recursive_repr
 from types import FunctionType, MappingProxyType, MemberDescriptorType
 from typing import TYPE_CHECKING, Any, ClassVar, get_origin
@@ -60,6 +61,8 @@ else:
 
 
 __all__ = ["MISSING", "dataclass", "field", "fields", "is_dataclass", "is_frozen", "replace"]
+#: So many objects of a class are made field by field before an `__init__` is written for it.
+_FEW = 4
 #: What a parameter holds whose value comes from a `default_factory`.
 _LATER = object()
 #: Where a class keeps its own annotated names with what was assigned to them; where its fields, when asked for.
@@ -256,42 +259,101 @@ def _methods(
     made: Callable[[], type], body: Mapping[str, object], *, frozen: bool, eq: bool
 ) -> dict[str, Any]:
     """The methods of a class, but for those of its own; `made` gives it when they are called."""
-    added: dict[str, Any] = {
-        "__init__": _written_later(made, "__init__", _init),
-        "__repr__": _repr,
-    }
+    added: dict[str, Any] = {"__init__": _first_init(made), "__repr__": _repr}
     if eq:
-        added["__eq__"] = _written_later(made, "__eq__", _eq)
+        added["__eq__"] = _made_later(made, "__eq__", _eq)
     kept = {name: method for name, method in added.items() if name not in body}
     if eq and body.get("__hash__") is None:
-        kept["__hash__"] = _written_later(made, "__hash__", _hash) if frozen else None
+        kept["__hash__"] = _made_later(made, "__hash__", _hash) if frozen else None
     if frozen:
         kept["__setattr__"], kept["__delattr__"] = _refuse_to_set, _refuse_to_delete
     return kept
 
 
-def _written_later(
-    made: Callable[[], type], name: str, write: Callable[[type], Callable[..., Any]]
+def _made_later(
+    made: Callable[[], type], name: str, make: Callable[[type], Callable[..., Any]]
 ) -> Callable[..., Any]:
     """What stands in the place of a method until it is first called."""
 
-    def first_call(self: object, *args: object, **named: object) -> object:
+    def first_call(self: object, *args: object) -> object:
         cls = made()
-        method = write(cls)
+        method = make(cls)
         setattr(cls, name, method)
-        return method(self, *args, **named)
+        return method(self, *args)
 
     return first_call
 
 
-def _written(cls: type, head: str, body: Iterator[str], names: dict[str, Any]) -> Callable[..., Any]:
-    """The method with this head and body; `names` are values that the body uses."""
-    name = head.partition("(")[0]
-    lines = [f"def {head}:", *body]
-    exec("\n ".join(lines), names)  # the text comes from names of fields
-    method: Callable[..., Any] = names[name]
-    method.__qualname__ = f"{cls.__qualname__}.{name}"
-    return method
+def _eq(cls: type) -> Callable[..., Any]:
+    values = _getter([each.name for each in _fields_of(cls) if each.compare])
+
+    def __eq__(self: object, other: object) -> bool:  # noqa: N807
+        if other.__class__ is self.__class__:
+            return values(self) == values(other)
+        return NotImplemented
+
+    return __eq__
+
+
+def _hash(cls: type) -> Callable[..., Any]:
+    values = _getter(
+        [each.name for each in _fields_of(cls) if (each.compare if each.hash is None else each.hash)]
+    )
+    return lambda self: hash(values(self))
+
+
+def _getter(names: list[str]) -> Callable[[object], tuple[object, ...]]:
+    """What gives the values of these fields as a tuple."""
+    if len(names) > 1:
+        return attrgetter(*names)
+    return lambda thing: tuple(getattr(thing, name) for name in names)
+
+
+def _first_init(made: Callable[[], type]) -> Callable[..., None]:
+    """`__init__` for the first objects of a class. When it has made `_FEW`, it leaves its place to a written one."""
+    left = _FEW
+
+    def __init__(self: object, *args: object, **named: object) -> None:  # noqa: N807
+        nonlocal left
+        cls = made()
+        left -= 1
+        if left < 0 or not _put_values(cls, self, args, named):
+            cls.__init__ = _init(cls)  # type: ignore[misc]
+            cls.__init__(self, *args, **named)  # type: ignore[misc]
+
+    return __init__
+
+
+def _put_values(cls: type, thing: object, args: tuple[object, ...], named: dict[str, object]) -> bool:
+    """Do what the written `__init__` does, field by field; False where it would refuse these arguments."""
+    values: dict[str, object] = {}
+    given = iter(args)
+    taken, slots = 0, "__slots__" in cls.__dict__
+    for each in _fields_of(cls):
+        name = each.name
+        value = next(given, MISSING) if each.init else MISSING
+        if name in named:
+            if value is not MISSING or not each.init:
+                return False
+            value = named[name]
+            taken += 1
+        elif value is MISSING and each.default_factory is not MISSING:
+            value = each.default_factory()
+        elif value is MISSING:
+            value = each.default
+            if value is MISSING and each.init:
+                return False
+            if value is MISSING or not (each.init or slots):  # without slots the class itself has the default
+                continue
+        values[name] = value
+    if taken < len(named) or next(given, MISSING) is not MISSING:
+        return False
+    put = object.__setattr__ if is_frozen(cls) else setattr
+    for name, value in values.items():
+        put(thing, name, value)
+    if hasattr(cls, "__post_init__"):
+        thing.__post_init__()  # type: ignore[attr-defined]
+    return True
 
 
 def _init(cls: type) -> Callable[..., Any]:
@@ -319,7 +381,11 @@ def _init(cls: type) -> Callable[..., Any]:
                 yield f"_set(self, {name!r}, {value})"
         yield "self.__post_init__()" if hasattr(cls, "__post_init__") else "pass"
 
-    return _written(cls, f"__init__({', '.join(parameters)})", body(), names)
+    lines = [f"def __init__({', '.join(parameters)}):", *body()]
+    exec("\n ".join(lines), names)  # the text comes from names of fields
+    method: Callable[..., Any] = names["__init__"]
+    method.__qualname__ = f"{cls.__qualname__}.__init__"
+    return method
 
 
 def _parameter_and_value(each: Field, *, slots: bool) -> tuple[str, str]:
@@ -333,26 +399,6 @@ def _parameter_and_value(each: Field, *, slots: bool) -> tuple[str, str]:
         return (name if each.default is MISSING else f"{name}={default}"), name
     # Without slots the class itself has the default.
     return "", default if slots and each.default is not MISSING else ""
-
-
-def _eq(cls: type) -> Callable[..., Any]:
-    compared = [each.name for each in _fields_of(cls) if each.compare]
-
-    def body() -> Iterator[str]:
-        yield "if other.__class__ is self.__class__:"
-        yield f" return {_tuple_of('self', compared)} == {_tuple_of('other', compared)}"
-        yield "return NotImplemented"
-
-    return _written(cls, "__eq__(self, other)", body(), {})
-
-
-def _hash(cls: type) -> Callable[..., Any]:
-    hashed = [each.name for each in _fields_of(cls) if (each.compare if each.hash is None else each.hash)]
-    return _written(cls, "__hash__(self)", iter([f"return hash({_tuple_of('self', hashed)})"]), {})
-
-
-def _tuple_of(thing: str, names: list[str]) -> str:
-    return f"({''.join(f'{thing}.{name}, ' for name in names)})"
 
 
 # ---- methods that all have -------------------------------------------------------------------------------------

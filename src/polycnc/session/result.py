@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from functools import cached_property
 from importlib import import_module
 from importlib.util import find_spec
-from typing import TYPE_CHECKING, Any, TypedDict
+from typing import TYPE_CHECKING, Any
 
 from polycnc.control.alarm_text import catalogue_of
 from polycnc.deferred.records import dataclass, field
@@ -19,6 +19,7 @@ from polycnc.toolpath.trace import Display
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
+    from typing import TypedDict
 
     import pyarrow as pa
 
@@ -58,18 +59,20 @@ class Variables(Mapping[str, Any]):
         return sum(1 for _ in self)
 
 
-class Lead(TypedDict):
-    """What the planner must know of the start.
+if TYPE_CHECKING:
 
-    Attributes:
-        start: Machine position, mm (radius) and degrees.
-        tool: The tool in the spindle.
-        settings: How the control leads the axes.
-    """
+    class Lead(TypedDict):
+        """What the planner must know of the start.
 
-    start: Sequence[float]
-    tool: int | str
-    settings: MotionSettings
+        Attributes:
+            start: Machine position, mm (radius) and degrees.
+            tool: The tool in the spindle.
+            settings: How the control leads the axes.
+        """
+
+        start: Sequence[float]
+        tool: int | str
+        settings: MotionSettings
 
 
 @dataclass

@@ -12,7 +12,7 @@ from polycnc.channel.states.unchanging import unchanging
 from polycnc.channel.waits import Why
 from polycnc.language.bulk.settings import Bulk
 from polycnc.machine.layout import axis_layout
-from polycnc.session.result import Lead, Result
+from polycnc.session.result import Result
 from polycnc.toolpath import Toolpath
 from polycnc.toolpath.trace import Display
 
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from polycnc.motion.explain import TimeAccount
     from polycnc.motion.sampling.samples import Sampler, Samples
     from polycnc.program import Program, ProgramStore
+    from polycnc.session.result import Lead
     from polycnc.toolpath.events import Raised
     from polycnc.toolpath.table import Chunk
 

@@ -8,7 +8,7 @@ within one turn.
 from __future__ import annotations
 
 from importlib.util import find_spec
-from typing import TYPE_CHECKING, NotRequired, TypedDict, cast
+from typing import TYPE_CHECKING, cast
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass
@@ -21,6 +21,7 @@ from polycnc.transformation.rows import machine_rows, mapped_rows, work_rows
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sequence
+    from typing import NotRequired, TypedDict
 
     import numpy as np
     from numpy.typing import NDArray
@@ -61,46 +62,47 @@ class Scale:
     unit: str
 
 
-class Record(TypedDict):
-    """A row as the trace shows it. A move has a unit and positions, by the names of the axes; an event has its fields.
+if TYPE_CHECKING:  # `typing` would compile every annotation at each start
 
-    Only the records of further channels name their `channel`.
-    """
+    class Record(TypedDict):
+        """A row as the trace shows it. A move has a unit and positions by axis; an event has its fields.
 
-    channel: NotRequired[int]
-    type: str
-    program: str
-    line: int
-    unit: NotRequired[str]
-    to: NotRequired[dict[str, float]]
-    machine: NotRequired[dict[str, float]]
-    feed: NotRequired[float]
-    center: NotRequired[dict[str, float]]
-    turns: NotRequired[float]
-    seconds: NotRequired[float]
-    revolutions: NotRequired[float]
-    lead: NotRequired[float]
-    start_angle: NotRequired[float]
-    code: NotRequired[float | str]
-    spindle: NotRequired[int]
-    speed: NotRequired[float]
-    tool: NotRequired[float | str]
-    text: NotRequired[str]
-    name: NotRequired[str]
-    value: NotRequired[float]
-    word: NotRequired[str]
-    column: NotRequired[int]
+        Only the records of further channels name their `channel`.
+        """
 
+        channel: NotRequired[int]
+        type: str
+        program: str
+        line: int
+        unit: NotRequired[str]
+        to: NotRequired[dict[str, float]]
+        machine: NotRequired[dict[str, float]]
+        feed: NotRequired[float]
+        center: NotRequired[dict[str, float]]
+        turns: NotRequired[float]
+        seconds: NotRequired[float]
+        revolutions: NotRequired[float]
+        lead: NotRequired[float]
+        start_angle: NotRequired[float]
+        code: NotRequired[float | str]
+        spindle: NotRequired[int]
+        speed: NotRequired[float]
+        tool: NotRequired[float | str]
+        text: NotRequired[str]
+        name: NotRequired[str]
+        value: NotRequired[float]
+        word: NotRequired[str]
+        column: NotRequired[int]
 
-class CurveRecord(TypedDict, total=False):
-    """What the curve parameters of a row add to its record."""
+    class CurveRecord(TypedDict, total=False):
+        """What the curve parameters of a row add to its record."""
 
-    center: dict[str, float]
-    turns: float
-    seconds: float
-    revolutions: float
-    lead: float
-    start_angle: float
+        center: dict[str, float]
+        turns: float
+        seconds: float
+        revolutions: float
+        lead: float
+        start_angle: float
 
 
 class Shown(NamedTuple):
