@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from typing import NamedTuple
 
-__all__ = ["NamedTuple"]
+__all__ = ["NamedTuple", "written"]
 #: What gives the value at a place of a tuple.
 _getter_at: Any = type(vars(namedtuple("_Pair", "left right"))["left"])  # noqa: PYI024
 _OF_LIBRARY = ("__repr__", "__getnewargs__", "_replace", "_asdict")
@@ -54,6 +54,12 @@ def _made_later(
         return getattr(method, "__func__", method)(*arguments, **named)
 
     return first_call
+
+
+def written(cls: type) -> type:
+    """The class, with a `__new__` whose signature names the values: who compiles calls of it looks at that."""
+    cls.__new__ = _new(cls)  # type: ignore[method-assign]
+    return cls
 
 
 def _new(cls: Any) -> Callable[..., Any]:
