@@ -45,7 +45,8 @@ class Theirs(typing.NamedTuple):
 
 
 def test_objects_are_tuples_with_names() -> None:
-    for place, theirs in ((Place(1.0), Theirs(1.0)), (Place(1.0, name="it"), Theirs(1.0, name="it"))):
+    pairs: list[Any] = [(Place(1.0), Theirs(1.0)), (Place(1.0, name="it"), Theirs(1.0, name="it"))] * 3
+    for place, theirs in pairs:
         assert place == theirs
         assert repr(place) == repr(theirs).replace("Theirs", "Place")
         assert hash(place) == hash(theirs)
@@ -73,10 +74,13 @@ def test_wrong_arguments_are_refused() -> None:
     for _ in range(2):
         with pytest.raises(TypeError, match="missing 1 required positional argument: 'x'"):
             wrong()
+    for arguments, named in (((1, 2, None, 4), {}), ((1,), {"x": 1}), ((), {"x": 1, "z": 1})):
+        with pytest.raises(TypeError):
+            wrong(*arguments, **named)
     with pytest.raises(TypeError, match="Expected 3 arguments, got 1"):
         Place._make([1])
     with pytest.raises(ValueError, match="unexpected field names"):
-        Place(1.0)._replace(z=1)
+        wrong(1.0)._replace(z=1)
     with pytest.raises(AttributeError):
         Place(1.0).z = 1  # type: ignore[attr-defined]
 

@@ -1,11 +1,10 @@
-"""`NamedTuple` as that of `typing`, with methods that are made when they are first called.
+"""`NamedTuple` as that of `typing`, without the text that the library compiles for every class.
 
 `typing` compiles the annotation of every field, and `collections.namedtuple` the method `__new__`: a tenth of a
-millisecond for a class, of which a control has many and a short program uses few. This one makes the fields, and puts
-in the place of each method a function that, when it is called, leaves its place to the method: `__new__` is written as
-the library writes it, the others are those of the library.
+millisecond for a class, of which a control has many and a short program uses few. Here annotations stay texts, all
+classes share their methods, and a `__new__` is written for those that make many objects.
 
-Annotations stay texts. What nothing here uses is left out: named tuples that are generic.
+What nothing here uses is left out: named tuples that are generic.
 """
 
 from __future__ import annotations
@@ -14,13 +13,14 @@ from collections import namedtuple
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable
     from typing import NamedTuple
 
 __all__ = ["NamedTuple", "written"]
 #: What gives the value at a place of a tuple.
 _getter_at: Any = type(vars(namedtuple("_Pair", "left right"))["left"])  # noqa: PYI024
-_OF_LIBRARY = ("__repr__", "__getnewargs__", "_replace", "_asdict")
+#: So many objects of a class are made before a `__new__` is written for it.
+_FEW = 4
 
 
 class _Maker(type):
@@ -33,58 +33,83 @@ class _Maker(type):
         members: dict[str, Any] = {each: _getter_at(number, each) for number, each in enumerate(names)}
         members |= {"_fields": names, "__match_args__": names, "__slots__": ()}
         members["_field_defaults"] = {each: body[each] for each in names if each in body}
-        members["__new__"] = _made_later(lambda: made, "__new__", _new)
-        members["_make"] = classmethod(_made_later(lambda: made, "_make", _make))
-        for method in _OF_LIBRARY:
-            if method not in body:
-                members[method] = _made_later(lambda: made, method, _library(method))
-        made = type(name, (tuple,), body | members)
+        members["__new__"] = _first_new(lambda: made)
+        made = type(name, (tuple,), _METHODS | body | members)
         return made
 
 
-def _made_later(
-    made: Callable[[], type], name: str, make: Callable[[Any], Callable[..., Any]]
-) -> Callable[..., Any]:
-    """What stands in the place of a method until it is first called; `made` gives the class then."""
+def _first_new(made: Callable[[], Any]) -> Callable[..., Any]:
+    """`__new__` for the first objects of a class. When it has made `_FEW`, it leaves its place to a written one."""
+    left = _FEW
 
-    def first_call(*arguments: object, **named: object) -> object:
-        cls = made()
-        method = make(cls)
-        setattr(cls, name, method)
-        return getattr(method, "__func__", method)(*arguments, **named)
+    def __new__(cls: Any, *args: object, **named: object) -> Any:  # noqa: N807
+        nonlocal left
+        own = made()
+        left -= 1
+        given = dict(zip(own._fields, args, strict=False))
+        values = {**own._field_defaults, **given, **named}
+        is_right = len(given) == len(args) and not given.keys() & named.keys()
+        if left >= 0 and is_right and values.keys() == {*own._fields}:
+            return tuple.__new__(cls, [values[name] for name in own._fields])
+        written(own)
+        return own.__new__(cls, *args, **named)
 
-    return first_call
+    return __new__
 
 
-def written(cls: type) -> type:
+def written(cls: Any) -> type:
     """The class, with a `__new__` whose signature names the values: who compiles calls of it looks at that."""
-    cls.__new__ = _new(cls)  # type: ignore[method-assign]
-    return cls
-
-
-def _new(cls: Any) -> Callable[..., Any]:
     defaults = {f"_default_{name}": value for name, value in cls._field_defaults.items()}
     taken = [f"{name}=_default_{name}" if name in cls._field_defaults else name for name in cls._fields]
     values = "".join(f"{name}, " for name in cls._fields)
     source = f"lambda {', '.join(['_cls', *taken])}: _new(_cls, ({values}))"
-    method: Any = eval(source, {"_new": tuple.__new__, **defaults})  # the text comes from names of fields
+    method = eval(source, {"_new": tuple.__new__, **defaults})  # the text comes from names of fields
     method.__name__, method.__qualname__ = "__new__", f"{cls.__qualname__}.__new__"
-    return staticmethod(method)
+    cls.__new__ = method
+    return cls  # type: ignore[no-any-return]
 
 
-def _make(cls: Any) -> Callable[..., Any]:
-    return vars(_of_library(cls))["_make"]  # type: ignore[no-any-return]
+# ---- methods that all have -------------------------------------------------------------------------------------
 
 
-def _library(name: str) -> Callable[[Any], Callable[..., Any]]:
-    return lambda cls: vars(_of_library(cls))[name]  # type: ignore[no-any-return]
+def _make(cls: Any, values: Iterable[object]) -> Any:
+    """An object of its values."""
+    made = tuple.__new__(cls, values)
+    if len(made) != len(cls._fields):
+        raise TypeError(f"Expected {len(cls._fields)} arguments, got {len(made)}")
+    return made
 
 
-def _of_library(cls: Any) -> type:
-    """A class of the library with the same fields."""
-    defaults = tuple(cls._field_defaults.values())
-    return namedtuple(cls.__name__, cls._fields, defaults=defaults, module=cls.__module__)  # type: ignore[misc]  # noqa: PYI024
+def _replace(self: Any, /, **changes: object) -> Any:
+    """The same with other values for some fields."""
+    made = self._make(map(changes.pop, self._fields, self))
+    if changes:
+        raise ValueError(f"Got unexpected field names: {list(changes)!r}")
+    return made
 
+
+def _asdict(self: Any) -> dict[str, object]:
+    """The values by the names of the fields."""
+    return dict(zip(self._fields, self, strict=True))
+
+
+def _repr(self: Any) -> str:
+    shown = ", ".join(f"{name}={value!r}" for name, value in zip(self._fields, self, strict=True))
+    return f"{type(self).__name__}({shown})"
+
+
+def _arguments(self: Any) -> tuple[object, ...]:
+    """For `pickle` and `copy`."""
+    return tuple(self)
+
+
+_METHODS = {
+    "__repr__": _repr,
+    "__getnewargs__": _arguments,
+    "_make": classmethod(_make),
+    "_replace": _replace,
+    "_asdict": _asdict,
+}
 
 if not TYPE_CHECKING:
 

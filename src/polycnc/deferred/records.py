@@ -109,9 +109,7 @@ class Field:
 
         told = {name: getattr(self, name) for name in self.__slots__ if name not in ("name", "type")}
         given = {name: value for name, value in told.items() if value is not MISSING}
-        made = dataclasses.field(**given)
-        made.type = self.type  # type: ignore[assignment]  # a text or a type, as everywhere
-        return made
+        return dataclasses.field(**given)
 
 
 def _dataclass(cls: Any, *, frozen: bool, slots: bool, eq: bool) -> type:
@@ -358,7 +356,8 @@ def _put_values(cls: type, thing: object, args: tuple[object, ...], named: dict[
 
 def _init(cls: type) -> Callable[..., Any]:
     frozen, slots = is_frozen(cls), "__slots__" in cls.__dict__
-    parameters, values, names = ["self"], {}, {"_LATER": _LATER, "_set": object.__setattr__}
+    names: dict[str, Any] = {"_LATER": _LATER, "_set": object.__setattr__}
+    parameters, values = ["self"], {}
     for each in _fields_of(cls):
         names[f"_default_{each.name}"] = (
             each.default if each.default_factory is MISSING else each.default_factory

@@ -120,20 +120,25 @@ def _caller(code: ctypes.CDLL, kernel: Callable[..., object]) -> Callable[..., i
     arrays: list[str] = []
     for number, argument in enumerate(taken):
         _give(argument, f"a{number}", given, arrays)
-    codes = "".join(argument.code for argument in flat(taken) if argument.kind is Kind.ARRAY)
-    scope = {"entry": entry, "addressof": ctypes.addressof, "refuse": partial(_refuse, codes)}
-    found = "".join(f"{{{array}.typecode}}" for array in arrays)
+    codes = tuple(argument.code for argument in flat(taken) if argument.kind is Kind.ARRAY)
+    scope = {
+        "entry": entry,
+        "addressof": ctypes.addressof,
+        "codes": codes,
+        "refuse": partial(_refuse, codes),
+    }
     source = (
         f"def call({', '.join(f'a{number}' for number in range(len(taken)))}):\n"
-        f"    if f'{found}' != '{codes}': refuse(f'{found}')\n"
+        f"    found = ({''.join(f'{array}.typecode, ' for array in arrays)})\n"
+        "    if found != codes: refuse(found)\n"
         f"    return entry({', '.join(given)})\n"
     )
     exec(source, scope)
     return cast("Callable[..., int]", scope["call"])
 
 
-def _refuse(codes: str, found: str) -> None:
-    msg = f"a kernel was given arrays of {found}, not of {codes}"
+def _refuse(codes: tuple[str, ...], found: tuple[str, ...]) -> None:
+    msg = f"a kernel was given arrays of {''.join(found)}, not of {''.join(codes)}"
     raise TypeError(msg)
 
 

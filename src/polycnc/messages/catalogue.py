@@ -144,7 +144,9 @@ def fill(template: str, args: Mapping[str, object]) -> str:
             found[1] if all(args.get(name) not in {None, ""} for name in placeholders(found[1])) else found[2]
         )
 
-    return _CHOICE.sub(chosen, template).format_map(_Missing(args))
+    if "<" in template:
+        template = _CHOICE.sub(chosen, template)
+    return template.format_map(_Missing(args))
 
 
 def placeholders(template: str, *, needed: bool = False) -> set[str]:

@@ -64,7 +64,6 @@ from polycnc.toolpath.modes import AccelerationMode, FeedMode
 from polycnc.toolpath.row_path import arc_path, line_path
 from polycnc.toolpath.table import CURVE_WIDTH
 from polycnc.transformation.orientation.linkage import STANDS_MM
-from polycnc.transformation.orientation.linked import linkage_of
 from polycnc.transformation.pole import is_at
 
 if TYPE_CHECKING:
@@ -140,7 +139,11 @@ class RealAxes:
         if self._linked is not None and transformation is self._linked[0]:
             return self._linked[1]
         key = (None, use) if transformation is None else (transformation.geometry, Use.CUT)
-        linkage = NO_LINKAGE if None in self._axes else linkage_of(transformation)
+        linkage = NO_LINKAGE
+        if transformation is not None and None not in self._axes:
+            from polycnc.transformation.orientation.linked import linkage_of  # where a transformation acts
+
+            linkage = linkage_of(transformation)
         if not linkage and key in self._limits:
             return self._limits[key]
         made, own = key

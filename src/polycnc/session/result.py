@@ -14,7 +14,6 @@ from polycnc.machine.layout import axis_layout
 from polycnc.messages import AlarmError, text
 from polycnc.messages.catalogue import language, listed
 from polycnc.session.errors import SessionError
-from polycnc.session.record import RunRecord
 from polycnc.toolpath.trace import Display
 
 if TYPE_CHECKING:
@@ -30,6 +29,7 @@ if TYPE_CHECKING:
     from polycnc.motion.planner import Planner
     from polycnc.motion.times import Plan, ToolTimes
     from polycnc.program import Program
+    from polycnc.session.record import RunRecord
     from polycnc.toolpath import Toolpath
     from polycnc.toolpath.motion_settings import MotionSettings
     from polycnc.toolpath.trace import Record
@@ -184,6 +184,8 @@ class Result:
     @property
     def record(self) -> RunRecord:
         """The run as plain values."""
+        from polycnc.session.record import RunRecord
+
         return RunRecord(
             self.control.id, self.machine.id, self.program.name, self.alarms, list(self.rows), self.final,
             {name: value for name, value in self.variables.items() if value is not None}, list(self.stops),

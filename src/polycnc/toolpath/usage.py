@@ -18,7 +18,6 @@ from polycnc.deferred.records import dataclass, field
 from polycnc.toolpath.compiled import survey
 from polycnc.toolpath.kinds import RAPID_KINDS, Kind
 from polycnc.toolpath.modes import FeedMode
-from polycnc.toolpath.row_path import path_of_row
 from polycnc.toolpath.survey import CUTS, RAPIDS, STANDS, Box, Moves, empty_box
 from polycnc.toolpath.table import CURVE_WIDTH
 
@@ -169,6 +168,8 @@ class Usage:
         seers = [(views.machine, lambda point: toolpath.to_machine(point, context, geometry))]
         if context.shown_by is not None:
             seers.append((views.shown, context.shown_by.to_work))
+        from polycnc.toolpath.row_path import path_of_row  # where the axes follow more than lines
+
         for row in _far_rows(chunk, rows, start, [seen for _, seen in seers]):
             end = list(chunk.end[row * n : (row + 1) * n])
             if row > rows.start:

@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
 from polycnc.deferred.regexes import regex
-from polycnc.geometry.surfaces import Surface
 from polycnc.machine.documents import DocumentError, toml_values, yaml_values
 from polycnc.machine.errors import SetupError, nearest
 from polycnc.machine.places import Key, toml_place, yaml_place
@@ -32,6 +31,7 @@ from polycnc.messages.files import read_utf_8, reason_of
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
+    from polycnc.geometry.surfaces import Surface
     from polycnc.machine.model import Machine
 
 T = TypeVar("T")
@@ -439,6 +439,8 @@ def _surface(where: Where, value: object) -> Surface:
         _bad((*where, "direction"), "out-of-range", value, detail="X, Y, Z")
     if "radius" in needed and not record["radius"] > 0.0:
         _bad((*where, "radius"), "out-of-range", record["radius"], detail="> 0")
+    from polycnc.geometry.surfaces import Surface
+
     return Surface(**record)
 
 

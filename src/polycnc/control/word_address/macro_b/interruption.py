@@ -14,7 +14,6 @@ from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.block.codes import MCode
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.macro_b.variables import LOCALS
-from polycnc.control.word_address.motion.arc_signals import made_arc
 from polycnc.control.word_address.motion.skip import signal_position
 from polycnc.deferred.records import dataclass, field
 from polycnc.geometry.tolerances import NO_WAY
@@ -116,6 +115,8 @@ def _interrupt(channel: MacroChannel, start: list[float], mark: int) -> None:
     chunk, end = channel.toolpath.chunk, channel.coordinates.position
     if state.program is None:
         return
+    from polycnc.control.word_address.motion.arc_signals import made_arc  # interrupts are rare
+
     arc = made_arc(channel, start, mark)
     if arc is None and end == start:
         return  # a whole circle ends where it starts, too

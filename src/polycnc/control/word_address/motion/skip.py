@@ -11,7 +11,6 @@ from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.auxiliary.overrides import fixed_feed
 from polycnc.control.word_address.motion.path import FEED_MODES, reach
 from polycnc.deferred.records import dataclass
-from polycnc.geometry.surfaces import first_touch
 from polycnc.machine.setup.values import SkipInput
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
@@ -118,6 +117,8 @@ def signal_position(
         if signal.surfaces and c.transformation is None:
             places = ([c.to_machine(place)[i] if i >= 0 else 0.0 for i in geometry] for place in (start, end))
             (x, y, z), (x1, y1, z1) = places
+            from polycnc.geometry.surfaces import first_touch  # where the setup has some
+
             shares.append(first_touch(signal.surfaces, (x, y, z), (x1, y1, z1)))
         if signal.after_s is not None and channel.move_times is not None and start == c.position:
             shares.append(channel.move_times.share_after(channel, end, channel.feed, signal.after_s))

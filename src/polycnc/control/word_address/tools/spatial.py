@@ -10,19 +10,19 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.knots import join
-from polycnc.compensation.spatial import SpatialStage
 from polycnc.control.word_address.coordinates.systems import work_zero
 from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.tools import radius
 from polycnc.control.word_address.tools.radius import RadiusState
-from polycnc.transformation.orientation.solutions import Posture
 
 if TYPE_CHECKING:
+    from polycnc.compensation.spatial import SpatialStage
     from polycnc.compensation.spatial_rules import Corners, Rules
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import WordAddressChannel
+    from polycnc.transformation.orientation.solutions import Posture
 
 #: Codes that every control with this compensation has, by the side of the path on which the tool stands.
 COMMON_SIDES = {"G41.2": 1, "G42.2": -1, "G41.6": 1, "G42.6": -1}
@@ -36,6 +36,8 @@ SHAPES = ("G50", "G50.1", "G51", "G51.1")
 
 def stage_of(channel: WordAddressChannel) -> SpatialStage | None:
     """The stage of the path while the compensation is active."""
+    from polycnc.compensation.spatial import SpatialStage  # where it is used
+
     stage = channel.path.find(SpatialStage)
     return stage if stage is not None and stage.active else None
 
@@ -51,6 +53,8 @@ def engage(channel: WordAddressChannel, words: Words, corners: Corners, rules: R
     if stage is not None:
         stage.change(side, amount)
         return
+    from polycnc.compensation.spatial import SpatialStage
+
     channel.flush()
     channel.path.take(SpatialStage)
     channel.path.put(_stage(channel, amount, side, corners, rules))
@@ -58,6 +62,8 @@ def engage(channel: WordAddressChannel, words: Words, corners: Corners, rules: R
 
 def posture_of(channel: WordAddressChannel) -> Posture:
     """How the tool stands on the work, by positions of the path."""
+    from polycnc.transformation.orientation.solutions import Posture
+
     c = channel.coordinates
     kinematics = channel.control.kinematics(channel)
     return Posture(kinematics, channel.axes, tuple(c.offsets), TipState.of(channel).frame)
@@ -66,6 +72,8 @@ def posture_of(channel: WordAddressChannel) -> Posture:
 def _stage(
     channel: WordAddressChannel, amount: float, side: int, corners: Corners, rules: Rules
 ) -> SpatialStage:
+    from polycnc.compensation.spatial import SpatialStage
+
     c, kinematics = channel.coordinates, channel.control.kinematics(channel)
     unite = partial(join, channel)
     if TipState.of(channel).active is not None or not kinematics.work:
@@ -82,6 +90,8 @@ def end(channel: WordAddressChannel) -> None:
     """G40: the last block ends square on itself, and the next one leads back; unless one is awaited that does so."""
     stage = stage_of(channel)
     if stage is not None and not stage.leaves:
+        from polycnc.compensation.spatial import SpatialStage
+
         channel.flush()
         channel.path.take(SpatialStage)
 
