@@ -7,11 +7,13 @@ import sys
 import time
 from contextlib import suppress
 from pathlib import Path
+from threading import Thread
 from typing import TYPE_CHECKING
 
 import pytest
 
 from polycnc import __version__
+from polycnc.cli.app import main
 from polycnc.cli.commands import COMMANDS
 from tests.cli.console import BAD, GOOD
 
@@ -30,6 +32,21 @@ def test_without_a_command_the_help_is_shown_and_the_status_tells_wrong_use(cons
 
 def test_the_version_is_told(console: Console) -> None:
     assert console("--version").out == f"polycnc {__version__}\n"
+
+
+def test_a_thread_may_call_it_though_it_cannot_answer_signals() -> None:
+    statuses = []
+
+    def run() -> None:
+        try:
+            main(["--version"])
+        except SystemExit as left:
+            statuses.append(left.code)
+
+    thread = Thread(target=run)
+    thread.start()
+    thread.join()
+    assert statuses == [0]
 
 
 @pytest.mark.parametrize("command", COMMANDS)

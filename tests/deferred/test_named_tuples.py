@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 import polycnc
-from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.named_tuples import _FEW, NamedTuple
 
 
 class Place(NamedTuple):
@@ -45,7 +45,8 @@ class Theirs(typing.NamedTuple):
 
 
 def test_objects_are_tuples_with_names() -> None:
-    pairs: list[Any] = [(Place(1.0), Theirs(1.0)), (Place(1.0, name="it"), Theirs(1.0, name="it"))] * 3
+    pairs: list[Any] = [(Place(1.0), Theirs(1.0)), (Place(1.0, name="it"), Theirs(1.0, name="it"))]
+    pairs += [(Place(1.0, 2.5, name="it"), Theirs(1.0, 2.5, name="it")) for _ in range(2 * _FEW)]
     for place, theirs in pairs:
         assert place == theirs
         assert repr(place) == repr(theirs).replace("Theirs", "Place")
@@ -71,7 +72,7 @@ def test_methods_of_a_class_are_its_own() -> None:
 
 def test_wrong_arguments_are_refused() -> None:
     wrong: Any = Place
-    for _ in range(2):
+    for _ in range(2):  # a refusal writes `__new__`
         with pytest.raises(TypeError, match="missing 1 required positional argument: 'x'"):
             wrong()
     for arguments, named in (((1, 2, None, 4), {}), ((1,), {"x": 1}), ((), {"x": 1, "z": 1})):

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import pytest
 
 import polycnc
-from polycnc.deferred.records import dataclass, is_frozen
+from polycnc.deferred.records import _FEW, dataclass, is_frozen
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -95,6 +95,16 @@ def test_objects_are_those_of_the_library(name: str, arguments: Any, named: Any)
     if name != "Counter":  # its text has no address, and it is equal to itself alone
         assert told(ours) == told(theirs)
     assert (ours == OURS[name](*arguments, **named)) == (theirs == THEIRS[name](*arguments, **named))
+
+
+@pytest.mark.parametrize(("name", "arguments", "named"), ARGUMENTS)
+def test_many_objects_are_as_the_first(name: str, arguments: Any, named: Any) -> None:
+    cls: Any = classes_by(dataclass)[name]
+    made = [cls(*arguments, **named) for _ in range(2 * _FEW)]
+    assert cls.__init__.__code__.co_filename == "<string>"  # written by then
+    for each in fields(cls):
+        assert len({repr(getattr(one, each.name)) for one in made}) == 1
+        assert len({each.name in getattr(one, "__dict__", ()) for one in made}) == 1
 
 
 @pytest.mark.parametrize("name", OURS)

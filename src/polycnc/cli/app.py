@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import signal
 import sys
-import threading
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, NoReturn
 
@@ -54,14 +53,14 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
 @contextmanager
 def _termination_interrupts() -> Iterator[None]:
     """Who is told to end takes half-written files away first, as where the user interrupts."""
-    if threading.current_thread() is not threading.main_thread():
-        yield  # only the main thread may answer signals
-        return
     ends = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
     # Who has been told to outlive the terminal (nohup) does.
     before = {each: signal.getsignal(each) for each in ends if signal.getsignal(each) is not signal.SIG_IGN}
-    for each in before:
-        signal.signal(each, signal.default_int_handler)
+    try:
+        for each in before:
+            signal.signal(each, signal.default_int_handler)
+    except ValueError:  # only the main thread may answer signals
+        before = {}
     try:
         yield
     finally:

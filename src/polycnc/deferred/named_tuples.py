@@ -20,7 +20,7 @@ __all__ = ["NamedTuple", "written"]
 #: What gives the value at a place of a tuple.
 _getter_at: Any = type(vars(namedtuple("_Pair", "left right"))["left"])  # noqa: PYI024
 #: So many objects of a class are made before a `__new__` is written for it.
-_FEW = 4
+_FEW = 32
 
 
 class _Maker(type):

@@ -62,7 +62,7 @@ else:
 
 __all__ = ["MISSING", "dataclass", "field", "fields", "is_dataclass", "is_frozen", "replace"]
 #: So many objects of a class are made field by field before an `__init__` is written for it.
-_FEW = 4
+_FEW = 32
 #: What a parameter holds whose value comes from a `default_factory`.
 _LATER = object()
 #: Where a class keeps its own annotated names with what was assigned to them; where its fields, when asked for.
