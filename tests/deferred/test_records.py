@@ -159,6 +159,14 @@ class Made(Base):
         return super().of(value + 1)
 
 
+def test_a_class_of_the_library_may_inherit() -> None:
+    theirs: Any = dataclasses.dataclass(frozen=True)(
+        type("More", (Pair,), {"__annotations__": {"more": "int"}, "more": 3})
+    )
+    assert [each.name for each in fields(theirs)] == ["left", "right", "more"]
+    assert dataclasses.asdict(theirs(1)) == {"left": 1, "right": 2, "more": 3}
+
+
 def test_a_frozen_object_never_changes() -> None:
     pair = Pair(1)
     with pytest.raises(FrozenInstanceError):

@@ -244,7 +244,9 @@ class _Described:
         known = _fields_of(cls)
         body: dict[str, Any] = {each.name: each.of_library() for each in known}
         body |= {"__annotations__": {each.name: each.type for each in known}, "__module__": cls.__module__}
-        described: Any = dataclasses.dataclass(init=False, repr=False, eq=False)(type(cls.__name__, (), body))
+        described: Any = dataclasses.dataclass(init=False, repr=False, eq=False, frozen=is_frozen(cls))(
+            type(cls.__name__, (), body)
+        )
         cls.__dataclass_params__ = described.__dataclass_params__
         cls.__dataclass_fields__ = described.__dataclass_fields__
         return cls.__dataclass_fields__
