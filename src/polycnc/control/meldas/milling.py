@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.control.fanuc.milling.codes import ADDRESSES, POWER_ON
-from polycnc.control.fanuc.milling.variables import MILLING_VARIABLES
 from polycnc.control.meldas.alarm_codes import ALARMS
 from polycnc.control.meldas.code_calls import registered_codes
 from polycnc.control.meldas.cycles import DRILLING
@@ -28,12 +28,20 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.cycles.drilling import Drilling
     from polycnc.control.word_address.macro_b.code_calls import CodeCalls
+    from polycnc.control.word_address.macro_b.variables import Registry
     from polycnc.messages import AlarmError
     from polycnc.toolpath.motion_settings import MotionSettings
 
 #: Five blocks are read, so three without motion may stand between two moves; the start-up block reads three, as the
 #: manual of the machine prints it for both of its controls (3.3.1 D).
 FIVE_READ = replace(HARTFORD, read_blocks=5, start_blocks=3)
+
+
+@cache
+def _system_variables() -> Registry:
+    from polycnc.control.fanuc.milling.variables import MILLING_VARIABLES
+
+    return MILLING_VARIABLES
 
 
 class MeldasMilling(MillingControl):
@@ -123,4 +131,4 @@ class MeldasMilling(MillingControl):
 
     def make_memory(self, channel: Channel) -> MacroMemory:
         """Offsets, tools and variables."""
-        return MacroMemory(channel, MILLING_VARIABLES)
+        return MacroMemory(channel, _system_variables)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.channel.stack import LevelKind
@@ -35,7 +36,6 @@ from polycnc.control.fanuc.lathe.memory import TurningMemory
 from polycnc.control.fanuc.lathe.motion import beside, drawing, retract, threads
 from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.fanuc.lathe.tools import data_input, files, nose_radius, offsets
-from polycnc.control.fanuc.lathe.variables import TURNING_VARIABLES
 from polycnc.control.fanuc.operation import MODES_WITHOUT_JUMPS, dry_run, suppresses_reading
 from polycnc.control.word_address.auxiliary.interlocks import MOVES_RULE
 from polycnc.control.word_address.block import whole_numbers
@@ -72,6 +72,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.single_block import Halts
     from polycnc.control.word_address.cycles.drilling import Drilling
     from polycnc.control.word_address.macro_b.code_calls import CodeCalls
+    from polycnc.control.word_address.macro_b.variables import Registry
     from polycnc.geometry.frames import Frame, Vector
     from polycnc.language.bulk import Condition
     from polycnc.messages import AlarmError
@@ -82,6 +83,13 @@ NOT_ON_CYLINDERS = frozenset({
     "G31.8", "G32", "G34", "G35", "G36", "G50", "G50.3", "G53.2", "G68.1",
     "G70", "G71", "G72", "G73", "G74", "G75", "G76", "G90", "G94",
 })  # fmt: skip
+
+
+@cache
+def _system_variables() -> Registry:
+    from polycnc.control.fanuc.lathe.variables import TURNING_VARIABLES
+
+    return TURNING_VARIABLES
 
 
 class FanucTurning(CustomMacroControl):
@@ -239,7 +247,7 @@ class FanucTurning(CustomMacroControl):
 
     def make_memory(self, channel: LatheChannel) -> TurningMemory:
         """Offsets, tools and variables."""
-        return TurningMemory(channel, TURNING_VARIABLES)
+        return TurningMemory(channel, _system_variables)
 
     def start(self, channel: LatheChannel) -> None:
         """Power-on state; positions of the setup are those of the displays, X in diameter."""

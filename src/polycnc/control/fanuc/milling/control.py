@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.compensation.policy import Approach, Policy
@@ -13,7 +14,6 @@ from polycnc.control.fanuc.milling import five_axes, leading_edge, leaning, stan
 from polycnc.control.fanuc.milling.codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
 from polycnc.control.fanuc.milling.cycles import MILLING_DRILLING
 from polycnc.control.fanuc.milling.parameters import FanucMillingParameters
-from polycnc.control.fanuc.milling.variables import MILLING_VARIABLES
 from polycnc.control.fanuc.operation import MODES_WITHOUT_JUMPS, dry_run, suppresses_reading
 from polycnc.control.word_address.block.whole_numbers import DecimalPoint
 from polycnc.control.word_address.machining_centre import HARTFORD, MillingControl
@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.cycles.drilling import Drilling
     from polycnc.control.word_address.macro_b.code_calls import CodeCalls
+    from polycnc.control.word_address.macro_b.variables import Registry
     from polycnc.geometry.frames import Frame, Vector
     from polycnc.toolpath.motion_settings import MotionSettings
 
@@ -44,6 +45,13 @@ UNBOUND = 1e9
 def _given(channel: Channel) -> FanucMillingParameters:
     """The parameters of a channel, in front of power-on as well."""
     return FanucMillingParameters.naming(channel.setup.parameters)
+
+
+@cache
+def _system_variables() -> Registry:
+    from polycnc.control.fanuc.milling.variables import MILLING_VARIABLES
+
+    return MILLING_VARIABLES
 
 
 class FanucMilling(MillingControl):
@@ -207,4 +215,4 @@ class FanucMilling(MillingControl):
 
     def make_memory(self, channel: Channel) -> MacroMemory:
         """Offsets, tools and variables."""
-        return MacroMemory(channel, MILLING_VARIABLES)
+        return MacroMemory(channel, _system_variables)

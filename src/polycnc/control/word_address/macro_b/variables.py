@@ -143,10 +143,10 @@ class MacroMemory(Memory):
 
     parameters: MacroParameters[MacroAxisParameters]
 
-    def __init__(self, channel: MacroChannel, registry: Registry) -> None:
+    def __init__(self, channel: MacroChannel, registry: Callable[[], Registry]) -> None:
         super().__init__(channel)
         self.channel: MacroChannel = channel
-        self.registry = registry
+        self._registry = registry
         self.locals = LocalState.of(channel).main
         self.common = CommonVariables.of(channel).values
         tables = VariableTables.of(channel)
@@ -154,6 +154,11 @@ class MacroMemory(Memory):
         self._was_kept = bool(self.kept)
         if not self.kept:
             self.kept.update(dict.fromkeys(KEPT))
+
+    @property
+    def registry(self) -> Registry:
+        """The system variables: a program that names none does not load them."""
+        return self._registry()
 
     @property
     def signals(self) -> dict[str, int]:
