@@ -18,7 +18,7 @@ from polycnc.motion.kernels.columns import CLOSED, OPEN, PLACES, Form, PieceReco
 
 #: A line is cut if what is left of it is at least this part of it; a part of a curve if that is so many mm, so that it
 #: makes no difference in how many parts it was laid.
-WORTH_CUTTING, WORTH_CUTTING_MM = 0.1, 1e-3
+WORTH_CUTTING, WORTH_CUTTING_MM = 0.1, 1e-5
 #: Ways shorter than this (mm) count as none.
 SLIVER_MM = 1e-6
 
