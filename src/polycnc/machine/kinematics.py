@@ -59,6 +59,8 @@ class Kinematics:
         return cls(
             tuple(joint for joint in machine.tool_chain if joint.rotary),
             tuple(joint for joint in machine.work_chain if joint.rotary),
+            unit(machine.tool_direction),
+            machine.nose,
         )
 
     @property

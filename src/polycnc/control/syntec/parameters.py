@@ -73,15 +73,15 @@ class SyntecParameters(ControlParameters["SyntecAxisParameters"]):
     five_axis_mechanism = Whole(3001, delivered=None)
     #: 3002: Direction of the tool with all rotary axes at zero: not set (0), X (1), Y (2), Z (3).
     tool_direction = Whole(3002, delivered=None)
-    #: 3003: Angle RA by which the tool leans from its direction, thousandths of a degree.
+    #: 3003: Angle RA by which the tool leans from its direction (from X to Y, Y to Z, Z to X), least units.
     tool_lean_a = Whole(3003, delivered=0)
-    #: 3004: Angle RB by which the tool leans from its direction, thousandths of a degree.
+    #: 3004: Angle RB by which the tool, leaning by RA, is turned about its direction, least units.
     tool_lean_b = Whole(3004, delivered=0)
     #: 3009: Travel of the first rotary axis from and to, then of the second one, least units; the same number
     #: twice for none.
     rotary_travel = WholeRun(3009, 4, delivered=0)
     #: 3013: Length of the tool holder, from the rotary axis to the nose, least units.
-    holder_length = Whole(3013, delivered=0)
+    holder_length = Whole(3013, delivered=None)
     #: 3014: The tilted plane is kept over no reset (0), over a reset (1), over power-off too (2).
     keeps_tilt = Whole(3014, delivered=0)
     #: 3057: Directions of the tool count in the machine (0) or in the work system (1) under G43.4.
