@@ -16,7 +16,8 @@ class SyntecParameters(ControlParameters["SyntecAxisParameters"]):
 
     #: 17: Least input unit: 1 for 0.01, 2 for 0.001, 3 for 0.0001 mm or degrees.
     input_unit = Whole(17, delivered=2)
-    #: 221: Type of each axis: 0 linear, 2 or 5 a rotary axis for normal direction control.
+    #: 221: Type of each axis: 0 linear, 2 or 5 a rotary axis that turns as a linear one goes, 1, 3 or 4 in
+    #: another way.
     axis_types = WholeRun(221, 20, delivered=None)
     #: 281: Words of each axis are radius values (0) or diameters (1).
     diameter_axes = WholeRun(281, 20, delivered=0)
