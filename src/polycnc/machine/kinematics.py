@@ -45,13 +45,15 @@ class Kinematics:
     """The rotary joints of a machine: `tool` from the base to the tool, `work` from the base to the work.
 
     `along` is the direction from the tip along the tool with all of them at zero, `nose` leads from the last joint of
-    the head to where tools are seated, mm.
+    the head to where tools are seated, and `to_nose` from the point that the linear axes name to there, mm: machine
+    files have these two in one.
     """
 
     tool: tuple[Joint, ...]
     work: tuple[Joint, ...]
     along: Vector = _ALONG_Z
     nose: Vector = _NOWHERE
+    to_nose: Vector = _NOWHERE
 
     @classmethod
     def of(cls, machine: Machine) -> Kinematics:

@@ -218,28 +218,19 @@ def another_machine(name: str) -> AlarmError:
 # ---- vectors
 
 
-class Placed(NamedTuple):
-    """Rotary joints as far apart as data have them, and what the vectors add in front of the chains and behind them."""
-
-    kinematics: Kinematics
-    in_front: Vector
-    behind: Vector
-
-
-def placed(channel: SinumerikChannel, kinematics: Kinematics, n: int) -> Placed:
-    """The joints with the vectors that machine data give; others are as the machine file has them.
+def placed(channel: SinumerikChannel, kinematics: Kinematics, n: int) -> tuple[Kinematics, Vector]:
+    """The joints with the vectors that machine data give, and what those of the table add to positions in front.
 
     Vectors of the head count as tool lengths do, from the tip to the machine, those of the table the other way round.
-    The machine file leaves positions alone with all axes at zero; given vectors that do not close the chain do not.
+    Others are as the machine file has them. That leaves positions alone with all axes at zero; given vectors that do
+    not close their chain do not.
     """
-    of_head, of_table = (
-        [vector(channel, f"{name}_{n}") for name in names] for names in _vectors(kinematics)
-    )
+    of_head, of_table = ([vector(channel, f"{name}_{n}") for name in names] for names in _vectors(kinematics))
     noses = [None if given is None else times(given, -1.0) for given in of_head]
     tool = _apart(kinematics.tool, noses[:-1])
     nose = noses[-1] if noses and noses[-1] is not None else kinematics.nose
-    joints = replace(kinematics, tool=tool, work=_apart(kinematics.work, of_table[:-1]), nose=nose)
-    return Placed(joints, _sum(of_table), _sum(of_head))
+    work = _apart(kinematics.work, of_table[:-1])
+    return replace(kinematics, tool=tool, work=work, nose=nose, to_nose=_sum(noses)), _sum(of_table)
 
 
 def base_tool(channel: SinumerikChannel, kind: str, n: int) -> Vector:
@@ -290,13 +281,13 @@ def orientation(
     direction = along or vector(channel, f"$MC_TRAFO5_BASE_ORIENT_{n}")
     if direction is not None and any(direction):
         kinematics = replace(kinematics, along=unit(direction))
-    joints, in_front, behind = placed(channel, kinematics, n)
+    joints, in_front = placed(channel, kinematics, n)
     zero = [0.0] * len(axes)
     for i, axis in enumerate(in_order(kinematics)):
         offset = number_of(channel, f"$MC_TRAFO5_ROT_AX_OFFSET_{n}", i, 0.0)
         zero[axes.index(axis)] = -(offset + (added[i] if i < len(added) else 0.0))
     inner = ToolCentrePoint(joints, axes, geometry, tuple(zero), (0.0, 0.0, 0.0))
-    return Build(inner, lengths="tip", order=n, in_front=in_front, behind=behind)
+    return Build(inner, lengths="tip", order=n, in_front=in_front)
 
 
 def in_order(kinematics: Kinematics) -> tuple[str, ...]:

@@ -12,10 +12,10 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.units import least_unit
-from polycnc.geometry.frames import IDENTITY, Frame, rotation
+from polycnc.geometry.frames import IDENTITY, Frame
 from polycnc.geometry.vectors import axis_vector, dot, times
 from polycnc.machine.kinematics import Kinematics, unit
-from polycnc.transformation.planes.tilted import square_on
+from polycnc.transformation.planes.tilted import by_leaning, square_on
 
 if TYPE_CHECKING:
     from polycnc.control.syntec.family import SyntecChannel
@@ -76,8 +76,7 @@ def kinematics_of(channel: SyntecChannel) -> Kinematics:
 def tool_at_zero(channel: SyntecChannel) -> Frame:
     """How the tool stands with all rotary axes at zero, machine coordinates: Z of the frame lies along it.
 
-    RA turns it from Z to X, from X to Y, or from Y to Z, whichever of these begins at its axis; RB turns it about that
-    axis then (general knowledge of the control's five-axis manual; FANUC 19698, 19699).
+    Which way RA and RB turn it is general knowledge of the control's five-axis manual, and as on FANUC.
     """
     parameters, along = channel.memory.parameters, Kinematics.of(channel.machine).along
     told = parameters.tool_direction or NOT_SET
@@ -85,8 +84,8 @@ def tool_at_zero(channel: SyntecChannel) -> Frame:
     if axis < 0:
         return square_on(unit(along))
     degrees = least_unit(parameters)
-    turned = rotation((axis + 2) % 3, parameters.tool_lean_a * degrees)
-    return rotation(axis, parameters.tool_lean_b * degrees) @ turned @ STANDING[axis]
+    lean, about = parameters.tool_lean_a * degrees, parameters.tool_lean_b * degrees
+    return by_leaning(axis, lean, about) @ STANDING[axis]
 
 
 def _is_told(parameters: SyntecParameters) -> bool:
