@@ -79,6 +79,10 @@ class Kinematics:
         turn = _chain(self.tool, angles)
         return turn if self.nose == _NOWHERE else turn @ translation(*self.nose)
 
+    def head_places(self, angles: Angles) -> list[Frame]:
+        """Of each joint of the head where it is and how those before it turn it, seen from the base of the head."""
+        return [_chain(self.tool[: n + 1], {**angles, joint.axis: 0.0}) for n, joint in enumerate(self.tool)]
+
     def tool_on_machine(self, angles: Angles) -> Vector:
         """Direction from the tip along the tool, machine coordinates."""
         return self.head_turn(angles).direct(*self.along)

@@ -462,6 +462,10 @@ class WordAddressControl:
         """The rotary joints of the machine, with what parameters add to them."""
         return Kinematics.of(channel.machine)
 
+    def mechanism(self, channel: Channel, _context: Context) -> Kinematics:
+        """A working plane turns no tool."""
+        return self.kinematics(channel)
+
     def feed_to(self, channel: Channel, _end: list[float]) -> float:
         """Feed of a straight cut to a position (absolute display), internal units."""
         return channel.feed

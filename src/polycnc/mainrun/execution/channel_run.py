@@ -266,6 +266,7 @@ class ChannelRun:
             program=program,
             parts=self.parts,
             point=self.point,
+            mechanism=self.channel.control.mechanism(self.channel, execution.context),
         )
 
     def reach(self, block: Block | None) -> None:
