@@ -487,7 +487,7 @@ class Sinumerik:
         return AlarmError("PC0002", hint="hint.block-limit")
 
     def mechanism(self, channel: SinumerikChannel, context: Context) -> Kinematics:
-        """That of an orientation transformation; without one a head that does not turn holds the tool across the plane."""
+        """That of an orientation transformation; a head that does not turn holds the tool across the plane."""
         return tool_frames.mechanism(channel, context)
 
     def motion_settings(self, channel: SinumerikChannel) -> MotionSettings:

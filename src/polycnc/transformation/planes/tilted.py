@@ -55,7 +55,7 @@ def by_solid_angle(around: float, down: float) -> Frame:
 
 
 def by_leaning(axis: int, lean: float, about: float) -> Frame:
-    """A tool leans from its axis (0 to 2), from X to Y, Y to Z, or Z to X, then turns about that; degrees (RA and RB)."""
+    """A tool leans from its axis (0 to 2), from X to Y, Y to Z or Z to X, then turns about it; degrees (RA, RB)."""
     return rotation(axis, about) @ rotation((axis + 2) % 3, lean)
 
 

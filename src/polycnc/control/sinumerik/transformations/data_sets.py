@@ -1,8 +1,8 @@
 """What is configured: the transformations that TRAORI(n), TRANSMIT(n) … choose from.
 
-Machine data name them: `$MC_TRAFO_TYPE_1` and so on give the types, and the n-th of a kind is what `n` means. A machine
-whose data say nothing has what its kinematic chain allows, one of each kind. The axes are those of the machine file; how far
-they lie apart, and how far the tool lies from them, data may say anew.
+Machine data name them: `$MC_TRAFO_TYPE_1` and so on give the types, and the n-th of a kind is what `n` means. A
+machine whose data say nothing has what its kinematic chain allows, one of each kind. The axes are those of the
+machine file; how far they lie apart, and how far the tool lies from them, data may say anew.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ WITH_WALLS, WALLS_BY_ARGUMENT = 513, 514
 SIDES = {1: 1.0, 2: -1.0}
 #: As many transformations as machine data can name.
 COUNT = 10
-#: Machine data of lengths and angles in a transformation, `_n` behind them, with which polycnc does not turn its joints.
+#: Machine data of angles and lengths in a transformation, `_n` behind them, that polycnc does not follow.
 SHIFTS: dict[str, tuple[str, ...]] = {
     "TRAORI": ("$MC_TRAFO5_NUTATOR_AX_ANGLE", "$MC_TRAFO5_TOOL_ROT_AX_OFFSET"),
     "TRANSMIT": ("$MC_TRANSMIT_ROT_AX_OFFSET",),
