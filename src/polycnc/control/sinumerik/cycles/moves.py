@@ -13,7 +13,6 @@ from functools import partial
 from math import nan
 from typing import TYPE_CHECKING, ParamSpec, TypeAlias
 
-from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.axes import spindles as spindle_axes
 from polycnc.control.sinumerik.motion import circles
 from polycnc.control.sinumerik.motion import moves as motion

@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.block.rules import Rule
+from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
     from polycnc.control.syntec.family import SyntecChannel
@@ -38,7 +39,7 @@ def _refuse(builder: Builder, plan: Plan) -> Step | None:
     types = _types(builder.channel)
     for word in plan.axis_words:
         if word.axis in types and not word.incremental:
-            raise builder.control.not_yet(f"Pr{FIRST - 1 + types[word.axis]}", word.address)
+            raise _not_known(types[word.axis], word.address)
     return None
 
 
@@ -50,7 +51,11 @@ def _check(builder: Builder) -> None:
     for address in builder.slots:
         target = builder.control.axis_of_address(builder.channel, address, builder)
         if target is not None and target[0] in types and not target[1]:
-            raise builder.control.not_yet(f"Pr{FIRST - 1 + types[target[0]]}", address)
+            raise _not_known(types[target[0]], address)
+
+
+def _not_known(axis: int, address: str) -> AlarmError:
+    return AlarmError("PC0001", hint="hint.not-supported", address=address, code=f"Pr{FIRST - 1 + axis}")
 
 
 #: Absolute words of rotary axes whose ways are not known.
