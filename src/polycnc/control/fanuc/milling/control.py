@@ -10,14 +10,7 @@ from polycnc.control.fanuc import tool_plane
 from polycnc.control.fanuc.acceleration import accelerated
 from polycnc.control.fanuc.alarm_codes import ALARMS
 from polycnc.control.fanuc.code_calls import registered_codes
-from polycnc.control.fanuc.milling import (
-    five_axes,
-    leading_edge,
-    leaning,
-    mechanism,
-    standing_system,
-    table_system,
-)
+from polycnc.control.fanuc.milling import five_axes, leading_edge, leaning, standing_system, table_system
 from polycnc.control.fanuc.milling.codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
 from polycnc.control.fanuc.milling.cycles import MILLING_DRILLING
 from polycnc.control.fanuc.milling.parameters import FanucMillingParameters
@@ -168,6 +161,8 @@ class FanucMilling(MillingControl):
 
     def kinematics(self, channel: Channel) -> Kinematics:
         """With 19666, 19697 to 19714 and 19665#4, #5."""
+        from polycnc.control.fanuc.milling import mechanism
+
         return mechanism.kinematics_of(channel, _given(channel))
 
     def rotary_ranges(self, channel: Channel) -> Mapping[str, tuple[float, float]]:
