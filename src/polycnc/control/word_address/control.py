@@ -121,7 +121,7 @@ class WordAddressControl:
     g_codes: ClassVar[Mapping[str, GCode]] = {}
     m_codes: ClassVar[Mapping[int, MCode]] = {}
     m_rows: ClassVar[tuple[MRow, ...]] = ()
-    context_steps: ClassVar[tuple[ContextStep, ...]] = ()
+    context_steps: ClassVar[tuple[ContextStep, ...]] = (systems.pictured,)
     addresses: ClassVar[Mapping[str, Planner]] = {}
     power_on: ClassVar[Mapping[str, str]] = {}
     alarms: ClassVar[Mapping[str, str]] = {}

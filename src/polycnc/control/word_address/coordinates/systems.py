@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contextlib import nullcontext
-from dataclasses import field
+from dataclasses import field, replace
 from math import nan
 from typing import TYPE_CHECKING
 
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import MacroChannel, WordAddressChannel
     from polycnc.geometry.frames import Vector
+    from polycnc.toolpath import Context
     from polycnc.transformation.planes.misplaced import Misplaced
 
 
@@ -157,6 +158,22 @@ def _directed(channel: WordAddressChannel, frame: Frame, shifts: list[float]) ->
         if axis >= 0:
             directed[axis] = part
     return directed
+
+
+def pictured(channel: WordAddressChannel, context: Context) -> Context:
+    """A context with what leads from the display to the system of the work offset: G52, turns of the work, planes.
+
+    In that system, with the table at zero, a program with several planes is one picture. G92 shifts all work systems.
+    """
+    zero, leading = ZeroState.of(channel), tip.TipState.of(channel)
+    shift = _directed(channel, zero.turn, zero.local)
+    leads = leading.active is not None and leading.is_leading(channel)
+    offsets = channel.coordinates.offsets
+    frame = frame_on_table(channel, offsets) if leads else plane_on_table(channel, offsets)
+    if frame.is_identity and not any(shift):
+        return context
+    x, y, z = (shift[axis] if axis >= 0 else 0.0 for axis in channel.coordinates.geometry)
+    return replace(context, part=translation(x, y, z) @ frame)
 
 
 def select_work_offset(channel: MacroChannel, words: Words) -> None:
