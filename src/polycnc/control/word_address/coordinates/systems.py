@@ -166,12 +166,13 @@ def pictured(channel: WordAddressChannel, context: Context) -> Context:
     In that system, with the table at zero, a program with several planes is one picture. G92 shifts all work systems.
     """
     zero, leading = ZeroState.of(channel), tip.TipState.of(channel)
-    shift = _directed(channel, zero.turn, zero.local)
     leads = leading.active is not None and leading.is_leading(channel)
+    lies_there = zero.misplaced is None and zero.frame.is_identity and zero.plane.is_identity
+    if lies_there and not leads and not any(zero.local):
+        return context
+    shift = _directed(channel, zero.turn, zero.local)
     offsets = channel.coordinates.offsets
     frame = frame_on_table(channel, offsets) if leads else plane_on_table(channel, offsets)
-    if frame.is_identity and not any(shift):
-        return context
     x, y, z = (shift[axis] if axis >= 0 else 0.0 for axis in channel.coordinates.geometry)
     return replace(context, part=translation(x, y, z) @ frame)
 
