@@ -95,7 +95,6 @@ class SyntecMill(WordAddressControl):
     m_codes: ClassVar[Mapping[int, MCode]] = M_CODES
     m_rows: ClassVar[tuple[MRow, ...]] = (interrupts.m_row,)
     context_steps: ClassVar[tuple[ContextStep, ...]] = (
-        *WordAddressControl.context_steps,
         in_tapping_mode,
         moves.recorded,
         dwell.ended_by_signal,

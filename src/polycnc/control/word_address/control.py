@@ -121,7 +121,7 @@ class WordAddressControl:
     g_codes: ClassVar[Mapping[str, GCode]] = {}
     m_codes: ClassVar[Mapping[int, MCode]] = {}
     m_rows: ClassVar[tuple[MRow, ...]] = ()
-    context_steps: ClassVar[tuple[ContextStep, ...]] = (systems.pictured,)
+    context_steps: ClassVar[tuple[ContextStep, ...]] = ()
     addresses: ClassVar[Mapping[str, Planner]] = {}
     power_on: ClassVar[Mapping[str, str]] = {}
     alarms: ClassVar[Mapping[str, str]] = {}
@@ -557,10 +557,9 @@ class WordAddressControl:
         mode, memory, c = channel.mode, channel.memory, channel.coordinates
         diameters = sum(1 << i for i in range(len(channel.axes)) if self.is_diameter(channel, i))
         polar, unrolled = PolarState.of(channel), CylinderState.of(channel).active
+        leading = c.transformation or PlaneAxes.of(channel).parallel
         # A path that leads the axes leaves nothing to transform.
-        transformation = (
-            None if channel.path.leads_axes else c.transformation or PlaneAxes.of(channel).parallel
-        )
+        transformation = None if channel.path.leads_axes else leading
         return Context(
             plane=mode["plane"],
             inch=self.is_inch(mode),
@@ -575,6 +574,7 @@ class WordAddressControl:
             corner_mode=corner_mode(channel),
             diameter_axes=diameters,
             wcs=ZeroState.of(channel).system,
+            part=systems.on_work(channel),
             transformation=transformation,
             machine_diameters=diameters | polar.diameter << polar.plane.linear if polar.plane else None,
             unrolled=(unrolled.axis, 1.0 / unrolled.mm_per_degree) if unrolled else None,

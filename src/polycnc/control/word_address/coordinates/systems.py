@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contextlib import nullcontext
-from dataclasses import field, replace
+from dataclasses import field
 from math import nan
 from typing import TYPE_CHECKING
 
@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import MacroChannel, WordAddressChannel
     from polycnc.geometry.frames import Vector
-    from polycnc.toolpath import Context
     from polycnc.transformation.planes.misplaced import Misplaced
 
 
@@ -160,8 +159,8 @@ def _directed(channel: WordAddressChannel, frame: Frame, shifts: list[float]) ->
     return directed
 
 
-def pictured(channel: WordAddressChannel, context: Context) -> Context:
-    """A context with what leads from the display to the system of the work offset: G52, turns of the work, planes.
+def on_work(channel: WordAddressChannel) -> Frame:
+    """From the display to the system of the work offset: G52, turns of the work, planes.
 
     In that system, with the table at zero, a program with several planes is one picture. G92 shifts all work systems.
     """
@@ -169,12 +168,12 @@ def pictured(channel: WordAddressChannel, context: Context) -> Context:
     leads = leading.active is not None and leading.is_leading(channel)
     lies_there = zero.misplaced is None and zero.frame.is_identity and zero.plane.is_identity
     if lies_there and not leads and not any(zero.local):
-        return context
+        return IDENTITY
     shift = _directed(channel, zero.turn, zero.local)
     offsets = channel.coordinates.offsets
     frame = frame_on_table(channel, offsets) if leads else plane_on_table(channel, offsets)
-    x, y, z = (shift[axis] if axis >= 0 else 0.0 for axis in channel.coordinates.geometry)
-    return replace(context, part=translation(x, y, z) @ frame)
+    moved = translation(*(shift[axis] if axis >= 0 else 0.0 for axis in channel.coordinates.geometry))
+    return moved if frame.is_identity else moved @ frame
 
 
 def select_work_offset(channel: MacroChannel, words: Words) -> None:

@@ -51,11 +51,7 @@ class CustomMacroControl(WordAddressControl):
     JOINING_HINT: ClassVar[str] = "hint.joined-conditions"
     m_rows: ClassVar[tuple[MRow, ...]] = (code_calls.m_row, code_calls.registered_row)
     halts_behind: ClassVar[tuple[Halts, ...]] = single_block.HALTS
-    context_steps: ClassVar[tuple[ContextStep, ...]] = (
-        *WordAddressControl.context_steps,
-        overrides.overridden,
-        path_modes.looks_ahead,
-    )
+    context_steps: ClassVar[tuple[ContextStep, ...]] = (overrides.overridden, path_modes.looks_ahead)
     acts: ClassVar[Mapping[str, Handler]] = {
         **WordAddressControl.acts,
         "feed_override_off": overrides.cancel_feed_override,
