@@ -165,13 +165,14 @@ def on_work(channel: WordAddressChannel) -> Frame:
     In that system, with the table at zero, a program with several planes is one picture. G92 shifts all work systems.
     """
     zero, leading = ZeroState.of(channel), tip.TipState.of(channel)
-    leads = leading.active is not None and leading.is_leading(channel)
-    lies_there = zero.misplaced is None and zero.frame.is_identity and zero.plane.is_identity
-    if lies_there and not leads and not any(zero.local):
-        return IDENTITY
+    frame, offsets = IDENTITY, channel.coordinates.offsets
+    if leading.active is not None and leading.is_leading(channel):
+        frame = frame_on_table(channel, offsets)
+    elif zero.misplaced is not None or not (zero.frame.is_identity and zero.plane.is_identity):
+        frame = plane_on_table(channel, offsets)
+    if not any(zero.local):
+        return frame
     shift = _directed(channel, zero.turn, zero.local)
-    offsets = channel.coordinates.offsets
-    frame = frame_on_table(channel, offsets) if leads else plane_on_table(channel, offsets)
     moved = translation(*(shift[axis] if axis >= 0 else 0.0 for axis in channel.coordinates.geometry))
     return moved if frame.is_identity else moved @ frame
 
