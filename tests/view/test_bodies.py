@@ -53,6 +53,13 @@ def test_a_pose_has_the_tool_as_the_work_sees_it() -> None:
     assert bodies_of("lathe2").pose((0.0, 0.0, 0.0), [5.0, 7.0]).machine == (5.0, 0.0, 7.0)
 
 
+def test_the_tool_of_a_lathe_stands_along_x_unless_a_head_turns_it() -> None:
+    assert bodies_of("lathe-c").pose((0.0, 0.0, 0.0), [5.0, 7.0, 90.0]).along == (1.0, 0.0, 0.0)
+    head = MachineBodies(load_machine("tests/conformance/machines/lathe-b-head.toml"))
+    assert head.pose((0.0, 0.0, 0.0), [5.0, 7.0, 0.0, 0.0]).along == pytest.approx((0.0, 0.0, 1.0))
+    assert head.pose((0.0, 0.0, 0.0), [5.0, 7.0, 0.0, 90.0]).along == pytest.approx((1.0, 0.0, 0.0))
+
+
 def test_a_head_with_a_nose_holds_the_tool_there() -> None:
     machine = load_machine("tests/conformance/machines/mill5-bc-head-nose.toml")
     made = MachineBodies(machine)

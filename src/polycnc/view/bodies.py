@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 ENDLESS, HALF = 400.0, 12.0
 #: How far the slides stand away from the tool, mm: behind it and above it.
 AWAY = 60.0
+_ALONG_Z = (0.0, 0.0, 1.0)
 #: Which slide carries which: of a machine whose spindle carries the tool, and of one whose spindle carries the work.
 _MILL, _LATHE = (1, 0, 2), (2, 0, 1)
 
@@ -146,7 +147,7 @@ class MachineBodies:
         """
         kinematics = mechanism or self._kinematics
         angles = {axis.name: position[i] for i, axis in enumerate(self._axes) if axis.rotary}
-        along = (1.0, 0.0, 0.0) if self.is_lathe else kinematics.tool_on_work(angles)
+        along = self._turning_tool(kinematics, angles) if self.is_lathe else kinematics.tool_on_work(angles)
         x, y, z = (position[i] if i >= 0 else 0.0 for i in self._geometry)
         base = minus(plus((x, y, z), kinematics.to_nose), kinematics.head_turn({}).t)
         nose = plus(base, kinematics.head_turn(angles).t)
@@ -155,6 +156,14 @@ class MachineBodies:
             for joint, frame in zip(kinematics.tool, kinematics.head_places(angles), strict=True)
         }
         return Pose(point, (x, y, z), nose, along, angles, head)
+
+    def _turning_tool(self, kinematics: Kinematics, angles: Mapping[str, float]) -> Vector:
+        """On a lathe: along X, as turning tools stand, where neither the machine file nor a head says another thing.
+
+        The work turns under it, and stands still in the picture.
+        """
+        told = kinematics.tool or self._kinematics.along != _ALONG_Z
+        return kinematics.tool_on_machine(angles) if told else (1.0, 0.0, 0.0)
 
 
 def _vector(values: Sequence[float]) -> Vector:
