@@ -85,6 +85,8 @@ class SyntecParameters(ControlParameters["SyntecAxisParameters"]):
     holder_length = Whole(3013, delivered=None)
     #: 3014: The tilted plane is kept over no reset (0), over a reset (1), over power-off too (2).
     keeps_tilt = Whole(3014, delivered=0)
+    #: 3021: Offsets of the rotary axes of the mechanism, least units; polycnc has them from the machine file.
+    mechanism_offsets = WholeRun(3021, 26, delivered=0)
     #: 3057: Directions of the tool count in the machine (0) or in the work system (1) under G43.4.
     posture_in_work = Whole(3057, delivered=0)
     #: 3091: Highest speed with which linear axes follow the rotary ones under G43.4 and G43.5; 0 for no limit

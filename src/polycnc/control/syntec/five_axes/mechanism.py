@@ -1,9 +1,10 @@
 """The mechanism of five-axis machines: what Pr3001 to Pr3004 and Pr3013 say of it (manual 2.45).
 
 The machine file has the rotary joints, so it is what answers where the setup does not. Joints that the setup tells
-otherwise (Pr3001) are refused where a function would act by them: nobody knows then which of the two is the machine.
-How the tool stands with all rotary axes at zero the setup may tell anew: Pr3002 along which axis of the machine, Pr3003
-and Pr3004 how it leans from that, Pr3013 how far the nose of a head lies from its last rotary axis.
+otherwise (Pr3001; Pr3021 to Pr3046 are offsets of which the manual has no word) are refused where a function would act
+by them: nobody knows then which of the two is the machine. How the tool stands with all rotary axes at zero the setup
+may tell anew: Pr3002 along which axis of the machine, Pr3003 and Pr3004 how it leans from that, Pr3013 how far the nose
+of a head lies from its last rotary axis.
 """
 
 from __future__ import annotations
@@ -37,7 +38,7 @@ STANDING: tuple[Frame, Frame, Frame] = (
 )
 #: How many rotary axes make a five-axis machine.
 ROTARY_AXES = 2
-TYPE, DIRECTION, HOLDER = 3001, 3002, 3013
+TYPE, DIRECTION, HOLDER, OFFSETS = 3001, 3002, 3013, 3021
 
 
 def mechanism_of(machine: Machine) -> int:
@@ -111,6 +112,7 @@ def check(channel: SyntecChannel, words: Words, code: str) -> None:
         ("Pr3001", given is not None and given != own),
         ("Pr3002", parameters.tool_direction not in (None, NOT_SET, 1, 2, 3)),
     )
-    for name, is_so in contradicted:
+    offsets = enumerate(parameters.mechanism_offsets, OFFSETS)
+    for name, is_so in (*contradicted, *((f"Pr{n}", value != 0) for n, value in offsets)):
         if is_so:
             raise channel.control.not_yet(f"{code} {name}", code)
