@@ -45,13 +45,15 @@ class Kinematics:
     """The rotary joints of a machine: `tool` from the base to the tool, `work` from the base to the work.
 
     `along` is the direction from the tip along the tool with all of them at zero, `nose` leads from the last joint of
-    the head to where tools are seated, mm.
+    the head to where tools are seated, and `to_nose` from the point that the linear axes name to there, mm: machine
+    files have these two in one.
     """
 
     tool: tuple[Joint, ...]
     work: tuple[Joint, ...]
     along: Vector = _ALONG_Z
     nose: Vector = _NOWHERE
+    to_nose: Vector = _NOWHERE
 
     @classmethod
     def of(cls, machine: Machine) -> Kinematics:
@@ -59,6 +61,8 @@ class Kinematics:
         return cls(
             tuple(joint for joint in machine.tool_chain if joint.rotary),
             tuple(joint for joint in machine.work_chain if joint.rotary),
+            unit(machine.tool_direction),
+            machine.nose,
         )
 
     @property
@@ -74,6 +78,10 @@ class Kinematics:
         """How the head moves the tool's tip about the point that the linear axes move; turn and shift."""
         turn = _chain(self.tool, angles)
         return turn if self.nose == _NOWHERE else turn @ translation(*self.nose)
+
+    def head_places(self, angles: Angles) -> list[Frame]:
+        """Of each joint of the head where it is and how those before it turn it, seen from the base of the head."""
+        return [_chain(self.tool[: n + 1], {**angles, joint.axis: 0.0}) for n, joint in enumerate(self.tool)]
 
     def tool_on_machine(self, angles: Angles) -> Vector:
         """Direction from the tip along the tool, machine coordinates."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.machine_words import refuse
+from polycnc.control.sinumerik.axes import spindles as spindle_axes
 from polycnc.control.sinumerik.couplings import masters, synchronous
 from polycnc.control.sinumerik.couplings.spindle_pairs import turns
 from polycnc.control.sinumerik.errors import not_supported
@@ -95,6 +96,9 @@ def _put_out(channel: SinumerikChannel, code: int, spindle_number: int | None) -
         before = turns(channel, spindle.number)
         spindle.direction = direction
         spindle.controlled = code in (ORIENT, AXIS_MODE)
+        if code == ORIENT:
+            angle = memory.data.number("$SA_M19_SPOS", f"S{spindle.number}")
+            spindle_axes.orient(channel, spindle, angle)
         synchronous.overlay(channel, spindle, before)
         masters.settle(channel)
         channel.context_changed()

@@ -370,6 +370,7 @@ class Execution:
             self._work()
         elif isinstance(item, BlockEnd):
             halts = self.single_block and not self.context.stop_delay
+            self.context = item.context or self.context
             if halts and self._x2 == 0.0 and not self.preprocessing.typed_blocks_end:
                 self.halted_behind = item.code
                 self.stop("single-block")

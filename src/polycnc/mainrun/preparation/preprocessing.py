@@ -322,9 +322,10 @@ class Preprocessing:
             halts = wait is not None and wait.reason is Why.SINGLE_BLOCK and not channel.finished
             line, code = level.line_of(level.current), wait.code if halts and wait is not None else ""
             key = level.program_number, line
+            changed = channel.context if halts and channel.context_is_new else None
             self._blocks.note(
-                key, code or (str(line) if halts else ""), channel.mode.codes, channel.takes_back,
-                _callers(channel.stack), is_part=level.kind is LevelKind.SHAPE,
+                key, BlockEnd(code or (str(line) if halts else ""), changed), channel.mode.codes,
+                channel.takes_back, _callers(channel.stack), is_part=level.kind is LevelKind.SHAPE,
             )  # fmt: skip
             channel.takes_back = NOTHING_BACK
         self._stopped = self._rows.skips = self.has_caught_up = False

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.cycles.drilling import Drilling
     from polycnc.control.word_address.macro_b.code_calls import CodeCalls
     from polycnc.geometry.frames import Frame, Vector
+    from polycnc.machine.kinematics import Kinematics
     from polycnc.toolpath.motion_settings import MotionSettings
 
 
@@ -157,6 +158,12 @@ class FanucMilling(MillingControl):
     def keeps_point_at_rotation(self, channel: Channel) -> bool:
         """11600#5 AX1 = 0."""
         return not _given(channel).AX1
+
+    def kinematics(self, channel: Channel) -> Kinematics:
+        """With 19666, 19697 to 19714 and 19665#4, #5."""
+        from polycnc.control.fanuc.milling import mechanism
+
+        return mechanism.kinematics_of(channel, _given(channel))
 
     def rotary_ranges(self, channel: Channel) -> Mapping[str, tuple[float, float]]:
         """19741 to 19744: of the first rotary axis (it carries the other one, or is in the head), and of the second."""

@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from polycnc.toolpath import Context
     from polycnc.transformation.seated import Seated
 
+NOWHERE = (0.0, 0.0, 0.0)
 #: Modal group: "table" while words name points of the table.
 SYSTEM = "point_system"
 STRAIGHT = {"G0": Kind.RAPID, "G1": Kind.FEED}
@@ -72,7 +73,7 @@ def _begin(channel: WordAddressChannel, words: Words) -> None:
     from polycnc.transformation.seated import Seated
 
     c = channel.coordinates
-    table = replace(channel.control.kinematics(channel), tool=(), nose=(0.0, 0.0, 0.0))
+    table = replace(channel.control.kinematics(channel), tool=(), nose=NOWHERE, to_nose=NOWHERE)
     zero, offsets = work_zero(channel, c.offsets), c.offsets.copy()
     for axis, place in zip(c.geometry, zero, strict=True):
         offsets[axis] = place

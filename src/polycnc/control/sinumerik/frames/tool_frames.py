@@ -8,6 +8,7 @@ Source: statement list, groups 52 and 53; Function Manual K2 (frame rotation in 
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import atan2, cos, sin
 from typing import TYPE_CHECKING
 
@@ -20,11 +21,12 @@ from polycnc.geometry.frames import Frame, Vector
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.vectors import axis_vector, cross, dot, minus, times
 from polycnc.language.sinumerik.names.frame import NEUTRAL, NcFrame
-from polycnc.machine.kinematics import unit
+from polycnc.machine.kinematics import Kinematics, unit
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.block.draft import Values
     from polycnc.control.sinumerik.family import SinumerikChannel
+    from polycnc.toolpath import Context
 
 OFF = "TOROTOF"
 #: Functions that also take the programmable frame away.
@@ -76,6 +78,21 @@ def tool_direction(channel: SinumerikChannel) -> Vector:
     across = axis_vector(PLANES[channel.mode["plane"]][2])
     carrier = channel.memory.tools.carrier
     return across if carrier is None else carrier.direct(*across)
+
+
+def mechanism(channel: SinumerikChannel, context: Context) -> Kinematics:
+    """The rotary joints of the machine, with the tool as it stands with them at zero.
+
+    Where no joint carries it, and the machine file names no other axis than Z, it points along the plane's third axis,
+    as its length counts, and as a holder turns it.
+    """
+    point, kinematics = seat.centre_point(channel), Kinematics.of(channel.machine)
+    if point is not None:
+        return point.kinematics
+    if kinematics.tool or kinematics.along != axis_vector(2):
+        return kinematics
+    across, carrier = axis_vector(PLANES[context.plane][2]), channel.memory.tools.carrier
+    return replace(kinematics, along=across if carrier is None else carrier.direct(*across))
 
 
 def _turned(frame: Frame) -> tuple[Vector, Vector, Vector]:

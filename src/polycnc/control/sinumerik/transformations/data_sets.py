@@ -1,7 +1,8 @@
 """What is configured: the transformations that TRAORI(n), TRANSMIT(n) … choose from.
 
-Machine data name them: `$MC_TRAFO_TYPE_1` and so on give the types, and the n-th of a kind is what `n` means. A machine
-whose data say nothing has what its kinematic chain allows, one of each kind. The geometry is that of the machine file.
+Machine data name them: `$MC_TRAFO_TYPE_1` and so on give the types, and the n-th of a kind is what `n` means. A
+machine whose data say nothing has what its kinematic chain allows, one of each kind. The axes are those of the
+machine file; how far they lie apart, and how far the tool lies from them, data may say anew.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ from math import atan2, degrees
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.deferred.records import dataclass
-from polycnc.geometry.vectors import dot
+from polycnc.geometry.vectors import dot, times
 from polycnc.machine.kinematics import Kinematics, unit
 from polycnc.messages import AlarmError
 from polycnc.transformation.kinematic.cylinder import Cylinder
@@ -22,8 +23,11 @@ from polycnc.transformation.numbers import RADIAN
 from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.geometry.frames import Vector
+    from polycnc.machine.model import Joint
     from polycnc.transformation.contract import Geometry, Transformation
 
 #: Kinds, by the procedure that selects them, and the types of each (MD24100 and following).
@@ -40,19 +44,24 @@ WITH_WALLS, WALLS_BY_ARGUMENT = 513, 514
 SIDES = {1: 1.0, 2: -1.0}
 #: As many transformations as machine data can name.
 COUNT = 10
-#: Machine data of lengths and angles in a transformation, `_n` behind them: with a value they would move its joints.
+#: Machine data of angles and lengths in a transformation, `_n` behind them, that polycnc does not follow.
 SHIFTS: dict[str, tuple[str, ...]] = {
-    "TRAORI": (
-        "$MC_TRAFO5_PART_OFFSET",
-        "$MC_TRAFO5_JOINT_OFFSET",
-        "$MC_TRAFO5_JOINT_OFFSET_PART",
-        "$MC_TRAFO5_BASE_TOOL",
-        "$MC_TRAFO5_NUTATOR_AX_ANGLE",
-        "$MC_TRAFO5_TOOL_ROT_AX_OFFSET",
-    ),
-    "TRANSMIT": ("$MC_TRANSMIT_BASE_TOOL", "$MC_TRANSMIT_ROT_AX_OFFSET"),
-    "TRACYL": ("$MC_TRACYL_BASE_TOOL", "$MC_TRACYL_ROT_AX_OFFSET"),
-    "TRAANG": ("$MC_TRAANG_BASE_TOOL",),
+    "TRAORI": ("$MC_TRAFO5_NUTATOR_AX_ANGLE", "$MC_TRAFO5_TOOL_ROT_AX_OFFSET"),
+    "TRANSMIT": ("$MC_TRANSMIT_ROT_AX_OFFSET",),
+    "TRACYL": ("$MC_TRACYL_ROT_AX_OFFSET",),
+}
+PART, JOINT, JOINT_OF_PART, BASE_TOOL = (
+    "$MC_TRAFO5_PART_OFFSET",
+    "$MC_TRAFO5_JOINT_OFFSET",
+    "$MC_TRAFO5_JOINT_OFFSET_PART",
+    "$MC_TRAFO5_BASE_TOOL",
+)
+#: Vectors of TRAORI by how many axes turn the head and the table: of each chain those in front of its joints, and the
+#: one behind. They are l1 to l4 of toolholders of types T, P and M (commissioning of CYCLE800), which job planning has.
+VECTORS: dict[tuple[int, int], tuple[tuple[str, ...], tuple[str, ...]]] = {
+    (2, 0): ((PART, JOINT, BASE_TOOL), ()),
+    (0, 2): ((), (BASE_TOOL, JOINT, PART)),
+    (1, 1): ((JOINT, BASE_TOOL), (JOINT_OF_PART, PART)),
 }
 #: Machine data that turn the sense of a rotary axis round where they are 0.
 SENSES = {
@@ -60,6 +69,7 @@ SENSES = {
     "TRANSMIT": "$MC_TRANSMIT_ROT_SIGN_IS_PLUS",
     "TRACYL": "$MC_TRACYL_ROT_SIGN_IS_PLUS",
 }
+_NOWHERE: Vector = (0.0, 0.0, 0.0)
 _PARALLEL = 1e-6
 _TURNS = 1e-9
 
@@ -85,6 +95,8 @@ class Build:
         bound: Columns of axes that move with the path alone: neither positioned nor oscillating beside it.
         order: Number of its machine data, among those of its kind.
         changes_sides: The infeed axis goes through the pole to its other side (TRANSMIT with MD24911 = 0).
+        in_front: What vectors of machine data add to positions in front of it, X, Y, Z, mm.
+        behind: The same along the machine's axes behind it.
     """
 
     inner: Transformation
@@ -94,6 +106,8 @@ class Build:
     bound: frozenset[int] = frozenset()
     order: int = 1
     changes_sides: bool = False
+    in_front: Vector = _NOWHERE
+    behind: Vector = _NOWHERE
 
 
 def find(channel: SinumerikChannel, kind: str, number: int) -> DataSet:
@@ -146,21 +160,30 @@ def number_of(channel: SinumerikChannel, name: str, index: int, default: float) 
 
 
 def check(channel: SinumerikChannel, found: DataSet) -> None:
-    """Machine data that describe another machine than its file are refused: its geometry is that of the file.
+    """Machine data that describe another machine than its file are refused: its axes are those of the file.
 
     Raises:
-        AlarmError: PC0019 for an offset or a sense of rotation beside the chain of joints, and under TRAORI for
-            the direction or the number of an axis that is not the chain's.
+        AlarmError: PC0019 for an angle or a sense of rotation beside the chain of joints, and under TRAORI for
+            the direction or the number of an axis that is not the chain's, and vectors of joints that it does not have.
     """
     data, n = channel.memory.data, order(channel, found)
     for name in SHIFTS.get(found.kind, ()):
-        if any(data.is_set(f"{name}_{n}", *at) and data.number(f"{name}_{n}", *at) for at in _PLACES):
-            raise _another_machine(f"{name}_{n}")
+        if _has_value(channel, f"{name}_{n}"):
+            raise another_machine(f"{name}_{n}")
     sense = f"{SENSES.get(found.kind)}_{n}"
     if any(data.is_set(sense, *at) and not data.number(sense, *at) for at in _PLACES):
-        raise _another_machine(sense)
+        raise another_machine(sense)
     if found.kind == "TRAORI":
         _check_joints(channel, found)
+        known = {name for chain in _vectors(Kinematics.of(channel.machine)) for name in chain}
+        for name in {PART, JOINT, JOINT_OF_PART, BASE_TOOL} - known:
+            if _has_value(channel, f"{name}_{n}"):
+                raise another_machine(f"{name}_{n}")
+
+
+def _has_value(channel: SinumerikChannel, name: str) -> bool:
+    data = channel.memory.data
+    return any(data.is_set(name, *at) and data.number(name, *at) for at in _PLACES)
 
 
 #: A datum without index, or any of its elements.
@@ -179,16 +202,58 @@ def _check_joints(channel: SinumerikChannel, found: DataSet) -> None:
             continue
         cosine = dot(unit(direction), unit(joints[i].direction)) if i < len(joints) else 0.0
         if (cosine if i < len(kinematics.tool) else abs(cosine)) < 1.0 - _PARALLEL:
-            raise _another_machine(name)
+            raise another_machine(name)
     columns = (*native(channel), *(axes.index(axis) for axis in in_order(kinematics) if axis in axes))
     for i, column in enumerate(columns):
         name = f"$MC_TRAFO_AXES_IN_{found.number or n}"
         if data.is_set(name, i) and data.number(name, i) not in (0.0, column + 1.0):
-            raise _another_machine(name)
+            raise another_machine(name)
 
 
-def _another_machine(name: str) -> AlarmError:
+def another_machine(name: str) -> AlarmError:
+    """PC0019 for a machine datum."""
     return AlarmError("PC0019", text=name)
+
+
+# ---- vectors
+
+
+def placed(channel: SinumerikChannel, kinematics: Kinematics, n: int) -> tuple[Kinematics, Vector]:
+    """The joints with the vectors that machine data give, and what those of the table add to positions in front.
+
+    Vectors of the head count as tool lengths do, from the tip to the machine, those of the table the other way round.
+    Others are as the machine file has them. That leaves positions alone with all axes at zero; given vectors that do
+    not close their chain do not.
+    """
+    of_head, of_table = ([vector(channel, f"{name}_{n}") for name in names] for names in _vectors(kinematics))
+    noses = [None if given is None else times(given, -1.0) for given in of_head]
+    tool = _apart(kinematics.tool, noses[:-1])
+    nose = noses[-1] if noses and noses[-1] is not None else kinematics.nose
+    work = _apart(kinematics.work, of_table[:-1])
+    return replace(kinematics, tool=tool, work=work, nose=nose, to_nose=_sum(noses)), _sum(of_table)
+
+
+def base_tool(channel: SinumerikChannel, kind: str, n: int) -> Vector:
+    """MD24920, MD24820 and MD24710: what a transformation adds to the lengths of every tool, mm."""
+    return vector(channel, f"$MC_{kind}_BASE_TOOL_{n}") or _NOWHERE
+
+
+def _vectors(kinematics: Kinematics) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Names of the vectors of head and table."""
+    return VECTORS.get((len(kinematics.tool), len(kinematics.work)), ((), ()))
+
+
+def _apart(joints: tuple[Joint, ...], given: Sequence[Vector | None]) -> tuple[Joint, ...]:
+    """Joints of a chain with other offsets in front of them, where those are given."""
+    if not given:
+        return joints
+    pairs = zip(joints, given, strict=True)
+    return tuple(joint if offset is None else replace(joint, offset=offset) for joint, offset in pairs)
+
+
+def _sum(vectors: Sequence[Vector | None]) -> Vector:
+    x, y, z = (sum(parts) for parts in zip(_NOWHERE, *filter(None, vectors), strict=True))
+    return (x, y, z)
 
 
 # ---- orientation
@@ -216,12 +281,13 @@ def orientation(
     direction = along or vector(channel, f"$MC_TRAFO5_BASE_ORIENT_{n}")
     if direction is not None and any(direction):
         kinematics = replace(kinematics, along=unit(direction))
+    joints, in_front = placed(channel, kinematics, n)
     zero = [0.0] * len(axes)
     for i, axis in enumerate(in_order(kinematics)):
         offset = number_of(channel, f"$MC_TRAFO5_ROT_AX_OFFSET_{n}", i, 0.0)
         zero[axes.index(axis)] = -(offset + (added[i] if i < len(added) else 0.0))
-    inner = ToolCentrePoint(kinematics, axes, geometry, tuple(zero), (0.0, 0.0, 0.0))
-    return Build(inner, lengths="tip", order=n)
+    inner = ToolCentrePoint(joints, axes, geometry, tuple(zero), (0.0, 0.0, 0.0))
+    return Build(inner, lengths="tip", order=n, in_front=in_front)
 
 
 def in_order(kinematics: Kinematics) -> tuple[str, ...]:
@@ -253,7 +319,8 @@ def polar(channel: SinumerikChannel, found: DataSet, infeed: int = -1) -> Build:
     inner = PolarPlane(
         geometry[0], rotary, (geometry[0], second, geometry[2]), side=fixed or 1.0, virtual=virtual
     )  # fmt: skip
-    return Build(inner, frozenset((rotary,)), order=n, changes_sides=fixed is None)
+    base = base_tool(channel, "TRANSMIT", n)
+    return Build(inner, frozenset((rotary,)), order=n, changes_sides=fixed is None, behind=base)
 
 
 def cylinder(
@@ -269,13 +336,15 @@ def cylinder(
     geometry, rotary = _with_infeed(channel, infeed), _work_axis(channel, found)
     has_y = geometry[1] >= 0
     made = (geometry[0], geometry[1] if has_y else rotary, geometry[2])
+    base = base_tool(channel, "TRACYL", order(channel, found))
     if walls:
         if not has_y:
             raise AlarmError("14401", text="TRACYL")
         groove = GrooveCylinder(rotary, geometry[1], diameter / 2.0 * RADIAN, made)
-        return Build(groove, frozenset((rotary,)), walls=rotary, bound=frozenset((geometry[1],)))
+        bound = frozenset((geometry[1],))
+        return Build(groove, frozenset((rotary,)), walls=rotary, bound=bound, behind=base)
     inner = Cylinder.of_radius(rotary, diameter / 2.0, made, geometry[1] if has_y else -1)
-    return Build(inner, frozenset((rotary,)), bound=frozenset((made[1],)))
+    return Build(inner, frozenset((rotary,)), bound=frozenset((made[1],)), behind=base)
 
 
 def walls_of_machine(channel: SinumerikChannel, found: DataSet) -> float:
@@ -283,7 +352,7 @@ def walls_of_machine(channel: SinumerikChannel, found: DataSet) -> float:
     return number_of(channel, f"$MC_TRACYL_DEFAULT_MODE_{order(channel, found)}", 0, 0.0)
 
 
-def inclined(channel: SinumerikChannel, angle: float) -> Build:
+def inclined(channel: SinumerikChannel, found: DataSet, angle: float) -> Build:
     """TRAANG: an oblique axis and the one that it leans on become two that are square.
 
     Raises:
@@ -294,7 +363,7 @@ def inclined(channel: SinumerikChannel, angle: float) -> Build:
         raise AlarmError("14401", text="TRAANG")
     inner = InclinedAxis(column, geometry[2], angle, (column, geometry[1], geometry[2]))
     used = frozenset((column,)) if geometry[0] != column else frozenset()
-    return Build(inner, used, "before")
+    return Build(inner, used, "before", in_front=base_tool(channel, "TRAANG", order(channel, found)))
 
 
 def angle_of_machine(channel: SinumerikChannel, found: DataSet) -> float:

@@ -21,7 +21,7 @@ from polycnc.control.sinumerik.transformations import data_sets
 from polycnc.control.sinumerik.transformations.data_sets import Build
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY
-from polycnc.geometry.vectors import minus
+from polycnc.geometry.vectors import minus, plus
 from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES
 from polycnc.messages import AlarmError
 from polycnc.transformation.chain import Chain
@@ -260,9 +260,10 @@ def _seated(channel: SinumerikChannel, build: Build, total: NcFrame) -> Seated:
     if build.lengths == "tip":
         inner = _with_tip(inner, (-x, -y, -z))
     elif build.lengths == "before":
-        in_front = (in_front[0] + x, in_front[1] + y, in_front[2] + z)
+        in_front = plus(in_front, lengths)
     else:
         behind = lengths
+    in_front, behind = plus(in_front, build.in_front), plus(behind, build.behind)
     for column, length in zip(inner.geometry, in_front, strict=True):
         if column >= 0:
             shifts[column] += length

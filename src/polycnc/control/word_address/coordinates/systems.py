@@ -159,6 +159,24 @@ def _directed(channel: WordAddressChannel, frame: Frame, shifts: list[float]) ->
     return directed
 
 
+def on_work(channel: WordAddressChannel) -> Frame:
+    """From the display to the system of the work offset: G52, turns of the work, planes.
+
+    In that system, with the table at zero, a program with several planes is one picture. G92 shifts all work systems.
+    """
+    zero, leading = ZeroState.of(channel), tip.TipState.of(channel)
+    frame, offsets = IDENTITY, channel.coordinates.offsets
+    if leading.active is not None and leading.is_leading(channel):
+        frame = frame_on_table(channel, offsets)
+    elif zero.misplaced is not None or not (zero.frame.is_identity and zero.plane.is_identity):
+        frame = plane_on_table(channel, offsets)
+    if not any(zero.local):
+        return frame
+    shift = _directed(channel, zero.turn, zero.local)
+    moved = translation(*(shift[axis] if axis >= 0 else 0.0 for axis in channel.coordinates.geometry))
+    return moved if frame.is_identity else moved @ frame
+
+
 def select_work_offset(channel: MacroChannel, words: Words) -> None:
     """G54 to G59, G54.1 P1 … (also `G54 P1`): the work coordinate system; no motion by itself."""
     state = ZeroState.of(channel)
