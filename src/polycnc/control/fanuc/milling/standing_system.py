@@ -1,9 +1,8 @@
 """19696#5 WKP = 1: words of G43.4 name the tip in the work system, which does not turn with the table.
 
 The end of a block is named as the table has turned at it; the tip goes straight on the table (FANUC 30i, A-79348E, page
-20). So rows hold the tip on the table, as without WKP, and displays show it in the work system. Arcs are those on the
-table; it may turn their plane in itself only. What would take words in another way is PC0001: one-shot codes with axis
-words, G92, G16, chamfers, and a system that is mirrored, scaled or rotated.
+20). So rows hold the tip on the table, as without WKP, and displays show it in the work system (`Coordinates.naming`).
+Arcs, chamfers and roundings are those on the table; it may turn their plane in itself only.
 """
 
 from __future__ import annotations
@@ -20,35 +19,35 @@ from polycnc.control.word_address.coordinates import on_table
 from polycnc.control.word_address.coordinates.on_table import OnTable
 from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.motion import path
-from polycnc.control.word_address.motion.arcs import emit_arc, write_with_rest
+from polycnc.control.word_address.motion.arcs import mirrors_plane, scales, write_with_rest
 from polycnc.control.word_address.transformations import tool_center_point
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.vectors import axis_vector, cross, dot
 from polycnc.machine.kinematics import unit
 from polycnc.toolpath import Kind
+from polycnc.transformation.couplings.coupled import Shown
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.block.codes import Step
-    from polycnc.control.word_address.block.plan import AxisWord, Builder, Plan
+    from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import WordAddressChannel
     from polycnc.toolpath import Context
-    from polycnc.transformation.couplings.coupled import Shown
 
 #: Modal group: "work" while words name the tip in a system that does not turn.
 SYSTEM = "tip_system"
 STRAIGHT, ARCS = {"G0": Kind.RAPID, "G1": Kind.FEED}, ("G2", "G3")
 #: An axis that turns by less (degrees) stands; directions whose sine is smaller are the same.
 NO_TURN_DEG, ALONG = 1e-6, 1e-6
-#: Codes with axis words that name no place of the tip.
-ALLOWED = frozenset(("G4", "G10", "G52", "G65", "G66", "G66.1"))
+#: Codes whose ways are not told in that system: polycnc executes them without it alone.
+NOT_STANDING = frozenset(("G6.2", "G31", "G37", "G45", "G46", "G47", "G48", "G60"))
 
 
 def start_following(channel: WordAddressChannel, words: Words) -> None:
     """G43.4, G43.5 H: words name the tip on the table, by 19696#5 WKP in the work system; PS5459 for G43.5 with that.
 
     Where the table turns, directions begin behind the block of G43.5 (PS5421, as in the control's list of alarms).
-    PC0001 by WKP with an arc in the block and with G54.4.
+    PC0001 by WKP with G54.4.
     """
     directed = channel.mode["length"] == "G43.5" and any(letter in words for letter in "IJK")
     if directed and channel.control.kinematics(channel).work:
@@ -56,9 +55,9 @@ def start_following(channel: WordAddressChannel, words: Words) -> None:
     stands = FanucMillingParameters.naming(channel.setup.parameters).WKP
     if stands and channel.mode["length"] == "G43.5":
         raise words.fail("tip_direction", "G43.5")
-    curved = bool(words.axes()) and channel.mode["motion"] not in STRAIGHT
-    if stands and (OnTable.of(channel).error or curved):
-        raise not_yet("G43.4: 19696#5")
+    if stands and OnTable.of(channel).error:
+        raise not_yet("G54.4: 19696#5")
+    TipState.of(channel).stands = stands
     tool_center_point.start_following(channel, words)
     leaning.begin(channel, words)
     channel.mode = channel.mode.with_code(SYSTEM, "work" if stands else "")
@@ -67,124 +66,83 @@ def start_following(channel: WordAddressChannel, words: Words) -> None:
 
 def end_following(channel: WordAddressChannel) -> None:
     """G49 or another length code: the axes are named themselves again; nothing moves."""
+    TipState.of(channel).stands = False
     tool_center_point.end_following(channel)
     leaning.end(channel)
     channel.mode = channel.mode.with_code(SYSTEM, "")
 
 
-def shown(channel: WordAddressChannel) -> Shown:
-    """From the tip in the work system to its places on the table, and back."""
-    from polycnc.transformation.couplings.coupled import Shown
-
-    state = TipState.of(channel)
-    if state.active is None or state.seated is None:
-        raise ValueError("tip control does not lead")
-    bare = replace(state.active, kinematics=replace(state.active.kinematics, work=()))
-    return Shown(state.seated, bare)
-
-
-def place(channel: WordAddressChannel, position: list[float]) -> list[float]:
-    """A position of the path as words name it."""
-    return shown(channel).to_work(position) if _acts(channel) else position
-
-
-def _acts(channel: WordAddressChannel) -> bool:
-    return channel.mode.codes.get(SYSTEM) == "work" and TipState.of(channel).is_leading(channel)
-
-
 def displayed(channel: WordAddressChannel, context: Context) -> Context:
-    """A context while words name the tip in the work system: displays show it there."""
-    return replace(context, shown_by=shown(channel)) if _acts(channel) else context
+    """A context while words name points of another system than that of the path: displays show them there."""
+    naming = channel.coordinates.naming
+    return context if naming is None else replace(context, shown_by=naming)
 
 
 def _check_block(builder: Builder) -> None:
     if builder.mode["length"] != "G43.4":
         return
     for row in builder.codes:
-        other = row.group == "motion" and row.code not in (*STRAIGHT, *ARCS)
-        if other or row.code == "G92" or (row.axis_words and row.code not in ALLOWED):
+        if row.code in NOT_STANDING:
             raise not_yet(f"{row.code}: 19696#5")
-    if builder.mode["polar"] == "G16":
-        raise not_yet("G16: 19696#5")
 
 
 def _plan(builder: Builder, plan: Plan) -> Step | None:
-    """A block names its end in the work system, as the table has turned there."""
-    motion = builder.mode["motion"]
-    if builder.mode["length"] != "G43.4" or motion not in (*STRAIGHT, *ARCS):
+    """An arc ends in the work system, as the table has turned there."""
+    if builder.mode["length"] != "G43.4" or builder.mode["motion"] not in ARCS:
         return None
-    told = path.read_center(builder) if motion in ARCS else None
-    if told is not None:
-        _refuse_corner(builder)
-        return _arc(builder, plan, told)
-    if not plan.axis_words:
-        return None
-    _refuse_corner(builder)
-    if motion in ARCS:
-        builder.control.plan_arc_without_center(builder, plan)  # refuses where that is no line
-    return _straight(builder, plan)
-
-
-def _refuse_corner(builder: Builder) -> None:
-    if builder.corner() is not None:
-        raise not_yet(",C: 19696#5")
-
-
-def _straight(builder: Builder, plan: Plan) -> Step:
-    words, kind, names_feed = (
-        plan.axis_words,
-        STRAIGHT.get(builder.mode["motion"], Kind.FEED),
-        builder.has("F"),
-    )
-
-    def move(channel: WordAddressChannel, values: list[float]) -> None:
-        feed = channel.feed if kind == Kind.FEED or names_feed else nan
-        if kind == Kind.FEED and not feed > 0.0:
-            raise channel.control.fail("no_feed")
-        channel.straight(kind, _end(channel, words, values), feed)
-
-    return move
-
-
-def _end(channel: WordAddressChannel, words: tuple[AxisWord, ...], values: list[float]) -> list[float]:
-    """The end of a block on the table."""
-    c, seen = channel.coordinates, shown(channel)
-    if not c.direct:
-        raise not_yet("G51.1: 19696#5")
-    end = seen.to_machine(path.target(channel, words, values, seen.to_work(c.position)))
-    c.pending = [0.0] * len(c.pending)
-    c.owes = False
-    return end
+    told = path.read_center(builder)
+    return None if told is None else _arc(builder, plan, told)
 
 
 def _arc(builder: Builder, plan: Plan, told: path.CenterWords) -> Step:
     """An arc on the table: its centre counts from its start, as the table has turned there (B-63944EN/02, page 669)."""
-    words, plane, ccw = plan.axis_words, PLANES[builder.mode["plane"]], builder.mode["motion"] == "G3"
-    u, v, w = plane
+    motion, plane = builder.mode["motion"], PLANES[builder.mode["plane"]]
+    polar, corner = builder.mode.codes.get("polar") == "G16", builder.corner()
 
     def move(channel: WordAddressChannel, values: list[float]) -> None:
         if not channel.feed > 0.0:
             raise channel.control.fail("no_feed")
-        c, seen = channel.coordinates, shown(channel)
-        begin, named = c.position[:], told.tell(values)
-        center = seen.to_work(begin)
-        end = _end(channel, words, values)
-        if not _turns_in_plane(channel, w, begin, end):
-            raise channel.control.fail("tip_company", address=builder.mode["motion"])
-        columns = c.geometry[u], c.geometry[v]
-        if not isinstance(named, float):
+        c, named = channel.coordinates, told.tell(values)
+        goal = (
+            channel.control.polar_target(channel, plan, values)
+            if polar
+            else path.reach(channel, plan.axis_words, values)
+        )
+        columns = [c.geometry[axis] for axis in plane[:2]]
+        end, ccw = c.to_position(goal), (motion == "G3") != mirrors_plane(c.programming, plane)
+        if not _turns_in_plane(channel, plane[2], c.position, end):
+            raise channel.control.fail("tip_company", address=motion)
+        first, last = ((point[columns[0]], point[columns[1]]) for point in (c.position, end))
+        if isinstance(named, float):
+            named *= max(scales(c.programming, plane))
+        else:
+            center = c.programmed[:]
             for column, way in zip(columns, named, strict=True):
                 center[column] += way
-            center = seen.to_machine(center)
-            named = center[columns[0]] - begin[columns[0]], center[columns[1]] - begin[columns[1]]
-        first, last = ((point[columns[0]], point[columns[1]]) for point in (begin, end))
-        found, beside = path.find_center(channel, first, last, named, ccw)
+            center = c.to_position(center)
+            named = center[columns[0]] - first[0], center[columns[1]] - first[1]
+        found, _ = path.find_center(channel, first, last, named, ccw)
+        if corner is not None:
+            corner(channel, values)
         if found is None:
-            channel.straight(Kind.FEED, end, channel.feed)
-        elif beside:
-            write_with_rest(channel, end, found, plane, ccw=ccw, feed=channel.feed, programmed=end)
+            channel.straight(Kind.FEED, end, channel.feed, goal)
         else:
-            emit_arc(channel, end, found, plane, ccw=ccw, feed=channel.feed)
+            write_with_rest(channel, end, found, plane, ccw=ccw, feed=channel.feed, programmed=goal)
+
+    return move
+
+
+def _in_plane(builder: Builder, _plan: Plan, step: Step | None) -> Step | None:
+    """PS5421 for a chamfer or a rounding in a plane that the table turns out of itself."""
+    if step is None or builder.mode["length"] != "G43.4" or builder.corner() is None:
+        return step
+    motion, w = builder.mode["motion"], PLANES[builder.mode["plane"]][2]
+
+    def move(channel: WordAddressChannel, values: list[float]) -> None:
+        begin = channel.coordinates.position
+        step(channel, values)
+        if not _turns_in_plane(channel, w, begin, channel.coordinates.position):
+            raise channel.control.fail("tip_company", address=motion)
 
     return move
 
@@ -203,14 +161,16 @@ def _plan_start(builder: Builder, plan: Plan) -> Step | None:
         feed = channel.feed if kind == Kind.FEED or names_feed else nan
         if kind == Kind.FEED and not feed > 0.0:
             raise channel.control.fail("no_feed")
-        c, led = channel.coordinates, channel.coordinates.transformation
+        c = channel.coordinates
+        led, naming = c.transformation, c.naming
         machine = c.to_machine(c.to_position(path.reach(channel, words, values)))
         channel.flush()
         c.transform(None)
-        with channel.under(replace(channel.context, shown_by=led)):
+        shown = led if not isinstance(naming, Shown) else naming.bare
+        with channel.under(replace(channel.context, shown_by=shown)):
             channel.straight(kind, c.from_machine(machine), feed)
             channel.flush()
-        c.transform(led)
+        c.transform(led, naming=naming)
         standing = channel.control.kinematics(channel).axes
         on_table.begin_posture(channel, told=any(channel.axes[word.axis] in standing for word in words))
         channel.context_changed()
@@ -260,7 +220,9 @@ def _turns_in_plane(channel: WordAddressChannel, w: int, begin: list[float], end
 
 
 #: Words while they name the tip in a system that does not turn.
-RULE = Rule("tip in a system that stands", modes={SYSTEM: ("work",)}, check=_check_block, motion=_plan)
+RULE = Rule(
+    "tip in a system that stands", modes={SYSTEM: ("work",)}, check=_check_block, motion=_plan, wrap=_in_plane
+)
 #: Arcs of the tip.
 ARC_RULE = Rule(
     "arcs under tip control",

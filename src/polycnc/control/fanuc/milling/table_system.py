@@ -23,14 +23,13 @@ from polycnc.control.word_address.tools import spatial
 from polycnc.control.word_address.transformations.tilted_plane import turn_to
 from polycnc.control.word_address.transformations.tool_center_point import TIP_CODES, angles_named
 from polycnc.deferred.records import dataclass
-from polycnc.geometry.frames import translation
+from polycnc.geometry.frames import IDENTITY, translation
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.family import WordAddressChannel
-    from polycnc.toolpath import Context
     from polycnc.transformation.seated import Seated
 
 #: Modal group: "table" while words name points of the table.
@@ -62,6 +61,7 @@ def cancel(channel: WordAddressChannel, words: Words) -> None:
     leading_edge.cancel(channel, words)
     if TableState.of(channel).led is not None:
         TableState.of(channel).led = None
+        channel.coordinates.name(None)
         channel.mode = channel.mode.with_code(SYSTEM, "")
         channel.context_changed()
 
@@ -84,27 +84,28 @@ def _begin(channel: WordAddressChannel, words: Words) -> None:
     channel.context_changed()
 
 
-def place(channel: WordAddressChannel, position: list[float]) -> list[float]:
-    """A position of the path as words name it."""
-    led = TableState.of(channel).led
-    return position if led is None else led.to_work(position)
+def _behind(builder: Builder, _plan: Plan) -> Step | None:
+    """From the block behind the first one on words name points of the table."""
+    if builder.mode["compensation"] not in spatial.SIDES:
+        return None
 
+    def name(channel: WordAddressChannel, _values: list[float]) -> None:
+        led = TableState.of(channel).led
+        if led is not channel.coordinates.naming and led is not None:
+            channel.coordinates.name(led)
+            channel.context_changed()
 
-def displayed(channel: WordAddressChannel, context: Context) -> Context:
-    """A context while words name points of the table: displays show these."""
-    led = TableState.of(channel).led
-    return context if led is None else replace(context, shown_by=led)
+    return name
 
 
 def _plan(builder: Builder, plan: Plan) -> Step | None:
-    """A straight block: its words are the end on the table."""
+    """A straight block whose I J K name the direction of the tool on the table."""
     words, motion = plan.axis_words, builder.mode["motion"]
     side = builder.mode["compensation"]
     letters = [letter for letter in "IJK" if side in spatial.BY_VECTOR and builder.has(letter)]
-    if not (words or letters) or motion not in STRAIGHT or side not in spatial.SIDES:
+    if not letters or motion not in STRAIGHT:
         return None
-    if letters:
-        five_axes.refuse_two_directions(builder, plan)
+    five_axes.refuse_two_directions(builder, plan)
     builder.take(*letters)
     kind, names_feed = STRAIGHT[motion], builder.has("F")
 
@@ -113,15 +114,11 @@ def _plan(builder: Builder, plan: Plan) -> Step | None:
         feed = channel.feed if kind == Kind.FEED or names_feed else nan
         if kind == Kind.FEED and not feed > 0.0:
             raise channel.control.fail("no_feed")
-        if led is None or not c.direct:
+        if led is None or not (c.programming is IDENTITY and c.shift is None):
             raise not_yet("G51.1: 19746#4")
-        point = path.target(channel, words, values, led.to_work(c.position))
-        if letters:
-            _turn(channel, led, Words(plan, values), point)
-        end = led.to_machine(point)
-        c.pending = [0.0] * len(c.pending)
-        c.owes = False
-        channel.straight(kind, end, feed)
+        point = path.reach(channel, words, values)
+        _turn(channel, led, Words(plan, values), point)
+        channel.straight(kind, c.to_position(point), feed, point)
 
     return move
 
@@ -158,3 +155,5 @@ def _before(builder: Builder, plan: Plan) -> Step | None:
 SAME_MM = 1e-6
 #: Words while they name points of the table.
 RULE = Rule("points of the table", modes={SYSTEM: ("table",)}, before=_before, motion=_plan)
+#: Blocks in which the compensation begins.
+START_RULE = Rule("block in which points of the table begin", codes=tuple(spatial.SIDES), after=_behind)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.fanuc.milling import standing_system, table_system
 from polycnc.control.fanuc.system_variables import (
     COMMON_VARIABLES,
     axis_at,
@@ -24,7 +23,6 @@ from polycnc.control.word_address.tools.radius import RadiusState, tool_position
 from polycnc.control.word_address.transformations import cylinder
 
 if TYPE_CHECKING:
-    from polycnc.control.word_address.family import MacroChannel
     from polycnc.control.word_address.macro_b.variables import MacroMemory
 
 # ---- tool offsets ------------------------------------------------------------
@@ -203,15 +201,10 @@ def _shown(m: MacroMemory, axis: int, value: float) -> float:
     return m.to_program_unit(value)
 
 
-def _named(channel: MacroChannel, position: list[float]) -> list[float]:
-    """A position of the path as words name it."""
-    return table_system.place(channel, standing_system.place(channel, position))
-
-
 def _end_point(m: MacroMemory, i: int) -> float:
     """Work coordinates of the block end, as programmed."""
     axis = axis_at(m, i)
-    return _shown(m, axis, _named(m.channel, m.channel.coordinates.position)[axis])
+    return _shown(m, axis, m.channel.coordinates.named(m.channel.coordinates.position)[axis])
 
 
 def _machine(m: MacroMemory, i: int) -> float:
@@ -224,7 +217,7 @@ def _machine(m: MacroMemory, i: int) -> float:
 def _work_with_length(m: MacroMemory, i: int) -> float:
     """Work position now: machine position less work zero, the tool length not taken off."""
     axis = axis_at(m, i)
-    place = _named(m.channel, tool_position(m.channel))
+    place = m.channel.coordinates.named(tool_position(m.channel))
     return _shown(m, axis, place[axis] + ZeroState.of(m.channel).length[axis])
 
 

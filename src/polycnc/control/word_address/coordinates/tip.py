@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.family import WordAddressChannel
     from polycnc.geometry.frames import Vector
     from polycnc.transformation.contract import Transformation
+    from polycnc.transformation.couplings.coupled import Shown
     from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
 
 
@@ -29,11 +30,13 @@ class TipState(State, lifetime=Lifetime.RESET):
         seated: It with that.
         begun: How the table had turned when tip control began, machine coordinates: there the system that it takes
             along is the work system.
+        stands: Words name the tip in the work system, which does not turn; positions of the path lie on the table.
     """
 
     active: ToolCentrePoint | None = None
     seated: Transformation | None = None
     begun: Frame = IDENTITY
+    stands: bool = False
 
     def is_leading(self, channel: WordAddressChannel) -> bool:
         """Whether words name the tip now."""
@@ -58,7 +61,17 @@ def lead(channel: WordAddressChannel, active: ToolCentrePoint, frame: Frame, off
     state = TipState.of(channel)
     state.active = replace(active, zero=tuple(offsets))
     state.seated = state.active if frame.is_identity else Seated(state.active, frame)
-    channel.coordinates.transform(state.seated, None, (IDENTITY, offsets))
+    channel.coordinates.transform(state.seated, None, (IDENTITY, offsets), standing(channel))
+
+
+def standing(channel: WordAddressChannel) -> Shown | None:
+    """From the tip in a work system that does not turn to its places on the table; None where words name these."""
+    from polycnc.transformation.couplings.coupled import Shown
+
+    state = TipState.of(channel)
+    if not state.stands or state.active is None or state.seated is None:
+        return None
+    return Shown(state.seated, replace(state.active, kinematics=replace(state.active.kinematics, work=())))
 
 
 def direction(channel: WordAddressChannel, named: Vector) -> Vector:
