@@ -25,7 +25,6 @@ from polycnc.geometry.planes import PLANES
 from polycnc.geometry.vectors import axis_vector, cross, dot
 from polycnc.machine.kinematics import unit
 from polycnc.toolpath import Kind
-from polycnc.transformation.couplings.coupled import Shown
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.block.codes import Step
@@ -158,6 +157,8 @@ def _plan_start(builder: Builder, plan: Plan) -> Step | None:
     kind, names_feed = STRAIGHT[motion], builder.has("F")
 
     def move(channel: WordAddressChannel, values: list[float]) -> None:
+        from polycnc.transformation.couplings.coupled import Shown
+
         feed = channel.feed if kind == Kind.FEED or names_feed else nan
         if kind == Kind.FEED and not feed > 0.0:
             raise channel.control.fail("no_feed")
