@@ -149,34 +149,46 @@ def _in_plane(builder: Builder, _plan: Plan, step: Step | None) -> Step | None:
 def _plan_start(builder: Builder, plan: Plan) -> Step | None:
     """The block in which tip control begins: the axes go straight to where its words are (B-63944EN/02, page 656)."""
     motion, words = builder.mode["motion"], plan.axis_words
-    begins = motion in STRAIGHT and builder.before["length"] not in tool_center_point.TIP_CODES
-    if not words or not begins or any(builder.has(letter) for letter in "IJK"):
+    if motion not in STRAIGHT or builder.before["length"] in tool_center_point.TIP_CODES:
         return None
-    if builder.mode["polar"] == "G16" or builder.corner() is not None:
+    if builder.mode["length"] == "G43.5":
+        directed = tool_center_point.plan_with_direction(
+            builder, plan, leaning.leaned if builder.has("Q") else None, _straight_by_axes
+        )
+        if directed is not None:
+            return directed
+    if not words or builder.mode["polar"] == "G16" or builder.corner() is not None:
         return None
     kind, names_feed = STRAIGHT[motion], builder.has("F")
 
     def move(channel: WordAddressChannel, values: list[float]) -> None:
-        from polycnc.transformation.couplings.coupled import Shown
-
         feed = channel.feed if kind == Kind.FEED or names_feed else nan
         if kind == Kind.FEED and not feed > 0.0:
             raise channel.control.fail("no_feed")
-        c = channel.coordinates
-        led, naming = c.transformation, c.naming
-        machine = c.to_machine(c.to_position(path.reach(channel, words, values)))
-        channel.flush()
-        c.transform(None)
-        shown = led if not isinstance(naming, Shown) else naming.bare
-        with channel.under(replace(channel.context, shown_by=shown)):
-            channel.straight(kind, c.from_machine(machine), feed)
-            channel.flush()
-        c.transform(led, naming=naming)
+        programmed = path.reach(channel, words, values)
+        _straight_by_axes(channel, kind, channel.coordinates.to_position(programmed), feed, programmed)
         standing = channel.control.kinematics(channel).axes
         on_table.begin_posture(channel, told=any(channel.axes[word.axis] in standing for word in words))
-        channel.context_changed()
 
     return move
+
+
+def _straight_by_axes(
+    channel: WordAddressChannel, kind: Kind, end: list[float], feed: float, _programmed: list[float]
+) -> None:
+    """Straight in the axes to where tip control will have the tip; displays show this already."""
+    from polycnc.transformation.couplings.coupled import Shown
+
+    c = channel.coordinates
+    led, naming, machine = c.transformation, c.naming, c.to_machine(end)
+    channel.flush()
+    c.transform(None)
+    shown = naming.bare if isinstance(naming, Shown) else led
+    with channel.under(replace(channel.context, shown_by=shown)):
+        channel.straight(kind, c.from_machine(machine), feed)
+        channel.flush()
+    c.transform(led, naming=naming)
+    channel.context_changed()
 
 
 def _refuse_standing_arc(builder: Builder, plan: Plan) -> Step | None:

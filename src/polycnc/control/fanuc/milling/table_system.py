@@ -23,7 +23,7 @@ from polycnc.control.word_address.tools import spatial
 from polycnc.control.word_address.transformations.tilted_plane import turn_to
 from polycnc.control.word_address.transformations.tool_center_point import TIP_CODES, angles_named
 from polycnc.deferred.records import dataclass
-from polycnc.geometry.frames import IDENTITY, translation
+from polycnc.geometry.frames import translation
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
@@ -114,10 +114,9 @@ def _plan(builder: Builder, plan: Plan) -> Step | None:
         feed = channel.feed if kind == Kind.FEED or names_feed else nan
         if kind == Kind.FEED and not feed > 0.0:
             raise channel.control.fail("no_feed")
-        if led is None or not (c.programming is IDENTITY and c.shift is None):
-            raise not_yet("G51.1: 19746#4")
         point = path.reach(channel, words, values)
-        _turn(channel, led, Words(plan, values), point)
+        if led is not None:
+            _turn(channel, led, Words(plan, values), point)
         channel.straight(kind, c.to_position(point), feed, point)
 
     return move
@@ -125,7 +124,8 @@ def _plan(builder: Builder, plan: Plan) -> Step | None:
 
 def _turn(channel: WordAddressChannel, led: Seated, words: Words, point: list[float]) -> None:
     """Let the rotary axes of a point of the table stand the tool along I J K there."""
-    x, y, z = (words.typed(letter) or 0.0 for letter in "IJK")
+    i, j, k = (words.typed(letter) or 0.0 for letter in "IJK")
+    x, y, z = channel.coordinates.programming.direct(i, j, k)
     if not (x or y or z) or not turn_to(channel, led.frame.direct(x, y, z), _here(channel), point):
         raise words.fail("tip_direction", "I")
 

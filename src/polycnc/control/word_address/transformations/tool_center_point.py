@@ -37,6 +37,8 @@ if TYPE_CHECKING:
     from polycnc.geometry.frames import Frame, Vector
 
     Leaning = Callable[[WordAddressChannel, Vector, list[float]], Vector]
+    #: A straight move to a position, at a feed, that is programmed so.
+    Going = Callable[[WordAddressChannel, Kind, list[float], float, list[float]], None]
 
 
 def start_following(channel: WordAddressChannel, words: Words) -> None:
@@ -127,10 +129,13 @@ def plan_with_tip(builder: Builder, plan: Plan) -> Step | None:
     return plan_with_direction(builder, plan) if builder.mode["length"] == "G43.5" else None
 
 
-def plan_with_direction(builder: Builder, plan: Plan, leaning: Leaning | None = None) -> Step | None:
+def plan_with_direction(
+    builder: Builder, plan: Plan, leaning: Leaning | None = None, going: Going | None = None
+) -> Step | None:
     """A straight block with I J K for the direction of the tool on the work; None without them.
 
-    `leaning` gives another direction for that, by the end of the block.
+    What turns and mirrors points does so with it (three-dimensional conversion: 15i, B-63324EN, 14.16; SYNTEC 2.29.1).
+    `leaning` gives another direction for that, by the end of the block, to which `going` moves otherwise than the path.
     """
     if builder.mode["motion"] not in ("G0", "G1"):
         return None
@@ -154,7 +159,9 @@ def plan_with_direction(builder: Builder, plan: Plan, leaning: Leaning | None = 
         c = channel.coordinates
         end = c.to_position(programmed)
         x, y, z = (words.typed(letter) or 0.0 for letter in "IJK")
-        vector = (x, y, z) if leaning is None else leaning(channel, (x, y, z), end)
+        vector = c.programming.direct(x, y, z)
+        if leaning is not None:
+            vector = leaning(channel, vector, end)
         turned = _stood(channel, vector, end) or _turned(channel, vector)
         if not turned:
             raise words.fail("tip_direction", letters[0])
@@ -162,10 +169,14 @@ def plan_with_direction(builder: Builder, plan: Plan, leaning: Leaning | None = 
             end[axis] = programmed[axis] = angle
             c.pending[axis] = 0.0
         feed = nan if rapid else channel.control.feed_to(channel, end)
-        channel.straight(Kind.RAPID if rapid else Kind.FEED, end, feed, programmed)
+        kind = Kind.RAPID if rapid else Kind.FEED
+        if going is None:
+            channel.straight(kind, end, feed, programmed)
+        else:
+            going(channel, kind, end, feed, programmed)
 
     told = targets_as_data(plan.axis_words)
-    if told is None or polar or leaning is not None:
+    if told is None or polar or leaning is not None or going is not None:
         return move
     i, j, k = (-1 if place is None else place for place in places)
     return declare(move, Straight(rapid, told, absolute=absolute, direction=(i, j, k)))
@@ -174,12 +185,13 @@ def plan_with_direction(builder: Builder, plan: Plan, leaning: Leaning | None = 
 def record_of(channel: WordAddressChannel) -> Sequence[float]:
     """What the kernel must know that stands the tool along a direction, for scanner and interpreter alike.
 
-    It knows of one turn of each axis only, so it decides nothing where the control bounds them.
+    It knows of one turn of each axis only, so it decides nothing where the control bounds them, nor where directions
+    are turned or mirrored.
     """
     from polycnc.transformation.orientation.stood import stand_record
 
     state = tip.TipState.of(channel)
-    bounded = bool(channel.control.rotary_ranges(channel))
+    bounded = bool(channel.control.rotary_ranges(channel)) or channel.coordinates.programming is not IDENTITY
     return stand_record(None if bounded else state.active, frame=state.frame)
 
 
