@@ -165,19 +165,13 @@ def _go(
     channel.straight(kind, c.to_position(goal), feed, goal)
 
 
-def _over_hole(builder: Builder, plan: Plan, step: Step) -> Step:
-    """A block of a drilling cycle with an axis of the table: over the hole it has turned, then the cycle drills."""
-    over = tuple(word for word in plan.axis_words if word.axis != drilling.drilling_axis(builder))
-    counted = any(word.incremental for word in over) or builder.has("K") or builder.has("L")
-    if counted or builder.mode.codes.get("polar") == "G16" or builder.mode["compensation"] != "G40":
-        raise _not_yet(f"{builder.mode[FIXTURE] or builder.mode[ERROR]}: {builder.mode['cycle']}")
-
-    def drill(channel: MillingChannel, values: list[float]) -> None:
-        before = channel.coordinates.programmed
-        _go(channel, (Kind.RAPID, nan), over, before, reach(channel, over, values))
-        step(channel, values)
-
-    return drill
+def go_over_hole(channel: MillingChannel, words: Sequence[AxisWord], end: list[float]) -> None:
+    """Rapid over a hole; where axes of the table turn on the way, as the work zero lies when they have."""
+    named = on_table.table_axes(channel) if OnTable.of(channel).acts else ()
+    if any(channel.axes[word.axis] in named for word in words):
+        _go(channel, (Kind.RAPID, nan), words, channel.coordinates.programmed, end)
+    else:
+        drilling.rapid_over(channel, words, end)
 
 
 def _behind(builder: Builder, plan: Plan) -> Step | None:
@@ -241,10 +235,14 @@ def _reach_posed(
 
 
 def _wrap(builder: Builder, plan: Plan, step: Step | None) -> Step | None:
-    """A cycle with an axis of the table."""
-    if step is not None and builder.mode["cycle"] != "G80" and _turning(builder, plan):
-        return _over_hole(builder, plan, step)
-    return step
+    """A cycle with an axis of the table tells the scanner nothing."""
+    if step is None or builder.mode["cycle"] == "G80" or not _turning(builder, plan):
+        return step
+
+    def drill(channel: MillingChannel, values: list[float]) -> None:
+        step(channel, values)
+
+    return drill
 
 
 #: What turns of the table do to the work zero.
