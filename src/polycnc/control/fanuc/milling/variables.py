@@ -23,6 +23,7 @@ from polycnc.control.word_address.tools.radius import RadiusState, tool_position
 from polycnc.control.word_address.transformations import cylinder
 
 if TYPE_CHECKING:
+    from polycnc.control.word_address.family import MacroChannel
     from polycnc.control.word_address.macro_b.variables import MacroMemory
 
 # ---- tool offsets ------------------------------------------------------------
@@ -214,22 +215,33 @@ def _machine(m: MacroMemory, i: int) -> float:
     return machine if channel.axis_data[axis].rotary else m.to_program_unit(machine)
 
 
+def _lengths(channel: MacroChannel) -> list[float]:
+    """The tool length along every axis, on a tilted plane along those of the plane."""
+    c, lengths = channel.coordinates, list(ZeroState.of(channel).length)
+    if not c.zero.is_identity:
+        x, y, z = (lengths[axis] if axis >= 0 else 0.0 for axis in c.geometry)
+        for axis, part in zip(c.geometry, c.zero.inverse().direct(x, y, z), strict=True):
+            if axis >= 0:
+                lengths[axis] = part
+    return lengths
+
+
 def _work_with_length(m: MacroMemory, i: int) -> float:
     """Work position now: machine position less work zero, the tool length not taken off."""
     axis = axis_at(m, i)
     place = m.channel.coordinates.named(tool_position(m.channel))
-    return _shown(m, axis, place[axis] + ZeroState.of(m.channel).length[axis])
+    return _shown(m, axis, place[axis] + _lengths(m.channel)[axis])
 
 
 def _skip(m: MacroMemory, i: int) -> float:
     """Where the last G31 ended; as the work position, with the tool length in it."""
     axis = axis_at(m, i)
     position = LastSkip.here(m.channel)
-    return m.to_program_unit(position[axis] + ZeroState.of(m.channel).length[axis])
+    return m.to_program_unit(position[axis] + _lengths(m.channel)[axis])
 
 
 def _length(m: MacroMemory, i: int) -> float:
-    return m.to_program_unit(ZeroState.of(m.channel).length[axis_at(m, i)])
+    return m.to_program_unit(_lengths(m.channel)[axis_at(m, i)])
 
 
 MILLING_VARIABLES = Registry(
