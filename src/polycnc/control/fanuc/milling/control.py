@@ -73,6 +73,7 @@ class FanucMilling(MillingControl):
         table_system.START_RULE,
         five_axes.VECTOR_RULE,
         leading_edge.RULE,
+        standing_system.LENGTH_RULE,
         standing_system.START_RULE,
         standing_system.ARC_RULE,
         standing_system.RULE,

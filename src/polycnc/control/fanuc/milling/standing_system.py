@@ -77,6 +77,19 @@ def displayed(channel: WordAddressChannel, context: Context) -> Context:
     return context if naming is None else replace(context, shown_by=naming)
 
 
+def _check_lengths(builder: Builder) -> None:
+    """PS5421 for G43.4 within G43.5 and the other way round, PS5452 for tip control within G43, G44 and so on.
+
+    General knowledge of FANUC 30i (its lists of these alarms).
+    """
+    before, after = builder.before["length"], builder.mode["length"]
+    led = [code in tool_center_point.TIP_CODES for code in (before, after)]
+    if all(led) and before != after:
+        raise builder.control.fail("tip_company", address=after)
+    if any(led) and not all(led) and "G49" not in (before, after):
+        raise builder.control.fail("five_axis_mode", address=after)
+
+
 def _check_block(builder: Builder) -> None:
     if builder.mode["length"] != "G43.4":
         return
@@ -244,3 +257,9 @@ ARC_RULE = Rule(
 )
 #: Straight blocks in which tip control begins.
 START_RULE = Rule("block in which tip control begins", codes=tool_center_point.TIP_CODES, motion=_plan_start)
+#: One kind of length compensation in another.
+LENGTH_RULE = Rule(
+    "kinds of length compensation",
+    codes=("G43", "G44", *tool_center_point.TIP_CODES),
+    check=_check_lengths,
+)
