@@ -6,7 +6,7 @@ from math import asin, atan2, degrees
 from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass
-from polycnc.geometry.frames import Frame, translation
+from polycnc.geometry.frames import IDENTITY, Frame, translation
 from polycnc.transformation.planes.tilted import by_fixed_axes
 
 if TYPE_CHECKING:
@@ -26,6 +26,11 @@ class Misplaced:
 
     errors: tuple[tuple[Frame, Frame], ...]
     turn: Frame
+
+    @property
+    def turns(self) -> bool:
+        """Whether it lies turned, not shifted alone."""
+        return any(error.m != IDENTITY.m for error, _ in self.errors)
 
     def on_table(self, zero: Vector) -> Frame:
         """The error seen from the work zero (machine coordinates, mm) with the table at zero: it goes along with it."""

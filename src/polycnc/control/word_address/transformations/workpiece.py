@@ -9,10 +9,11 @@ from __future__ import annotations
 from math import nan
 from typing import TYPE_CHECKING
 
+from polycnc.control.word_address.block.codes import Order
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.coordinates import on_table
 from polycnc.control.word_address.coordinates.on_table import OnTable
-from polycnc.control.word_address.coordinates.systems import plane_on_table
+from polycnc.control.word_address.coordinates.systems import ZeroState, plane_on_table
 from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.cycles import drilling
 from polycnc.control.word_address.motion import path
@@ -23,6 +24,7 @@ from polycnc.control.word_address.transformations.tilted_plane import (
     check_compensation,
     turn_to,
 )
+from polycnc.control.word_address.transformations.tool_center_point import TIP_CODES
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
@@ -40,6 +42,7 @@ FIXTURE, ERROR = "fixture", "workpiece_error"
 FIXTURE_DATA = 21
 STRAIGHT = {"G0": Kind.RAPID, "G1": Kind.FEED}
 ARCS = ("G2", "G3")
+PLANES_OF_WORK = ("G68.2", "G68.3", "G68.4")
 
 
 def offset_fixture(channel: MillingChannel, words: Words) -> None:
@@ -63,8 +66,6 @@ def correct_workpiece(channel: MillingChannel, words: Words) -> None:
     number = _number(channel, words, "G54.4", on_table.ERRORS)
     if number and OnTable.of(channel).fixture:
         raise words.fail("improper_g", "G54.4")
-    if number and channel.control.turns_tool_with_work(channel):
-        raise _not_yet("G54.4: 11200#0")
     OnTable.of(channel).error = number
     channel.mode = channel.mode.with_code(ERROR, "G54.4" if number else "")
     on_table.follow(channel)
@@ -181,6 +182,26 @@ def _behind(builder: Builder, plan: Plan) -> Step | None:
     return lambda channel, _values: on_table.follow(channel)
 
 
+def _refuse_turned_tool(builder: Builder, plan: Plan) -> Step | None:
+    """PC0001 for a way by 11200#0 RCM = 1 that the tool's direction, or the way on the table, would lead otherwise.
+
+    Tip control and tilted planes turn the tool by themselves, whatever the parameter says.
+    """
+    led = builder.mode["length"] in TIP_CODES or builder.mode["rotation"] in PLANES_OF_WORK
+    one_shot = [row for row in builder.codes if row.axis_words]
+    moves = not one_shot or any(row.order is Order.MOTION for row in one_shot)
+    if led or not (plan.axis_words and moves and builder.control.turns_tool_with_work(builder.channel)):
+        return None
+    turns = bool(_turning(builder, plan))
+
+    def check(channel: WordAddressChannel, _values: list[float]) -> None:
+        misplaced = ZeroState.of(channel).misplaced
+        if misplaced is not None and (turns or misplaced.turns):
+            raise _not_yet("G54.4: 11200#0")
+
+    return check
+
+
 # ---- the tool's direction under tip control ----------------------------------------------------------------
 
 
@@ -249,6 +270,7 @@ def _wrap(builder: Builder, plan: Plan, step: Step | None) -> Step | None:
 RULE = Rule(
     "work zero on a rotary table",
     modes={FIXTURE: ("G54.2",), ERROR: ("G54.4",)},
+    before=_refuse_turned_tool,
     motion=_plan,
     wrap=_wrap,
     after=_behind,
