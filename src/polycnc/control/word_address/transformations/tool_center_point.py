@@ -147,6 +147,7 @@ def plan_with_direction(
     places = tuple(builder.slot(letter) if letter in letters else None for letter in "IJK")
     absolute = not any(word.incremental for word in plan.axis_words)
     polar = builder.mode.codes.get("polar") == "G16"
+    alike = len({builder.slots[letter][1] == "" for letter in letters}) == 1  # so the ratio is that of typed numbers
 
     def move(channel: WordAddressChannel, values: list[float]) -> None:
         words = Words(plan, values)
@@ -158,7 +159,7 @@ def plan_with_direction(
             programmed = reach(channel, plan.axis_words, values)
         c = channel.coordinates
         end = c.to_position(programmed)
-        x, y, z = (words.typed(letter) or 0.0 for letter in "IJK")
+        x, y, z = ((words.typed(letter) if alike else words.part(letter)) or 0.0 for letter in "IJK")
         vector = c.programming.direct(x, y, z)
         if leaning is not None:
             vector = leaning(channel, vector, end)
@@ -176,7 +177,7 @@ def plan_with_direction(
             going(channel, kind, end, feed, programmed)
 
     told = targets_as_data(plan.axis_words)
-    if told is None or polar or leaning is not None or going is not None:
+    if told is None or polar or leaning is not None or going is not None or not alike:
         return move
     i, j, k = (-1 if place is None else place for place in places)
     return declare(move, Straight(rapid, told, absolute=absolute, direction=(i, j, k)))
