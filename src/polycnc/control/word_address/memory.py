@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import field, replace
+from math import copysign
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.channel.states.state import Lifetime, State, retained
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.family import WordAddressChannel
+    from polycnc.geometry.frames import Vector
     from polycnc.machine.setup.values import ParameterKey, Tool, Value
 
 #: Name of the offset that is added to every work coordinate system.
@@ -106,6 +108,11 @@ class ProgrammingFrames(State, lifetime=Lifetime.RESET):
         """The whole frame."""
         frame = self.rotation @ self.mirror @ self.scale
         return IDENTITY if frame.is_identity else frame
+
+    def direction(self, x: float, y: float, z: float) -> Vector:
+        """A direction as the frame turns and mirrors it; factors leave it, but that those below zero mirror."""
+        signed = [part * copysign(1.0, self.scale.m[i][i]) for i, part in enumerate((x, y, z))]
+        return (self.rotation @ self.mirror).direct(signed[0], signed[1], signed[2])
 
 
 @dataclass(slots=True)

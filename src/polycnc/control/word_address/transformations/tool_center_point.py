@@ -147,7 +147,9 @@ def plan_with_direction(
     places = tuple(builder.slot(letter) if letter in letters else None for letter in "IJK")
     absolute = not any(word.incremental for word in plan.axis_words)
     polar = builder.mode.codes.get("polar") == "G16"
-    alike = len({builder.slots[letter][1] == "" for letter in letters}) == 1  # so the ratio is that of typed numbers
+    alike = (
+        len({builder.slots[letter][1] == "" for letter in letters}) == 1
+    )  # so the ratio is that of typed numbers
 
     def move(channel: WordAddressChannel, values: list[float]) -> None:
         words = Words(plan, values)
@@ -160,7 +162,7 @@ def plan_with_direction(
         c = channel.coordinates
         end = c.to_position(programmed)
         x, y, z = ((words.typed(letter) if alike else words.part(letter)) or 0.0 for letter in "IJK")
-        vector = c.programming.direct(x, y, z)
+        vector = channel.memory.frames.direction(x, y, z)
         if leaning is not None:
             vector = leaning(channel, vector, end)
         turned = _stood(channel, vector, end) or _turned(channel, vector)
