@@ -17,7 +17,6 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.family import WordAddressChannel
-    from polycnc.geometry.frames import Vector
     from polycnc.machine.setup.values import ParameterKey, Tool, Value
 
 #: Name of the offset that is added to every work coordinate system.
@@ -109,10 +108,13 @@ class ProgrammingFrames(State, lifetime=Lifetime.RESET):
         frame = self.rotation @ self.mirror @ self.scale
         return IDENTITY if frame.is_identity else frame
 
-    def direction(self, x: float, y: float, z: float) -> Vector:
-        """A direction as the frame turns and mirrors it; factors leave it, but that those below zero mirror."""
-        signed = [part * copysign(1.0, self.scale.m[i][i]) for i, part in enumerate((x, y, z))]
-        return (self.rotation @ self.mirror).direct(signed[0], signed[1], signed[2])
+    @property
+    def directions(self) -> Frame:
+        """How directions are turned and mirrored; factors leave them, but that those below zero mirror."""
+        if self.product() is IDENTITY:
+            return IDENTITY
+        x, y, z = (copysign(1.0, self.scale.m[i][i]) for i in range(3))
+        return self.rotation @ self.mirror @ Frame(((x, 0.0, 0.0), (0.0, y, 0.0), (0.0, 0.0, z)))
 
 
 @dataclass(slots=True)

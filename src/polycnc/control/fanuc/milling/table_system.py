@@ -125,7 +125,7 @@ def _plan(builder: Builder, plan: Plan) -> Step | None:
 def _turn(channel: WordAddressChannel, led: Seated, words: Words, point: list[float]) -> None:
     """Let the rotary axes of a point of the table stand the tool along I J K there."""
     i, j, k = (words.part(letter) or 0.0 for letter in "IJK")
-    x, y, z = channel.memory.frames.direction(i, j, k)
+    x, y, z = channel.memory.frames.directions.direct(i, j, k)
     if not (x or y or z) or not turn_to(channel, led.frame.direct(x, y, z), _here(channel), point):
         raise words.fail("tip_direction", "I")
 

@@ -147,9 +147,8 @@ def plan_with_direction(
     places = tuple(builder.slot(letter) if letter in letters else None for letter in "IJK")
     absolute = not any(word.incremental for word in plan.axis_words)
     polar = builder.mode.codes.get("polar") == "G16"
-    alike = (
-        len({builder.slots[letter][1] == "" for letter in letters}) == 1
-    )  # so the ratio is that of typed numbers
+    # Written alike, their ratio is that of the typed numbers.
+    alike = len({builder.slots[letter][1] == "" for letter in letters}) == 1
 
     def move(channel: WordAddressChannel, values: list[float]) -> None:
         words = Words(plan, values)
@@ -162,10 +161,12 @@ def plan_with_direction(
         c = channel.coordinates
         end = c.to_position(programmed)
         x, y, z = ((words.typed(letter) if alike else words.part(letter)) or 0.0 for letter in "IJK")
-        vector = channel.memory.frames.direction(x, y, z)
-        if leaning is not None:
+        vector, turned = channel.memory.frames.directions.direct(x, y, z), None
+        if leaning is None:
+            turned = _stood(channel, (x, y, z), end)
+        else:
             vector = leaning(channel, vector, end)
-        turned = _stood(channel, vector, end) or _turned(channel, vector)
+        turned = turned or _turned(channel, vector)
         if not turned:
             raise words.fail("tip_direction", letters[0])
         for axis, angle in turned.items():
@@ -188,14 +189,14 @@ def plan_with_direction(
 def record_of(channel: WordAddressChannel) -> Sequence[float]:
     """What the kernel must know that stands the tool along a direction, for scanner and interpreter alike.
 
-    It knows of one turn of each axis only, so it decides nothing where the control bounds them, nor where directions
-    are turned or mirrored.
+    It knows of one turn of each axis only, so it decides nothing where the control bounds them.
     """
     from polycnc.transformation.orientation.stood import stand_record
 
     state = tip.TipState.of(channel)
-    bounded = bool(channel.control.rotary_ranges(channel)) or channel.coordinates.programming is not IDENTITY
-    return stand_record(None if bounded else state.active, frame=state.frame)
+    bounded = bool(channel.control.rotary_ranges(channel))
+    frame = state.frame @ channel.memory.frames.directions
+    return stand_record(None if bounded else state.active, frame=frame)
 
 
 def _stood(channel: WordAddressChannel, vector: Vector, end: list[float]) -> dict[int, float]:

@@ -25,6 +25,7 @@ from polycnc.control.word_address.transformations.tilted_plane import (
     turn_to,
 )
 from polycnc.control.word_address.transformations.tool_center_point import TIP_CODES
+from polycnc.language.bulk import Idle, declare
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
@@ -190,16 +191,21 @@ def _refuse_turned_tool(builder: Builder, plan: Plan) -> Step | None:
     led = builder.mode["length"] in TIP_CODES or builder.mode["rotation"] in PLANES_OF_WORK
     one_shot = [row for row in builder.codes if row.axis_words]
     moves = not one_shot or any(row.order is Order.MOTION for row in one_shot)
-    if led or not (plan.axis_words and moves and builder.control.turns_tool_with_work(builder.channel)):
+    if led or not (plan.axis_words and moves):
         return None
     turns = bool(_turning(builder, plan))
 
-    def check(channel: WordAddressChannel, _values: list[float]) -> None:
+    def check(channel: MillingChannel, _values: list[float]) -> None:
         misplaced = ZeroState.of(channel).misplaced
-        if misplaced is not None and (turns or misplaced.turns):
+        beside = misplaced is not None and (turns or misplaced.turns)
+        if beside and not _keeps_tool(channel):
             raise _not_yet("G54.4: 11200#0")
 
-    return check
+    return declare(check, Idle(_keeps_tool))
+
+
+def _keeps_tool(channel: MillingChannel) -> bool:
+    return not channel.control.turns_tool_with_work(channel)
 
 
 # ---- the tool's direction under tip control ----------------------------------------------------------------
