@@ -16,11 +16,10 @@ from polycnc.control.fanuc.milling.five_axes import not_yet
 from polycnc.control.fanuc.milling.parameters import FanucMillingParameters
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.coordinates import on_table
-from polycnc.control.word_address.coordinates.on_table import OnTable
 from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.motion import path
 from polycnc.control.word_address.motion.arcs import mirrors_plane, scales, write_with_rest
-from polycnc.control.word_address.transformations import tool_center_point
+from polycnc.control.word_address.transformations import tool_center_point, workpiece
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.vectors import axis_vector, cross, dot
 from polycnc.machine.kinematics import unit
@@ -46,7 +45,6 @@ def start_following(channel: WordAddressChannel, words: Words) -> None:
     """G43.4, G43.5 H: words name the tip on the table, by 19696#5 WKP in the work system; PS5459 for G43.5 with that.
 
     Where the table turns, directions begin behind the block of G43.5 (PS5421, as in the control's list of alarms).
-    PC0001 by WKP with G54.4.
     """
     directed = channel.mode["length"] == "G43.5" and any(letter in words for letter in "IJK")
     if directed and channel.control.kinematics(channel).work:
@@ -54,9 +52,8 @@ def start_following(channel: WordAddressChannel, words: Words) -> None:
     stands = FanucMillingParameters.naming(channel.setup.parameters).WKP
     if stands and channel.mode["length"] == "G43.5":
         raise words.fail("tip_direction", "G43.5")
-    if stands and OnTable.of(channel).error:
-        raise not_yet("G54.4: 19696#5")
-    TipState.of(channel).stands = stands
+    state = TipState.of(channel)
+    state.stands, state.beside = stands, ()
     tool_center_point.start_following(channel, words)
     leaning.begin(channel, words)
     channel.mode = channel.mode.with_code(SYSTEM, "work" if stands else "")
@@ -103,7 +100,11 @@ def _plan(builder: Builder, plan: Plan) -> Step | None:
     if builder.mode["length"] != "G43.4" or builder.mode["motion"] not in ARCS:
         return None
     told = path.read_center(builder)
-    return None if told is None else _arc(builder, plan, told)
+    if told is None:
+        return None
+    if builder.mode[workpiece.ERROR]:
+        raise not_yet(f"G54.4 {builder.mode['motion']}: 19696#5")
+    return _arc(builder, plan, told)
 
 
 def _arc(builder: Builder, plan: Plan, told: path.CenterWords) -> Step:
@@ -149,6 +150,8 @@ def _in_plane(builder: Builder, _plan: Plan, step: Step | None) -> Step | None:
     if step is None or builder.mode["length"] != "G43.4" or builder.corner() is None:
         return step
     motion, w = builder.mode["motion"], PLANES[builder.mode["plane"]][2]
+    if builder.mode[workpiece.ERROR]:
+        raise not_yet("G54.4 ,C: 19696#5")
 
     def move(channel: WordAddressChannel, values: list[float]) -> None:
         begin = channel.coordinates.position

@@ -73,7 +73,7 @@ def refresh_zero(channel: WordAddressChannel, *, travelled: bool = False) -> Non
     if leading.active is not None and leads:
         # Or the way to the machine and back would leave rounding noise.
         if not leading.lies_at(frame, offsets):
-            tip.lead(channel, leading.active, frame, offsets)
+            tip.lead(channel, leading.active, frame, offsets, frame_as_told(channel, offsets))
     else:
         channel.coordinates.set_zero(frame, offsets, travelled=travelled)
     channel.context_changed()
@@ -98,13 +98,23 @@ def work_frame(channel: WordAddressChannel, offsets: list[float]) -> Frame:
 
 def frame_on_table(channel: WordAddressChannel, offsets: list[float]) -> Frame:
     """From the display to axes counted from a work zero with the table at zero: tip control turns it by itself."""
-    zero, begun = ZeroState.of(channel), tip.TipState.of(channel).begun
-    inner = zero.plane
-    if not begun.is_identity:
-        shift = translation(*work_zero(channel, offsets))
-        inner = shift.inverse() @ begun.inverse() @ shift @ inner
-    frame = zero.frame @ lies(channel, offsets) @ inner
+    frame = ZeroState.of(channel).frame @ lies(channel, offsets) @ _begun_on_table(channel, offsets)
     return IDENTITY if frame.is_identity else frame
+
+
+def frame_as_told(channel: WordAddressChannel, offsets: list[float]) -> Frame | None:
+    """The same on a work that lies where it should; None where it does."""
+    zero = ZeroState.of(channel)
+    return None if zero.misplaced is None else zero.frame @ _begun_on_table(channel, offsets)
+
+
+def _begun_on_table(channel: WordAddressChannel, offsets: list[float]) -> Frame:
+    """From a tilted plane to the table at zero, which had turned when tip control began."""
+    plane, begun = ZeroState.of(channel).plane, tip.TipState.of(channel).begun
+    if begun.is_identity:
+        return plane
+    shift = translation(*work_zero(channel, offsets))
+    return shift.inverse() @ begun.inverse() @ shift @ plane
 
 
 def plane_on_table(channel: WordAddressChannel, offsets: list[float]) -> Frame:
@@ -248,8 +258,11 @@ def _position_by(channel: WordAddressChannel, offsets: list[float]) -> Vector:
     c, leading = channel.coordinates, tip.TipState.of(channel)
     inner = [value - shift for value, shift in zip(c.machine, offsets, strict=True)]
     if leading.active is not None and leading.is_leading(channel):
-        led = Seated(replace(leading.active, zero=tuple(offsets)), frame_on_table(channel, offsets))
-        inner = led.to_work(inner)
+        active = replace(leading.active, zero=tuple(offsets))
+        inner = Seated(active, frame_on_table(channel, offsets)).to_work(inner)
+        if leading.stands:
+            told = Seated(active, frame_as_told(channel, offsets) or IDENTITY)
+            inner = tip.standing_before(active, told, leading.beside).to_work(inner)
     else:
         inner = c.image(work_frame(channel, offsets).inverse(), inner)
     x, y, z = (inner[axis] for axis in c.geometry)

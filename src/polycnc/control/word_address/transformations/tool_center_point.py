@@ -16,7 +16,12 @@ from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.block.words_as_data import targets_as_data
 from polycnc.control.word_address.coordinates import on_table, tip
 from polycnc.control.word_address.coordinates.on_table import OnTable
-from polycnc.control.word_address.coordinates.systems import ZeroState, frame_on_table, refresh_zero
+from polycnc.control.word_address.coordinates.systems import (
+    ZeroState,
+    frame_as_told,
+    frame_on_table,
+    refresh_zero,
+)
 from polycnc.control.word_address.motion.path import reach
 from polycnc.control.word_address.motion.planes import choose_basic_axes
 from polycnc.control.word_address.tools.length import LengthState
@@ -88,7 +93,8 @@ def follow_table(channel: WordAddressChannel, words: Words, begun: Frame = IDENT
     refresh_zero(channel)
     arm = times(kinematics.along, -value)
     following = ToolCentrePoint(kinematics, channel.axes, c.geometry, tuple(c.offsets), arm)
-    tip.lead(channel, following, frame_on_table(channel, c.offsets), c.offsets)
+    frame, told = frame_on_table(channel, c.offsets), frame_as_told(channel, c.offsets)
+    tip.lead(channel, following, frame, c.offsets, told)
     channel.context_changed()
 
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.block.codes import Order
 from polycnc.control.word_address.block.rules import Rule
-from polycnc.control.word_address.coordinates import on_table
+from polycnc.control.word_address.coordinates import on_table, tip
 from polycnc.control.word_address.coordinates.on_table import OnTable
 from polycnc.control.word_address.coordinates.systems import ZeroState, plane_on_table
 from polycnc.control.word_address.coordinates.tip import TipState
@@ -255,9 +255,15 @@ def _reach_posed(
         wanted = plane_on_table(channel, c.offsets).direct(*told)
         if not turn_to(channel, wanted, state.posture, goal):
             raise channel.control.fail("tip_direction", address=rotary[0].address if rotary else "G43.4")
-        for name in state.posture:
+        beside = [0.0] * len(channel.axes)
+        for name, told_angle in state.posture.items():
             axis = channel.axis_index[name]
             state.stood[name] = goal[axis] + c.offsets[axis]
+            beside[axis] = told_angle - state.stood[name]
+        if c.naming is not None:
+            TipState.of(channel).beside = tuple(beside)
+            c.naming = tip.standing(channel)
+            channel.context_changed()
     return goal
 
 
