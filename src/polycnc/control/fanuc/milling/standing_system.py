@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import WordAddressChannel
+    from polycnc.geometry.arcs import Point
     from polycnc.toolpath import Context
 
 #: Modal group: "work" while words name the tip in a system that does not turn.
@@ -100,40 +101,35 @@ def _plan(builder: Builder, plan: Plan) -> Step | None:
     if builder.mode["length"] != "G43.4" or builder.mode["motion"] not in ARCS:
         return None
     told = path.read_center(builder)
-    if told is None:
-        return None
-    if builder.mode[workpiece.ERROR]:
-        raise not_yet(f"G54.4 {builder.mode['motion']}: 19696#5")
-    return _arc(builder, plan, told)
+    return None if told is None else _arc(builder, plan, told)
 
 
 def _arc(builder: Builder, plan: Plan, told: path.CenterWords) -> Step:
     """An arc on the table: its centre counts from its start, as the table has turned there (B-63944EN/02, page 669)."""
     motion, plane = builder.mode["motion"], PLANES[builder.mode["plane"]]
     polar, corner = builder.mode.codes.get("polar") == "G16", builder.corner()
+    reached = workpiece.reach_posed if builder.mode[workpiece.ERROR] else path.reach
+    if polar and builder.mode[workpiece.ERROR]:
+        raise not_yet("G54.4 G16: 19696#5")
 
     def move(channel: WordAddressChannel, values: list[float]) -> None:
         if not channel.feed > 0.0:
             raise channel.control.fail("no_feed")
-        c, named = channel.coordinates, told.tell(values)
-        goal = (
-            channel.control.polar_target(channel, plan, values)
-            if polar
-            else path.reach(channel, plan.axis_words, values)
-        )
+        c, named, begin = channel.coordinates, told.tell(values), _told(channel, channel.coordinates.position)
         columns = [c.geometry[axis] for axis in plane[:2]]
+        middle = _middle(channel, columns, named)
+        if polar:
+            goal = channel.control.polar_target(channel, plan, values)
+        else:
+            goal = reached(channel, plan.axis_words, values)
         end, ccw = c.to_position(goal), (motion == "G3") != mirrors_plane(c.programming, plane)
-        if not _turns_in_plane(channel, plane[2], c.position, end):
+        if not _turns_in_plane(channel, plane[2], begin, _told(channel, end)):
             raise channel.control.fail("tip_company", address=motion)
         first, last = ((point[columns[0]], point[columns[1]]) for point in (c.position, end))
         if isinstance(named, float):
             named *= max(scales(c.programming, plane))
         else:
-            center = c.programmed[:]
-            for column, way in zip(columns, named, strict=True):
-                center[column] += way
-            center = c.to_position(center)
-            named = center[columns[0]] - first[0], center[columns[1]] - first[1]
+            named = middle[columns[0]] - first[0], middle[columns[1]] - first[1]
         found, _ = path.find_center(channel, first, last, named, ccw)
         if corner is not None:
             corner(channel, values)
@@ -145,18 +141,32 @@ def _arc(builder: Builder, plan: Plan, told: path.CenterWords) -> Step:
     return move
 
 
+def _middle(channel: WordAddressChannel, columns: list[int], named: float | Point) -> list[float]:
+    """The centre on the table, by its way from the start; the start where a radius tells the arc."""
+    c = channel.coordinates
+    middle = c.programmed[:]
+    if not isinstance(named, float):
+        for column, way in zip(columns, named, strict=True):
+            middle[column] += way
+    return c.to_position(middle)
+
+
+def _told(channel: WordAddressChannel, position: list[float]) -> list[float]:
+    """A position of the path with rotary axes as words tell them, on a work that lies elsewhere too."""
+    beside = TipState.of(channel).beside
+    return [value + way for value, way in zip(position, beside, strict=True)] if beside else position
+
+
 def _in_plane(builder: Builder, _plan: Plan, step: Step | None) -> Step | None:
     """PS5421 for a chamfer or a rounding in a plane that the table turns out of itself."""
     if step is None or builder.mode["length"] != "G43.4" or builder.corner() is None:
         return step
     motion, w = builder.mode["motion"], PLANES[builder.mode["plane"]][2]
-    if builder.mode[workpiece.ERROR]:
-        raise not_yet("G54.4 ,C: 19696#5")
 
     def move(channel: WordAddressChannel, values: list[float]) -> None:
-        begin = channel.coordinates.position
+        begin = _told(channel, channel.coordinates.position)
         step(channel, values)
-        if not _turns_in_plane(channel, w, begin, channel.coordinates.position):
+        if not _turns_in_plane(channel, w, begin, _told(channel, channel.coordinates.position)):
             raise channel.control.fail("tip_company", address=motion)
 
     return move

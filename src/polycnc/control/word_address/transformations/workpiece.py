@@ -222,7 +222,7 @@ def _plan_posture(builder: Builder, plan: Plan) -> Step | None:
     if (words or motion in ARCS) and builder.mode.codes.get("polar") == "G16":
         raise _not_yet(f"G16: {builder.mode[ERROR]}")
     if motion in ARCS and any(builder.has(letter) for letter in ("R", *path.CENTER_WORDS)):
-        return path.plan_arc(builder, plan, ccw=motion == "G3", reached=_reach_posed)
+        return path.plan_arc(builder, plan, ccw=motion == "G3", reached=reach_posed)
     if not words:
         return None
     if motion in ARCS:
@@ -231,15 +231,13 @@ def _plan_posture(builder: Builder, plan: Plan) -> Step | None:
 
     def move(channel: WordAddressChannel, values: list[float]) -> None:
         feed = channel.feed if names_feed and kind == Kind.RAPID else _feed(channel, kind)
-        goal = _reach_posed(channel, words, values)
+        goal = reach_posed(channel, words, values)
         channel.straight(kind, channel.coordinates.to_position(goal), feed, goal)
 
     return move
 
 
-def _reach_posed(
-    channel: WordAddressChannel, words: tuple[AxisWord, ...], values: list[float]
-) -> list[float]:
+def reach_posed(channel: WordAddressChannel, words: tuple[AxisWord, ...], values: list[float]) -> list[float]:
     """The programmed end of a block, its rotary axes where they stand the tool on the work as it lies."""
     c, state = channel.coordinates, OnTable.of(channel)
     before, rotary = c.programmed, [word for word in words if channel.axes[word.axis] in state.posture]
