@@ -130,7 +130,7 @@ def _plan(builder: Builder, plan: Plan) -> Step | None:
     if builder.mode["cycle"] != "G80":
         return None
     if motion not in STRAIGHT:
-        raise _not_yet(f"{builder.mode[FIXTURE] or builder.mode[ERROR]}: {motion}")
+        return None  # `_wrap` looks whether the table turns
     kind, names_feed = STRAIGHT[motion], builder.has("F")
     polar = builder.mode.codes.get("polar") == "G16"
 
@@ -266,14 +266,22 @@ def reach_posed(channel: WordAddressChannel, words: tuple[AxisWord, ...], values
 
 
 def _wrap(builder: Builder, plan: Plan, step: Step | None) -> Step | None:
-    """A cycle with an axis of the table tells the scanner nothing."""
-    if step is None or builder.mode["cycle"] == "G80" or not _turning(builder, plan):
+    """A cycle with an axis of the table tells the scanner nothing; PC0001 for an arc or a thread that turns one."""
+    turning = _turning(builder, plan)
+    if step is None or not turning or TipState.of(builder.channel).active is not None:
+        return step
+    drills, motion = builder.mode["cycle"] != "G80", builder.mode["motion"]
+    if motion in STRAIGHT and not drills:
         return step
 
-    def drill(channel: MillingChannel, values: list[float]) -> None:
+    def move(channel: MillingChannel, values: list[float]) -> None:
+        before = channel.coordinates.position
         step(channel, values)
+        after = channel.coordinates.position
+        if not drills and any(abs(after[axis] - before[axis]) > on_table.NOT_MOVED_DEG for axis in turning):
+            raise _not_yet(f"{channel.mode[FIXTURE] or channel.mode[ERROR]}: {motion}")
 
-    return drill
+    return move
 
 
 #: What turns of the table do to the work zero.
