@@ -123,3 +123,26 @@ def test_a_work_that_lies_elsewhere_is_cut_as_one_that_does_not(
         on_table = zero + shift + lies @ (told.T @ (zero + place) - zero)
         assert stood.T @ (machine[:3] - [0.0, 0.0, 50.0]) == pytest.approx(on_table, abs=1e-4)
         assert stood.T[:, 2] == pytest.approx(lies @ told.T[:, 2], abs=1e-6)
+
+
+def test_a_tool_that_turns_with_the_work_goes_straight_on_the_table() -> None:
+    channel = run(
+        "#26013=10.\n#26010=1.\nG54.4 P1\nG90 G00 G43 H1 X0 Y10. Z0 A20. C0\nG01 X20. Y30. Z5. A-30. C50. F900\nM30\n",
+        machine="mill5-ac-table",
+        setup={"tools": TOOLS, "parameters": {"11200#0": 1}},
+    )
+    assert codes(channel) == []
+    _, row = moves(channel)
+    geometry, seen = channel.coordinates.geometry, []
+    start = channel.toolpath.seen_from(
+        list(moves(channel)[0].end), moves(channel)[0].context, row.context, geometry
+    )
+    for part in (0.0, 0.3, 1.0):
+        place = [a + part * (b - a) for a, b in zip(start, row.end, strict=True)]
+        machine = np.array(channel.toolpath.to_machine(place, row.context, geometry))
+        stood = about(0, machine[3]) @ about(2, machine[4])
+        seen.append(stood.T @ (machine[:3] - [0.0, 0.0, 50.0]))
+    lies, told = about(0, 10), about(0, -30) @ about(2, 50)
+    assert seen[0] == pytest.approx([1.0, 0, 0] + lies @ about(0, 20).T @ [0.0, 10.0, 0.0], abs=1e-4)
+    assert seen[2] == pytest.approx([1.0, 0, 0] + lies @ told.T @ [20.0, 30.0, 5.0], abs=1e-4)
+    assert seen[1] == pytest.approx(seen[0] + 0.3 * (seen[2] - seen[0]), abs=1e-4)
