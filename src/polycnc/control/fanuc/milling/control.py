@@ -67,13 +67,14 @@ class FanucMilling(MillingControl):
     context_steps: ClassVar[tuple[ContextStep, ...]] = (
         *MillingControl.context_steps,
         standing_system.displayed,
-        table_system.displayed,
     )
     rules: ClassVar[tuple[Rule, ...]] = (
         five_axes.RULE,
         table_system.RULE,
+        table_system.START_RULE,
         five_axes.VECTOR_RULE,
         leading_edge.RULE,
+        standing_system.LENGTH_RULE,
         standing_system.START_RULE,
         standing_system.ARC_RULE,
         standing_system.RULE,

@@ -56,7 +56,7 @@ def compensate(channel: WordAddressChannel, words: Words) -> None:
     code, parameters = channel.mode["compensation"], _parameters(channel)
     begins = spatial.stage_of(channel) is None
     if RadiusState.of(channel).side:
-        raise words.fail("tip_mode", code)
+        raise words.fail("five_axis_mode", code)
     led = channel.mode["length"] in TIP_CODES
     if begins:
         _check_machine(channel, words, code)

@@ -53,7 +53,7 @@ class FanucMillingParameters(FanucParameters["FanucMillingAxisParameters"]):
     #: 7570#0: G54.2: the tool goes along with the fixture offset (0) or stays (1).
     FTP = Bit(7570, 0, delivered=False)
     #: 11200#0: G54.4 without tip control: the tool keeps its direction (0) or stands on the work as it lies
-    #: (1, not executed).
+    #: (1).
     RCM = Bit(11200, 0, delivered=False)
     #: 11600#5: an axis that the block behind G68 does not name keeps its coordinate from before (0) or its
     #: position (1).

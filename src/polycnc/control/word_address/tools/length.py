@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.coordinates import tip
-from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
+from polycnc.control.word_address.coordinates.systems import ZeroState, frame_as_told, refresh_zero
 from polycnc.control.word_address.cycles import drilling
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.vectors import times
@@ -146,7 +146,8 @@ def renew_tip(channel: WordAddressChannel) -> None:
         active = replace(state.active, tip=times(state.active.kinematics.along, -value))
         if active != state.active:
             channel.flush()
-            tip.lead(channel, active, state.frame, channel.coordinates.offsets)
+            offsets = channel.coordinates.offsets
+            tip.lead(channel, active, state.frame, offsets, frame_as_told(channel, offsets))
             channel.context_changed()
 
 
