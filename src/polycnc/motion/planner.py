@@ -19,7 +19,7 @@ from polycnc.motion.kernels.columns import PLACES, Form, PieceRecord, Rows, new_
 from polycnc.motion.limits import ContextTables, averages, axis_rapids
 from polycnc.motion.settings import DEFAULT, Settings
 from polycnc.motion.standing.beside import Awaits, Beside
-from polycnc.motion.standing.waits import Waits
+from polycnc.motion.standing.waits import Waits, least_seconds
 from polycnc.motion.time_constants import Use, behind_s, is_ahead, use_of, uses_of
 from polycnc.motion.times import Plan, Times, ToolTimes
 from polycnc.motion.transformed import RealAxes
@@ -105,6 +105,7 @@ class Planner:
         self._waits.rapid_stops, self._waits.spindle_wait = settings.rapid_stops, settings.spindle_wait
         self._waits.step, self._beside = self._step, Beside()
         self._rests: set[int] = set()
+        self._come_to_rest: dict[int, float] = {}  # by row: averages of a run that a function outlasts
 
     @property
     def facing(self) -> int:
@@ -180,13 +181,17 @@ class Planner:
         switches = self._switches(chunk) if self._uses.differ else {}
         rests = {number - chunk.first for number in self._rests}
         self._rests.clear()
+        beside = {entry.last + 1 - chunk.first for entry in self._waits.parallel if entry.last >= chunk.first}
         row = 0
-        for edge in (*sorted({*bounds.enters, *bounds.legs, *switches, *rests}), len(chunk)):
+        for edge in (*sorted({*bounds.enters, *bounds.legs, *switches, *rests, *beside}), len(chunk)):
             self._lay(Rows(chunk.kind[:edge], *others), row, chunk.curves, chunk.first)
             row = edge
-            if edge in rests:
+            outlasted = edge in beside and self._is_outlasted(chunk.first + edge)
+            if outlasted or edge in rests:
                 settle(self._pieces, self._axes, self._limits, self._state)
                 self._state.run.stop = 1.0
+            if outlasted:
+                self._come_to_rest[chunk.first + edge] = self._averages(chunk.first + edge)
             if edge in switches:
                 self._switch(switches[edge], self._toolpath.contexts[chunk.context[edge]])
             if edge in bounds.enters:
@@ -196,6 +201,28 @@ class Planner:
                 self._through_pole(bounds.legs[edge], chunk, edge, feed[edge])
                 row = edge + 1
         return True
+
+    def _is_outlasted(self, row: int) -> bool:
+        """Whether a function beside the block in front of a row outlasts its motion: the axes rest at its end."""
+        entries = [entry for entry in self._waits.parallel if entry.last + 1 == row]
+        seconds, first = max(entry.seconds for entry in entries), self._piece_of(min(e.row for e in entries))
+        return least_seconds(self._pieces, first, self._state.run.pieces, self._width) < seconds
+
+    def _averages(self, row: int) -> float:
+        """Seconds in which the averages come to rest in front of a row, where a block before the last one has them."""
+        first = self._piece_of(min(entry.row for entry in self._waits.parallel if entry.last + 1 == row))
+        for piece in reversed(range(self._state.run.pieces)):
+            pause = self._pieces[piece * self._width + PieceRecord.PAUSE]
+            if pause > 0.0:
+                return pause if piece < first else 0.0
+        return 0.0
+
+    def _piece_of(self, row: int) -> int:
+        """The first piece in the buffer that belongs to a row or to one behind it."""
+        piece = self._state.run.pieces
+        while piece and self._pieces[(piece - 1) * self._width + PieceRecord.ROW] >= row:
+            piece -= 1
+        return piece
 
     def _step(self, step: Begins | Awaits) -> None:
         """Something begins beside the axes, or a row waits for it."""
@@ -331,14 +358,14 @@ class Planner:
         )
         last_row = int(pieces[(final - 1) * width + PieceRecord.ROW]) if end is None else end
         self._beside.settle(last_row, self._seconds, self._wait)
+        planned_rows = int(rest[PieceRecord.ROW]) if end is None else end
+        self._settle_parallel(planned_rows)
         if self.on_pieces is not None:
             self.on_pieces(pieces, final)
         end2 = pieces[(final - 1) * width + PieceRecord.END2]
         pieces[: len(rest)] = rest
         pieces[PieceRecord.SPEED2] = end2
         self._state.run.pieces = count - final
-        planned_rows = int(rest[PieceRecord.ROW]) if end is None else end
-        self._settle_parallel(planned_rows)
         if not self._keep_rows:
             self._beside.settle(planned_rows, self._seconds, self._wait)
             needed = min([planned_rows, *(entry.row for entry in self._waits.parallel)])
@@ -388,10 +415,12 @@ class Planner:
             if entry.last >= planned_rows:
                 open_yet.append(entry)
                 continue
-            motion = self._seconds(entry.row, entry.last + 1)
+            motion = self._seconds(entry.row, entry.last + 1) + self._come_to_rest.get(entry.last + 1, 0.0)
             if entry.seconds > motion:
                 self._wait(entry.row, "auxiliary_s", entry.context, entry.seconds - motion)
         self._waits.parallel[:] = open_yet
+        if not open_yet:
+            self._come_to_rest.clear()
 
     def _plan(self) -> Plan:
         total, tools = Times(), dict[tuple[int, str], ToolTimes]()

@@ -46,7 +46,7 @@ from polycnc.motion.kernels.columns import (
 )
 from polycnc.motion.limits import ContextTables
 from polycnc.motion.standing.beside import Awaits, Begins
-from polycnc.motion.standing.waits import Waits
+from polycnc.motion.standing.waits import Parallel, Waits
 from polycnc.motion.time_constants import uses_of
 from polycnc.motion.transformed import RealAxes
 from polycnc.toolpath import Context, Kind, Toolpath
@@ -373,7 +373,7 @@ class Preprocessing:
         bounds = self._rows.real.bounds(chunk, self.toolpath.contexts)
         self._delays.clear()
         self._waits.take(chunk, self._rows.facing)
-        self._waits.parallel.clear()
+        beside, self._waits.parallel[:] = list(self._waits.parallel), []
         contexts = self.toolpath.contexts
         for row in range(len(chunk)):
             number, context, kind = chunk.first + row, contexts[chunk.context[row]], chunk.kind[row]
@@ -395,7 +395,19 @@ class Preprocessing:
                 self.end_in_rest()
             else:
                 self._rows.lay(chunk, row, bounds)
+            beside = self._rest_behind(beside, number)
         return True
+
+    def _rest_behind(self, beside: list[Parallel], row: int) -> list[Parallel]:
+        """The axes rest behind a block that a function beside it outlasts; the functions whose block goes on."""
+        open_yet = []
+        for entry in beside:
+            begun = entry._replace(pieces=len(self._buffer)) if entry.row == row else entry
+            if begun.last > row:
+                open_yet.append(begun)
+            elif self._buffer.least_seconds(begun.pieces) < begun.seconds:
+                self.end_in_rest()
+        return open_yet
 
     def _take_over(self) -> None:
         """An axis that another channel has moved since is where that one has left it."""

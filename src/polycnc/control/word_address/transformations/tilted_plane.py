@@ -175,7 +175,8 @@ def _told_in_several(channel: WordAddressChannel, words: Words, way: int) -> Fra
     told = state.told if number != 1 else []
     if number != len(told) + 1 or number > BLOCKS[way]:
         raise words.fail("tilt_format", "Q")
-    i, j, k = (words.length(letter) or 0.0 for letter in "IJK")
+    # A direction has no unit: it is not cut off at the least increment, as I J K of G43.5 are not.
+    i, j, k = ((words.typed if way == VECTORS else words.length)(letter) or 0.0 for letter in "IJK")
     state.told = [*told, (named_point(channel, words, "tilt_format"), (i, j, k))]
     if number < BLOCKS[way]:
         return None
