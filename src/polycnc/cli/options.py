@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from enum import StrEnum
-from glob import glob, has_magic
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -40,6 +39,8 @@ def machines() -> tuple[str, ...]:
 
 def expanded(names: Iterable[str]) -> list[str]:
     """File names with patterns resolved that the shell has left as they are, as on Windows."""
+    from glob import glob, has_magic
+
     files: list[str] = []
     for name in names:
         found = sorted(glob(name)) if has_magic(name) and not Path(name).exists() else []  # noqa: PTH207 - names stay as typed

@@ -7,7 +7,6 @@ empty when it first asks for it, from its setup.
 
 from __future__ import annotations
 
-from copy import deepcopy
 from pathlib import Path
 from typing import Any, Protocol, TypeVar
 
@@ -79,6 +78,8 @@ class InMemoryStore:
 
 def copied(store: RetainedStore, channel: int) -> InMemoryStore:
     """A copy of what programs of a channel read and write: whoever works with it leaves the store alone."""
+    from copy import deepcopy
+
     made = InMemoryStore()
     for name in DATA:
         for number in (0, channel):

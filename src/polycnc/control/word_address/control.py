@@ -14,7 +14,6 @@ from polycnc.compensation.policy import Policy
 from polycnc.control.alarm_text import alarm_catalogue
 from polycnc.control.word_address.auxiliary import interlocks, machine_codes
 from polycnc.control.word_address.block.numbers import Convert, NumberRules, angle_converter, length_converter
-from polycnc.control.word_address.block.plain import PlainBlocks
 from polycnc.control.word_address.block.plan import Builder, Plan
 from polycnc.control.word_address.block.single_block import Halts, behind_words
 from polycnc.control.word_address.block.whole_numbers import DecimalPoint
@@ -59,6 +58,7 @@ if TYPE_CHECKING:
         Planner,
         Step,
     )
+    from polycnc.control.word_address.block.plain import PlainBlocks
     from polycnc.control.word_address.block.rules import Rule
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.memory import ToolOffset
@@ -223,6 +223,8 @@ class WordAddressControl:
 
     def plain_blocks(self, _channel: Channel) -> PlainBlocks | None:
         """What a scanner must know of plain blocks."""
+        from polycnc.control.word_address.block.plain import PlainBlocks  # for long programs only
+
         digits = self.grammar.max_digits
         return PlainBlocks(Spelling(digits, round_comments=True, open_comments=True))
 

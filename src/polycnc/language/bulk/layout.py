@@ -332,25 +332,6 @@ class NoteRecord(Places):
     RULE = place()
 
 
-# ---- conversions --------------------------------------------------------------------------------------------
-
-
-class Reading(Places):
-    """How a typed number becomes one in internal units; see `recipe.Scaling`."""
-
-    AS_IS = place()
-    TIMES = place()
-    INCREMENTS = place()
-    CUT = place()
-    RATIO = place()
-    ROUNDED = place()
-
-
-#: Half an increment and a guard (`Reading.ROUNDED`): halves go away from zero as they do in the decimal arithmetic of
-#: controls.
-HALF = 0.5 + 1e-7
-
-
 # ---- formulas -----------------------------------------------------------------------------------------------
 
 

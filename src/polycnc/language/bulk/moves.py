@@ -11,13 +11,12 @@ from math import copysign, floor, nan, sqrt
 from typing import NamedTuple
 
 from polycnc.kernels.layout import Bytes, Floats, Ints, Ints32, Words16, Words32
+from polycnc.language.bulk.conversions import HALF, Reading
 from polycnc.language.bulk.layout import (
-    HALF,
     TARGET_WIDTH,
     Factor,
     Motion,
     NoteRecord,
-    Reading,
     Rule,
     State,
     Strokes,

@@ -13,7 +13,7 @@ from math import inf
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, TypeVar
 
 from polycnc.deferred.records import dataclass
-from polycnc.language.bulk import layout
+from polycnc.language.bulk.conversions import Reading
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -28,17 +28,17 @@ Condition: TypeAlias = "Callable[[Channel], bool]"
 class Scaling(IntEnum):
     """How a typed number becomes one in internal units."""
 
-    AS_IS = layout.Reading.AS_IS
+    AS_IS = Reading.AS_IS
     #: `value * unit`
-    TIMES = layout.Reading.TIMES
+    TIMES = Reading.TIMES
     #: `value / scale * unit`
-    INCREMENTS = layout.Reading.INCREMENTS
+    INCREMENTS = Reading.INCREMENTS
     #: Digits below `1 / scale` are cut off, then `* unit`.
-    CUT = layout.Reading.CUT
+    CUT = Reading.CUT
     #: `value * unit / scale`
-    RATIO = layout.Reading.RATIO
+    RATIO = Reading.RATIO
     #: To the nearest `1 / scale`, then `* unit`.
-    ROUNDED = layout.Reading.ROUNDED
+    ROUNDED = Reading.ROUNDED
 
 
 class Conversion(NamedTuple):
@@ -311,21 +311,23 @@ class Spelling:
     @property
     def flags(self) -> int:
         """As the kernels read it."""
+        from polycnc.language.bulk.layout import Grammar  # for long programs
+
         return (
-            self.round_comments * layout.Grammar.ROUND_COMMENTS
-            | self.starred_comments * layout.Grammar.STARRED_COMMENTS
-            | self.open_comments * layout.Grammar.OPEN_COMMENTS
-            | self.slash_comments * layout.Grammar.SLASH_COMMENTS
-            | self.semicolon_comments * layout.Grammar.SEMICOLON_COMMENTS
-            | self.equals * layout.Grammar.EQUALS
-            | self.forms_count * layout.Grammar.FORMS_COUNT
-            | self.hexadecimal * layout.Grammar.HEXADECIMAL
-            | self.cr_radius * layout.Grammar.CR_RADIUS
-            | self.formulas * layout.Grammar.FORMULAS
-            | self.expressions * layout.Grammar.EXPRESSIONS
-            | self.directions * layout.Grammar.DIRECTIONS
-            | self.m_codes * layout.Grammar.M_CODES
-            | (not self.blank_lines_are_blocks) * layout.Grammar.BLANK_LINES_ARE_NONE
+            self.round_comments * Grammar.ROUND_COMMENTS
+            | self.starred_comments * Grammar.STARRED_COMMENTS
+            | self.open_comments * Grammar.OPEN_COMMENTS
+            | self.slash_comments * Grammar.SLASH_COMMENTS
+            | self.semicolon_comments * Grammar.SEMICOLON_COMMENTS
+            | self.equals * Grammar.EQUALS
+            | self.forms_count * Grammar.FORMS_COUNT
+            | self.hexadecimal * Grammar.HEXADECIMAL
+            | self.cr_radius * Grammar.CR_RADIUS
+            | self.formulas * Grammar.FORMULAS
+            | self.expressions * Grammar.EXPRESSIONS
+            | self.directions * Grammar.DIRECTIONS
+            | self.m_codes * Grammar.M_CODES
+            | (not self.blank_lines_are_blocks) * Grammar.BLANK_LINES_ARE_NONE
         )
 
 

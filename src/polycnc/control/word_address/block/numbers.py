@@ -13,7 +13,7 @@ from math import copysign, floor
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.bulk import Conversion, Scaling, declare, declared
-from polycnc.language.bulk.layout import HALF
+from polycnc.language.bulk.conversions import HALF
 
 Convert = Callable[[float], float]
 

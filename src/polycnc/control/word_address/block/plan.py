@@ -8,7 +8,6 @@ modal state; later blocks of the same shape only bring new numbers.
 
 from __future__ import annotations
 
-from copy import copy
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.channel.intervention import NOTHING_BACK, TakesBack
@@ -130,6 +129,8 @@ class Plan:
 
     def without(self, addresses: Collection[str]) -> Plan:
         """The same plan for a code to which some words of the block do not belong."""
+        from copy import copy
+
         plan = copy(self)
         plan.arguments = {}
         plan.slots = {address: slot for address, slot in self.slots.items() if address not in addresses}
