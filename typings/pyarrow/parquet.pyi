@@ -6,7 +6,12 @@ from pyarrow import Schema, Table
 
 class ParquetWriter:
     def __init__(
-        self, where: IO[bytes], schema: Schema, *, use_dictionary: bool | Sequence[str] = ...
+        self,
+        where: IO[bytes],
+        schema: Schema,
+        *,
+        use_dictionary: bool | Sequence[str] = ...,
+        write_statistics: bool | Sequence[str] = ...,
     ) -> None: ...
     def write_table(self, table: Table) -> None: ...
     def close(self) -> None: ...

@@ -139,9 +139,12 @@ class Parquet:
 
         self._display = display
         self._metadata = metadata
-        # Coordinates hardly repeat: a dictionary of them costs time and saves nothing.
-        schema = arrow_schema(display, metadata)
-        self._writer = parquet.ParquetWriter(stream, schema, use_dictionary=[*_NAMES, *_TEXTS])
+        # Coordinates hardly repeat: a dictionary of them costs time and saves nothing. Row groups are looked for by
+        # their lines and names; the smallest and largest of every coordinate would take a seventh of the writing.
+        schema, names = arrow_schema(display, metadata), [*_NAMES, *_TEXTS]
+        self._writer = parquet.ParquetWriter(
+            stream, schema, use_dictionary=names, write_statistics=["line", *names]
+        )
 
     def take(self, chunk: Chunk) -> None:
         """Write the rows of a chunk."""
