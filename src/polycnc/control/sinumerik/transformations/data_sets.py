@@ -40,25 +40,25 @@ WITH_WALLS, WALLS_BY_ARGUMENT = 513, 514
 SIDES = {1: 1.0, 2: -1.0}
 #: As many transformations as machine data can name.
 COUNT = 10
-#: Machine data of lengths and angles in a transformation, `_n` behind them: with a value they would move its joints.
+#: Machine data of lengths and angles in a transformation, by its number: with a value they would move its joints.
 SHIFTS: dict[str, tuple[str, ...]] = {
     "TRAORI": (
-        "$MC_TRAFO5_PART_OFFSET",
-        "$MC_TRAFO5_JOINT_OFFSET",
-        "$MC_TRAFO5_JOINT_OFFSET_PART",
-        "$MC_TRAFO5_BASE_TOOL",
-        "$MC_TRAFO5_NUTATOR_AX_ANGLE",
-        "$MC_TRAFO5_TOOL_ROT_AX_OFFSET",
+        "$MC_TRAFO5_PART_OFFSET_{n}",
+        "$MC_TRAFO5_JOINT_OFFSET_{n}",
+        "$MC_TRAFO5_JOINT_OFFSET_PART_{n}",
+        "$MC_TRAFO5_BASE_TOOL_{n}",
+        "$MC_TRAFO5_NUTATOR_AX_ANGLE_{n}",
+        "$MC_TRAFO5_TOOL_ROT_AX_OFFSET_{n}",
     ),
-    "TRANSMIT": ("$MC_TRANSMIT_BASE_TOOL", "$MC_TRANSMIT_ROT_AX_OFFSET"),
-    "TRACYL": ("$MC_TRACYL_BASE_TOOL", "$MC_TRACYL_ROT_AX_OFFSET"),
-    "TRAANG": ("$MC_TRAANG_BASE_TOOL",),
+    "TRANSMIT": ("$MC_TRANSMIT_BASE_TOOL_{n}", "$MC_TRANSMIT_ROT_AX_OFFSET_{n}"),
+    "TRACYL": ("$MC_TRACYL_BASE_TOOL_{n}", "$MC_TRACYL_ROT_AX_OFFSET_{n}"),
+    "TRAANG": ("$MC_TRAANG_BASE_TOOL_{n}",),
 }
 #: Machine data that turn the sense of a rotary axis round where they are 0.
 SENSES = {
-    "TRAORI": "$MC_TRAFO5_ROT_SIGN_IS_PLUS",
-    "TRANSMIT": "$MC_TRANSMIT_ROT_SIGN_IS_PLUS",
-    "TRACYL": "$MC_TRACYL_ROT_SIGN_IS_PLUS",
+    "TRAORI": "$MC_TRAFO5_ROT_SIGN_IS_PLUS_{n}",
+    "TRANSMIT": "$MC_TRANSMIT_ROT_SIGN_IS_PLUS_{n}",
+    "TRACYL": "$MC_TRACYL_ROT_SIGN_IS_PLUS_{n}",
 }
 _PARALLEL = 1e-6
 _TURNS = 1e-9
@@ -153,10 +153,10 @@ def check(channel: SinumerikChannel, found: DataSet) -> None:
             the direction or the number of an axis that is not the chain's.
     """
     data, n = channel.memory.data, order(channel, found)
-    for name in SHIFTS.get(found.kind, ()):
-        if any(data.is_set(f"{name}_{n}", *at) and data.number(f"{name}_{n}", *at) for at in _PLACES):
-            raise _another_machine(f"{name}_{n}")
-    sense = f"{SENSES.get(found.kind)}_{n}"
+    for name in (each.format(n=n) for each in SHIFTS.get(found.kind, ())):
+        if any(data.is_set(name, *at) and data.number(name, *at) for at in _PLACES):
+            raise _another_machine(name)
+    sense = SENSES.get(found.kind, "").format(n=n)
     if any(data.is_set(sense, *at) and not data.number(sense, *at) for at in _PLACES):
         raise _another_machine(sense)
     if found.kind == "TRAORI":
@@ -172,17 +172,18 @@ def _check_joints(channel: SinumerikChannel, found: DataSet) -> None:
     data, n = channel.memory.data, order(channel, found)
     kinematics, axes = Kinematics.of(channel.machine), channel_names(channel)
     joints = (*kinematics.tool, *kinematics.work)
-    for i in range(3):
-        name = f"$MC_TRAFO5_AXIS{i + 1}_{n}"
+    for axis in (1, 2, 3):
+        name = f"$MC_TRAFO5_AXIS{axis}_{n}"
         direction = vector(channel, name)
         if direction is None or not any(direction):
             continue
-        cosine = dot(unit(direction), unit(joints[i].direction)) if i < len(joints) else 0.0
-        if (cosine if i < len(kinematics.tool) else abs(cosine)) < 1.0 - _PARALLEL:
+        cosine = dot(unit(direction), unit(joints[axis - 1].direction)) if axis <= len(joints) else 0.0
+        if (cosine if axis <= len(kinematics.tool) else abs(cosine)) < 1.0 - _PARALLEL:
             raise _another_machine(name)
     columns = (*native(channel), *(axes.index(axis) for axis in in_order(kinematics) if axis in axes))
+    number = found.number or n
     for i, column in enumerate(columns):
-        name = f"$MC_TRAFO_AXES_IN_{found.number or n}"
+        name = f"$MC_TRAFO_AXES_IN_{number}"
         if data.is_set(name, i) and data.number(name, i) not in (0.0, column + 1.0):
             raise _another_machine(name)
 
