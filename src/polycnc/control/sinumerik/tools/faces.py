@@ -38,7 +38,6 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.tools.memory import Tools
     from polycnc.geometry.frames import Vector
 
-CODES = frozenset(("CUT3DF", "CUT3DFS", "CUT3DFF"))
 #: Shapes by type of the tool: what touches, and whether a cone limits it. Other types count as a ball (110).
 BALL, LENS, EDGE, TORUS = "ball", "lens", "edge", "torus"
 SHAPES = {
