@@ -246,7 +246,10 @@ def _lead_walls(channel: SinumerikChannel) -> None:
     if column >= 0 and channel.path.find(WallStage) is None:
         if channel.mode["plane"] != "G19":
             raise not_supported("TRACYL: G17 G18 G41 G42")
-        channel.path.put(WallStage(channel, column))
+        position = channel.coordinates.position.copy()
+        channel.path.put(WallStage(channel, column, position[column]))
+        position[column] = 0.0  # the stage leads it from here on, and off the walls to the centre line
+        channel.coordinates.arrive(position)
 
 
 def leave_contour(channel: SinumerikChannel) -> None:
