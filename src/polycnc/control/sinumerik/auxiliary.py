@@ -28,6 +28,7 @@ from polycnc.control.sinumerik.m_functions import (
 from polycnc.control.sinumerik.replaced import program_of
 from polycnc.control.sinumerik.tools import master_holder, selection, stages
 from polycnc.control.sinumerik.tools.holders import active as carriers
+from polycnc.control.sinumerik.tools.sides import FACES
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.variables import part_counts
 from polycnc.control.tool_change import follow, way_to_change
@@ -138,8 +139,12 @@ def _is_late(channel: SinumerikChannel, code: int) -> bool:
 
 
 def load_tool(channel: SinumerikChannel) -> None:
-    """The selected tool comes into the spindle; PC0020 under radius compensation where a transformation acts (6.10)."""
-    if channel.mode[seat.GROUP] and channel.mode["compensation"] != "G40":
+    """The selected tool comes into the spindle; PC0020 under radius compensation where a transformation acts (6.10).
+
+    A face mill in space may be changed: its dimensions wait for G41 or G42 (7.5.3).
+    """
+    compensates = channel.mode["compensation"] != "G40" and channel.mode["tool_offset"] not in FACES
+    if channel.mode[seat.GROUP] and compensates:
         raise AlarmError("PC0020")
     follow(channel, way_to_change(channel))
     memory = channel.memory

@@ -20,7 +20,7 @@ from polycnc.compensation.policy import Approach, Policy, Violation
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.motion.spline_stage import SplineStage
 from polycnc.control.sinumerik.tools import faces, spatial
-from polycnc.control.sinumerik.tools.sides import SIDES, Contour
+from polycnc.control.sinumerik.tools.sides import FACES, SIDES, Contour
 from polycnc.control.sinumerik.tools.smooth_stage import SmoothApproach
 from polycnc.control.sinumerik.tools.tool_plane import lead, tool_plane
 from polycnc.control.sinumerik.transformations import seat
@@ -217,12 +217,12 @@ def select_side(channel: SinumerikChannel) -> None:
     _check_shape(channel)
     _lead_walls(channel)
     Contour.of(channel).linear = seat.frame_in_front(channel).m
-    if channel.mode["tool_offset"] in (*spatial.CODES, *faces.CODES):
+    if channel.mode["tool_offset"] in (*spatial.CODES, *FACES):
         _check_size(channel)
     if channel.mode["tool_offset"] in spatial.CODES:
         spatial.select_side(channel)
         return
-    if channel.mode["tool_offset"] in faces.CODES:
+    if channel.mode["tool_offset"] in FACES:
         faces.select(channel)
         return
     _settle_corner(channel)
@@ -246,7 +246,10 @@ def _lead_walls(channel: SinumerikChannel) -> None:
     if column >= 0 and channel.path.find(WallStage) is None:
         if channel.mode["plane"] != "G19":
             raise not_supported("TRACYL: G17 G18 G41 G42")
-        channel.path.put(WallStage(channel, column))
+        position = channel.coordinates.position.copy()
+        channel.path.put(WallStage(channel, column, position[column]))
+        position[column] = 0.0  # the stage leads it from here on, and off the walls to the centre line
+        channel.coordinates.arrive(position)
 
 
 def leave_contour(channel: SinumerikChannel) -> None:

@@ -44,17 +44,17 @@ WITH_WALLS, WALLS_BY_ARGUMENT = 513, 514
 SIDES = {1: 1.0, 2: -1.0}
 #: As many transformations as machine data can name.
 COUNT = 10
-#: Machine data of angles and lengths in a transformation, `_n` behind them, that polycnc does not follow.
+#: Machine data of angles and lengths in a transformation, by its number, that polycnc does not follow.
 SHIFTS: dict[str, tuple[str, ...]] = {
-    "TRAORI": ("$MC_TRAFO5_NUTATOR_AX_ANGLE", "$MC_TRAFO5_TOOL_ROT_AX_OFFSET"),
-    "TRANSMIT": ("$MC_TRANSMIT_ROT_AX_OFFSET",),
-    "TRACYL": ("$MC_TRACYL_ROT_AX_OFFSET",),
+    "TRAORI": ("$MC_TRAFO5_NUTATOR_AX_ANGLE_{n}", "$MC_TRAFO5_TOOL_ROT_AX_OFFSET_{n}"),
+    "TRANSMIT": ("$MC_TRANSMIT_ROT_AX_OFFSET_{n}",),
+    "TRACYL": ("$MC_TRACYL_ROT_AX_OFFSET_{n}",),
 }
 PART, JOINT, JOINT_OF_PART, BASE_TOOL = (
-    "$MC_TRAFO5_PART_OFFSET",
-    "$MC_TRAFO5_JOINT_OFFSET",
-    "$MC_TRAFO5_JOINT_OFFSET_PART",
-    "$MC_TRAFO5_BASE_TOOL",
+    "$MC_TRAFO5_PART_OFFSET_{n}",
+    "$MC_TRAFO5_JOINT_OFFSET_{n}",
+    "$MC_TRAFO5_JOINT_OFFSET_PART_{n}",
+    "$MC_TRAFO5_BASE_TOOL_{n}",
 )
 #: Vectors of TRAORI by how many axes turn the head and the table: of each chain those in front of its joints, and the
 #: one behind. They are l1 to l4 of toolholders of types T, P and M (commissioning of CYCLE800), which job planning has.
@@ -65,9 +65,9 @@ VECTORS: dict[tuple[int, int], tuple[tuple[str, ...], tuple[str, ...]]] = {
 }
 #: Machine data that turn the sense of a rotary axis round where they are 0.
 SENSES = {
-    "TRAORI": "$MC_TRAFO5_ROT_SIGN_IS_PLUS",
-    "TRANSMIT": "$MC_TRANSMIT_ROT_SIGN_IS_PLUS",
-    "TRACYL": "$MC_TRACYL_ROT_SIGN_IS_PLUS",
+    "TRAORI": "$MC_TRAFO5_ROT_SIGN_IS_PLUS_{n}",
+    "TRANSMIT": "$MC_TRANSMIT_ROT_SIGN_IS_PLUS_{n}",
+    "TRACYL": "$MC_TRACYL_ROT_SIGN_IS_PLUS_{n}",
 }
 _NOWHERE: Vector = (0.0, 0.0, 0.0)
 _PARALLEL = 1e-6
@@ -167,18 +167,18 @@ def check(channel: SinumerikChannel, found: DataSet) -> None:
             the direction or the number of an axis that is not the chain's, and vectors of joints that it does not have.
     """
     data, n = channel.memory.data, order(channel, found)
-    for name in SHIFTS.get(found.kind, ()):
-        if _has_value(channel, f"{name}_{n}"):
-            raise another_machine(f"{name}_{n}")
-    sense = f"{SENSES.get(found.kind)}_{n}"
+    for name in (each.format(n=n) for each in SHIFTS.get(found.kind, ())):
+        if _has_value(channel, name):
+            raise another_machine(name)
+    sense = SENSES.get(found.kind, "").format(n=n)
     if any(data.is_set(sense, *at) and not data.number(sense, *at) for at in _PLACES):
         raise another_machine(sense)
     if found.kind == "TRAORI":
         _check_joints(channel, found)
         known = {name for chain in _vectors(Kinematics.of(channel.machine)) for name in chain}
-        for name in {PART, JOINT, JOINT_OF_PART, BASE_TOOL} - known:
-            if _has_value(channel, f"{name}_{n}"):
-                raise another_machine(f"{name}_{n}")
+        for name in (each.format(n=n) for each in {PART, JOINT, JOINT_OF_PART, BASE_TOOL} - known):
+            if _has_value(channel, name):
+                raise another_machine(name)
 
 
 def _has_value(channel: SinumerikChannel, name: str) -> bool:
@@ -195,17 +195,18 @@ def _check_joints(channel: SinumerikChannel, found: DataSet) -> None:
     data, n = channel.memory.data, order(channel, found)
     kinematics, axes = Kinematics.of(channel.machine), channel_names(channel)
     joints = (*kinematics.tool, *kinematics.work)
-    for i in range(3):
-        name = f"$MC_TRAFO5_AXIS{i + 1}_{n}"
+    for axis in (1, 2, 3):
+        name = f"$MC_TRAFO5_AXIS{axis}_{n}"
         direction = vector(channel, name)
         if direction is None or not any(direction):
             continue
-        cosine = dot(unit(direction), unit(joints[i].direction)) if i < len(joints) else 0.0
-        if (cosine if i < len(kinematics.tool) else abs(cosine)) < 1.0 - _PARALLEL:
+        cosine = dot(unit(direction), unit(joints[axis - 1].direction)) if axis <= len(joints) else 0.0
+        if (cosine if axis <= len(kinematics.tool) else abs(cosine)) < 1.0 - _PARALLEL:
             raise another_machine(name)
     columns = (*native(channel), *(axes.index(axis) for axis in in_order(kinematics) if axis in axes))
+    number = found.number or n
     for i, column in enumerate(columns):
-        name = f"$MC_TRAFO_AXES_IN_{found.number or n}"
+        name = f"$MC_TRAFO_AXES_IN_{number}"
         if data.is_set(name, i) and data.number(name, i) not in (0.0, column + 1.0):
             raise another_machine(name)
 
@@ -225,7 +226,7 @@ def placed(channel: SinumerikChannel, kinematics: Kinematics, n: int) -> tuple[K
     Others are as the machine file has them. That leaves positions alone with all axes at zero; given vectors that do
     not close their chain do not.
     """
-    of_head, of_table = ([vector(channel, f"{name}_{n}") for name in names] for names in _vectors(kinematics))
+    of_head, of_table = ([vector(channel, name.format(n=n)) for name in names] for names in _vectors(kinematics))
     noses = [None if given is None else times(given, -1.0) for given in of_head]
     tool = _apart(kinematics.tool, noses[:-1])
     nose = noses[-1] if noses and noses[-1] is not None else kinematics.nose

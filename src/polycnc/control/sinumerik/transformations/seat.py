@@ -25,6 +25,7 @@ from polycnc.geometry.vectors import minus, plus
 from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES
 from polycnc.messages import AlarmError
 from polycnc.transformation.chain import Chain
+from polycnc.transformation.kinematic.cylinder import Cylinder
 from polycnc.transformation.kinematic.parallel import ParallelAxes
 from polycnc.transformation.kinematic.polar import CLOSEST_MM, PolarPlane
 from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
@@ -186,7 +187,23 @@ def _sit(channel: SinumerikChannel, seated: Seated) -> None:
     coordinates.transform(seated, seated.geometry, (IDENTITY, [0.0] * len(channel.axes)))
     coordinates.pending = [0.0] * len(channel.axes)
     coordinates.owes = False
+    aside = _aside(seated.inner)
+    if aside >= 0 and coordinates.position[aside]:
+        position = coordinates.position.copy()
+        position[aside] = 0.0
+        coordinates.arrive(position)
     channel.context_changed()
+
+
+def _aside(inner: Any) -> int:
+    """Column that says where a real Y axis stands beside the one of TRANSMIT or TRACYL; -1 without one.
+
+    The next block brings it to where the transformation and the tool need it.
+    """
+    first = inner.links[0] if isinstance(inner, Chain) else inner
+    if isinstance(first, PolarPlane) and first.virtual >= 0:
+        return first.rotary
+    return first.axis if isinstance(first, Cylinder) and first.virtual >= 0 else -1
 
 
 def _stand_regrouped(

@@ -10,7 +10,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Protocol
 
-from polycnc.compensation.spatial import Directions, SpatialStage
+from polycnc.compensation.spatial import SpatialStage
+from polycnc.compensation.spatial_chords import Directions
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
