@@ -225,8 +225,7 @@ class WordAddressControl:
         """What a scanner must know of plain blocks."""
         from polycnc.control.word_address.block.plain import PlainBlocks  # for long programs only
 
-        digits = self.grammar.max_digits
-        return PlainBlocks(Spelling(digits, round_comments=True, open_comments=True))
+        return PlainBlocks(Spelling(self.grammar.max_digits, round_comments=True, open_comments=True))
 
     def make_memory(self, channel: Channel) -> Memory:
         """The control's memory as the setup fills it."""
@@ -560,8 +559,6 @@ class WordAddressControl:
         diameters = sum(1 << i for i in range(len(channel.axes)) if self.is_diameter(channel, i))
         polar, unrolled = PolarState.of(channel), CylinderState.of(channel).active
         leading = c.transformation or PlaneAxes.of(channel).parallel
-        # A path that leads the axes leaves nothing to transform.
-        transformation = None if channel.path.leads_axes else leading
         return Context(
             plane=mode["plane"],
             inch=self.is_inch(mode),
@@ -577,7 +574,8 @@ class WordAddressControl:
             diameter_axes=diameters,
             wcs=ZeroState.of(channel).system,
             part=systems.on_work(channel),
-            transformation=transformation,
+            # A path that leads the axes leaves nothing to transform.
+            transformation=None if channel.path.leads_axes else leading,
             machine_diameters=diameters | polar.diameter << polar.plane.linear if polar.plane else None,
             unrolled=(unrolled.axis, 1.0 / unrolled.mm_per_degree) if unrolled else None,
         )
