@@ -226,7 +226,9 @@ def placed(channel: SinumerikChannel, kinematics: Kinematics, n: int) -> tuple[K
     Others are as the machine file has them. That leaves positions alone with all axes at zero; given vectors that do
     not close their chain do not.
     """
-    of_head, of_table = ([vector(channel, name.format(n=n)) for name in names] for names in _vectors(kinematics))
+    of_head, of_table = (
+        [vector(channel, name.format(n=n)) for name in names] for names in _vectors(kinematics)
+    )
     noses = [None if given is None else times(given, -1.0) for given in of_head]
     tool = _apart(kinematics.tool, noses[:-1])
     nose = noses[-1] if noses and noses[-1] is not None else kinematics.nose
