@@ -13,6 +13,7 @@ from math import hypot, inf, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.motion.kernels.columns import PLACES, UNEVEN_FORMS, Form, PieceRecord, piece_width
+from polycnc.motion.limits import degree_mm
 from polycnc.motion.time_constants import Use
 from polycnc.toolpath import Kind
 from polycnc.toolpath.kinds import HELIX_KINDS, RAPID_KINDS
@@ -34,6 +35,8 @@ REAL = 1.0 + 1e-3
 EVEN = 0.05
 #: Part by which a squared speed may be off that of a joint.
 EVEN_JOINT = 1e-5
+#: Part of the way of a row that turns which a tip that stands may seem to go.
+STANDS = 1e-6
 ARC_KINDS = frozenset((Kind.CW, Kind.CCW)) | HELIX_KINDS
 
 
@@ -135,6 +138,7 @@ class TimeAccount:
         self._after: set[int] = set()
         self._behind: dict[int, float] = {}
         self._ahead: dict[int, tuple[float, ...]] = {}
+        self._degrees: dict[int, float] = {}
         self._limits = planner.cut_limits
         self._joint = _Joint(self._limits.step)
         self._contexts: dict[int, Context] = {}
@@ -167,6 +171,8 @@ class TimeAccount:
                     self._behind[chunk.first + row] = self._planner.behind_s(context)
                 if kind == Kind.RAPID or context.transformation is not None:
                     self._contexts[chunk.first + row] = context
+                if degree_mm(context) != 1.0 and self._planner.rotary_weight(context) == 0.0:
+                    self._degrees[chunk.first + row] = degree_mm(context)
 
     def _asked_speed(self, chunk: Chunk, row: int, context: Context) -> float:
         """Path speed that the program asks for, mm/s; 0 where that changes along the row, or F counts a part of it."""
@@ -188,7 +194,7 @@ class TimeAccount:
         for at in range(0, count * width, width):
             self._piece(records, at)
         done = int(records[(count - 1) * width + PieceRecord.ROW])
-        for rows in (self._asked, self._contexts, self._ahead, self._behind):
+        for rows in (self._asked, self._contexts, self._ahead, self._behind, self._degrees):
             for row in [row for row in rows if row < done]:
                 del rows[row]
         self._after = {row for row in self._after if row >= done}
@@ -241,7 +247,10 @@ class TimeAccount:
 
     def _bound(self, records: array[float], at: int, peak2: float) -> Cause:
         """What bounds the highest speed of a piece."""
-        asked, rapid = self._asked.get(int(records[at + PieceRecord.ROW]), (0.0, False))
+        row = int(records[at + PieceRecord.ROW])
+        asked, rapid = self._asked.get(row, (0.0, False))
+        if row in self._degrees and self._turns(records, at):
+            asked /= self._degrees[row]
         speed = sqrt(peak2) * (1.0 + SAME)
         if asked < inf and speed >= asked:
             return Cause.FEED
@@ -250,6 +259,11 @@ class TimeAccount:
         if at_top:
             return Cause.AXES
         return Cause.ARC_PULL if speed >= self._top_of_arc(records, at) else Cause.CORNERS
+
+    def _turns(self, records: array[float], at: int) -> bool:
+        """Whether nothing but rotary axes moves on a piece."""
+        ways = zip(*self._directions(records, at), self._limits.rotary, strict=False)
+        return all(rotary or max(abs(first), abs(last)) < STANDS for first, last, rotary in ways)
 
     def _top_of_arc(self, records: array[float], at: int) -> float:
         """Speed that parameters allow on a piece of an arc that is planned ahead; infinite on others."""

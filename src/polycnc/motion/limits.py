@@ -183,7 +183,7 @@ def context_fields(
         is_ahead(context, settings),
         behind_s(context, settings),
         settings.turn_speed if settings.turn_speed > 0.0 and _is_tip(context) else 0.0,
-        _degree(context) if settings.rotary_in_feed else 1.0,
+        degree_mm(context),
         *(a, b, c, d, e, f, g, h, i),
         *context.frame.t,
         *(context.offsets or [0.0] * axes),
@@ -301,11 +301,12 @@ def rotary_weight(context: Context, settings: Settings) -> float:
     """Millimetres that a degree counts in the length that the feed refers to: that of a tip is its way on the work."""
     if not settings.rotary_in_feed or _is_tip(context):
         return 0.0
-    return _degree(context)
+    return degree_mm(context)
 
 
-def _degree(context: Context) -> float:
-    return INCH_MM if context.inch else 1.0
+def degree_mm(context: Context) -> float:
+    """Millimetres of a feed that are a degree where nothing but rotary axes moves: F counts degrees then."""
+    return INCH_MM if context.inch or context.feed_inch else 1.0
 
 
 def _is_tip(context: Context) -> bool:

@@ -10,7 +10,10 @@ from math import hypot, inf, sqrt
 from operator import mul
 from typing import TYPE_CHECKING, NamedTuple
 
+from polycnc.geometry.arcs import EVEN
+from polycnc.motion.limits import degree_mm
 from polycnc.toolpath.modes import FeedMode
+from polycnc.transformation.orientation.linkage import STANDS_MM
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -74,13 +77,19 @@ def pace_of(
     """
     pace, n, made = context.pace, len(way.moved), context.transformation is not None
     assert pace is not None
-    length = way.length(weights) or way.length([1.0] * n)
+    length = way.length(weights)
+    turns = length < STANDS_MM
+    if turns:
+        length = way.length([1.0] * n)
     if length == 0.0:
         return 1.0, inf, 1.0
     moving = [i for i in range(n) if way.share(i, length) > 0.0]
     feed = pace.feed * edge_factor(pace, context, way)
     if pace.weights and context.feed_mode is not FeedMode.INVERSE_TIME:
-        feed *= length / (way.length(pace.weights) or length)
+        counted = way.length(pace.weights) or length
+        feed *= length / counted
+        if turns and abs(counted - length) > EVEN * length:
+            feed *= degree_mm(context)
     return (
         feed,
         _top(pace, way, length, moving, limits, rapid=rapid, made=made),

@@ -66,6 +66,7 @@ class Context:
     Attributes:
         plane: Working plane as `G17`, `G18` or `G19`.
         inch: Words and display are in inches. Lengths in the table stay in millimetres.
+        feed_inch: Feeds alone are told in inches, the display is not (SINUMERIK G700).
         feed_mode: What the feed of a row counts.
         frame: Work coordinates to machine coordinates of the geometry axes, without the tool.
         offsets: Shift from work to machine of every channel axis beside `frame`, tool included (mm, degrees).
@@ -117,6 +118,7 @@ class Context:
 
     plane: str = "G17"
     inch: bool = False
+    feed_inch: bool = False
     feed_mode: FeedMode = FeedMode.PER_MINUTE
     frame: Frame = IDENTITY
     offsets: tuple[float, ...] = ()
