@@ -17,7 +17,6 @@ from polycnc.control.sinumerik.tools.holders import active as carriers
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.transformations.posture import Posture
 from polycnc.geometry.frames import Frame, Vector
-from polycnc.geometry.planes import PLANES
 from polycnc.geometry.vectors import axis_vector, cross, dot, minus, times
 from polycnc.language.sinumerik.names.frame import NEUTRAL, NcFrame
 from polycnc.machine.kinematics import unit
@@ -68,14 +67,12 @@ def by_table(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001
 def tool_direction(channel: SinumerikChannel) -> Vector:
     """Direction along the tool in the basic coordinate system.
 
-    An orientation transformation says it; else it is the plane's third axis as the holder turns it.
+    An orientation transformation says it; else its edge does, or the plane with its third axis, as the holder turns it.
     """
     if seat.centre_point(channel) is not None:
         posture = Posture.of(channel, channel.mode)
         return posture.direction(posture.angles(channel.coordinates.position))
-    across = axis_vector(PLANES[channel.mode["plane"]][2])
-    carrier = channel.memory.tools.carrier
-    return across if carrier is None else carrier.direct(*across)
+    return channel.memory.tools.direction(channel.mode["plane"])
 
 
 def _turned(frame: Frame) -> tuple[Vector, Vector, Vector]:

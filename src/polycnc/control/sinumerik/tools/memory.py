@@ -28,10 +28,13 @@ from polycnc.control.sinumerik.tools.lengths import (
     TURNING_LENGTHS,
     Rules,
     along_axes,
+    direction_of,
 )
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY
-from polycnc.geometry.vectors import minus, times
+from polycnc.geometry.planes import PLANES
+from polycnc.geometry.vectors import axis_vector, minus, times
+from polycnc.machine.kinematics import turn_between
 from polycnc.memory.encoding import encoded
 from polycnc.memory.retained import TOOLS
 from polycnc.messages import AlarmError
@@ -235,6 +238,25 @@ class Tools(State, lifetime=Lifetime.POWER):
         if edge is None or self.carrier is None or not self.cut_turns:
             return None if edge is None else cutting_data.unchanged(edge)
         return cutting_data.turned(edge, self._cutting_plane(plane), self.carrier)
+
+    def own_direction(self, plane: str) -> Vector | None:
+        """Direction along the tool that its edge has ($TC_DPV), no carrier turning it; None for that of the plane."""
+        edge = self.edge
+        return None if edge is None else direction_of(edge, self.rules or Rules(), plane)
+
+    def direction(self, plane: str) -> Vector:
+        """Direction along the tool, away from its tip, as a carrier turns it."""
+        across = self.own_direction(plane) or axis_vector(PLANES[plane][2])
+        return across if self.carrier is None else self.carrier.direct(*across)
+
+    def stance(self, plane: str) -> Frame | None:
+        """How the tool is turned against the plane, by its edge and by a carrier; None where it is not."""
+        own = self.own_direction(plane)
+        if own is None:
+            return self.carrier
+        u, _, w = PLANES[plane]
+        lean = turn_between(axis_vector(w), own, axis_vector(u))
+        return lean if self.carrier is None else self.carrier @ lean
 
     def tip(self, plane: str) -> Vector:
         """From the nose centre to the programmed tip along X, Y, Z, in units of the radius; zero for milling tools."""

@@ -233,9 +233,19 @@ def select_side(channel: SinumerikChannel) -> None:
 
 
 def _check_shape(channel: SinumerikChannel) -> None:
-    """PC0001 for a contour tool (7.1): where the contour leaves the angles of an edge, the next one would cut."""
+    """PC0001 for tools that are not led along a contour yet.
+
+    A contour tool (7.1): where the contour leaves the angles of an edge, the next one would cut. A tool whose direction
+    ($TC_DPV) comes from behind the plane, or a turning tool with one that is not square on it: which side is left
+    then, and where its edge position lies, is not known.
+    """
     memory = channel.memory
-    edge = memory.tools.edge
+    edge, plane = memory.tools.edge, channel.mode["plane"]
+    own = memory.tools.own_direction(plane)
+    if edge is not None and own is not None:
+        least = 1.0 - EVEN if edge.is_turning else -EVEN
+        if own[PLANES[plane][2]] < least:
+            raise not_supported("$TC_DPV: G41 G42")
     if edge is not None and edge.has_angle_limits and memory.data.integer("$MC_MM_SHAPED_TOOLS_ENABLE"):
         raise not_supported("$TC_DP10 $TC_DP11: G41 G42")
 

@@ -84,6 +84,7 @@ class Build:
             that says how far it goes; else -1.
         bound: Columns of axes that move with the path alone: neither positioned nor oscillating beside it.
         order: Number of its machine data, among those of its kind.
+        follows_tool: The tool may say its direction (TRAORI whose call does not).
         changes_sides: The infeed axis goes through the pole to its other side (TRANSMIT with MD24911 = 0).
     """
 
@@ -93,6 +94,7 @@ class Build:
     walls: int = -1
     bound: frozenset[int] = frozenset()
     order: int = 1
+    follows_tool: bool = False
     changes_sides: bool = False
 
 
@@ -202,7 +204,8 @@ def orientation(
     Args:
         channel: The channel.
         found: The data set.
-        along: Basic direction of the tool as the call has it; None for that of the machine data.
+        along: Basic direction of the tool as the call has it; None for that of the tool ($TC_DPV), else of the
+            machine data.
         added: Further offsets of the rotary axes.
 
     Raises:
@@ -221,7 +224,7 @@ def orientation(
         offset = number_of(channel, f"$MC_TRAFO5_ROT_AX_OFFSET_{n}", i, 0.0)
         zero[axes.index(axis)] = -(offset + (added[i] if i < len(added) else 0.0))
     inner = ToolCentrePoint(kinematics, axes, geometry, tuple(zero), (0.0, 0.0, 0.0))
-    return Build(inner, lengths="tip", order=n)
+    return Build(inner, lengths="tip", order=n, follows_tool=along is None)
 
 
 def in_order(kinematics: Kinematics) -> tuple[str, ...]:

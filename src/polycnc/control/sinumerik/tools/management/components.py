@@ -5,6 +5,7 @@ Source: job planning 16.1 (what the function does); arguments and results are th
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.control.sinumerik.errors import not_supported
@@ -148,7 +149,7 @@ def made_of(edge: Edge, parts: frozenset[str]) -> Edge:
     values = [value if n in numbers else 0.0 for n, value in enumerate(edge.values)]
     sums = {kind for kind, part in ((FINE, SUM), (COARSE, SETUP)) if part in parts}
     additive = {key: value for key, value in edge.additive.items() if key[0] in sums}
-    return Edge(values, edge.teeth, edge.cutting_edge, edge.is_valid, additive)
+    return replace(edge, values=values, additive=additive)
 
 
 def length_along(
