@@ -15,11 +15,13 @@ from typing import TYPE_CHECKING
 from polycnc.channel.moves.knots import Motions, join
 from polycnc.compensation.corner import CornerPolicy, CornerStage, CornerViolation, Shape
 from polycnc.compensation.cutter import CutterCompensation
+from polycnc.compensation.edge_limits import EdgeLimits, Range
 from polycnc.compensation.plane import Plane
 from polycnc.compensation.policy import Approach, Policy, Violation
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.motion.spline_stage import SplineStage
 from polycnc.control.sinumerik.tools import faces, spatial
+from polycnc.control.sinumerik.tools.edges import DP_LARGEST_ANGLE, DP_LEAST_ANGLE
 from polycnc.control.sinumerik.tools.sides import SIDES, Contour
 from polycnc.control.sinumerik.tools.smooth_stage import SmoothApproach
 from polycnc.control.sinumerik.tools.tool_plane import lead, tool_plane
@@ -230,14 +232,38 @@ def select_side(channel: SinumerikChannel) -> None:
     stage.policy = policy(channel)
     lead(channel, stage, tool_plane(channel).frame)
     stage.engage(SIDES[channel.mode["compensation"]], radius(channel), tip(channel))
+    _limit_edge(channel, stage)
+
+
+def _limit_edge(channel: SinumerikChannel, stage: CutterCompensation) -> None:
+    """A contour tool (7.1), where MD28290 says so, cuts between the angles of its edge.
+
+    They count from the centre of the edge to its reference point. PC0001 where there is no such direction (edge
+    positions 0 and 9), where a toolholder or a mirror would turn it, and where the contour leaves the angles: the next
+    edge would cut then, and the manual does not say how the way between two edges is led past a contour.
+    """
+    memory, reference = channel.memory, tip(channel)
+    channel.path.take(EdgeLimits)
+    edge = memory.tools.edge
+    if edge is None or not edge.has_angle_limits or not memory.data.integer("$MC_MM_SHAPED_TOOLS_ENABLE"):
+        return
+    mirrors = Frame(seat.frame_in_front(channel).m).mirrors
+    if not any(reference) or mirrors or memory.tools.carrier is not None or distance(channel) <= 0.0:
+        _refuse_edges()
+    angles = (edge.total(n) for n in (DP_LEAST_ANGLE, DP_LARGEST_ANGLE))
+    side = SIDES[channel.mode["compensation"]]
+    channel.path.put(EdgeLimits(stage, side, Range(reference, *angles), _refuse_edges))
+
+
+def _refuse_edges() -> None:
+    raise not_supported("$TC_DP10 $TC_DP11: G41 G42")
 
 
 def _check_shape(channel: SinumerikChannel) -> None:
-    """PC0001 for tools that are not led along a contour yet.
+    """PC0001 for tools that are not led along a contour.
 
-    A contour tool (7.1): where the contour leaves the angles of an edge, the next one would cut. A tool whose direction
-    ($TC_DPV) comes from behind the plane, or a turning tool with one that is not square on it: which side is left
-    then, and where its edge position lies, is not known.
+    A tool whose direction ($TC_DPV) comes from behind the plane, or a turning tool with one that is not square on it:
+    which side is left then, and where its edge position lies, is not known.
     """
     memory = channel.memory
     edge, plane = memory.tools.edge, channel.mode["plane"]
@@ -246,8 +272,6 @@ def _check_shape(channel: SinumerikChannel) -> None:
         least = 1.0 - EVEN if edge.is_turning else -EVEN
         if own[PLANES[plane][2]] < least:
             raise not_supported("$TC_DPV: G41 G42")
-    if edge is not None and edge.has_angle_limits and memory.data.integer("$MC_MM_SHAPED_TOOLS_ENABLE"):
-        raise not_supported("$TC_DP10 $TC_DP11: G41 G42")
 
 
 def _lead_walls(channel: SinumerikChannel) -> None:
@@ -289,6 +313,7 @@ def changed_radius(channel: SinumerikChannel) -> None:
         _check_shape(channel)
         _settle_corner(channel)
         stage.change_radius(radius(channel), tip(channel))
+        _limit_edge(channel, stage)
         channel.context_changed()  # rows tell the distance from the contour
 
 
