@@ -1,4 +1,4 @@
-"""F of a cut that moves rotary axes alone counts degrees, in whatever unit a program is."""
+"""Speeds of rotary axes that move alone count degrees, in whatever unit a program is: F, and those of rapids."""
 
 from __future__ import annotations
 
@@ -38,3 +38,15 @@ def test_a_degree_a_second_takes_ninety_seconds(control: str, unit: str, text: s
     turned = np.concatenate([samples.velocity[:, 3] for samples in given])
     assert turned.max() == pytest.approx(1.0, rel=1e-6)
     assert account.parts[Cause.FEED].seconds == pytest.approx(WAY, abs=0.2)
+
+
+def test_a_rapid_at_a_speed_of_its_own_counts_degrees() -> None:
+    """SYNTEC G00 P1 F1=, where every axis runs a rapid alone (Pr411)."""
+    session = open_session(
+        b"G70 G90 G00 P1 A90. F1=60.\nM30\n",
+        control="syntec-mill",
+        machine="mill4",
+        setup={"parameters": {"411": 1}},
+        keep=False,
+    )
+    assert session.run().plan.times.rapid_s == pytest.approx(WAY, abs=0.1)

@@ -13,7 +13,6 @@ from math import hypot, inf, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.motion.kernels.columns import PLACES, UNEVEN_FORMS, Form, PieceRecord, piece_width
-from polycnc.motion.limits import degree_mm
 from polycnc.motion.time_constants import Use
 from polycnc.toolpath import Kind
 from polycnc.toolpath.kinds import HELIX_KINDS, RAPID_KINDS
@@ -171,8 +170,8 @@ class TimeAccount:
                     self._behind[chunk.first + row] = self._planner.behind_s(context)
                 if kind == Kind.RAPID or context.transformation is not None:
                     self._contexts[chunk.first + row] = context
-                if degree_mm(context) != 1.0 and self._planner.rotary_weight(context) == 0.0:
-                    self._degrees[chunk.first + row] = degree_mm(context)
+                if context.degree_mm != 1.0 and self._planner.rotary_weight(context) == 0.0:
+                    self._degrees[chunk.first + row] = context.degree_mm
 
     def _asked_speed(self, chunk: Chunk, row: int, context: Context) -> float:
         """Path speed that the program asks for, mm/s; 0 where that changes along the row, or F counts a part of it."""

@@ -11,7 +11,6 @@ from operator import mul
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.geometry.arcs import EVEN
-from polycnc.motion.limits import degree_mm
 from polycnc.toolpath.modes import FeedMode
 from polycnc.transformation.orientation.linkage import STANDS_MM
 
@@ -89,7 +88,7 @@ def pace_of(
         counted = way.length(pace.weights) or length
         feed *= length / counted
         if turns and abs(counted - length) > EVEN * length:
-            feed *= degree_mm(context)
+            feed *= context.degree_mm
     return (
         feed,
         _top(pace, way, length, moving, limits, rapid=rapid, made=made),

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, Frame
+from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath.modes import AccelerationMode, CornerMode, FeedMode, StopWindow
 
 if TYPE_CHECKING:
@@ -197,7 +198,13 @@ class Context:
             return override
         return min(override, max(self.spindle_limit_rpm / self.spindle_rpm, 1.0))
 
-    def rapid_top(self, limit: float) -> float:
+    @property
+    def degree_mm(self) -> float:
+        """Millimetres of a feed that are a degree where nothing but rotary axes moves: a speed counts degrees then."""
+        return INCH_MM if self.inch or self.feed_inch else 1.0
+
+    def rapid_top(self, limit: float, *, rotary: bool) -> float:
         """Highest speed of an axis that runs a rapid alone; `limit` is what the machine allows."""
         limit *= self.pace.rapid if self.pace is not None else 1.0
-        return min(limit, self.rapid_speed) if self.rapid_speed else limit
+        own = self.rapid_speed / self.degree_mm if rotary else self.rapid_speed
+        return min(limit, own) if own else limit

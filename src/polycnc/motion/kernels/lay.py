@@ -275,8 +275,10 @@ def lay_rapid_by_axis(
 
 
 def rapid_top(contexts: Floats, record: int, limits: Limits, i: int) -> float:
-    """Highest speed of an axis that runs a rapid alone."""
+    """Highest speed of an axis that runs a rapid alone; one of the program's own counts degrees of a rotary axis."""
     own: float = contexts[record + ContextRecord.RAPID_SPEED]
+    if limits.rotary[i] != 0.0:
+        own = own / contexts[record + ContextRecord.TURN_WEIGHT]
     top: float = contexts[record + ContextRecord.RAPID_SHARE] * limits.top_rapid[i]
     return min(top, own) if own > 0.0 else top
 
