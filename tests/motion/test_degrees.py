@@ -50,3 +50,18 @@ def test_a_rapid_at_a_speed_of_its_own_counts_degrees() -> None:
         keep=False,
     )
     assert session.run().plan.times.rapid_s == pytest.approx(WAY, abs=0.1)
+
+
+@pytest.mark.parametrize("unit", ["G700", "G710"])
+def test_degrees_are_as_fast_for_an_acceleration_that_is_reduced_at_speed(unit: str) -> None:
+    """DRIVE: 10 degrees a second lie far below the speed from which axes accelerate less (MD35220, MD35230)."""
+    data = {"35220": 0.2, "35230": 0.9}
+    setup = {"parameters": {f"{number}[{axis}]": value for axis in "XYZA" for number, value in data.items()}}
+    session = open_session(
+        f"{unit} DRIVE G94\nG1 A1 F600\nM30\n".encode(),
+        control="sinumerik-840d",
+        machine="mill4",
+        setup=setup,
+        keep=False,
+    )
+    assert session.run().plan.times.cutting_s == pytest.approx(0.125, abs=1e-3)
