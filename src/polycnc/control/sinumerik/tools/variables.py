@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed import tooth_feed, wheels
 from polycnc.control.sinumerik.tools.edges import (
     DIRECTION,
@@ -125,6 +126,22 @@ def _direction(part: str) -> Row:
         _edge(channel, tool, edge).directions[part] = float(value)
 
     return (Type.INT if part == DIRECTION else Type.REAL), read, write
+
+
+def _not_executed(name: str) -> Row:
+    """A datum of an edge that archives write and that has no effect as delivered; PC0001 for another value than 0."""
+
+    def read(channel: SinumerikChannel, indices: Indices) -> float:
+        tool, edge = _place(channel, indices, name)
+        _edge(channel, tool, edge)
+        return 0.0
+
+    def write(channel: SinumerikChannel, indices: Indices, value: float) -> None:
+        read(channel, indices)
+        if value:
+            raise not_supported(name)
+
+    return Type.REAL, read, write
 
 
 def _cutting_edge(channel: SinumerikChannel, indices: Indices) -> int:
@@ -251,6 +268,7 @@ TOOL_VARIABLES: dict[str, Row] = {
     **{f"$TC_CARR{n}": carrier_data.row(n) for n in carrier_data.NUMBERS},
     **{f"$TC_{kind}{n}": _oem(kind, n) for kind in ("DPC", "TPC") for n in range(1, 11)},
     **{f"$TC_DP{part}": _direction(part) for part in (DIRECTION, *DIRECTION_PARTS, *NORMAL_PARTS)},
+    **{name: _not_executed(name) for name in ("$TC_DPH", "$TC_DPROT")},
     "$TC_DPCE": (Type.INT, _cutting_edge, _set_cutting_edge),
     **{f"$TC_DP{n}": _parameter(n) for n in range(1, PARAMETERS + 1)},
     **{f"$TC_TP{n}": _tool_value(f"$TC_TP{n}") for n in (1, 3, 4, 5, 6, 7, 8, 9, 10, 11)},
