@@ -31,6 +31,7 @@ from polycnc.geometry.arcs import EVEN
 from polycnc.geometry.frames import Frame
 from polycnc.geometry.offset import Joint, Outer
 from polycnc.geometry.planes import PLANES
+from polycnc.geometry.tolerances import NO_WAY
 from polycnc.geometry.vectors import times
 from polycnc.messages import AlarmError
 
@@ -231,7 +232,7 @@ def select_side(channel: SinumerikChannel) -> None:
     stage = cutter(channel)
     stage.policy = policy(channel)
     lead(channel, stage, tool_plane(channel).frame)
-    stage.engage(SIDES[channel.mode["compensation"]], radius(channel), tip(channel))
+    stage.engage(SIDES[channel.mode["compensation"]], *_offset(channel))
     _limit_edge(channel, stage)
 
 
@@ -312,7 +313,7 @@ def changed_radius(channel: SinumerikChannel) -> None:
     if stage is not None and channel.mode["compensation"] != "G40":
         _check_shape(channel)
         _settle_corner(channel)
-        stage.change_radius(radius(channel), tip(channel))
+        stage.change_radius(*_offset(channel))
         _limit_edge(channel, stage)
         channel.context_changed()  # rows tell the distance from the contour
 
@@ -329,7 +330,7 @@ def changed_frame(channel: SinumerikChannel) -> None:
     contour.linear = linear
     if isinstance(stage, CutterCompensation):
         lead(channel, stage, tool_plane(channel).frame)
-        stage.change_radius(radius(channel), tip(channel))
+        stage.change_radius(*_offset(channel))
     else:
         _check_size(channel)
         spatial.follow(channel)
@@ -370,6 +371,21 @@ def distance(channel: SinumerikChannel) -> float:
 def radius(channel: SinumerikChannel) -> float:
     """The same in units of the programmed contour, which frames may scale."""
     return distance(channel) / tool_plane(channel).scale
+
+
+def _offset(channel: SinumerikChannel) -> tuple[float, Point]:
+    """Radius and tip as compensation takes them: an allowance (OFFN) is no part of the way from nose to tip.
+
+    PC0001 where an allowance takes the whole radius of a turning tool away, of which the tip would be a part.
+    """
+    size, (u, v) = radius(channel), tip(channel)
+    if (u, v) == (0.0, 0.0) or not Contour.of(channel).allowance_mm:
+        return size, (u, v)
+    whole = distance(channel)
+    if abs(whole) < NO_WAY:
+        raise not_supported("OFFN: $TC_DP2 G41 G42")
+    part = abs(channel.memory.tools.radius / whole)
+    return size, (part * u, part * v)
 
 
 def tip(channel: SinumerikChannel) -> Point:
