@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from polycnc.control.sinumerik.tools.cutting_data import plane_of, turned
+from polycnc.control.sinumerik.tools.cutting_data import is_seen, plane_of, turned
 from polycnc.control.sinumerik.tools.edges import (
     DP_CLEARANCE,
     DP_DIRECTION,
@@ -80,10 +80,11 @@ def test_positions_of_other_tools_go_round_in_quarters(angle: float, position: i
     assert turned(edge(5, kind=120.0), "G17", rotation(2, angle)).position == position
 
 
-@pytest.mark.parametrize("angle", [90, 89.5, -90.5])
-def test_an_edge_square_on_the_plane_stays_as_it_is(angle: float) -> None:
-    data = turned(edge(3), "G18", rotation(2, angle))
-    assert (data.position, data.direction, data.angle_deg) == (3, 3, 0.0)
+@pytest.mark.parametrize(
+    ("angle", "seen"), [(90, False), (89.5, False), (-90.5, False), (88.5, True), (0, True)]
+)
+def test_an_edge_square_on_the_plane_is_not_seen(angle: float, seen: bool) -> None:
+    assert is_seen("G18", rotation(2, angle)) is seen
 
 
 def test_an_edge_seen_from_behind_keeps_its_angles() -> None:

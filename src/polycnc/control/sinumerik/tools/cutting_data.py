@@ -72,18 +72,20 @@ def unchanged(edge: Edge) -> CuttingData:
     return CuttingData(position, holder, direction, clearance)
 
 
+def is_seen(plane: str, carrier: Frame) -> bool:
+    """Whether a plane shows edges that a carrier has turned; where it stands square on the plane none is."""
+    return abs(_facing(plane, carrier)) >= UPRIGHT
+
+
 def turned(edge: Edge, plane: str, carrier: Frame) -> CuttingData:
-    """The data of an edge that a carrier has turned."""
+    """The data of an edge that a carrier has turned, as a plane shows it (`is_seen`)."""
     before = unchanged(edge)
     tip = tip_direction(int(before.position))
-    faces = _facing(plane, carrier)
-    if abs(faces) < UPRIGHT:
-        return before
     first = tip if any(tip) else (1.0, 0.0)
     angle = _between(first, in_plane(carrier, plane, first))
     if not any(tip):
         return before._replace(angle_deg=angle)
-    turned_on = before._replace(angle_deg=angle, is_inverted=faces < 0.0)
+    turned_on = before._replace(angle_deg=angle, is_inverted=_facing(plane, carrier) < 0.0)
     if not edge.is_turning:
         quarters = ceil((abs(angle) - EIGHTH - ON_AXIS) / QUARTER)
         place = ROUND.index(int(before.position)) + round(copysign(2 * max(quarters, 0), angle))
