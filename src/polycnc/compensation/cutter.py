@@ -112,6 +112,11 @@ class CutterCompensation(Stage):
         return bool(self._window) or self._rows.vector != NO_VECTOR
 
     @property
+    def is_starting(self) -> bool:
+        """Whether the next move leads to the contour."""
+        return self._role is Role.START
+
+    @property
     def on_contour(self) -> bool:
         """Whether the next move belongs to the contour; what leads there and away does not."""
         return self._role is Role.CONTOUR and not self.suspended

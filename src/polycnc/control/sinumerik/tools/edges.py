@@ -5,7 +5,7 @@ Source: job planning 7.1 (tool parameters), 7.2 (additive offsets).
 
 from __future__ import annotations
 
-from dataclasses import field
+from dataclasses import field, replace
 
 from polycnc.deferred.records import dataclass
 from polycnc.memory.encoding import encoded
@@ -71,6 +71,15 @@ class Edge:
     def has_angle_limits(self) -> bool:
         """Whether it cuts between two angles only, as an edge of a contour tool (7.1)."""
         return self.is_turning and any(self.total(n) for n in (DP_LEAST_ANGLE, DP_LARGEST_ANGLE))
+
+    @property
+    def without_base(self) -> Edge:
+        """The same without base dimensions."""
+        values = [
+            value if n < DP_BASE_LENGTH or n > DP_BASE_LENGTH + 2 else 0.0
+            for n, value in enumerate(self.values)
+        ]
+        return replace(self, values=values)
 
     @property
     def has_normal(self) -> bool:
