@@ -178,7 +178,11 @@ class TimeAccount:
         kind, feed, pace = chunk.kind[row], chunk.feed[row], context.pace
         if kind == Kind.RAPID:
             return context.rapid_speed or inf
-        if context.surface_speed or (pace is not None and pace.weights) or kind in HELIX_KINDS:
+        if (
+            context.surface_speed
+            or (pace is not None and (pace.weights or pace.turning))
+            or kind in HELIX_KINDS
+        ):
             return 0.0
         turns = self._planner.rpm(context, 0.0) / 60.0
         if kind in (Kind.THREAD, Kind.TAP) and chunk.curve[row] >= 0:

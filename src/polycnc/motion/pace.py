@@ -10,7 +10,6 @@ from math import hypot, inf, sqrt
 from operator import mul
 from typing import TYPE_CHECKING, NamedTuple
 
-from polycnc.geometry.arcs import EVEN
 from polycnc.toolpath.modes import FeedMode
 from polycnc.transformation.orientation.linkage import STANDS_MM
 
@@ -22,6 +21,8 @@ if TYPE_CHECKING:
     from polycnc.toolpath.context import Pace
     from polycnc.toolpath.row_path import Path
 
+#: Parts of a length up to which a degree is still a millimetre: on a radius of 57.296 mm, as programs write it.
+NOMINAL = 1e-5
 #: A contour radius below this part of the tool's is a corner, about which the tool turns at F.
 CORNER = 1e-6
 #: Places along a row at which the linear axes are looked at that follow its rotary ones.
@@ -84,16 +85,22 @@ def pace_of(
         return 1.0, inf, 1.0
     moving = [i for i in range(n) if way.share(i, length) > 0.0]
     feed = pace.feed * edge_factor(pace, context, way)
-    if pace.weights and context.feed_mode is not FeedMode.INVERSE_TIME:
-        counted = way.length(pace.weights) or length
+    if context.feed_mode is not FeedMode.INVERSE_TIME:
+        counted = _counted(pace, way, turns=turns) or length
         feed *= length / counted
-        if turns and abs(counted - length) > EVEN * length:
+        if turns and abs(counted - length) > NOMINAL * length:
             feed *= context.degree_mm
     return (
         feed,
         _top(pace, way, length, moving, limits, rapid=rapid, made=made),
         _ease(pace, way, length, moving, limits, made=made),
     )
+
+
+def _counted(pace: Pace, way: Travel, *, turns: bool) -> float:
+    """Length that F is for, mm: of the axes of its group, else of rotary ones on the circles that they have; 0: all."""
+    counted = way.length(pace.weights) if pace.weights else 0.0
+    return way.length(pace.turning) if turns and pace.turning and not counted else counted
 
 
 def edge_factor(pace: Pace, context: Context, way: Travel) -> float:

@@ -34,6 +34,7 @@ class Pace:
             `inside` curves only (`CFIN`), or `never`: it is that of the tool's centre (`CFTCP`).
         weights: Millimetres that a millimetre or degree of each column counts in the length that F is for (`FGROUP`,
             `FGREF`), 0 for a synchronous axis; empty for the control's own rule.
+        turning: Likewise what each counts where nothing else moves than rotary axes without a weight; empty for 1.
         top: Highest velocity in cuts, mm/s or degrees/s (`FL`); infinite for none. Empty for no such limits.
         reach: Highest velocity in all moves, mm/s or degrees/s (MD32000 where it is named); infinite for that of the
             machine. Empty for no such limits.
@@ -50,6 +51,7 @@ class Pace:
     rapid: float = 1.0
     edge: str = "never"
     weights: tuple[float, ...] = ()
+    turning: tuple[float, ...] = ()
     top: tuple[float, ...] = ()
     reach: tuple[float, ...] = ()
     following: float = inf
