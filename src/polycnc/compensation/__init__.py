@@ -5,6 +5,6 @@
 `interference` finds vectors that have changed places, `avoidance` leads round them. `corner` is the stage of
 chamfers and roundings; `plane` is what both share. `tips` has the imaginary tips of turning tools. `runs` takes many
 lines of a contour at once. `spatial` is radius compensation across a tool that tilts, `spatial_arcs` where parallels
-meet there, `spatial_chords` in how many chords the tip goes,
-`spatial_rules` how controls differ, `limiting_surface` floors beside walls.
+meet there, `spatial_chords` in how many chords the tip goes, `spatial_rules` how controls differ, `limiting_surface`
+floors beside walls. `contour_tool` chooses between edges that cut between two angles each.
 """

@@ -9,12 +9,12 @@ direction of the tool to positions of the axes.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from math import sqrt
+from math import atan2, degrees, sqrt
 from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, Frame, cos_sin_deg, rotation, translation
-from polycnc.geometry.vectors import dot
+from polycnc.geometry.vectors import cross, dot
 
 if TYPE_CHECKING:
     from polycnc.geometry.frames import Vector
@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 _ALONG_Z: Vector = (0.0, 0.0, 1.0)
 _NOWHERE: Vector = (0.0, 0.0, 0.0)
 Angles = Mapping[str, float]
+HALF_TURN_DEG = 180.0
+#: Directions of length 1 are the same where the sine between them is below.
+SAME_DIRECTION = 1e-12
 
 
 def turn_about(axis: Vector, angle_deg: float) -> Frame:
@@ -38,6 +41,15 @@ def turn_about(axis: Vector, angle_deg: float) -> Frame:
         (y * x * d + z * s, c + y * y * d, y * z * d - x * s),
         (z * x * d - y * s, z * y * d + x * s, c + z * z * d),
     ))  # fmt: skip
+
+
+def turn_between(start: Vector, end: Vector, aside: Vector) -> Frame:
+    """The shortest turn of one direction into another; of opposite ones that about `aside`, square on both."""
+    across = cross(start, end)
+    size = sqrt(dot(across, across))
+    if size > SAME_DIRECTION:
+        return turn_about(across, degrees(atan2(size, dot(start, end))))
+    return IDENTITY if dot(start, end) > 0.0 else turn_about(aside, HALF_TURN_DEG)
 
 
 @dataclass(frozen=True)

@@ -34,6 +34,8 @@ REAL = 1.0 + 1e-3
 EVEN = 0.05
 #: Part by which a squared speed may be off that of a joint.
 EVEN_JOINT = 1e-5
+#: Part of the way of a row that turns which a tip that stands may seem to go.
+STANDS = 1e-6
 ARC_KINDS = frozenset((Kind.CW, Kind.CCW)) | HELIX_KINDS
 
 
@@ -135,6 +137,7 @@ class TimeAccount:
         self._after: set[int] = set()
         self._behind: dict[int, float] = {}
         self._ahead: dict[int, tuple[float, ...]] = {}
+        self._degrees: dict[int, float] = {}
         self._limits = planner.cut_limits
         self._joint = _Joint(self._limits.step)
         self._contexts: dict[int, Context] = {}
@@ -167,13 +170,19 @@ class TimeAccount:
                     self._behind[chunk.first + row] = self._planner.behind_s(context)
                 if kind == Kind.RAPID or context.transformation is not None:
                     self._contexts[chunk.first + row] = context
+                if context.degree_mm != 1.0 and self._planner.rotary_weight(context) == 0.0:
+                    self._degrees[chunk.first + row] = context.degree_mm
 
     def _asked_speed(self, chunk: Chunk, row: int, context: Context) -> float:
         """Path speed that the program asks for, mm/s; 0 where that changes along the row, or F counts a part of it."""
         kind, feed, pace = chunk.kind[row], chunk.feed[row], context.pace
         if kind == Kind.RAPID:
             return context.rapid_speed or inf
-        if context.surface_speed or (pace is not None and pace.weights) or kind in HELIX_KINDS:
+        if (
+            context.surface_speed
+            or (pace is not None and (pace.weights or pace.turning))
+            or kind in HELIX_KINDS
+        ):
             return 0.0
         turns = self._planner.rpm(context, 0.0) / 60.0
         if kind in (Kind.THREAD, Kind.TAP) and chunk.curve[row] >= 0:
@@ -188,7 +197,7 @@ class TimeAccount:
         for at in range(0, count * width, width):
             self._piece(records, at)
         done = int(records[(count - 1) * width + PieceRecord.ROW])
-        for rows in (self._asked, self._contexts, self._ahead, self._behind):
+        for rows in (self._asked, self._contexts, self._ahead, self._behind, self._degrees):
             for row in [row for row in rows if row < done]:
                 del rows[row]
         self._after = {row for row in self._after if row >= done}
@@ -241,7 +250,10 @@ class TimeAccount:
 
     def _bound(self, records: array[float], at: int, peak2: float) -> Cause:
         """What bounds the highest speed of a piece."""
-        asked, rapid = self._asked.get(int(records[at + PieceRecord.ROW]), (0.0, False))
+        row = int(records[at + PieceRecord.ROW])
+        asked, rapid = self._asked.get(row, (0.0, False))
+        if row in self._degrees and self._turns(records, at):
+            asked /= self._degrees[row]
         speed = sqrt(peak2) * (1.0 + SAME)
         if asked < inf and speed >= asked:
             return Cause.FEED
@@ -250,6 +262,11 @@ class TimeAccount:
         if at_top:
             return Cause.AXES
         return Cause.ARC_PULL if speed >= self._top_of_arc(records, at) else Cause.CORNERS
+
+    def _turns(self, records: array[float], at: int) -> bool:
+        """Whether nothing but rotary axes moves on a piece."""
+        ways = zip(*self._directions(records, at), self._limits.rotary, strict=False)
+        return all(rotary or max(abs(first), abs(last)) < STANDS for first, last, rotary in ways)
 
     def _top_of_arc(self, records: array[float], at: int) -> float:
         """Speed that parameters allow on a piece of an arc that is planned ahead; infinite on others."""

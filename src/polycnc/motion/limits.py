@@ -6,7 +6,6 @@ from array import array
 from math import inf
 from typing import TYPE_CHECKING, NamedTuple
 
-from polycnc.geometry.units import INCH_MM
 from polycnc.motion.kernels.alone import alone_pull, alone_top, best_ramp
 from polycnc.motion.kernels.columns import Limits, PathLimits
 from polycnc.motion.kernels.jerk import DEVIATION_CORNER, JERK_CORNER
@@ -183,7 +182,7 @@ def context_fields(
         is_ahead(context, settings),
         behind_s(context, settings),
         settings.turn_speed if settings.turn_speed > 0.0 and _is_tip(context) else 0.0,
-        _degree(context) if settings.rotary_in_feed else 1.0,
+        context.degree_mm,
         *(a, b, c, d, e, f, g, h, i),
         *context.frame.t,
         *(context.offsets or [0.0] * axes),
@@ -288,9 +287,9 @@ class AxisRapid(NamedTuple):
 def axis_rapids(ways: Sequence[float], context: Context, limits: Limits, *, soft: bool) -> list[AxisRapid]:
     """How each axis runs its way of a rapid on which every axis runs alone, with limited jerk (`soft`) or without."""
     found: list[AxisRapid] = []
-    for way, limit, pull, jerk in zip(ways, limits.top_rapid, limits.acceleration, limits.jerk, strict=True):
-        share = context.pace.rapid if context.pace is not None else 1.0
-        top = context.rapid_top(share * limit)
+    own_limits = zip(limits.top_rapid, limits.acceleration, limits.jerk, limits.rotary, strict=True)
+    for way, (limit, pull, jerk, rotary) in zip(ways, own_limits, strict=True):
+        top = context.rapid_top(limit, rotary=bool(rotary))
         ramp = best_ramp(abs(way), top, pull, jerk) if soft and way else 0.0
         own = alone_pull(ramp, pull, jerk)
         found.append(AxisRapid(alone_top(abs(way), top, own, ramp), own, ramp))
@@ -301,11 +300,7 @@ def rotary_weight(context: Context, settings: Settings) -> float:
     """Millimetres that a degree counts in the length that the feed refers to: that of a tip is its way on the work."""
     if not settings.rotary_in_feed or _is_tip(context):
         return 0.0
-    return _degree(context)
-
-
-def _degree(context: Context) -> float:
-    return INCH_MM if context.inch else 1.0
+    return context.degree_mm
 
 
 def _is_tip(context: Context) -> bool:

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 from polycnc.motion.compiled import PLAIN, kernels
 from polycnc.motion.kernels.chords import settle
 from polycnc.motion.kernels.columns import PLACES, Form, PieceRecord, Rows, new_state, piece_width
-from polycnc.motion.limits import ContextTables, averages, axis_rapids
+from polycnc.motion.limits import ContextTables, averages, axis_rapids, rotary_weight
 from polycnc.motion.settings import DEFAULT, Settings
 from polycnc.motion.standing.beside import Awaits, Beside
 from polycnc.motion.standing.waits import Waits, least_seconds
@@ -135,6 +135,10 @@ class Planner:
     def cut_limits(self) -> Limits:
         """What bounds cuts without a transformation."""
         return self._real.limits(None)
+
+    def rotary_weight(self, context: Context) -> float:
+        """Millimetres that a degree counts in the length that the feed refers to."""
+        return rotary_weight(context, self._settings)
 
     def is_ahead(self, context: Context) -> bool:
         """Whether parameters for corners and arcs of cuts that are planned ahead hold."""

@@ -28,6 +28,7 @@ from polycnc.control.sinumerik.m_functions import (
 from polycnc.control.sinumerik.replaced import program_of
 from polycnc.control.sinumerik.tools import master_holder, selection, stages
 from polycnc.control.sinumerik.tools.holders import active as carriers
+from polycnc.control.sinumerik.tools.management import adapters
 from polycnc.control.sinumerik.tools.sides import FACES
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.variables import part_counts
@@ -161,7 +162,8 @@ def first_location(channel: SinumerikChannel, before: int) -> None:
 
 
 def edge_selected(channel: SinumerikChannel) -> None:
-    """Another tool, edge or holder: an orientable holder is worked out anew."""
+    """Another tool, edge or holder: an orientable holder is worked out anew; PC0001 for a tool behind an adapter."""
+    adapters.check(channel)
     carriers.follow(channel)
     tool_changed(channel)
     wheels.selected(channel)

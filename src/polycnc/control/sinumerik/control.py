@@ -398,7 +398,7 @@ class Sinumerik:
         delays_stops = sections.delays_stops(channel)
         return Context(
             plane=mode["plane"],
-            inch=False,
+            feed_inch=mode["unit"] == "G700",
             feed_mode=feed.mode,
             frame=coordinates.zero,
             offsets=tuple(coordinates.offsets),

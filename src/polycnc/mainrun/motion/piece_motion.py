@@ -215,7 +215,8 @@ class AxesMotion:
         self.end2 = 0.0
         ways = [b - a for a, b in zip(piece.way.start, piece.way.end, strict=True)]
         alone = axis_rapids(ways, piece.context, limits, soft=ramp > 0.0)
-        self._top = tuple(piece.context.rapid_top(top) for top in limits.top_rapid)
+        tops = zip(limits.top_rapid, limits.rotary, strict=True)
+        self._top = tuple(piece.context.rapid_top(top, rotary=bool(turns)) for top, turns in tops)
         self._pull = tuple(own.pull for own in alone)
         self._ramps, self._ramp = tuple(own.ramp for own in alone), ramp
         self._moves = tuple(AxisMove(start, (), since, start) for start in piece.way.start)

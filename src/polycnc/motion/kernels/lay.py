@@ -275,8 +275,10 @@ def lay_rapid_by_axis(
 
 
 def rapid_top(contexts: Floats, record: int, limits: Limits, i: int) -> float:
-    """Highest speed of an axis that runs a rapid alone."""
+    """Highest speed of an axis that runs a rapid alone; one of the program's own counts degrees of a rotary axis."""
     own: float = contexts[record + ContextRecord.RAPID_SPEED]
+    if limits.rotary[i] != 0.0:
+        own = own / contexts[record + ContextRecord.TURN_WEIGHT]
     top: float = contexts[record + ContextRecord.RAPID_SHARE] * limits.top_rapid[i]
     return min(top, own) if own > 0.0 else top
 
@@ -293,7 +295,7 @@ def lay_straight(
     end_x, shared = state.row.facing, state.row.shares > 1.0
     if not has_room(pieces, contexts, record, state, parts, n):
         return False
-    top, pull = line_limits(curves, contexts, record, n, limits, state, length, start_x)
+    top, pull = line_limits(curves, contexts, record, n, limits, state, length, start_x, weight)
     if not goes_on_smoothly(n, limits, state, weight):
         end_chord(pieces, n, limits, state)
     entry2, first, last, whole_pull, before = 0.0, 0.0, 0.0, pull / state.row.ease, pull
@@ -378,6 +380,7 @@ def line_limits(
     state: State,
     length: float,
     radius: float,
+    weight: float,
 ) -> tuple[float, float]:
     """Speed and acceleration along the row at hand that its axes allow; sets `unit` to its direction."""
     delta, unit = state.delta, state.unit
@@ -397,7 +400,7 @@ def line_limits(
         alone = is_rapid(state) and limits.path.rapid_stops != 0.0
         pull = line_pull(contexts, record, n, limits, state, alone or state.row.kind == TAP)
     elif contexts[record + ContextRecord.DRIVE_SPEED] < 1.0:
-        asked = bound(asked_speed(curves, contexts, record, state, length, radius), state)
+        asked = bound(straight_speed(curves, contexts, record, state, length, radius, weight), state)
         pull *= drive_factor(contexts, record, n, limits, state, unit, 0, min(top, asked))
     lead = lead_of(curves, state)
     if state.row.kind == TAP and lead > 0.0:

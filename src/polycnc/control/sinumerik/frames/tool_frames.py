@@ -70,14 +70,12 @@ def by_table(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001
 def tool_direction(channel: SinumerikChannel) -> Vector:
     """Direction along the tool in the basic coordinate system.
 
-    An orientation transformation says it; else it is the plane's third axis as the holder turns it.
+    An orientation transformation says it; else its edge does, or the plane with its third axis, as the holder turns it.
     """
     if seat.centre_point(channel) is not None:
         posture = Posture.of(channel, channel.mode)
         return posture.direction(posture.angles(channel.coordinates.position))
-    across = axis_vector(PLANES[channel.mode["plane"]][2])
-    carrier = channel.memory.tools.carrier
-    return across if carrier is None else carrier.direct(*across)
+    return channel.memory.tools.direction(channel.mode["plane"])
 
 
 def mechanism(channel: SinumerikChannel, context: Context) -> Kinematics:

@@ -94,6 +94,7 @@ class Build:
             that says how far it goes; else -1.
         bound: Columns of axes that move with the path alone: neither positioned nor oscillating beside it.
         order: Number of its machine data, among those of its kind.
+        follows_tool: The tool may say its direction (TRAORI whose call does not).
         changes_sides: The infeed axis goes through the pole to its other side (TRANSMIT with MD24911 = 0).
         in_front: What vectors of machine data add to positions in front of it, X, Y, Z, mm.
         behind: The same along the machine's axes behind it.
@@ -105,6 +106,7 @@ class Build:
     walls: int = -1
     bound: frozenset[int] = frozenset()
     order: int = 1
+    follows_tool: bool = False
     changes_sides: bool = False
     in_front: Vector = _NOWHERE
     behind: Vector = _NOWHERE
@@ -270,7 +272,8 @@ def orientation(
     Args:
         channel: The channel.
         found: The data set.
-        along: Basic direction of the tool as the call has it; None for that of the machine data.
+        along: Basic direction of the tool as the call has it; None for that of the tool ($TC_DPV), else of the
+            machine data.
         added: Further offsets of the rotary axes.
 
     Raises:
@@ -290,7 +293,7 @@ def orientation(
         offset = number_of(channel, f"$MC_TRAFO5_ROT_AX_OFFSET_{n}", i, 0.0)
         zero[axes.index(axis)] = -(offset + (added[i] if i < len(added) else 0.0))
     inner = ToolCentrePoint(joints, axes, geometry, tuple(zero), (0.0, 0.0, 0.0))
-    return Build(inner, lengths="tip", order=n, in_front=in_front)
+    return Build(inner, lengths="tip", order=n, in_front=in_front, follows_tool=along is None)
 
 
 def in_order(kinematics: Kinematics) -> tuple[str, ...]:

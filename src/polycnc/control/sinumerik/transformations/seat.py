@@ -275,7 +275,10 @@ def _seated(channel: SinumerikChannel, build: Build, total: NcFrame) -> Seated:
     on_axes = build.lengths == "tip" and tools.rules is not None and tools.rules.system == OF_MACHINE
     in_front, behind = (_NONE, tools.apart) if on_axes else (tools.apart, _NONE)
     if build.lengths == "tip":
-        inner = _with_tip(inner, (-x, -y, -z))
+        own = tools.own_direction(channel.mode["plane"]) if build.follows_tool else None
+        inner = _with_tip(
+            inner, (-x, -y, -z), None if own is None else (tools.carrier or IDENTITY).direct(*own)
+        )
     elif build.lengths == "before":
         in_front = plus(in_front, lengths)
     else:
@@ -311,12 +314,16 @@ def _add_to_axes(channel: SinumerikChannel, inner: Any, offsets: list[float], le
             offsets[:] = link.to_machine(offsets)
 
 
-def _with_tip(inner: Any, tip: tuple[float, float, float]) -> Any:
-    """The transformation with another tool; of a chain it is the first link that has the tool."""
+def _with_tip(inner: Any, tip: Vector, along: Vector | None) -> Any:
+    """The transformation with another tool; of a chain it is the first link that has the tool.
+
+    `along` is the direction of the tool, None where it has none of its own.
+    """
     if isinstance(inner, Chain):
         first, *others = inner.links
-        return Chain((_with_tip(first, tip), *others))
-    return replace(inner, tip=tip)
+        return Chain((_with_tip(first, tip, along), *others))
+    kinematics = inner.kinematics if along is None else replace(inner.kinematics, along=along)
+    return replace(inner, tip=tip, kinematics=kinematics)
 
 
 # ---- names

@@ -70,6 +70,10 @@ class Words:
         value = self.values[slot[0]]
         return convert(value) if convert else value
 
+    def way(self, address: str, *, rotary: bool) -> float | None:
+        """A way of one axis: millimetres, or degrees of a rotary one."""
+        return self.angle(address) if rotary else self.length(address)
+
     def integer(self, address: str) -> int | None:
         """A whole number; what a decimal point in it does is the control's."""
         slot = self.plan.slots.get(address)

@@ -5,6 +5,7 @@ Source: job planning 16.1 (what the function does); arguments and results are th
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from polycnc.control.sinumerik.errors import not_supported
@@ -23,7 +24,7 @@ from polycnc.control.sinumerik.tools.edges import (
 )
 from polycnc.control.sinumerik.tools.lengths import AGAINST_TOOL, OF_MACHINE, Rules, along_axes
 from polycnc.control.sinumerik.tools.management.environments import ORDER, Environments, field_of
-from polycnc.control.sinumerik.tools.management.systems import BASIC, MACHINE, SYSTEMS, seen_from
+from polycnc.control.sinumerik.tools.management.systems import BASIC, MACHINE, SYSTEMS, has_offsets, seen_from
 from polycnc.control.sinumerik.tools.selection import rules_of
 from polycnc.geometry.frames import IDENTITY
 
@@ -72,7 +73,7 @@ def length_of(channel: SinumerikChannel, args: Arguments) -> int:
     and -9 for environment, parts, T, D, DL, system that are none; then the field stays.
 
     Raises:
-        AlarmError: PC0001 for the part of a transformation, and what `seen_from` finds.
+        AlarmError: PC0001 for the part of a transformation whose head has offsets, and what `seen_from` finds.
     """
     field_of("GETTCOR", args[0], (FIELD,))
     given = [*args[1:], *[None] * 5][:5]
@@ -82,7 +83,7 @@ def length_of(channel: SinumerikChannel, args: Arguments) -> int:
         return WRONG_COMPONENTS
     if system not in SYSTEMS:
         return WRONG_SYSTEM
-    if KINEMATIC in parts:
+    if (KINEMATIC in parts or not parts) and has_offsets(channel):
         raise not_supported("GETTCOR: K")
     asked = asked_of(channel, given[1:])
     if isinstance(asked, int):
@@ -148,7 +149,7 @@ def made_of(edge: Edge, parts: frozenset[str]) -> Edge:
     values = [value if n in numbers else 0.0 for n, value in enumerate(edge.values)]
     sums = {kind for kind, part in ((FINE, SUM), (COARSE, SETUP)) if part in parts}
     additive = {key: value for key, value in edge.additive.items() if key[0] in sums}
-    return Edge(values, edge.teeth, edge.cutting_edge, edge.is_valid, additive)
+    return replace(edge, values=values, additive=additive)
 
 
 def length_along(
