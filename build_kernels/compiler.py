@@ -14,7 +14,6 @@ from contextlib import contextmanager
 from types import FunctionType, ModuleType
 from typing import TYPE_CHECKING, cast, get_type_hints
 
-from polycnc.deferred.named_tuples import written
 from polycnc.kernels.layout import Argument, Kind, Places, arguments, flat
 
 if TYPE_CHECKING:
@@ -182,7 +181,7 @@ def _given(argument: Argument, names: list[str], scope: dict[str, object]) -> st
     """An expression for an argument of a kernel; adds the names of what it is made of."""
     if argument.kind is Kind.GROUP:
         assert argument.type is not None
-        scope[argument.type.__name__] = written(argument.type)
+        scope[argument.type.__name__] = argument.type
         parts = ", ".join(_given(part, names, scope) for part in argument.parts)
         return f"{argument.type.__name__}({parts})"
     name = f"a{len(names)}"

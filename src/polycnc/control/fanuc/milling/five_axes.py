@@ -12,7 +12,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from polycnc.compensation.spatial_rules import INTERSECTION_FIRST, Corners, Rules
+from polycnc.compensation.spatial.rules import INTERSECTION_FIRST, Corners, Rules
 from polycnc.control.fanuc.milling.parameters import FanucMillingParameters
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.coordinates.on_table import OnTable

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 from polycnc.channel.moves.knots import join
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move, Rank, Stage
-from polycnc.compensation.spatial_chords import CHORD_ERROR_MM, Directions, bends, doubled, strays
+from polycnc.compensation.spatial.chords import CHORD_ERROR_MM, Directions, bends, doubled, strays
 from polycnc.control.sinumerik.tools.edges import DP_CORNER_RADIUS, DP_RADIUS, DP_SIDE_ANGLE
 from polycnc.control.sinumerik.tools.spatial import ToolOnWork
 from polycnc.control.sinumerik.transformations import seat

@@ -10,7 +10,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.knots import join
-from polycnc.compensation.spatial import SpatialStage
+from polycnc.compensation.spatial.stage import SpatialStage
 from polycnc.control.word_address.coordinates.systems import work_zero
 from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.tools import radius
@@ -18,7 +18,7 @@ from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.transformation.orientation.solutions import Posture
 
 if TYPE_CHECKING:
-    from polycnc.compensation.spatial_rules import Corners, Rules
+    from polycnc.compensation.spatial.rules import Corners, Rules
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.block.words import Words

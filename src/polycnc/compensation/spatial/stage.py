@@ -2,7 +2,7 @@
 
 With the tool along v and the path along t the tool stands to the left by v × t. At a corner both blocks see the
 same tool v, so their offset lines, looked at along v, meet at `r (n1 + n2) / (1 + n1 · n2)` from the corner. An arc
-whose plane is square on the tool has a parallel arc (`spatial_arcs`), any other one becomes chords. Where the control
+whose plane is square on the tool has a parallel arc (`arcs`), any other one becomes chords. Where the control
 turns the tool at a corner (`Rules.turns`), it does that before the arc about it or along with it.
 """
 
@@ -16,9 +16,9 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move, PlacedEvent, Rank, Stage
-from polycnc.compensation.spatial_arcs import Rest, between, crossing, is_across, meeting, turns_left
-from polycnc.compensation.spatial_chords import CHORD_ERROR_MM, bends, doubled, strays
-from polycnc.compensation.spatial_rules import TURNS_ALONG, TURNS_BEFORE, TURNS_NOT
+from polycnc.compensation.spatial.arcs import Rest, between, crossing, is_across, meeting, turns_left
+from polycnc.compensation.spatial.chords import CHORD_ERROR_MM, bends, doubled, strays
+from polycnc.compensation.spatial.rules import TURNS_ALONG, TURNS_BEFORE, TURNS_NOT
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.arcs import parts_for_chord_error
 from polycnc.geometry.vectors import cross, dot, minus, times
@@ -28,8 +28,8 @@ from polycnc.toolpath.kinds import Kind
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from polycnc.compensation.spatial_chords import Directions
-    from polycnc.compensation.spatial_rules import Corners, Rules
+    from polycnc.compensation.spatial.chords import Directions
+    from polycnc.compensation.spatial.rules import Corners, Rules
     from polycnc.geometry.frames import Vector
 
 PARALLEL = 1e-6

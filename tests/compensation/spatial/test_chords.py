@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move
-from polycnc.compensation.spatial_chords import MOST_CHORDS, bends, doubled, strays
+from polycnc.compensation.spatial.chords import MOST_CHORDS, bends, doubled, strays
 from polycnc.toolpath.kinds import Kind
 from polycnc.transformation.orientation.turning import Turning
 
