@@ -128,6 +128,15 @@ def test_short_zigzags_become_flatter() -> None:
     assert 0.85 < lines <= SURELY
 
 
+def test_a_small_tolerance_is_kept_beside_a_large_one() -> None:
+    drawn = Drawn()
+    for tolerance in (0.001, 0.1, 0.001):
+        drawn.line(1.0, 0.4, 0.0, 0.0, Bounds(tolerance))
+        drawn.arc(0.5, 2.0, 0.0, 0.0, 0.0, Bounds(0.1))
+    lines, _ = parts_of_tolerance(drawn, bend(drawn.path.path))
+    assert lines <= SURELY
+
+
 def test_what_cannot_be_met_raises() -> None:
     path = ProgrammedPath([1e13, 0.0, 0.0], [250.0] * 3)  # places are 0.002 mm apart there
     path.arc([1e13, 2.0, 0.0], (1e13, 1.0, 0.0), (0.0, 0.0, 1.0), pi, 3, Bounds(1e-4))

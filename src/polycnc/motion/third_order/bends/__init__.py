@@ -8,6 +8,8 @@
     controls    the spline by its control points, and by place, q' and q'' at its knots
     levelling   what short lines leave of the tolerance
     within      whether it is kept
+    seams       where parts that are bent by themselves go over into each other
+    seeking     where seams can be
     pieces      row and highest speed of each piece
     bending     all of it in turn
 

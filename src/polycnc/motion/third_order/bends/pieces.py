@@ -11,25 +11,38 @@ from polycnc.motion.third_order.bends.stretches import Stretches
 
 
 class Pieces(NamedTuple):
-    """Of each piece the largest square of the speed, and the number of its row: of several the first."""
+    """Of each piece the largest square of the speed, the part of acceleration and jerk, and of its rows the first."""
 
     cap2: Floats
+    ease: Floats
     row: Ints
 
 
 def bound_pieces(path: Stretches, n: int, spline: Spline, count: int, pieces: Pieces) -> None:
-    """Set cap and row of every piece."""
+    """Set cap, ease and row of every piece."""
     e, last = 0, len(path.form) - 1
     for k in range(count):
         start, end = spline.way[k], spline.way[k + 1]
         while e < last and path.way[e + 1] <= start:
             e += 1
         pieces.row[k] = path.row[e]
-        cap2, other = path.cap2[e], e
+        cap2, ease, other = path.cap2[e], path.ease[e], e
         while other < last and path.way[other + 1] < end:
             other += 1
-            cap2 = min(cap2, path.cap2[other])
+            cap2, ease = min(cap2, path.cap2[other]), min(ease, path.ease[other])
+        pieces.ease[k] = ease
         pieces.cap2[k] = axes_cap2(path, n, spline, k, cap2)
+
+
+def end_rows(path: Stretches, start: float, end: float, rows: Ints, ways: Floats) -> int:
+    """Write the rows that end behind one way and up to another, and the ways at which they do; their number."""
+    found, last = 0, len(path.form) - 1
+    for e in range(last + 1):
+        way = path.way[e + 1]
+        if start < way <= end and (e == last or path.row[e] != path.row[e + 1]):
+            rows[found], ways[found] = path.row[e], way
+            found += 1
+    return found
 
 
 def axes_cap2(path: Stretches, n: int, spline: Spline, k: int, cap2: float) -> float:

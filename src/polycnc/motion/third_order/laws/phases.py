@@ -94,7 +94,7 @@ def examine(course: Course, axes: Axes, phases: Floats, most: Floats, begin: int
         time = phases[at + Phase.TIME]
         if time <= 0.0:
             continue
-        there, now = phases[at + Phase.WAY] + _gone(phases, at, time), 0.0
+        there, now = phases[at + Phase.WAY] + gone(phases, at, time), 0.0
         while p < m - 1 and course.way[p + 1] <= phases[at + Phase.WAY]:
             p += 1
         pull, jerk = phases[at + Phase.PULL], phases[at + Phase.JERK]
@@ -104,8 +104,8 @@ def examine(course: Course, axes: Axes, phases: Floats, most: Floats, begin: int
             last = p >= m - 1 or course.way[p + 1] >= there
             if not _roughly(course, axes, p, fast, hard, abs(jerk), most, 3 * k):
                 if course.way[p] > phases[at + Phase.WAY]:
-                    now = _reached(phases, at, now, course.way[p])
-                until = time if last else _reached(phases, at, now, course.way[p + 1])
+                    now = reached(phases, at, now, course.way[p])
+                until = time if last else reached(phases, at, now, course.way[p + 1])
                 _piece(course, axes, phases, at, p, now, until, most, 3 * k)
             if last:
                 break
@@ -117,7 +117,7 @@ def _roughly(
 ) -> bool:
     """Whether a piece keeps all limits even if the highest speed, acceleration and jerk of a phase come together."""
     n, step = len(axes.jerk), course.way[p + 1] - course.way[p]
-    square = fast * fast
+    square, ease = fast * fast, course.ease[p]
     high, high_a, high_j = square / course.cap2[p], 0.0, 0.0
     for i in range(n):
         here, there = course.second[p * n + i], course.second[p * n + n + i]
@@ -125,8 +125,10 @@ def _roughly(
         turn = (
             max(abs(course.first[p * n + i]), abs(course.first[p * n + n + i])) + 0.125 * third * step * step
         )
-        high_a = max(high_a, (turn * hard + bend * square) / axes.pull[i])
-        high_j = max(high_j, (turn * jerk + fast * (3.0 * bend * hard + third * square)) / axes.jerk[i])
+        high_a = max(high_a, (turn * hard + bend * square) / (ease * axes.pull[i]))
+        high_j = max(
+            high_j, (turn * jerk + fast * (3.0 * bend * hard + third * square)) / (ease * axes.jerk[i])
+        )
     if high > 1.0 or high_a > 1.0 or high_j > 1.0:
         return False
     most[to], most[to + 1] = max(most[to], high), max(most[to + 1], high_a)
@@ -134,14 +136,15 @@ def _roughly(
     return True
 
 
-def _gone(phases: Floats, at: int, time: float) -> float:
+def gone(phases: Floats, at: int, time: float) -> float:
+    """The way gone in a phase after a time."""
     return time * (
         phases[at + Phase.SPEED]
         + time * (0.5 * phases[at + Phase.PULL] + time * phases[at + Phase.JERK] / 6.0)
     )
 
 
-def _reached(phases: Floats, at: int, now: float, way: float) -> float:
+def reached(phases: Floats, at: int, now: float, way: float) -> float:
     """The time in a phase, after `now`, at which a place is reached."""
     low, high = now, phases[at + Phase.TIME]
     goal = way - phases[at + Phase.WAY]
@@ -202,14 +205,15 @@ def _used(
     jerk = phases[at + Phase.JERK]
     pull = phases[at + Phase.PULL] + begin * jerk
     speed = phases[at + Phase.SPEED] + begin * (phases[at + Phase.PULL] + 0.5 * begin * jerk)
-    way = phases[at + Phase.WAY] + _gone(phases, at, begin) - course.way[p]
+    way = phases[at + Phase.WAY] + gone(phases, at, begin) - course.way[p]
     pull2, speed2 = pull + time * jerk, speed + time * (pull + 0.5 * time * jerk)
     way2 = way + time * (speed + time * (0.5 * pull + time * jerk / 6.0))
     hard = abs(jerk)
     most_pull, eighth = max(abs(pull), abs(pull2)), 0.125 * time * time
     fast = max(speed, speed2) + eighth * hard
     high, high_a = max(speed, speed2) ** 2 * top, 0.0
-    length, high_j, bound_a, bound_j = course.way[p + 1] - course.way[p], 0.0, 0.0, 0.0
+    length, ease = course.way[p + 1] - course.way[p], course.ease[p]
+    high_j = bound_a = bound_j = 0.0
     for i in range(n):
         first, second = course.first[p * n + i], course.second[p * n + i]
         third = (course.second[p * n + n + i] - second) / length
@@ -220,7 +224,8 @@ def _used(
         more = eighth * (
             4.0 * bent * fast * hard + 3.0 * bent * most_pull**2 + 6.0 * twist * fast**2 * most_pull
         )
-        high_a, bound_a = max(high_a, used / axes.pull[i]), max(bound_a, (used + more) / axes.pull[i])
+        part = 1.0 / (ease * axes.pull[i])
+        high_a, bound_a = max(high_a, used * part), max(bound_a, (used + more) * part)
         used = max(
             abs(turn * jerk + speed * (3.0 * bend * pull + third * speed * speed)),
             abs(turn2 * jerk + speed2 * (3.0 * bend2 * pull2 + third * speed2 * speed2)),
@@ -228,5 +233,6 @@ def _used(
         more = eighth * (
             twist * fast * (10.0 * fast * hard + 15.0 * most_pull**2) + 10.0 * bent * most_pull * hard
         )
-        high_j, bound_j = max(high_j, used / axes.jerk[i]), max(bound_j, (used + more) / axes.jerk[i])
+        part = 1.0 / (ease * axes.jerk[i])
+        high_j, bound_j = max(high_j, used * part), max(bound_j, (used + more) * part)
     return fast * fast * top, bound_a, bound_j, high, high_a, high_j
