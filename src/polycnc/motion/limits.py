@@ -183,6 +183,7 @@ def context_fields(
         behind_s(context, settings),
         settings.turn_speed if settings.turn_speed > 0.0 and _is_tip(context) else 0.0,
         context.degree_mm,
+        averages[0] > 0.0 and not after and is_bent_by_way(context, settings),
         *(a, b, c, d, e, f, g, h, i),
         *context.frame.t,
         *(context.offsets or [0.0] * axes),
@@ -273,6 +274,24 @@ def is_led(context: Context, settings: Settings) -> bool:
         and context.turn_distance_mm == 0.0
         and context.lag_s == 0.0
         and not context.surface_speed
+    )
+
+
+def is_bent_by_way(context: Context, settings: Settings) -> bool:
+    """Whether with limited jerk a path is bent by its way, and a law leads along it (`third_order`).
+
+    Not under a transformation or a coupling, whose real axes are others than those of the path; not by time constants,
+    or where strokes and rapids overlap; nor where parameters bound the speed at corners of cuts that are planned ahead.
+    """
+    corners = (settings.corner_speed, *settings.corner_steps.values(), *settings.line_pulls.values())
+    return (
+        settings.bends_by_way
+        and context.transformation is None
+        and context.lag_s == 0.0
+        and behind_s(context, settings) == 0.0
+        and context.overlap <= 0.0
+        and context.rapid_overlap == 0.0
+        and not (is_ahead(context, settings) and min(corners) < inf)
     )
 
 

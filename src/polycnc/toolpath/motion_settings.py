@@ -120,6 +120,7 @@ class MotionSettings:
             REPOSA, FANUC 7001#0 MIT); else it goes on from where they are.
     """
 
+    bends_by_way: bool = False
     rapid_by_axis: bool = False
     rapid_stops: bool = True
     rotary_in_feed: bool = True

@@ -498,6 +498,7 @@ class Sinumerik:
         data = MachineData.of(channel)
         waits = data.said("$MA_SPIND_ON_SPEED_AT_IPO_START")
         return MotionSettings(
+            bends_by_way=True,
             rapid_stops=False,
             rotary_in_feed=False,
             drive_speed=min(data.number("$MA_ACCEL_REDUCTION_SPEED_POINT", name) for name in channel.axes),

@@ -61,6 +61,10 @@ class Motion(Protocol):
     def done(self, time: float) -> float:
         """How far along the piece the motion is, mm."""
 
+    @property
+    def end_position(self) -> list[float]:
+        """Machine position at its end."""
+
 
 class PathMotion:
     """Along the path, all axes together.
@@ -138,6 +142,11 @@ class PathMotion:
             return 2.0 * pull * left
         speed = pull * (sqrt(late * late + 2.0 * left / pull) - late)
         return speed * speed
+
+    @property
+    def end_position(self) -> list[float]:
+        """Machine position at the end of the piece."""
+        return self.piece.at(1.0)
 
     @property
     def length(self) -> float:
@@ -226,6 +235,11 @@ class AxesMotion:
     def machine(self, time: float) -> list[float]:
         """Machine position."""
         return [move.after(time)[0] for move in self._moves]
+
+    @property
+    def end_position(self) -> list[float]:
+        """Machine position at its end."""
+        return self.piece.at(1.0)
 
     def lead(self, follower: Follower) -> None:
         """Say what the axes follow from now on."""
