@@ -242,6 +242,11 @@ ARC = st.tuples(
 @settings(max_examples=examples(40), deadline=None)
 @given(st.lists(ARC, min_size=1, max_size=8))
 @example([(0.2, 1.0, 0.0, 0.0, 0.5), (0.2, 1.5, 1.0, 0.0, 20.0)])
+@example([(0.2, 1.0, 0.0, 0.0, 0.5), (1.0, 5.03125, 0.875, 0.0, 20.0), (0.2, 1.0, 0.0, 3.0, 20.0)])
+@example(
+    [(0.2, sweep, 0.0, 0.0, 0.5) for sweep in (1.0, 2.0, 2.5, 0.75, 1.0)]
+    + [(1.0, 5.03125, 0.875, 0.0, 20.0), (0.2, 1.0, 0.0, 3.0, 20.0)]
+)
 def test_an_even_arc_takes_as_long_unseen(arcs: list[tuple[float, float, float, float, float]]) -> None:
     """Where nobody asks for places, an arc of the same limits is laid in three pieces.
 
