@@ -72,7 +72,7 @@ def plan(draft: Draft) -> None:
     """Take the words of orientation of a block, which then leads its goal.
 
     Raises:
-        AlarmError: 14101 where no orientation transformation acts.
+        AlarmError: 14101 where no orientation transformation acts, PC0001 for a cone where the axes go evenly.
     """
     acts = draft.mode[seat.GROUP] in ("TRAORI", "TRACON")
     point = seat.centre_point(draft.channel) if acts else None
@@ -93,7 +93,10 @@ def plan(draft: Draft) -> None:
         raise AlarmError("14133", text=mode["orientation_smoothing"])
     if words.columns and not _is_way(words) and not _matters(mode, draft):
         return
-    _check_polynomials(words, mode, interpolation(mode, draft.channel, by_axes=bool(words.columns)))
+    kind = interpolation(mode, draft.channel, by_axes=bool(words.columns))
+    if words.tells_cone and (kind not in CONES or is_point_to_point(mode)):
+        raise not_supported(f"{mode['motion']}: {mode['orientation_motion']}")
+    _check_polynomials(words, mode, kind)
     draft.lead = lambda channel, values, end, path: turn(channel, words, mode, values, end, path)
     draft.direction = standing.places_of(words, mode, interpolation(mode, draft.channel))
 
