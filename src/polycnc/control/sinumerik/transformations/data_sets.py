@@ -38,6 +38,12 @@ TYPES: dict[str, range] = {
     "TRAANG": range(1024, 1025),
     "TRACON": range(9999, 10000),
 }
+#: Types of TRAORI that say whether axes turn the head, and whether the table (general knowledge); others say neither.
+TURNED: dict[range, tuple[bool, bool]] = {
+    range(16, 32): (True, False),
+    range(32, 48): (False, True),
+    range(48, 64): (True, True),
+}
 #: Types of TRACYL: groove walls by a linear axis, always or by the third argument.
 WITH_WALLS, WALLS_BY_ARGUMENT = 513, 514
 #: Sides of the pole of TRANSMIT by MD24911 and MD24951; 0, as delivered, leaves both.
@@ -165,8 +171,9 @@ def check(channel: SinumerikChannel, found: DataSet) -> None:
     """Machine data that describe another machine than its file are refused: its axes are those of the file.
 
     Raises:
-        AlarmError: PC0019 for an angle or a sense of rotation beside the chain of joints, and under TRAORI for
-            the direction or the number of an axis that is not the chain's, and vectors of joints that it does not have.
+        AlarmError: PC0019 for an angle or a sense of rotation beside the chain of joints, and under TRAORI for a type
+            that turns something else, the direction or the number of an axis that is not the chain's, and vectors of
+            joints that it does not have.
     """
     data, n = channel.memory.data, order(channel, found)
     for name in (each.format(n=n) for each in SHIFTS.get(found.kind, ())):
@@ -176,6 +183,7 @@ def check(channel: SinumerikChannel, found: DataSet) -> None:
     if any(data.is_set(sense, *at) and not data.number(sense, *at) for at in _PLACES):
         raise another_machine(sense)
     if found.kind == "TRAORI":
+        _check_type(channel, found)
         _check_joints(channel, found)
         known = {name for chain in _vectors(Kinematics.of(channel.machine)) for name in chain}
         for name in (each.format(n=n) for each in {PART, JOINT, JOINT_OF_PART, BASE_TOOL} - known):
@@ -190,6 +198,14 @@ def _has_value(channel: SinumerikChannel, name: str) -> bool:
 
 #: A datum without index, or any of its elements.
 _PLACES: tuple[tuple[int, ...], ...] = ((), (0,), (1,), (2,))
+
+
+def _check_type(channel: SinumerikChannel, found: DataSet) -> None:
+    """What the axes turn: head, table or both."""
+    kinematics = Kinematics.of(channel.machine)
+    turns = (bool(kinematics.tool), bool(kinematics.work))
+    if any(found.type in types and turns != told for types, told in TURNED.items()):
+        raise another_machine(f"$MC_TRAFO_TYPE_{found.number}")
 
 
 def _check_joints(channel: SinumerikChannel, found: DataSet) -> None:

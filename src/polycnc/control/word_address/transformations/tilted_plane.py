@@ -29,6 +29,7 @@ from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, Frame, rotation, translation
 from polycnc.geometry.vectors import times
+from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
@@ -217,7 +218,12 @@ def align_tool(channel: WordAddressChannel, words: Words) -> None:
 
 
 def align_tool_about_tip(channel: WordAddressChannel, words: Words) -> None:
-    """G53.6 [P]: as G53.1, while X, Y and Z go along so that the tip stays where it is on the work."""
+    """G53.6 [P]: as G53.1, while X, Y and Z go along so that the tip stays where it is on the work.
+
+    PC0001 for H where no length acts: whether it switches one on is not known here.
+    """
+    if "H" in words and channel.mode.codes.get("length") == "G49":
+        raise AlarmError("PC0001", hint="hint.not-supported", code="G53.6 H")
     _align(channel, words, "G53.6", holds_tip=True)
 
 
