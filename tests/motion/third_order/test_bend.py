@@ -12,6 +12,8 @@ from hypothesis import strategies as st
 
 from polycnc.motion.third_order.bend import bend
 from polycnc.motion.third_order.bends.programmed import Bounds, ProgrammedPath
+from polycnc.motion.third_order.law import limits_of, quickest_law
+from tests.motion.paths import MILL
 from tests.motion.third_order.programmed_paths import TOPS, Drawn, drawn_paths, parts_of_tolerance
 
 SURELY = 1.0 + 1e-6
@@ -76,6 +78,29 @@ def test_a_line_is_one_piece_by_its_length() -> None:
     assert np.abs(bent.at(np.array([2.5]))[0] - [2.5, 4.0, 3.0]).max() < 1e-14
     assert np.abs(bent.second).max() < 1e-14
     assert bent.row.tolist() == bent.rows.tolist() == [7]
+
+
+def test_a_slow_row_on_a_line_slows_no_other_one() -> None:
+    path = ProgrammedPath([0.0, 0.0, 0.0], [250.0] * 3)
+    for row, (x, speed) in enumerate([(10.0, 50.0), (10.0001, 1.0), (11.0, 1.02), (50.0, 50.0)]):
+        path.line([x, 0.0, 0.0], row, Bounds(0.01, speed))
+    (bent,) = bend(path.path)
+    assert np.sqrt(bent.cap2[np.searchsorted(bent.way, [9.0, 10.00005, 10.5, 12.0]) - 1]) == pytest.approx(
+        [50.0, 1.0, 1.0, 50.0]
+    )
+    assert len(bent.cap2) == 3
+    assert bent.row.tolist() == [0, 1, 3]
+    assert np.abs(bent.place[:, 0] - bent.way).max() < 1e-12
+    assert quickest_law(bent, limits_of(MILL.axes)).seconds < 3.0
+
+
+def test_a_part_that_is_eased_eases_no_other_one() -> None:
+    path = ProgrammedPath([0.0, 0.0, 0.0], [250.0] * 3)
+    for row, (x, ease) in enumerate([(10.0, 1.0), (20.0, 0.1), (50.0, 1.0)]):
+        path.line([x, 0.0, 0.0], row, Bounds(0.01, 100.0, ease=ease))
+    (bent,) = bend(path.path)
+    assert bent.way.tolist() == [0.0, 10.0, 20.0, 50.0]
+    assert bent.ease.tolist() == [1.0, 0.1, 1.0]
 
 
 @pytest.mark.parametrize("degrees", [20.0, 90.0, 150.0])
