@@ -142,6 +142,14 @@ def test_a_path_rests_where_it_turns_back_or_may_not_be_left() -> None:
     assert np.abs(legs[0].place[-1] - [10.0, 0.0, 0.0, 0.0]).max() < 1e-12
 
 
+def test_a_path_rests_where_a_rotary_axis_turns_on_almost_no_way() -> None:
+    for turn, count in ((90.0, 3), (0.5, 1)):
+        path = ProgrammedPath([0.0, 0.0], [250.0, 100.0], [False, True], (0, -1, -1))
+        for row, end in enumerate(([10.0, 0.0], [10.01, turn], [50.0, turn])):
+            path.line(end, row, Bounds(0.01, 50.0))
+        assert len(bend(path.path)) == count
+
+
 def test_short_zigzags_become_flatter() -> None:
     drawn = Drawn()
     for k in range(60):

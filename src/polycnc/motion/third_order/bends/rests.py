@@ -10,6 +10,8 @@ from polycnc.motion.third_order.bends.stretches import CHORD, SPLINE_TURN, Stret
 BACK = -0.985
 #: A smaller tolerance is none (mm, degrees); a smaller step of q' no corner.
 NO_TOLERANCE, NO_CORNER = 1e-6, 1e-7
+#: A rotary axis whose degrees a mm of the way change by more turns at a place of the path: between such rows axes rest.
+MOST_TURN = 100.0
 
 
 def next_rest(path: Stretches, first: int) -> int:
@@ -34,7 +36,7 @@ def must_rest(path: Stretches, e: int, n: int) -> bool:
                 behind2 + leave * leave,
             )
             line2 += (leave - arrive) * (leave - arrive)
-    if along < BACK * sqrt(before2 * behind2):
+    if along < BACK * sqrt(before2 * behind2) or turn > MOST_TURN:
         return True
     smooth = path.form[e - 1] == CHORD and path.form[e] == CHORD and line2 <= SPLINE_TURN * SPLINE_TURN
     if smooth:
