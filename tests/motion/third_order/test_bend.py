@@ -150,6 +150,15 @@ def test_a_path_rests_where_a_rotary_axis_turns_on_almost_no_way() -> None:
         assert len(bend(path.path)) == count
 
 
+def test_a_path_rests_beside_a_row_that_creeps() -> None:
+    path = ProgrammedPath([0.0, 0.0, 0.0], [250.0] * 3)
+    for row, (x, speed) in enumerate([(10.0, 50.0), (10.0001, 2e-4), (10.0002, 2e-4), (50.0, 50.0)]):
+        path.line([x, 0.0, 0.0], row, Bounds(0.01, speed))
+    legs = bend(path.path)
+    assert [leg.rows.tolist() for leg in legs] == [[0], [1, 2], [3]]
+    assert sum(quickest_law(leg, limits_of(MILL.axes)).seconds for leg in legs) < 2.3
+
+
 def test_short_zigzags_become_flatter() -> None:
     drawn = Drawn()
     for k in range(60):
