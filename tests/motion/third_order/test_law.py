@@ -13,7 +13,10 @@ from hypothesis import strategies as st
 from polycnc.motion.third_order.bend import bend
 from polycnc.motion.third_order.law import quickest_law
 from polycnc.motion.third_order.laws import compiled
-from polycnc.motion.third_order.laws.quickest import NoLawError
+from polycnc.motion.third_order.laws.barrier import lay_stencils
+from polycnc.motion.third_order.laws.courses import Nodes, Phase, Stencil
+from polycnc.motion.third_order.laws.phases import PAIR, lay_phases, leads_on
+from polycnc.motion.third_order.laws.quickest import NoLawError, numbers
 from tests.kernels.strict import strict
 from tests.motion.jerk_paths import jerk_paths
 from tests.motion.optimum import least_time
@@ -110,6 +113,35 @@ def test_a_law_from_a_motion_goes_on_with_it() -> None:
     to = quickest_law(path, AXES, end=(60.0, 0.0))
     assert float(to.at(np.array([to.seconds]))[1][0]) == pytest.approx(60.0)
     assert used(path, to).max() <= KEPT
+
+
+@pytest.mark.parametrize(
+    ("length", "speed"), [(2e-4, 1e-3), (2e-4, 1e-5), (2.0, 1e-1), (2.0, 1e-5), (2.0, 1e-6)]
+)
+def test_at_a_slow_feed_the_way_to_its_speed_is_no_sliver(speed: float, length: float) -> None:
+    least = length / speed + 2.0 * (speed / AXES.jerk[0]) ** 0.5
+    path = line(length, speed)
+    law = quickest_law(path, AXES)
+    assert least <= law.seconds <= 1.3 * least
+    assert used(path, law).max() <= KEPT
+
+
+@given(st.integers(0, 2**32 - 1), st.booleans())
+def test_phases_lead_from_each_node_to_the_next_however_the_speed_falls(seed: int, moves: bool) -> None:
+    rng = np.random.default_rng(seed)
+    count = 12
+    way = array("d", np.append(0.0, np.cumsum(10.0 ** rng.uniform(-4.0, 0.0, count - 1))))
+    squares = array("d", 10.0 ** rng.uniform(-12.0, 4.0, count))
+    first = float(squares[0]) ** 0.5 if moves else 0.0
+    squares[0], squares[-1] = first * first, 0.0
+    nodes = Nodes(way, squares, numbers(count), numbers(count), array("d"), numbers(count * Stencil.SIZE))
+    phases = numbers(PAIR * (count - 1) * Phase.SIZE)
+    lay_stencils(nodes, array("d", (first, 0.0, 0.0, 0.0)))
+    lay_phases(nodes, phases, 0, count - 1)
+    assert all(leads_on(nodes, phases, k) for k in range(1 if moves else 0, count - 1))
+    table = np.array(phases).reshape(-1, Phase.SIZE)
+    assert table[:, Phase.TIME].min() >= 0.0
+    assert np.isfinite(table).all()
 
 
 def test_a_motion_that_cannot_come_to_rest_has_no_law() -> None:

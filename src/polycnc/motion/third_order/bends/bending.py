@@ -6,7 +6,8 @@ from polycnc.kernels.layout import Floats, Ints
 from polycnc.motion.third_order.bends.controls import Spline, lay_controls, shape
 from polycnc.motion.third_order.bends.knots import Samples, even_out, place_knots, take_samples
 from polycnc.motion.third_order.bends.levelling import level
-from polycnc.motion.third_order.bends.pieces import Pieces, bound_pieces
+from polycnc.motion.third_order.bends.pieces import Pieces, bound_pieces, cut_pieces
+from polycnc.motion.third_order.bends.seams import first_piece, pieces_behind
 from polycnc.motion.third_order.bends.stretches import Stretches, curve_lines
 from polycnc.motion.third_order.bends.turning import Turning, sum_turning
 from polycnc.motion.third_order.bends.within import weigh_excess
@@ -62,6 +63,10 @@ def bend_path(
         if number == 0:
             told[1] = found
         if found == 0:
+            last = made - pieces_behind(seams)
+            made = cut_pieces(path, n, spline, made, first_piece(seams), last)
+            if made < 0:
+                return NO_ROOM
             bound_pieces(path, n, spline, made, pieces)
             return made
     return NOT_WITHIN

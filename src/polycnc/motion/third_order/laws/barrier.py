@@ -290,6 +290,9 @@ def _solve(bands: Floats, first: int, last: int) -> None:
     for k in range(first, last + 1):
         at = BANDS * k
         own = bands[at]
+        if own <= 0.0:  # rounding has left nothing: the node keeps its x
+            own = bands[at] = 1.0
+            bands[at + 1] = bands[at + 2] = bands[at + 3] = 0.0
         if k + 1 <= last:
             near = bands[at + 1] / own
             bands[at + BANDS] -= near * bands[at + 1]

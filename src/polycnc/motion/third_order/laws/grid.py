@@ -21,8 +21,8 @@ GROWTH, CHANGE, TURN = 0.06, 0.15, 0.06
 APART = 0.7
 #: Nodes at least.
 FEWEST = 16
-#: Parts of a piece of no account: mm, and of the ways on which the speed changes.
-SLIVER, LITTLE = 1e-9, 1e-3
+#: Parts of a piece of no account, in parts of the ways on which the speed changes: nanometres at a slow feed.
+LITTLE = 1e-3
 #: Pull along the path that is taken to be left at least, as a part of the smallest acceleration.
 LEFT = 0.02
 
@@ -110,7 +110,7 @@ def cut(course: Course, axes: Axes, places: Floats, squares: Floats, gaps: Float
                 cap = here + up * rise
             least = LITTLE * (rise + fall)
             for place in (begin + rise, end - fall):
-                if place > places[count - 1] + max(least, SLIVER) and place < end - max(least, SLIVER):
+                if places[count - 1] + least < place < end - least:
                     places[count], squares[count], gaps[count] = place, cap, TURN / bend / sqrt(cap)
                     count += 1
         places[count], squares[count], gaps[count] = end, there, TURN / bend / max(sqrt(there), 1e-9)

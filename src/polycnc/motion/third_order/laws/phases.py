@@ -1,8 +1,9 @@
 """From the speed at nodes to phases of constant jerk, and the sure proof that every axis keeps its limits on them.
 
 Between two nodes lie two phases of equal time t. They bring the way Δs, the change of speed Δv and the change of
-acceleration Δu exactly: `Δu/3·t² - (v + v')·t + Δs = 0`. Beside rest one phase is enough: the way grows with the third
-power of time.
+acceleration Δu exactly: `Δu/3·t² - (v + v')·t + Δs = 0`. There is such a t if Δu is at most `3/4·(v + v')²/Δs`:
+so no node may have more than half of it. Where a law begins or ends in motion, the acceleration is given, and there
+may be none. Beside rest one phase is enough: the way grows with the third power of time.
 
 On a phase and a piece acceleration and jerk of an axis are polynomials in time. Linear between both ends they are wrong
 by at most an eighth of their largest second derivative by time times the square of the time between; where this is
@@ -19,6 +20,8 @@ from polycnc.motion.third_order.laws.courses import Axes, Course, Nodes, Phase
 
 #: Phases between two nodes.
 PAIR = 2
+#: How much acceleration a node may have, see above; part of the way to a node by which phases may miss it: rounding.
+MEETS, APART = 0.375, 1e-6
 #: How often the time is halved at most; what counts as kept without looking closer; how far above the values at both
 #: ends a bound may be.
 HALVINGS, KEPT, CLOSE_BY = 6, 1.0 + 1e-7, 0.002
@@ -26,16 +29,46 @@ HALVINGS, KEPT, CLOSE_BY = 6, 1.0 + 1e-7, 0.002
 
 def lay_phases(nodes: Nodes, phases: Floats, first: int, last: int) -> None:
     """Phases between two nodes, `PAIR` from each one to the next; one of them may last no time."""
-    speed = pull = 0.0
-    for k in range(first, last + 1):
-        if nodes.x[k] > 0.0:
-            x, slope, _ = value(nodes, k)
-            there, new = sqrt(max(x, 1e-18)), 0.5 * slope
-        else:
-            there = new = 0.0
-        if k > first:
-            _pair(nodes, k - 1, speed, pull, there, new, phases)
+    speed, pull = _speed(nodes, first), 0.0
+    if speed > 0.0:
+        pull = _pull(nodes, first, speed)
+    for k in range(first + 1, last + 1):
+        there, new = _speed(nodes, k), 0.0
+        if there > 0.0:
+            new = _pull(nodes, k, there)
+        _pair(nodes, k - 1, speed, pull, there, new, phases)
         speed, pull = there, new
+
+
+def leads_on(nodes: Nodes, phases: Floats, k: int) -> bool:
+    """Whether the phases behind a node lead to the next one: from a motion beside a rest there may be none that do."""
+    way = nodes.way[k]
+    for at in range(PAIR * k * Phase.SIZE, PAIR * (k + 1) * Phase.SIZE, Phase.SIZE):
+        way += gone(phases, at, phases[at + Phase.TIME])
+    return abs(way - nodes.way[k + 1]) <= APART * (nodes.way[k + 1] - nodes.way[k])
+
+
+def _speed(nodes: Nodes, k: int) -> float:
+    """Speed at a node."""
+    if nodes.x[k] <= 0.0:
+        return 0.0
+    x, _, _ = value(nodes, k)
+    return sqrt(max(x, 1e-18))
+
+
+def _pull(nodes: Nodes, k: int, speed: float) -> float:
+    """Acceleration at a node; no more than with which phases lead from the node before to this one and to the next."""
+    _, slope, _ = value(nodes, k)
+    pull = 0.5 * slope
+    last = len(nodes.x) - 1
+    if k == 0 or k == last:
+        return pull
+    before, behind = _speed(nodes, k - 1), _speed(nodes, k + 1)
+    if before > 0.0:
+        pull = min(pull, MEETS * (before + speed) ** 2 / (nodes.way[k] - nodes.way[k - 1]))
+    if behind > 0.0:
+        pull = max(pull, -MEETS * (speed + behind) ** 2 / (nodes.way[k + 1] - nodes.way[k]))
+    return pull
 
 
 def _pair(nodes: Nodes, k: int, speed: float, pull: float, there: float, new: float, phases: Floats) -> None:

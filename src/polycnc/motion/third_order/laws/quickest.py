@@ -16,8 +16,6 @@ if TYPE_CHECKING:
 
 #: Room for nodes at first, by the places of the estimate and besides.
 PER_PLACE, BESIDES = 1, 256
-#: Part of the way between two nodes by which phases may miss it: rounding.
-APART = 1e-6
 #: Where a law begins by itself.
 NONE = Known(array("d"), array("d"), array("d"), array("d"))
 
@@ -76,7 +74,7 @@ def quickest(course: Course, axes: Axes, ends: array[float], known: Known = NONE
     rounds = kernels().find_law(
         course, axes, ends, places, squares, nodes, known, numbers(BANDS * count), phases, most
     )
-    if rounds < 0 or not (_leads_on(phases, nodes.way, 0) and _leads_on(phases, nodes.way, count - 2)):
+    if rounds < 0:
         return None
     return Found(phases, Known(nodes.way, nodes.x, nodes.cap2, nodes.room))
 
@@ -84,15 +82,6 @@ def quickest(course: Course, axes: Axes, ends: array[float], known: Known = NONE
 def _rests_at_once(speed: float, pull: float, way: float) -> bool:
     """Whether a motion is at rest before the middle of the way to the next node: there is no law between the two."""
     return speed > 0.0 and speed * speed + 0.5 * pull * way <= 0.0
-
-
-def _leads_on(phases: array[float], ways: Floats, k: int) -> bool:
-    """Whether the phases behind a node lead to the next one: from a motion beside a rest there may be none that do."""
-    way = ways[k]
-    for at in range(PAIR * k * Phase.SIZE, PAIR * (k + 1) * Phase.SIZE, Phase.SIZE):
-        seconds, _, speed, pull, jerk = phases[at : at + Phase.SIZE]
-        way += seconds * (speed + seconds * (0.5 * pull + seconds * jerk / 6.0))
-    return abs(way - ways[k + 1]) <= APART * (ways[k + 1] - ways[k])
 
 
 def numbers(count: int) -> array[float]:

@@ -8,7 +8,7 @@ from polycnc.kernels.layout import Floats
 from polycnc.motion.third_order.laws.barrier import begin, improve, lay_stencils
 from polycnc.motion.third_order.laws.courses import Axes, Course, Ends, Known, Nodes, Phase
 from polycnc.motion.third_order.laws.grid import cut, estimate, gather, spread
-from polycnc.motion.third_order.laws.phases import PAIR, examine, lay_phases
+from polycnc.motion.third_order.laws.phases import PAIR, examine, lay_phases, leads_on
 
 #: Weights of the barriers in each pass; the last one is for the passes of repairs, too.
 WEIGHTS = (0.05, 0.05, 0.03, 0.03, 0.02, 0.02)
@@ -59,7 +59,8 @@ def find_law(
     """Find the quickest law at nodes, as phases of constant jerk; gives the rounds of repairs that it took.
 
     Where after all rounds a limit is exceeded still, a law from rest to rest is stretched in time as a whole, which
-    keeps it for sure; from or to a motion there is none, and -1 is given.
+    keeps it for sure; from or to a motion there is none, and -1 is given. So it is where no phases lead from that
+    motion to the node behind it, or to the other one from the node before it.
 
     Args:
         course: The path, as `place_nodes` left it.
@@ -90,6 +91,8 @@ def find_law(
         if ends[Ends.START_SPEED] > 0.0 or ends[Ends.END_SPEED] > 0.0:
             return -1
         _stretch(phases, most)
+    if not (leads_on(nodes, phases, 0) and leads_on(nodes, phases, last - 1)):
+        return -1
     return rounds
 
 
@@ -131,7 +134,8 @@ def _repair(
         k = end = min(end + 1 + around, last)
         for _ in range(PASSES + rounds // LATER):
             improve(nodes, axes, WEIGHTS[len(WEIGHTS) - 1], bands, first, end)
-        first, end = max(first - 1, 0), min(end + 1, last)
+        # the acceleration of a node depends on two on either side
+        first, end = max(first - 2, 0), min(end + 2, last)
         lay_phases(nodes, phases, first, end)
         examine(course, axes, phases, most, PAIR * first, PAIR * end)
     return any_
