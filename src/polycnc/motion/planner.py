@@ -319,8 +319,8 @@ class Planner:
 
     def _take_windows(self, runs: LawRuns) -> None:
         """Count the time of windows that are settled, and hand their pieces on."""
-        while runs.led:
-            window = runs.led.popleft()
+        while runs.windows:
+            window = runs.windows.popleft()
             settle(self._pieces, self._axes, self._limits, self._state)
             self._look_ahead(window.rows.row[0])
             window.add_times(self._slots, self._rows, self._first_row)

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from polycnc.motion.third_order.windows import Window
 
 
-class Led(NamedTuple):
+class LedWindow(NamedTuple):
     """A window of a run, with its rows.
 
     Attributes:
@@ -61,14 +61,14 @@ class LawRuns:
         compiled: Use compiled kernels where they are there.
 
     Attributes:
-        led: Windows that are settled, in order; whoever takes one, takes it away.
+        windows: Those that are settled, in order; whoever takes one, takes it away.
         room: Stretches that are not in a window yet.
     """
 
     def __init__(self, n: int, *, compiled: bool = True) -> None:
         self._n = n
         self._lay = run_kernel(compiled=compiled)
-        self.led: deque[Led] = deque()
+        self.windows: deque[LedWindow] = deque()
         self.room = RunRoom(n)
         self._rows: deque[int] = deque()
         self._planner: RunPlanner | None = None
@@ -163,7 +163,7 @@ class LawRuns:
         track = Track(part.way, part.place, part.first, part.second, part.cap2)
         walk = Walk(axes=self._n, pieces=len(part.cap2), phases=len(window.phases) // Phase.SIZE)
         rows = RowEnds(ways, ended, self._slots_of(ended))
-        self.led.append(Led(track, window.phases, rows, walk, planned))
+        self.windows.append(LedWindow(track, window.phases, rows, walk, planned))
 
     def _slots_of(self, rows: Sequence[int]) -> array[int]:
         """The slot of each row."""
