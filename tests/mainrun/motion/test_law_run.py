@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from polycnc.mainrun.motion.law_run import LawRun, State
-from polycnc.motion.third_order.bends.programmed import Bounds, ProgrammedPath
 from tests.motion.third_order.laws import AXES
 from tests.motion.third_order.long_runs import chunks
+from tests.motion.third_order.programmed import Bounds, ProgrammedPath
 
 FEED, PERIOD = 80.0, 0.001
 PULL, JERK = min(AXES.pull), min(AXES.jerk)

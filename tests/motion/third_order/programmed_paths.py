@@ -11,8 +11,8 @@ import numpy as np
 from hypothesis import strategies as st
 
 from polycnc.motion.third_order.bend import legs
-from polycnc.motion.third_order.bends.programmed import Bounds, ProgrammedPath
 from polycnc.motion.third_order.bends.stretches import LINE, curve_lines
+from tests.motion.third_order.programmed import Bounds, ProgrammedPath
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

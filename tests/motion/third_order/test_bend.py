@@ -11,9 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from polycnc.motion.third_order.bend import bend
-from polycnc.motion.third_order.bends.programmed import Bounds, ProgrammedPath
 from polycnc.motion.third_order.law import limits_of, quickest_law
 from tests.motion.paths import MILL
+from tests.motion.third_order.programmed import Bounds, ProgrammedPath
 from tests.motion.third_order.programmed_paths import TOPS, Drawn, drawn_paths, parts_of_tolerance
 
 SURELY = 1.0 + 1e-6

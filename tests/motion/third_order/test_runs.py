@@ -16,7 +16,6 @@ import pytest
 from polycnc.motion.third_order import compiled, parts, runs
 from polycnc.motion.third_order import windows as windows_module
 from polycnc.motion.third_order.bend import as_path, bend, legs
-from polycnc.motion.third_order.bends.programmed import Bounds, ProgrammedPath
 from polycnc.motion.third_order.law import law_of, quickest_law
 from polycnc.motion.third_order.laws import compiled as laws_compiled
 from polycnc.motion.third_order.laws import quickest as quickest_module
@@ -35,6 +34,7 @@ from tests.motion.third_order.long_runs import (
     seconds_of,
     windows_of,
 )
+from tests.motion.third_order.programmed import Bounds, ProgrammedPath
 from tests.motion.third_order.programmed_paths import parts_of_leg
 
 if TYPE_CHECKING:

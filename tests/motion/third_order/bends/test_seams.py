@@ -10,7 +10,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from polycnc.motion.third_order.bend import as_path, legs
-from polycnc.motion.third_order.bends.programmed import Bounds
 from polycnc.motion.third_order.bends.seams import BESIDES, KNOWN, SIDE
 from polycnc.motion.third_order.compiled import kernels
 from polycnc.motion.third_order.parts import (
@@ -25,6 +24,7 @@ from polycnc.motion.third_order.parts import (
     whole,
 )
 from tests.motion.third_order.long_runs import joined
+from tests.motion.third_order.programmed import Bounds
 from tests.motion.third_order.programmed_paths import Drawn, drawn_paths, parts_of_leg
 
 #: Stretches that are looked at before and behind those on which a seam may lie.

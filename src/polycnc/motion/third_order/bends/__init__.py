@@ -1,6 +1,5 @@
-"""From the rows of a run to a path bent within its tolerance.
+"""From the stretches of a programmed path to a path bent within its tolerance.
 
-    programmed  rows become stretches of the programmed path
     stretches   lines, chords and parts of arcs as cubics by the way; lines that are chords of a curve
     rests       where the axes must rest
     turning     how much the path turns, and how far apart knots may be for it
@@ -13,5 +12,5 @@
     pieces      row and highest speed of each piece
     bending     all of it in turn
 
-The functions but for `programmed` are kernels: flat arrays, no class of the project, machine code by `../compiled.py`.
+The functions are kernels: flat arrays, no class of the project, machine code by `../compiled.py`.
 """

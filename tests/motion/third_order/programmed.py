@@ -1,12 +1,12 @@
-"""Rows of a run become stretches of the programmed path."""
+"""A programmed path, written row by row: what `laying/rows.py` must make of rows, worked out apart from it."""
 
 from __future__ import annotations
 
 from array import array
+from dataclasses import dataclass
 from math import ceil, cos, inf, pi, sin, sqrt
 from typing import TYPE_CHECKING
 
-from polycnc.deferred.records import dataclass
 from polycnc.geometry.vectors import cross, dot
 from polycnc.motion.third_order.bends.stretches import ARC, CHORD, LINE, Stretches
 
