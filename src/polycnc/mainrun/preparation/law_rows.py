@@ -6,13 +6,12 @@ from bisect import bisect_left, bisect_right
 from math import inf
 from typing import TYPE_CHECKING, NamedTuple
 
-from polycnc.motion.kernels.columns import ContextRecord, State, new_state
+from polycnc.motion.kernels.columns import ContextRecord, new_state
 from polycnc.motion.third_order.laying.room import RunRoom
 from polycnc.motion.third_order.laying.rows import NO_STRETCH, add_row, begin_run, goes_by_law
 
 if TYPE_CHECKING:
     from array import array
-    from collections.abc import Sequence
 
     from polycnc.mainrun.preparation.items import ChannelRates, Move
     from polycnc.motion.third_order.bends.stretches import Stretches
@@ -60,7 +59,8 @@ class LawRows:
             return False
         if not self.rows:
             room.tell(limits)
-            begin_run(self._n, room.path, _at(prepared.before.vectors[0], self._n), room.lead, room.laid)
+            start = new_state(self._n, prepared.before.vectors[0])
+            begin_run(self._n, room.path, start, room.lead, room.laid)
             room.lead.run.free = WITHOUT_FEED
         elif prepared.rests:
             return False
@@ -147,8 +147,3 @@ class LawRows:
     def find(self, number: float) -> RowOfRun | None:
         """The row of a number."""
         return self._found.get(number)
-
-
-def _at(position: Sequence[float], n: int) -> State:
-    """A state of axes that stand at a position."""
-    return new_state(n, position)

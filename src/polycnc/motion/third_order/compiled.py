@@ -55,14 +55,7 @@ class Kernels(NamedTuple):
     far_enough: Callable[[Stretches, int, int, int, float, int, Floats], int]
 
 
-PLAIN = Kernels(
-    bending.bend_path,
-    rests.next_rest,
-    pieces.end_rows,
-    seams.shift_ways,
-    seeking.find_seam,
-    seeking.far_enough,
-)
+PLAIN = Kernels._make(LIBRARY.kernels)
 
 
 @cache
