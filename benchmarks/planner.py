@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from math import cos, pi, sin, sqrt
 from typing import Any, NamedTuple
 
@@ -190,6 +191,8 @@ def speed() -> Iterator[Figure]:
     yield rate("planner", segments_per_second(), SEGMENTS_PER_SECOND, "segments/s")
     soft = Settings(acceleration=AccelerationMode.JERK_LIMITED)
     yield rate("planner, limited jerk", segments_per_second(settings=soft), SEGMENTS_PER_SECOND, "segments/s")
+    bent = segments_per_second(settings=replace(soft, bends_by_way=True))
+    yield rate("planner, jerk by a law of third order", bent, SEGMENTS_PER_SECOND, "segments/s")
     few, *more = (segments_per_second(rows) for rows in (10_000, 100_000, 1_000_000))
     for name, many in zip(("1e5", "1e6"), more, strict=True):
         said = f"{name} segments at {many / few:.2f} of the rate of 1e4, limit {LINEAR}"

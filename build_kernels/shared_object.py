@@ -15,10 +15,10 @@ MODULES = (
     "polycnc.compensation.runs.compiled",
     "polycnc.language.bulk.compiled",
     "polycnc.motion.compiled",
+    "polycnc.motion.third_order.compiled",
+    "polycnc.motion.third_order.laws.compiled",
     "polycnc.toolpath.compiled",
 )
-#: Of the third-order law, by which no row is planned yet: an installation does not wait for them.
-NOT_COMPILED = ("polycnc.motion.third_order.compiled", "polycnc.motion.third_order.laws.compiled")
 
 
 def libraries() -> list[Library]:

@@ -58,3 +58,15 @@ def test_the_first_rotary_axis_carries_the_other_or_is_in_the_head(
         assert Kinematics(head.tool[1:], table.work[1:]).ordered == first
     else:
         assert Kinematics.of(load_machine(machine)).ordered == first
+
+
+def test_a_machine_file_says_where_the_nose_is_and_how_the_tool_points() -> None:
+    machine = load_machine("tests/conformance/machines/mill5-bc-head-nose.toml")
+    kinematics = Kinematics.of(machine)
+    assert kinematics.nose == (0.0, 0.0, -150.0)
+    assert kinematics.head_turn({"B": 90.0}).t == pytest.approx((20.0 - 150.0, 0.0, -20.0))
+    assert Kinematics.of(load_machine("tests/conformance/machines/mill3-horizontal.toml")).along == (
+        0.0,
+        1.0,
+        0.0,
+    )

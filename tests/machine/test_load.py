@@ -94,6 +94,8 @@ JOINT = '[[joint]]\naxis = "X"\ncarries = "tool"\ndirection = [1, 0, 0]\n'
         (CHANNEL + JOINT + "\n" + JOINT.replace("tool", "hand"), 10, 1, "not-one-of"),
         (CHANNEL + JOINT + "\n" + JOINT.replace("[1, 0, 0]", "[0, 0, 0]"), 11, 1, "no-direction"),
         (CHANNEL + JOINT + '\n[[joint]]\naxis = "Y"\ndirection = [1, 0, 0]\n', 8, 3, "missing-key"),
+        ("tool_direction = [0, 0, 0]\n" + CHANNEL, 1, 1, "no-tool-direction"),
+        ("nose = [0, 0]\n" + CHANNEL, 1, 1, "wrong-length"),
         ("settle_fine_s = 0.02\nsettle_coarse_s = 0.03\n" + CHANNEL, 2, 1, "windows-crossed"),
         ("settle_coarse_s = 0.03\n" + CHANNEL, 1, 1, "windows-crossed"),
         (CHANNEL + "[spindle.1]\nmin_rpm = 100\nmax_rpm = 50\n", 4, 1, "speeds-crossed"),

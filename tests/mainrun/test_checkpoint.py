@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import cos, sin
 from random import Random
 from typing import TYPE_CHECKING
 
@@ -92,6 +93,35 @@ def test_behind_a_checkpoint_the_same_happens_again(control: str, seed: int) -> 
     for _ in range(2):
         checkpoint.restore()
         assert trace(virtual, disturb) == first
+
+
+FACETS = "".join(f"X{20 - 20 * cos(k / 20):.3f} Y{20 * sin(k / 20):.3f}\n" for k in range(1, 120))
+
+
+@pytest.mark.parametrize("begun", [0.0, 0.1, 0.6, 1.3])
+def test_a_run_that_a_law_leads_comes_back_in_its_midst(begun: float) -> None:
+    """And once more when the law has been found anew."""
+    virtual = power_on(f"SOFT G642 CTOL=0.02 G1 F4000\n{FACETS}M30\n", "sinumerik-840d")
+    virtual.cycle_start()
+    virtual.step(begun)
+
+    def disturb(moment: int) -> None:
+        if moment == 2:
+            virtual.override(feed=0.6)
+        if moment == 4 and virtual.allows("feed_hold"):
+            virtual.feed_hold()
+        if moment == 8 and virtual.allows("cycle_start"):
+            virtual.cycle_start()
+
+    for _ in range(2):
+        checkpoint = virtual.checkpoint()
+        first = trace(virtual, disturb)
+        for _ in range(2):
+            checkpoint.restore()
+            assert trace(virtual, disturb) == first
+        checkpoint.restore()
+        virtual.override(feed=0.8)
+        virtual.step(0.1)
 
 
 def test_axes_under_way_by_hand_come_back_too() -> None:

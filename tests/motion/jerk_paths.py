@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from polycnc.motion.third_order.bends.programmed import Bounds, ProgrammedPath
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.modes import CornerMode
 from tests.motion.paths import MILL, Build
+from tests.motion.third_order.programmed import Bounds, ProgrammedPath
 
 if TYPE_CHECKING:
     from collections.abc import Callable

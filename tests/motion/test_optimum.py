@@ -11,23 +11,27 @@ from tests.motion.jerk_paths import jerk_paths
 from tests.motion.optimum import least_time
 from tests.motion.paths import MILL
 
-SOFT = Settings(acceleration=AccelerationMode.JERK_LIMITED)
-#: Times over the optimum: the median, and the worst path. The aim is 1.15 and 1.3.
-MEDIAN, WORST = 1.57, 2.42
+SOFT = Settings(acceleration=AccelerationMode.JERK_LIMITED, bends_by_way=True)
+#: As controls do that average over time behind the interpolator (`bell-shaped`).
+AVERAGED = Settings(acceleration=AccelerationMode.JERK_LIMITED)
 #: The optimum is discretised, and finds up to this part too little.
 COARSE = 0.97
 
 
-def test_paths_with_limited_jerk_are_close_to_the_optimum() -> None:
+@pytest.mark.parametrize(("settings", "median", "worst"), [(SOFT, 1.08, 1.22), (AVERAGED, 1.57, 2.42)])
+def test_paths_with_limited_jerk_are_close_to_the_optimum(
+    settings: Settings, median: float, worst: float
+) -> None:
+    """Times over the optimum: the median, and the worst path."""
     pytest.importorskip("scipy", reason="scipy, which solves the linear programmes, is not installed")
     ratios = {}
     for path in jerk_paths():
         least = least_time(np.array(path.points), path.tolerance, path.feed, MILL)
-        ratios[path.name] = path.rows.plan(MILL, settings=SOFT).total_s / least
+        ratios[path.name] = path.rows.plan(MILL, settings=settings).total_s / least
     assert len(ratios) == 30
     assert min(ratios.values()) >= COARSE, ratios
-    assert float(np.median(list(ratios.values()))) <= MEDIAN, ratios
-    assert max(ratios.values()) <= WORST, ratios
+    assert float(np.median(list(ratios.values()))) <= median, ratios
+    assert max(ratios.values()) <= worst, ratios
 
 
 @pytest.mark.parametrize(("length", "feed"), [(100.0, 100.0), (10.0, 1000.0)])

@@ -11,7 +11,7 @@ from math import cos, nan, sin
 from typing import TYPE_CHECKING
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from polycnc.motion import Plan, Settings
@@ -241,8 +241,17 @@ ARC = st.tuples(
 
 @settings(max_examples=examples(40), deadline=None)
 @given(st.lists(ARC, min_size=1, max_size=8))
+@example([(0.2, 1.0, 0.0, 0.0, 0.5), (0.2, 1.5, 1.0, 0.0, 20.0)])
+@example([(0.2, 1.0, 0.0, 0.0, 0.5), (1.0, 5.03125, 0.875, 0.0, 20.0), (0.2, 1.0, 0.0, 3.0, 20.0)])
+@example(
+    [(0.2, sweep, 0.0, 0.0, 0.5) for sweep in (1.0, 2.0, 2.5, 0.75, 1.0)]
+    + [(1.0, 5.03125, 0.875, 0.0, 20.0), (0.2, 1.0, 0.0, 3.0, 20.0)]
+)
 def test_an_even_arc_takes_as_long_unseen(arcs: list[tuple[float, float, float, float, float]]) -> None:
-    """Where nobody asks for places, an arc of the same limits is laid in three pieces."""
+    """Where nobody asks for places, an arc of the same limits is laid in three pieces.
+
+    A bound on the speed may hold for another 1e-5 mm then, which at 0.5 mm/s is 20 µs.
+    """
     build, x, y, z = Build(context=Context(tolerance_mm=0.02)), 0.0, 0.0, 0.0
     for radius, sweep, heading, rise, feed in arcs:
         u, v = x + radius * cos(heading), y + radius * sin(heading)
@@ -255,4 +264,4 @@ def test_an_even_arc_takes_as_long_unseen(arcs: list[tuple[float, float, float, 
     pieces: list[int] = []
     seen = Planner(build.toolpath, MILL, settings=lead, on_pieces=lambda _, count: pieces.append(count))
     unseen = build.plan(MILL, settings=lead)
-    assert unseen.row_s.tolist() == pytest.approx(seen.finish().row_s.tolist(), rel=1e-5, abs=1e-6)
+    assert unseen.row_s.tolist() == pytest.approx(seen.finish().row_s.tolist(), rel=1e-5, abs=2e-5)

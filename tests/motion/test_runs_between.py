@@ -10,6 +10,8 @@ import pytest
 
 import polycnc
 from polycnc.mainrun import State
+from polycnc.motion.planner import Planner
+from polycnc.motion.sampling.samples import Sampler, Samples
 from tests.mainrun.support import power_on, recorded
 
 ARC = "G3 X20 Y10 I0 J10"
@@ -54,3 +56,25 @@ def test_lines_in_front_of_a_tip_count_as_one_like_others(control: str) -> None:
 @pytest.mark.parametrize("code", ["M8", "M8\nM8", "G1 X6. M8"])
 def test_a_function_beside_the_motion_waits_alike(control: str, code: str) -> None:
     seconds(f"G90 G94 G64 F1000.\nG1 X1.\n{code}\nG1 X12.\nY5.\nM30\n", control)
+
+
+@pytest.mark.parametrize("control", ["fanuc-m", "meldas-m", "syntec-mill", "sinumerik-840d"])
+@pytest.mark.parametrize("code", ["G1 X2. M8", "G1 X2. M8\nG1 X3. M8", "G0 X2. M8\nG1 X3.", "G1 Y1. M8"])
+def test_a_function_that_outlasts_its_block_waits_at_its_end(control: str, code: str) -> None:
+    longer = seconds(f"G90 G94 G64 F9000.\nG1 X1.\n{code}\nG1 X12.\nX30.\nM30\n", control)
+    shorter = seconds(f"G90 G94 G64 F9000.\nG1 X1.\n{code.replace(' M8', '')}\nG1 X12.\nX30.\nM30\n", control)
+    assert longer - shorter > 0.1 * code.count("M8")
+
+
+def test_the_axes_stand_at_the_end_of_a_block_that_a_function_outlasts() -> None:
+    result = polycnc.run(
+        "G90 G94 F6000.\nG1 X1.\nG1 X2. M8\nG1 X30.\nM30\n", control="fanuc-m", machine="mill3"
+    )
+    found: list[Samples] = []
+    planner = Planner(result.toolpath, result.machine, **result.lead)
+    sampler = Sampler(result.toolpath, result.machine, planner, result.lead["settings"], 0.001, found.append)
+    for chunk in result.toolpath.chunks:
+        sampler.take(chunk)
+    planner.finish()
+    sampler.close()
+    assert sum(int((abs(each.position[:, 0] - 2.0) < 1e-6).sum()) for each in found) > 100

@@ -7,6 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from polycnc.geometry.frames import translation
+from polycnc.session import open_session
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.events import Auxiliary
 from polycnc.toolpath.strokes import arc_points, strokes
@@ -105,3 +106,41 @@ def test_a_following_axis_is_drawn_where_it_is() -> None:
         [(10, 5, 0), (10, 5, 0)],
         [(10, 5, 0), (20, 10, 0), (20, 0, 0)],
     ]
+
+
+PLANES = (
+    "G90 G54\nG00 X0 Y0 Z10.\n{plane}\nG53.1\nG43 H1\nG01 X0 Y0 Z0 F1000\nX5. Y3.\nG49\nG69\n"
+    "G52 X100.\nG01 X1. Y1. Z1.\nM30\n"
+)
+
+
+@pytest.mark.parametrize("control", ["fanuc-m", "meldas-m", "syntec-mill"])
+@pytest.mark.parametrize("machine", ["mill5-ac-table", "mill5-bc-head"])
+def test_tilted_planes_and_local_systems_are_drawn_on_the_work(control: str, machine: str) -> None:
+    # The plane at X10 has X along -Z, Y along Y and Z along X of the work.
+    program = PLANES.format(plane="G68.2 X10. Y0 Z0 I90. J90. K-90.")
+    session = open_session(program, control=control, machine=machine, setup={"tools": {1: {"length": 50}}})
+    result = session.run()
+    assert result.ok, result.alarms
+    found = [stroke.points[-1] for stroke in strokes(session.channel.toolpath, XYZ) if not stroke.rapid]
+    corner = [
+        point
+        for stroke in strokes(session.channel.toolpath, XYZ)
+        for point in stroke.points
+        if dist(point, (10.0, 3.0, -5.0)) < 1e-9
+    ]
+    assert corner
+    assert found[-1] == pytest.approx((101.0, 1.0, 1.0))
+
+
+def test_tip_control_on_a_turned_table_is_drawn_on_the_work() -> None:
+    program = "G90 G54 G00 C90.\nG43.4 H1\nG01 X10. Y0 Z0 F1000\nC0\nM30\n"
+    setup = {"tools": {1: {"length": 50}}}
+    drawn = {}
+    for control in ("fanuc-m", "syntec-mill"):
+        session = open_session(program, control=control, machine="mill5-ac-table", setup=setup)
+        session.run()
+        drawn[control] = list(strokes(session.channel.toolpath, XYZ))[-1].points[-1]
+    # On FANUC the work system is that of the turned table: its X lies along -Y of the work at zero.
+    assert drawn["syntec-mill"] == pytest.approx((10.0, 0.0, 0.0))
+    assert drawn["fanuc-m"] == pytest.approx((0.0, -10.0, 0.0), abs=1e-9)

@@ -59,10 +59,10 @@ def _floats(direction: tuple[int, int, int]) -> Vector:
 
 
 def _kinematics(split: tuple[str, str]) -> st.SearchStrategy[Kinematics]:
-    """A head with its nose anywhere, and a table."""
+    """A head with its nose anywhere, positions that name any point, and a table."""
     nose = offsets if split[0] else st.just((0.0, 0.0, 0.0))
     return st.builds(
-        Kinematics, joints(split[0], "tool"), joints(split[1], "work"), st.just((0.0, 0.0, 1.0)), nose
+        Kinematics, joints(split[0], "tool"), joints(split[1], "work"), st.just((0.0, 0.0, 1.0)), nose, nose
     )
 
 

@@ -1,11 +1,13 @@
 """Where a channel is, in every coordinate system that matters.
 
-    programmed --(programming frame)--> position --(zero frame + offsets)--> machine
+    programmed --(programming frame)--> named --(naming)--> position --(zero frame + offsets)--> machine
 
 `programmed` is what words name (after units and diameters). The programming frame is what the control puts *before* its
 absolute display: on the word-address controls scaling, mirror, rotation and, on lathes, tool offsets that move the
-programmed point; on SINUMERIK nothing. Axes beside the geometry have a shift of their own for that. `position` is the
-absolute display. The zero frame and the offsets lead to the machine's axes: work offsets, shifts, tool.
+programmed point; on SINUMERIK nothing. Axes beside the geometry have a shift of their own for that. `position` is a
+X
+system, which turns against that of the path with the rotary axes. The zero frame and the offsets lead to the machine's
+axes: work offsets, shifts, tool.
 
 When offsets change, the machine stays where it is and the other positions follow. Whether a later *incremental* word
 travels the change as well differs: a tool length does, a work offset does not. `pending` holds what is still owed to
@@ -39,6 +41,7 @@ class Coordinates:
         self.programming = IDENTITY
         self.shift: list[float] | None = None
         self.direct = True
+        self.naming: Transformation | None = None
         self.transformation: Transformation | None = None
         self.zero = IDENTITY
         self.offsets = [0.0] * len(axes)
@@ -59,14 +62,19 @@ class Coordinates:
         return result
 
     def to_position(self, programmed: list[float]) -> list[float]:
-        """Programmed point to absolute display."""
+        """Programmed point to one of the path."""
         position = self.image(self.programming, programmed)
         if self.shift is not None:
             position = [value + shift for value, shift in zip(position, self.shift, strict=True)]
-        return position
+        return position if self.naming is None else self.naming.to_machine(position)
+
+    def named(self, position: list[float]) -> list[float]:
+        """Point of the path to absolute display."""
+        return position if self.naming is None else self.naming.to_work(position)
 
     def to_programmed(self, position: list[float]) -> list[float]:
-        """Absolute display to programmed point."""
+        """Point of the path to programmed point."""
+        position = self.named(position)
         if self.shift is not None:
             position = [value - shift for value, shift in zip(position, self.shift, strict=True)]
         return position if self.programming is IDENTITY else self.image(self.programming.inverse(), position)
@@ -110,6 +118,7 @@ class Coordinates:
         transformation: Transformation | None,
         geometry: tuple[int, int, int] | None = None,
         zero: tuple[Frame, list[float]] | None = None,
+        naming: Transformation | None = None,
     ) -> None:
         """Let axes stand for others, or (None) for themselves again. The machine stays, the display follows.
 
@@ -117,13 +126,24 @@ class Coordinates:
             transformation: How the real axes follow the displayed position.
             geometry: New columns of X, Y and Z in displayed positions; None keeps them.
             zero: What lies between it and the machine from here on, as for `set_zero`; None keeps it.
+            naming: From what words name to points of the path; None where these are the same.
         """
         machine = self.machine
         self.transformation = transformation
+        self._name(naming)
         self.geometry = geometry or self.geometry
         if zero is not None:
             self.zero, self.offsets = zero
         self.arrive_machine(machine)
+
+    def name(self, naming: Transformation | None) -> None:
+        """Let words name points of another system, or (None) those of the path again, which stays."""
+        self._name(naming)
+        self.arrive(self.position)
+
+    def _name(self, naming: Transformation | None) -> None:
+        self.naming = naming
+        self.direct = self.programming is IDENTITY and self.shift is None and naming is None
 
     def set_programming(self, frame: Frame, shift: list[float] | None = None, *, stays: bool = True) -> None:
         """Choose the frame before the display.
@@ -140,7 +160,7 @@ class Coordinates:
         _check(frame, shift or ())
         self.programming = frame
         self.shift = shift
-        self.direct = frame is IDENTITY and shift is None
+        self.direct = frame is IDENTITY and shift is None and self.naming is None
         if stays:
             self.arrive(self.position)
         else:

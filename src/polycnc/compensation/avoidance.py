@@ -90,7 +90,7 @@ def least_harmful(detours: Iterable[Detour], known: Sequence[Step]) -> tuple[Det
 
 
 def cuts(step: Step, known: Iterable[Step], way: Sequence[Edge] | None = None) -> bool:
-    """Whether the tool comes nearer to a contour than its radius.
+    """Whether the tool comes nearer to a contour than its radius, of two radii than the smaller one.
 
     Args:
         step: A step with its vectors.
@@ -100,7 +100,7 @@ def cuts(step: Step, known: Iterable[Step], way: Sequence[Edge] | None = None) -
     rows = step.way() if way is None else way
     return any(
         distance.between(row, other.contour)
-        < abs(other.distance) - max(_SPARE_MM, other.policy.least_move_mm)
+        < min(abs(step.distance), abs(other.distance)) - max(_SPARE_MM, other.policy.least_move_mm)
         and not _crosses_itself(step.contour, other.contour)
         for other in known
         if other.role is Role.CONTOUR

@@ -112,6 +112,16 @@ class CutterCompensation(Stage):
         return bool(self._window) or self._rows.vector != NO_VECTOR
 
     @property
+    def is_starting(self) -> bool:
+        """Whether the next move leads to the contour."""
+        return self._role is Role.START
+
+    @property
+    def on_contour(self) -> bool:
+        """Whether the next move belongs to the contour; what leads there and away does not."""
+        return self._role is Role.CONTOUR and not self.suspended
+
+    @property
     def side(self) -> int:
         """The side that was commanded last: 1 left of the direction of travel, -1 right."""
         return self._side

@@ -227,6 +227,8 @@ class InterferenceCheck:
             return False
         if number == 1:
             return _is_checked(step) and step.runs_back
+        if first.distance * step.distance <= 0.0:
+            return False
         vector = first.corner.vectors[-1] if first.corner else step.first
         return step.policy.checks_direction and crosses(first.edge, vector, step.edge, step.corner.vectors[0])
 

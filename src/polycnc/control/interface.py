@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from polycnc.channel.channel import Channel
+    from polycnc.machine.kinematics import Kinematics
     from polycnc.messages import Catalogue
     from polycnc.program import Form
     from polycnc.toolpath import Context
@@ -92,6 +93,9 @@ class Control(ChannelControl, Protocol):
 
     def stays_at_end(self, channel: Channel, code: int) -> bool:
         """Whether a program that has ended with M02 or M30 (`code`: 2 or 30) stays there instead of at its top."""
+
+    def mechanism(self, channel: Channel, context: Context) -> Kinematics:
+        """The rotary joints of the machine, and how the tool stands in a context while they are at zero."""
 
     def motion_settings(self, channel: Channel) -> MotionSettings:
         """How the control leads the axes, by its machine parameters."""

@@ -25,6 +25,11 @@ def minus(a: Sequence[float], b: Sequence[float]) -> Vector:
     return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
 
 
+def plus(a: Sequence[float], b: Sequence[float]) -> Vector:
+    """One vector behind another."""
+    return (a[0] + b[0], a[1] + b[1], a[2] + b[2])
+
+
 def times(a: Sequence[float], factor: float) -> Vector:
     """A vector `factor` times as long."""
     return (a[0] * factor, a[1] * factor, a[2] * factor)

@@ -42,6 +42,8 @@ def gaps(data: MachineData) -> Iterator[Mistake]:
             yield ("joint", index, "axis"), "axis-unused", {"axis": joint["axis"]}
         if not any(joint["direction"]):
             yield ("joint", index, "direction"), "no-direction", {"axis": joint["axis"]}
+    if not any(data.get("tool_direction", (1.0,))):
+        yield ("tool_direction",), "no-tool-direction", {}
     yield from conditions(data)
     yield from functions(data)
     yield from _moves(data)

@@ -9,12 +9,12 @@ direction of the tool to positions of the axes.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from math import sqrt
+from math import atan2, degrees, sqrt
 from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, Frame, cos_sin_deg, rotation, translation
-from polycnc.geometry.vectors import dot
+from polycnc.geometry.vectors import cross, dot
 
 if TYPE_CHECKING:
     from polycnc.geometry.frames import Vector
@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 _ALONG_Z: Vector = (0.0, 0.0, 1.0)
 _NOWHERE: Vector = (0.0, 0.0, 0.0)
 Angles = Mapping[str, float]
+HALF_TURN_DEG = 180.0
+#: Directions of length 1 are the same where the sine between them is below.
+SAME_DIRECTION = 1e-12
 
 
 def turn_about(axis: Vector, angle_deg: float) -> Frame:
@@ -40,18 +43,29 @@ def turn_about(axis: Vector, angle_deg: float) -> Frame:
     ))  # fmt: skip
 
 
+def turn_between(start: Vector, end: Vector, aside: Vector) -> Frame:
+    """The shortest turn of one direction into another; of opposite ones that about `aside`, square on both."""
+    across = cross(start, end)
+    size = sqrt(dot(across, across))
+    if size > SAME_DIRECTION:
+        return turn_about(across, degrees(atan2(size, dot(start, end))))
+    return IDENTITY if dot(start, end) > 0.0 else turn_about(aside, HALF_TURN_DEG)
+
+
 @dataclass(frozen=True)
 class Kinematics:
     """The rotary joints of a machine: `tool` from the base to the tool, `work` from the base to the work.
 
     `along` is the direction from the tip along the tool with all of them at zero, `nose` leads from the last joint of
-    the head to where tools are seated, mm.
+    the head to where tools are seated, and `to_nose` from the point that the linear axes name to there, mm: machine
+    files have these two in one.
     """
 
     tool: tuple[Joint, ...]
     work: tuple[Joint, ...]
     along: Vector = _ALONG_Z
     nose: Vector = _NOWHERE
+    to_nose: Vector = _NOWHERE
 
     @classmethod
     def of(cls, machine: Machine) -> Kinematics:
@@ -59,6 +73,8 @@ class Kinematics:
         return cls(
             tuple(joint for joint in machine.tool_chain if joint.rotary),
             tuple(joint for joint in machine.work_chain if joint.rotary),
+            unit(machine.tool_direction),
+            machine.nose,
         )
 
     @property
@@ -74,6 +90,10 @@ class Kinematics:
         """How the head moves the tool's tip about the point that the linear axes move; turn and shift."""
         turn = _chain(self.tool, angles)
         return turn if self.nose == _NOWHERE else turn @ translation(*self.nose)
+
+    def head_places(self, angles: Angles) -> list[Frame]:
+        """Of each joint of the head where it is and how those before it turn it, seen from the base of the head."""
+        return [_chain(self.tool[: n + 1], {**angles, joint.axis: 0.0}) for n, joint in enumerate(self.tool)]
 
     def tool_on_machine(self, angles: Angles) -> Vector:
         """Direction from the tip along the tool, machine coordinates."""

@@ -257,11 +257,13 @@ class Solid:
 class Machine:
     """A machine, complete. `axes` are in the order of the channels that own them, `rules` in that of their scan.
 
-    From the end of the interpolation `settle_fine_s` and `settle_coarse_s` pass until the axes are within their
-    windows `in_position_fine` and `in_position_coarse`. `block_time_s` is what the control takes for a block of a path
-    before it can run the next one. `control_variant` names a variant of the control that does without some functions,
-    `control_options` those that it has all the same. `rules` and `alarms` are the file's own; those of its `builder`
-    lie under them. `m_functions` and `g_functions` hold both.
+    From the end of the interpolation `settle_fine_s` and `settle_coarse_s` pass until the axes are within their windows
+    `in_position_fine` and `in_position_coarse`. `block_time_s` is what the control takes for a block of a path before
+    it can run the next one. With all rotary axes at zero the tool points along `tool_direction`, from its tip to the
+    spindle, and `nose` leads from the last joint that carries the tool to where tools are seated. `control_variant`
+    names a variant of the control that does without some functions, `control_options` those that it has all the same.
+    `rules` and `alarms` are the file's own; those of its `builder` lie under them. `m_functions` and `g_functions` hold
+    both.
     """
 
     id: str
@@ -282,6 +284,8 @@ class Machine:
     control_options: tuple[str, ...] = ()
     rules: tuple[Rule, ...] = ()
     alarms: tuple[PlcAlarm, ...] = ()
+    tool_direction: Vector = (0.0, 0.0, 1.0)
+    nose: Vector = (0.0, 0.0, 0.0)
     g_functions: Mapping[str, GFunction] = field(default_factory=dict)
     builder: Builder = NO_BUILDER
 

@@ -94,6 +94,8 @@ def _tables(machine: Machine) -> Iterator[tuple[str, str, _Keys]]:
         [
             *top,
             *((key, getattr(machine, key)) for key in times),
+            ("tool_direction", machine.tool_direction),
+            ("nose", machine.nose),
             ("control_variant", machine.control_variant or None),
             ("control_options", list(machine.control_options) or None),
         ],

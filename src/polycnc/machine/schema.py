@@ -222,6 +222,8 @@ class MachineTable(BuilderTable):
     settle_fine_s: NotNegative | None = None
     settle_coarse_s: NotNegative | None = None
     block_time_s: NotNegative | None = None
+    tool_direction: Vector | None = None
+    nose: Vector | None = None
     control_variant: (
         Literal["828D PPU260 turning", "828D PPU260 milling", "828D PPU280 turning", "828D PPU280 milling"]
         | None

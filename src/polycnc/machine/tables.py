@@ -179,6 +179,8 @@ class MachineData(BuilderData, total=False):
     settle_fine_s: float
     settle_coarse_s: float
     block_time_s: float
+    tool_direction: list[float]
+    nose: list[float]
     control_variant: str
     control_options: list[str]
     defaults: DefaultsData

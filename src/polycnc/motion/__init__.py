@@ -10,9 +10,9 @@ same chunk by chunk while the toolpath grows.
                 by), plan, times
     standing/   tool changes, spindle ramps, dwells
     time        explain (which limit held, for how long)
-    motion      law (phases of constant acceleration over time), averaging (limited jerk: from there to the axes)
+    motion      law (phases of constant jerk over time), averaging (limited jerk: from there to the axes)
     sampling/   where the axes are at even times
-    third_order/  a quicker law for limited jerk; nothing is planned by it yet
+    third_order/  limited jerk without averages: a bent path and a law along it (SINUMERIK, SOFT)
 """
 
 from polycnc.motion.plan import plan

@@ -35,14 +35,16 @@ GAUSS = (
 )
 
 
-def way_after(seconds: Value, speed: Value, pull: Value) -> Value:
-    """Way after some seconds of a phase that begins at a speed."""
-    return seconds * (speed + 0.5 * pull * seconds)
+def way_after(seconds: Value, speed: Value, pull: Value, jerk: Value | float = 0.0) -> Value:
+    """Way after some seconds of a phase that begins at a speed and an acceleration."""
+    return seconds * (speed + seconds * (0.5 * pull + seconds * jerk / 6.0))
 
 
-def area_after(seconds: Value, place: Value, speed: Value, pull: Value) -> Value:
-    """Area below the places after some seconds of a phase that begins at a place and a speed."""
-    return seconds * (place + seconds * (0.5 * speed + pull * seconds / 6.0))
+def area_after(seconds: Value, place: Value, speed: Value, pull: Value, jerk: Value | float = 0.0) -> Value:
+    """Area below the places after some seconds of a phase that begins at a place, a speed and an acceleration."""
+    return seconds * (
+        place + seconds * (0.5 * speed + pull * seconds / 6.0 + seconds * seconds * jerk / 24.0)
+    )
 
 
 def average(before: Value, after: Value, window: float) -> Value:

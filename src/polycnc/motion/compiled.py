@@ -22,6 +22,8 @@ from polycnc.motion.kernels import (
     rounding,
     speeds,
 )
+from polycnc.motion.third_order.bends import rests
+from polycnc.motion.third_order.laying import rows
 from polycnc.transformation.orientation import linkage
 
 if TYPE_CHECKING:
@@ -47,8 +49,10 @@ LIBRARY = Library(
         led,
         rounding,
         speeds,
+        rests,
+        rows,
     ),
-    (lay.lay, speeds.backward, speeds.forward, demands.share_rows),
+    (lay.lay, speeds.backward, speeds.forward, demands.share_rows, rows.lay_runs),
 )
 
 
@@ -69,9 +73,14 @@ def share_rows() -> Callable[..., None]:
     return LIBRARY.compiled(demands.share_rows) or demands.share_rows
 
 
+def run_kernel(*, compiled: bool = True) -> Callable[..., int]:
+    """The kernel that lays runs out of which some are led by a law (`third_order/laying/rows.py`)."""
+    return (LIBRARY.compiled(rows.lay_runs) if compiled else None) or rows.lay_runs
+
+
 @cache
 def kernels() -> Kernels:
     """The compiled kernels; the plain ones where there are none."""
-    rows = LIBRARY.compiled(PLAIN.lay)
+    laid = LIBRARY.compiled(PLAIN.lay)
     backward, forward = LIBRARY.compiled(PLAIN.backward), LIBRARY.compiled(PLAIN.forward)
-    return PLAIN if rows is None or backward is None or forward is None else Kernels(rows, backward, forward)
+    return PLAIN if laid is None or backward is None or forward is None else Kernels(laid, backward, forward)

@@ -3,6 +3,9 @@
 A `TimeAccount` listens to a planner. A piece of the path is passed in three phases: up to its highest speed, along it,
 and down. What bounds the highest speed is found by comparing it with what the program asks for and with what the axes
 can do; what is lower is what corners, curves and their jerk allow, there or nearby (`kernels/hold.py`).
+
+A part of a bent path under one constant jerk is passed in one phase, which counts as a whole. Below feed and axes it is
+told apart what uses more of some axis's acceleration or jerk: the change of the speed, or the curve.
 """
 
 from __future__ import annotations
@@ -31,10 +34,15 @@ if TYPE_CHECKING:
 SAME = 1e-6
 #: Real axes under a transformation are looked at in differences, as the planner looks at them: these differ by less.
 REAL = 1.0 + 1e-3
+#: Part by which the speed of a law of limited jerk stays below that which bounds it; change of the speed along a bent
+#: path, in parts of acceleration or jerk of an axis, that counts as none.
+BELOW, STEADY = 0.01, 0.05
 #: Part by which the squared speed on a piece of a curve may change that counts as steady.
 EVEN = 0.05
 #: Part by which a squared speed may be off that of a joint.
 EVEN_JOINT = 1e-5
+#: Part of the way of a row that turns which a tip that stands may seem to go.
+STANDS = 1e-6
 ARC_KINDS = frozenset((Kind.CW, Kind.CCW)) | HELIX_KINDS
 
 
@@ -136,6 +144,7 @@ class TimeAccount:
         self._after: set[int] = set()
         self._behind: dict[int, float] = {}
         self._ahead: dict[int, tuple[float, ...]] = {}
+        self._degrees: dict[int, float] = {}
         self._limits = planner.cut_limits
         self._joint = _Joint(self._limits.step)
         self._contexts: dict[int, Context] = {}
@@ -168,13 +177,19 @@ class TimeAccount:
                     self._behind[chunk.first + row] = self._planner.behind_s(context)
                 if kind == Kind.RAPID or context.transformation is not None:
                     self._contexts[chunk.first + row] = context
+                if context.degree_mm != 1.0 and self._planner.rotary_weight(context) == 0.0:
+                    self._degrees[chunk.first + row] = context.degree_mm
 
     def _asked_speed(self, chunk: Chunk, row: int, context: Context) -> float:
         """Path speed that the program asks for, mm/s; 0 where that changes along the row, or F counts a part of it."""
         kind, feed, pace = chunk.kind[row], chunk.feed[row], context.pace
         if kind == Kind.RAPID:
             return context.rapid_speed or inf
-        if context.surface_speed or (pace is not None and pace.weights) or kind in HELIX_KINDS:
+        if (
+            context.surface_speed
+            or (pace is not None and (pace.weights or pace.turning))
+            or kind in HELIX_KINDS
+        ):
             return 0.0
         turns = self._planner.rpm(context, 0.0) / 60.0
         if kind in (Kind.THREAD, Kind.TAP) and chunk.curve[row] >= 0:
@@ -189,7 +204,7 @@ class TimeAccount:
         for at in range(0, count * width, width):
             self._piece(records, at)
         done = int(records[(count - 1) * width + PieceRecord.ROW])
-        for rows in (self._asked, self._contexts, self._ahead, self._behind):
+        for rows in (self._asked, self._contexts, self._ahead, self._behind, self._degrees):
             for row in [row for row in rows if row < done]:
                 del rows[row]
         self._after = {row for row in self._after if row >= done}
@@ -212,6 +227,10 @@ class TimeAccount:
             share = level / seconds if seconds > 0.0 else 0.0
             self._count(Cause.AXES, level, share * length)
             self._count(Cause.ACCELERATION, seconds - level, (1.0 - share) * length)
+            return
+        if records[at + PieceRecord.FORM] == Form.JERKED:
+            self._joint.rest()
+            self._count(self._cause_under_jerk(records, at), seconds, length)
             return
         start2, peak2, end2, rate = (
             records[at + field]
@@ -242,15 +261,67 @@ class TimeAccount:
 
     def _bound(self, records: array[float], at: int, peak2: float) -> Cause:
         """What bounds the highest speed of a piece."""
-        asked, rapid = self._asked.get(int(records[at + PieceRecord.ROW]), (0.0, False))
+        asked = self._asked_of(records, at)
         speed = sqrt(peak2) * (1.0 + SAME)
         if asked < inf and speed >= asked:
             return Cause.FEED
-        shares = self._shares(records, at)
-        at_top = any(speed * share >= top for share, top in zip(shares, self._tops[rapid], strict=True))
-        if at_top:
+        if self._is_at_top(records, at, peak2):
             return Cause.AXES
         return Cause.ARC_PULL if speed >= self._top_of_arc(records, at) else Cause.CORNERS
+
+    def _asked_of(self, records: array[float], at: int) -> float:
+        """The speed that the program asks for on a piece: of turns alone in degrees."""
+        row = int(records[at + PieceRecord.ROW])
+        asked, _ = self._asked.get(row, (0.0, False))
+        return asked / self._degrees[row] if row in self._degrees and self._turns(records, at) else asked
+
+    def _is_at_top(self, records: array[float], at: int, peak2: float) -> bool:
+        """Whether an axis can go no faster."""
+        _, rapid = self._asked.get(int(records[at + PieceRecord.ROW]), (0.0, False))
+        speed, shares = sqrt(peak2) * (1.0 + SAME), self._shares(records, at)
+        return any(speed * share >= top for share, top in zip(shares, self._tops[rapid], strict=True))
+
+    def _cause_under_jerk(self, records: array[float], at: int) -> Cause:
+        """What bounds a part of a bent path."""
+        asked = self._asked_of(records, at)
+        peak2 = records[at + PieceRecord.PEAK2] / (1.0 - BELOW) ** 2
+        if asked > 0.0:
+            cause = self._bound(records, at, peak2)
+        elif self._is_at_top(records, at, peak2):
+            cause = Cause.AXES
+        else:  # what is asked for shows in the piece alone
+            cause = Cause.FEED if peak2 >= records[at + PieceRecord.CAP2] else Cause.CORNERS
+        if cause is not Cause.CORNERS:
+            return cause
+        along, across = self._used(records, at)
+        return Cause.ACCELERATION if along > max(across, STEADY) else Cause.CORNERS
+
+    def _used(self, records: array[float], at: int) -> tuple[float, float]:
+        """Largest part of the acceleration or jerk of an axis that the change of the speed needs, and the curve.
+
+        In the middle of a part of a bent path, by its time.
+        """
+        n, time, length = self._n, 0.5 * records[at + PieceRecord.TIME], records[at + PieceRecord.LENGTH]
+        speed, jerk = sqrt(records[at + PieceRecord.SPEED2]), records[at + PieceRecord.JERK]
+        pull = records[at + PieceRecord.PULL] + time * jerk
+        speed += time * (pull - 0.5 * time * jerk)
+        along = across = 0.0
+        for i in range(n):
+            first, last, bend, end = records[
+                at + PieceRecord.VECTORS + i : at + PieceRecord.VECTORS + 4 * n : n
+            ]
+            turn, third = 0.5 * (first + last), (end - bend) / length
+            bend = 0.5 * (bend + end)
+            most, jolt = self._limits.acceleration[i], self._limits.jerk[i]
+            along = max(along, abs(turn * pull) / most, abs(turn * jerk) / jolt)
+            curve = speed * (3.0 * bend * pull + third * speed * speed)
+            across = max(across, abs(bend) * speed * speed / most, abs(curve) / jolt)
+        return along, across
+
+    def _turns(self, records: array[float], at: int) -> bool:
+        """Whether nothing but rotary axes moves on a piece."""
+        ways = zip(*self._directions(records, at), self._limits.rotary, strict=False)
+        return all(rotary or max(abs(first), abs(last)) < STANDS for first, last, rotary in ways)
 
     def _top_of_arc(self, records: array[float], at: int) -> float:
         """Speed that parameters allow on a piece of an arc that is planned ahead; infinite on others."""

@@ -1,8 +1,8 @@
-"""The law of motion along a path: phases of constant acceleration, and their average over time.
+"""The law of motion along a path: phases of constant acceleration or constant jerk, and their average over time.
 
-The interpolator runs in phases, so that the way is piecewise quadratic in time, the area below it piecewise cubic, and
-the average of the way over a window the difference of two areas. Plan, samples and main run ask the same class: a
-number for one moment, an array for many.
+The interpolator runs in phases, so that the way is piecewise quadratic in time (cubic under a jerk), the area below it
+of one degree more, and the average of the way over a window the difference of two areas. Plan, samples and main run ask
+the same class: a number for one moment, an array for many.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from __future__ import annotations
 from array import array
 from bisect import bisect_left, bisect_right
 from math import sqrt
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.motion.averaging import area_after, average, way_after
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
     from polycnc.motion.averaging import Value
 
+Numbers: TypeAlias = "NDArray[np.float64]"
 #: Areas are summed in two parts, multiples of this and the rest: those of a long run are as exact as of a short one.
 GRID = 2.0**-20
 #: Steps of the search for a time: each halves what the step before has left at least.
@@ -30,16 +31,17 @@ STEPS = 60
 
 
 class Phase(NamedTuple):
-    """Constant acceleration `pull` for `seconds` from `speed` on, over `way`."""
+    """Constant `jerk` for `seconds` from `speed` and the acceleration `pull` on, over `way`."""
 
     seconds: float
     way: float
     speed: float
     pull: float
+    jerk: float = 0.0
 
 
 class Law:
-    """One place over time: phases of constant acceleration, at rest before and behind them.
+    """One place over time: phases of constant jerk, most of them of none, at rest before and behind them.
 
     Args:
         time: When it begins.
@@ -47,34 +49,47 @@ class Law:
     """
 
     def __init__(self, time: float = 0.0, place: float = 0.0) -> None:
-        # When a phase begins, where, speed and pull in it, and the area below the places before it.
+        # When a phase begins, where, its first speed and pull, its jerk, and the area below the places before it.
         self._start, self._place = array("d", (time,)), array("d", (place,))
-        self._speed, self._pull = array("d", (0.0,)), array("d", (0.0,))
+        self._speed, self._pull, self._jerk = (array("d", (0.0,)) for _ in range(3))
         self._area, self._fine = array("d", (0.0,)), array("d", (0.0,))
         self._origin = place
 
     @classmethod
-    def of(cls, seconds: NDArray[np.float64], ways: NDArray[np.float64], speed: NDArray[np.float64]) -> Law:
-        """A law from time 0 and place 0 on, by duration, way and first speed of many phases, (m,) each."""
+    def of(
+        cls,
+        seconds: Numbers,
+        ways: Numbers,
+        speed: Numbers,
+        pull: Numbers | None = None,
+        jerk: Numbers | None = None,
+    ) -> Law:
+        """A law from time 0 and place 0 on, by duration, way and first speed of many phases, (m,) each.
+
+        And by their first acceleration and their jerk: where these are left out, by the constant acceleration that
+        leads over the way.
+        """
         import numpy as np
 
         law, keep = cls(), seconds > 0.0
         seconds, ways, speed = seconds[keep], ways[keep], speed[keep]
-        pull = 2.0 * (ways - speed * seconds) / (seconds * seconds)
+        pull = 2.0 * (ways - speed * seconds) / (seconds * seconds) if pull is None else pull[keep]
+        jerk = np.zeros(len(seconds)) if jerk is None else jerk[keep]
         places = np.concatenate([[0.0], np.cumsum(ways)])
-        areas = area_after(seconds, places[:-1], speed, pull)
+        areas = area_after(seconds, places[:-1], speed, pull, jerk)
         coarse = np.round(areas / GRID) * GRID
         law._start.extend(np.concatenate([[0.0], np.cumsum(seconds)]).tolist())
         law._place.extend(places.tolist())
         law._speed.extend([*speed.tolist(), 0.0])
         law._pull.extend([*pull.tolist(), 0.0])
+        law._jerk.extend([*jerk.tolist(), 0.0])
         law._area.extend(np.concatenate([[0.0], np.cumsum(coarse)]).tolist())
         law._fine.extend(np.concatenate([[0.0], np.cumsum(areas - coarse)]).tolist())
         return law
 
     def run(self, time: float, place: float, phases: Iterable[Phase]) -> None:
         """What happens from a time on, in place of what was said before."""
-        columns = (self._start, self._place, self._speed, self._pull, self._area, self._fine)
+        columns = self._columns
         while len(self._start) > 1 and self._start[-1] >= time:
             for column in columns:
                 column.pop()
@@ -82,10 +97,10 @@ class Law:
         coarse = round(fine / GRID) * GRID
         area, fine = area + coarse, fine - coarse
         for phase in (*phases, Phase(0.0, 0.0, 0.0, 0.0)):
-            row = time, place, phase.speed, phase.pull, area, fine
+            row = time, place, phase.speed, phase.pull, phase.jerk, area, fine
             for column, value in zip(columns, row, strict=True):
                 column.append(value)
-            more = area_after(phase.seconds, place - self._origin, phase.speed, phase.pull)
+            more = area_after(phase.seconds, place - self._origin, phase.speed, phase.pull, phase.jerk)
             coarse = round(more / GRID) * GRID
             area, fine = area + coarse, fine + (more - coarse)
             time, place = time + phase.seconds, place + phase.way
@@ -93,7 +108,7 @@ class Law:
     def forget(self, before: float) -> None:
         """Nobody will ask for a time before this one."""
         last = bisect_right(self._start, before) - 1
-        for column in (self._start, self._place, self._speed, self._pull, self._area, self._fine):
+        for column in self._columns:
             del column[: max(last, 0)]
 
     @property
@@ -107,23 +122,29 @@ class Law:
         return self._start[-1] - self._start[0]
 
     @property
+    def end_time(self) -> float:
+        """When it ends."""
+        return self._start[-1]
+
+    @property
     def end(self) -> float:
         """The place at the end."""
         return self._place[-1]
 
     def at(self, time: Value) -> Value:
         """The place at a time."""
-        seconds, place, speed, pull = self._phase(time)
-        return place + way_after(seconds, speed, pull)
+        seconds, place, speed, pull, jerk = self._phase(time)
+        return place + way_after(seconds, speed, pull, jerk)
 
     def speed(self, time: Value) -> Value:
         """The speed at a time."""
-        seconds, _, speed, pull = self._phase(time)
-        return speed + pull * seconds
+        seconds, _, speed, pull, jerk = self._phase(time)
+        return speed + seconds * (pull + 0.5 * seconds * jerk)
 
     def pull(self, time: Value) -> Value:
         """The acceleration at a time."""
-        return self._phase(time)[3]
+        seconds, _, _, pull, jerk = self._phase(time)
+        return pull + seconds * jerk
 
     def mean(self, time: Value, window: float) -> Value:
         """The average place over the time `window` before."""
@@ -154,6 +175,8 @@ class Law:
         """The time at which a law that never goes back comes to a place."""
         k = max(bisect_right(self._place, place) - 1, 0)
         left, speed, pull = max(place - self._place[k], 0.0), self._speed[k], self._pull[k]
+        if self._jerk[k] != 0.0:
+            return self._start[k] + self._time_over(k, left)
         fast = sqrt(max(speed * speed + 2.0 * pull * left, 0.0)) + speed
         return self._start[k] + (2.0 * left / fast if fast > 0.0 else 0.0)
 
@@ -175,22 +198,44 @@ class Law:
         k = next((k for k, had in enumerate(self._speed) if had >= speed * (1.0 - 1e-9)), 0)
         return self._start[k] - self._place[k] / speed if k and speed > 0.0 else 0.0
 
-    def _phase(self, time: Value) -> tuple[Value, Value, Value, Value]:
-        """How long the phase at a time has lasted, where it began, its first speed and its acceleration."""
+    @property
+    def _columns(self) -> tuple[array[float], ...]:
+        return self._start, self._place, self._speed, self._pull, self._jerk, self._area, self._fine
+
+    def _time_over(self, k: int, way: float) -> float:
+        """Seconds from the start of a phase with a jerk until a way is done: steps of Newton, kept between bounds."""
+        speed, pull, jerk = self._speed[k], self._pull[k], self._jerk[k]
+        low, high = 0.0, self._start[k + 1] - self._start[k] if way > 0.0 else 0.0
+        seconds = high
+        for _ in range(STEPS):
+            off = way_after(seconds, speed, pull, jerk) - way
+            low, high = (low, seconds) if off > 0.0 else (seconds, high)
+            fast = speed + seconds * (pull + 0.5 * seconds * jerk)
+            new = seconds - off / fast if fast > 0.0 else low
+            if not low < new < high:
+                new = 0.5 * (low + high)
+            if new in (low, seconds, high):
+                break
+            seconds = new
+        return seconds
+
+    def _phase(self, time: Value) -> tuple[Value, Value, Value, Value, Value]:
+        """How long the phase at a time has lasted, where it began, its first speed and acceleration, its jerk."""
         if isinstance(time, float | int):
             k = max(bisect_right(self._start, time) - 1, 0)
-            return time - self._start[k], self._place[k], self._speed[k], self._pull[k]
+            return time - self._start[k], self._place[k], self._speed[k], self._pull[k], self._jerk[k]
         import numpy as np
 
         start = np.asarray(self._start)
         at = np.maximum(np.searchsorted(start, time, "right") - 1, 0)
-        place, speed, pull = (np.asarray(column)[at] for column in (self._place, self._speed, self._pull))
-        return time - start[at], place, speed, pull
+        columns = self._place, self._speed, self._pull, self._jerk
+        place, speed, pull, jerk = (np.asarray(column)[at] for column in columns)
+        return time - start[at], place, speed, pull, jerk
 
     def _areas(self, time: Value) -> tuple[Value, Value]:
         """The integral of the places, counted from the origin, over the time before: in two parts."""
-        seconds, place, speed, pull = self._phase(time)
-        more = area_after(seconds, place - self._origin, speed, pull)
+        seconds, place, speed, pull, jerk = self._phase(time)
+        more = area_after(seconds, place - self._origin, speed, pull, jerk)
         if isinstance(time, float | int):
             k = max(bisect_right(self._start, time) - 1, 0)
             return self._area[k], self._fine[k] + more

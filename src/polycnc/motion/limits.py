@@ -7,7 +7,6 @@ from math import inf
 from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
-from polycnc.geometry.units import INCH_MM
 from polycnc.motion.kernels.alone import alone_pull, alone_top, best_ramp
 from polycnc.motion.kernels.columns import Limits, PathLimits
 from polycnc.motion.kernels.jerk import DEVIATION_CORNER, JERK_CORNER
@@ -184,7 +183,8 @@ def context_fields(
         is_ahead(context, settings),
         behind_s(context, settings),
         settings.turn_speed if settings.turn_speed > 0.0 and _is_tip(context) else 0.0,
-        _degree(context) if settings.rotary_in_feed else 1.0,
+        context.degree_mm,
+        averages[0] > 0.0 and not after and is_bent_by_way(context, settings),
         *(a, b, c, d, e, f, g, h, i),
         *context.frame.t,
         *(context.offsets or [0.0] * axes),
@@ -278,6 +278,24 @@ def is_led(context: Context, settings: Settings) -> bool:
     )
 
 
+def is_bent_by_way(context: Context, settings: Settings) -> bool:
+    """Whether with limited jerk a path is bent by its way, and a law leads along it (`third_order`).
+
+    Not under a transformation or a coupling, whose real axes are others than those of the path; not by time constants,
+    or where strokes and rapids overlap; nor where parameters bound the speed at corners of cuts that are planned ahead.
+    """
+    corners = (settings.corner_speed, *settings.corner_steps.values(), *settings.line_pulls.values())
+    return (
+        settings.bends_by_way
+        and context.transformation is None
+        and context.lag_s == 0.0
+        and behind_s(context, settings) == 0.0
+        and context.overlap <= 0.0
+        and context.rapid_overlap == 0.0
+        and not (is_ahead(context, settings) and min(corners) < inf)
+    )
+
+
 class AxisRapid(NamedTuple):
     """How an axis runs a rapid alone: highest speed, acceleration, seconds that it is averaged over."""
 
@@ -289,9 +307,9 @@ class AxisRapid(NamedTuple):
 def axis_rapids(ways: Sequence[float], context: Context, limits: Limits, *, soft: bool) -> list[AxisRapid]:
     """How each axis runs its way of a rapid on which every axis runs alone, with limited jerk (`soft`) or without."""
     found: list[AxisRapid] = []
-    for way, limit, pull, jerk in zip(ways, limits.top_rapid, limits.acceleration, limits.jerk, strict=True):
-        share = context.pace.rapid if context.pace is not None else 1.0
-        top = context.rapid_top(share * limit)
+    own_limits = zip(limits.top_rapid, limits.acceleration, limits.jerk, limits.rotary, strict=True)
+    for way, (limit, pull, jerk, rotary) in zip(ways, own_limits, strict=True):
+        top = context.rapid_top(limit, rotary=bool(rotary))
         ramp = best_ramp(abs(way), top, pull, jerk) if soft and way else 0.0
         own = alone_pull(ramp, pull, jerk)
         found.append(AxisRapid(alone_top(abs(way), top, own, ramp), own, ramp))
@@ -302,11 +320,7 @@ def rotary_weight(context: Context, settings: Settings) -> float:
     """Millimetres that a degree counts in the length that the feed refers to: that of a tip is its way on the work."""
     if not settings.rotary_in_feed or _is_tip(context):
         return 0.0
-    return _degree(context)
-
-
-def _degree(context: Context) -> float:
-    return INCH_MM if context.inch else 1.0
+    return context.degree_mm
 
 
 def _is_tip(context: Context) -> bool:

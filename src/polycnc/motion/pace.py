@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.toolpath.modes import FeedMode
+from polycnc.transformation.orientation.linkage import STANDS_MM
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
     from polycnc.toolpath.context import Pace
     from polycnc.toolpath.row_path import Path
 
+#: Parts of a length up to which a degree is still a millimetre: on a radius of 57.296 mm, as programs write it.
+NOMINAL = 1e-5
 #: A contour radius below this part of the tool's is a corner, about which the tool turns at F.
 CORNER = 1e-6
 #: Places along a row at which the linear axes are looked at that follow its rotary ones.
@@ -75,18 +78,30 @@ def pace_of(
     """
     pace, n, made = context.pace, len(way.moved), context.transformation is not None
     assert pace is not None
-    length = way.length(weights) or way.length([1.0] * n)
+    length = way.length(weights)
+    turns = length < STANDS_MM
+    if turns:
+        length = way.length([1.0] * n)
     if length == 0.0:
         return 1.0, inf, 1.0
     moving = [i for i in range(n) if way.share(i, length) > 0.0]
     feed = pace.feed * edge_factor(pace, context, way)
-    if pace.weights and context.feed_mode is not FeedMode.INVERSE_TIME:
-        feed *= length / (way.length(pace.weights) or length)
+    if context.feed_mode is not FeedMode.INVERSE_TIME:
+        counted = _counted(pace, way, turns=turns) or length
+        feed *= length / counted
+        if turns and abs(counted - length) > NOMINAL * length:
+            feed *= context.degree_mm
     return (
         feed,
         _top(pace, way, length, moving, limits, rapid=rapid, made=made),
         _ease(pace, way, length, moving, limits, made=made),
     )
+
+
+def _counted(pace: Pace, way: Travel, *, turns: bool) -> float:
+    """Length that F is for, mm: of the axes of its group, else of rotary ones on the circles that they have; 0: all."""
+    counted = way.length(pace.weights) if pace.weights else 0.0
+    return way.length(pace.turning) if turns and pace.turning and not counted else counted
 
 
 def edge_factor(pace: Pace, context: Context, way: Travel) -> float:

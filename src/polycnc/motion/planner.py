@@ -16,10 +16,10 @@ from typing import TYPE_CHECKING
 from polycnc.motion.compiled import PLAIN, kernels
 from polycnc.motion.kernels.chords import settle
 from polycnc.motion.kernels.columns import PLACES, Form, PieceRecord, Rows, new_state, piece_width
-from polycnc.motion.limits import ContextTables, averages, axis_rapids
+from polycnc.motion.limits import ContextTables, averages, axis_rapids, is_bent_by_way, rotary_weight
 from polycnc.motion.settings import DEFAULT, Settings
 from polycnc.motion.standing.beside import Awaits, Beside
-from polycnc.motion.standing.waits import Waits
+from polycnc.motion.standing.waits import Waits, least_seconds
 from polycnc.motion.time_constants import Use, behind_s, is_ahead, use_of, uses_of
 from polycnc.motion.times import Plan, Times, ToolTimes
 from polycnc.motion.transformed import RealAxes
@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from polycnc.motion.limits import AxisRapid
     from polycnc.motion.pole import PathLeg, Turn
     from polycnc.motion.standing.beside import Begins
+    from polycnc.motion.third_order.laying.leading import LawRuns
     from polycnc.toolpath import Context, Toolpath
     from polycnc.toolpath.table import Chunk
 
@@ -105,6 +106,9 @@ class Planner:
         self._waits.rapid_stops, self._waits.spindle_wait = settings.rapid_stops, settings.spindle_wait
         self._waits.step, self._beside = self._step, Beside()
         self._rests: set[int] = set()
+        self._come_to_rest: dict[int, float] = {}  # by row: averages of a run that a function outlasts
+        self._runs: LawRuns | None = None  # until a context asks for it
+        self._compiled = compiled
 
     @property
     def facing(self) -> int:
@@ -134,6 +138,10 @@ class Planner:
     def cut_limits(self) -> Limits:
         """What bounds cuts without a transformation."""
         return self._real.limits(None)
+
+    def rotary_weight(self, context: Context) -> float:
+        """Millimetres that a degree counts in the length that the feed refers to."""
+        return rotary_weight(context, self._settings)
 
     def is_ahead(self, context: Context) -> bool:
         """Whether parameters for corners and arcs of cuts that are planned ahead hold."""
@@ -180,13 +188,16 @@ class Planner:
         switches = self._switches(chunk) if self._uses.differ else {}
         rests = {number - chunk.first for number in self._rests}
         self._rests.clear()
+        beside = {entry.last + 1 - chunk.first for entry in self._waits.parallel if entry.last >= chunk.first}
         row = 0
-        for edge in (*sorted({*bounds.enters, *bounds.legs, *switches, *rests}), len(chunk)):
+        for edge in (*sorted({*bounds.enters, *bounds.legs, *switches, *rests, *beside}), len(chunk)):
             self._lay(Rows(chunk.kind[:edge], *others), row, chunk.curves, chunk.first)
             row = edge
-            if edge in rests:
-                settle(self._pieces, self._axes, self._limits, self._state)
-                self._state.run.stop = 1.0
+            outlasted = edge in beside and self._is_outlasted(chunk.first + edge)
+            if outlasted or edge in rests:
+                self._rest()
+            if outlasted:
+                self._come_to_rest[chunk.first + edge] = self._averages(chunk.first + edge)
             if edge in switches:
                 self._switch(switches[edge], self._toolpath.contexts[chunk.context[edge]])
             if edge in bounds.enters:
@@ -196,6 +207,31 @@ class Planner:
                 self._through_pole(bounds.legs[edge], chunk, edge, feed[edge])
                 row = edge + 1
         return True
+
+    def _is_outlasted(self, row: int) -> bool:
+        """Whether a function beside the block in front of a row outlasts its motion: the axes rest at its end."""
+        entries = [entry for entry in self._waits.parallel if entry.last + 1 == row]
+        seconds, begins = max(entry.seconds for entry in entries), min(entry.row for entry in entries)
+        if self._runs is not None and self._runs.is_open:
+            return self._runs.least_seconds(begins) < seconds
+        first = self._piece_of(begins)
+        return least_seconds(self._pieces, first, self._state.run.pieces, self._width) < seconds
+
+    def _averages(self, row: int) -> float:
+        """Seconds in which the averages come to rest in front of a row, where a block before the last one has them."""
+        first = self._piece_of(min(entry.row for entry in self._waits.parallel if entry.last + 1 == row))
+        for piece in reversed(range(self._state.run.pieces)):
+            pause = self._pieces[piece * self._width + PieceRecord.PAUSE]
+            if pause > 0.0:
+                return pause if piece < first else 0.0
+        return 0.0
+
+    def _piece_of(self, row: int) -> int:
+        """The first piece in the buffer that belongs to a row or to one behind it."""
+        piece = self._state.run.pieces
+        while piece and self._pieces[(piece - 1) * self._width + PieceRecord.ROW] >= row:
+            piece -= 1
+        return piece
 
     def _step(self, step: Begins | Awaits) -> None:
         """Something begins beside the axes, or a row waits for it."""
@@ -225,19 +261,75 @@ class Planner:
 
     def _switch(self, use: Use, context: Context) -> None:
         """Before a row that another use holds for the axes rest."""
-        settle(self._pieces, self._axes, self._limits, self._state)
+        self._rest()
         self._use, self._limits = use, self._real.limits(context.transformation, use)
-        self._state.run.stop = 1.0
 
     def _lay(self, rows: Rows, row: int, curves: array[float], number: int) -> None:
         """Lay rows out from one on."""
         contexts = self._tables.of(self._use)
+        if self._runs is not None:
+            self._lay_runs(self._runs, rows, row, curves, number, contexts)
+            return
         while row < len(rows.kind):
             row = self._kernels.lay(
                 rows, row, curves, number, contexts, self._limits, self._pieces, self._state
             )
             if row < len(rows.kind):
                 self._make_room()
+
+    def _lay_runs(
+        self, runs: LawRuns, rows: Rows, row: int, curves: array[float], number: int, contexts: array[float]
+    ) -> None:
+        """Lay rows out: runs that a law leads as windows, all others as pieces."""
+        from polycnc.motion.third_order.laying.rows import DONE, NO_PIECE
+
+        while row < len(rows.kind):
+            row, why = runs.lay(rows, row, curves, number, contexts, self._limits, self._pieces, self._state)
+            self._take_windows(runs)
+            if why == NO_PIECE:
+                self._make_room()
+            elif why != DONE:
+                self._end_run(runs)
+
+    def _rest(self) -> None:
+        """The axes come to rest behind the last row."""
+        if self._runs is not None and self._runs.is_open:
+            self._end_run(self._runs)
+        settle(self._pieces, self._axes, self._limits, self._state)
+        self._state.run.stop = 1.0
+
+    def _end_run(self, runs: LawRuns) -> None:
+        """The run that is laid is over, and the axes rest."""
+        if runs.is_row:
+            rows, curves, number = runs.row
+            contexts = self._tables.of(self._use)
+            self._state.run.stop = 1.0
+            while not self._kernels.lay(
+                rows, 0, curves, number, contexts, self._limits, self._pieces, self._state
+            ):
+                self._make_room()
+        else:
+            runs.end(self._limits)
+            self._take_windows(runs)
+            lead = runs.room.lead
+            self._state.position[:] = lead.position
+            self._state.run.without_feed += lead.run.without_feed
+            self._state.run.standing_spindle += lead.run.standing_spindle
+        self._state.run.stop = 1.0
+
+    def _take_windows(self, runs: LawRuns) -> None:
+        """Count the time of windows that are settled, and hand their pieces on."""
+        while runs.windows:
+            window = runs.windows.popleft()
+            settle(self._pieces, self._axes, self._limits, self._state)
+            self._look_ahead(window.rows.row[0])
+            window.add_times(self._slots, self._rows, self._first_row)
+            self._beside.settle(window.rows.row[-1], self._seconds, self._wait)
+            self._settle_parallel(window.planned_rows)
+            while self.on_pieces is not None and (count := window.put_records(self._pieces)):
+                self.on_pieces(self._pieces, count)
+            self._pieces[PieceRecord.SPEED2] = 0.0
+            self._forget_rows(window.planned_rows)
 
     def _through_pole(self, legs: Sequence[PathLeg], chunk: Chunk, row: int, feed: float) -> None:
         """Lay the legs of a row, at rest before each of them; between two of them the rotary axis turns."""
@@ -253,7 +345,7 @@ class Planner:
         rapid = kind == Kind.RAPID
         slot = 2 * context + (0 if rapid else 1)
         records = self._real.turn(turn, self._toolpath.contexts[context], kind, number, slot)
-        settle(self._pieces, self._axes, self._limits, self._state)
+        self._rest()
         self._look_ahead(number)
         while len(self._pieces) < len(records):
             self._pieces.frombytes(bytes(8 * len(self._pieces)))
@@ -269,10 +361,9 @@ class Planner:
 
     def _enter(self, context: Context, position: list[float], row: int) -> None:
         """Before a row a transformation begins or ends: at rest the path goes on from where the real axes are."""
-        settle(self._pieces, self._axes, self._limits, self._state)
+        self._rest()
         self._look_ahead(row)
         self._limits = self._real.limits(context.transformation, self._use)
-        self._state.run.stop = 1.0
         self._state.position[:] = array("d", position)
 
     def finish(self) -> Plan:
@@ -281,7 +372,7 @@ class Planner:
             if chunk.first >= self._next_row:
                 self.take(chunk)
         self._waits.settle(self._next_row)
-        settle(self._pieces, self._axes, self._limits, self._state)
+        self._rest()
         self._look_ahead(self._next_row)
         self._beside.settle(self._next_row, self._seconds, self._wait)
         self._settle_parallel(self._next_row)
@@ -331,14 +422,18 @@ class Planner:
         )
         last_row = int(pieces[(final - 1) * width + PieceRecord.ROW]) if end is None else end
         self._beside.settle(last_row, self._seconds, self._wait)
+        planned_rows = int(rest[PieceRecord.ROW]) if end is None else end
+        self._settle_parallel(planned_rows)
         if self.on_pieces is not None:
             self.on_pieces(pieces, final)
         end2 = pieces[(final - 1) * width + PieceRecord.END2]
         pieces[: len(rest)] = rest
         pieces[PieceRecord.SPEED2] = end2
         self._state.run.pieces = count - final
-        planned_rows = int(rest[PieceRecord.ROW]) if end is None else end
-        self._settle_parallel(planned_rows)
+        self._forget_rows(planned_rows)
+
+    def _forget_rows(self, planned_rows: int) -> None:
+        """All rows before one are planned: where rows are not kept, they are forgotten."""
         if not self._keep_rows:
             self._beside.settle(planned_rows, self._seconds, self._wait)
             needed = min([planned_rows, *(entry.row for entry in self._waits.parallel)])
@@ -369,6 +464,10 @@ class Planner:
             spindle = self._waits.spindle(context)
             self._tables.add(context, self._axes, spindle, station, self._settings, smoothing)
             self._slots.extend((0.0, 0.0, 0.0, 0.0))
+            if self._runs is None and smoothing[0] > 0.0 and is_bent_by_way(context, self._settings):
+                from polycnc.motion.third_order.laying.leading import LawRuns
+
+                self._runs = LawRuns(self._axes, compiled=self._compiled)
 
     def _wait(self, row: int, share: str, context: int, seconds: float) -> None:
         """A row waits: called before its motion is planned. What comes behind the last row counts for it."""
@@ -388,10 +487,12 @@ class Planner:
             if entry.last >= planned_rows:
                 open_yet.append(entry)
                 continue
-            motion = self._seconds(entry.row, entry.last + 1)
+            motion = self._seconds(entry.row, entry.last + 1) + self._come_to_rest.get(entry.last + 1, 0.0)
             if entry.seconds > motion:
                 self._wait(entry.row, "auxiliary_s", entry.context, entry.seconds - motion)
         self._waits.parallel[:] = open_yet
+        if not open_yet:
+            self._come_to_rest.clear()
 
     def _plan(self) -> Plan:
         total, tools = Times(), dict[tuple[int, str], ToolTimes]()

@@ -49,7 +49,8 @@ class Course:
     def pose(self) -> Pose:
         """Where everything stands."""
         control = self._control
-        return self.bodies.pose(control.snapshot.channels[1].point, control.machine_position)
+        channel = control.snapshot.channels[1]
+        return self.bodies.pose(channel.point, control.machine_position, channel.mechanism)
 
     def _hear(self, record: Record) -> None:
         """A run begins, or the program draws: the trail begins anew, has another colour, or a circle."""

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, Frame
+from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath.modes import AccelerationMode, CornerMode, FeedMode, StopWindow
 
 if TYPE_CHECKING:
@@ -33,6 +34,7 @@ class Pace:
             `inside` curves only (`CFIN`), or `never`: it is that of the tool's centre (`CFTCP`).
         weights: Millimetres that a millimetre or degree of each column counts in the length that F is for (`FGROUP`,
             `FGREF`), 0 for a synchronous axis; empty for the control's own rule.
+        turning: Likewise what each counts where nothing else moves than rotary axes without a weight; empty for 1.
         top: Highest velocity in cuts, mm/s or degrees/s (`FL`); infinite for none. Empty for no such limits.
         reach: Highest velocity in all moves, mm/s or degrees/s (MD32000 where it is named); infinite for that of the
             machine. Empty for no such limits.
@@ -49,6 +51,7 @@ class Pace:
     rapid: float = 1.0
     edge: str = "never"
     weights: tuple[float, ...] = ()
+    turning: tuple[float, ...] = ()
     top: tuple[float, ...] = ()
     reach: tuple[float, ...] = ()
     following: float = inf
@@ -66,6 +69,7 @@ class Context:
     Attributes:
         plane: Working plane as `G17`, `G18` or `G19`.
         inch: Words and display are in inches. Lengths in the table stay in millimetres.
+        feed_inch: Feeds alone are told in inches, the display is not (SINUMERIK G700).
         feed_mode: What the feed of a row counts.
         frame: Work coordinates to machine coordinates of the geometry axes, without the tool.
         offsets: Shift from work to machine of every channel axis beside `frame`, tool included (mm, degrees).
@@ -117,6 +121,7 @@ class Context:
 
     plane: str = "G17"
     inch: bool = False
+    feed_inch: bool = False
     feed_mode: FeedMode = FeedMode.PER_MINUTE
     frame: Frame = IDENTITY
     offsets: tuple[float, ...] = ()
@@ -195,7 +200,13 @@ class Context:
             return override
         return min(override, max(self.spindle_limit_rpm / self.spindle_rpm, 1.0))
 
-    def rapid_top(self, limit: float) -> float:
+    @property
+    def degree_mm(self) -> float:
+        """Millimetres of a feed that are a degree where nothing but rotary axes moves: a speed counts degrees then."""
+        return INCH_MM if self.inch or self.feed_inch else 1.0
+
+    def rapid_top(self, limit: float, *, rotary: bool) -> float:
         """Highest speed of an axis that runs a rapid alone; `limit` is what the machine allows."""
         limit *= self.pace.rapid if self.pace is not None else 1.0
-        return min(limit, self.rapid_speed) if self.rapid_speed else limit
+        own = self.rapid_speed / self.degree_mm if rotary else self.rapid_speed
+        return min(limit, own) if own else limit

@@ -1,7 +1,8 @@
 """Draws the path as SVG: projections side by side at one scale, rapids dashed, each tool in its colour.
 
-What is drawn are work coordinates in millimetres, as the program names them. The drawing is fitted around the cutting;
-rapids from and to afar are cut off at its edge.
+What is drawn are coordinates of the work offset in millimetres: planes, turns and local systems lie where they are on
+the work, which is as it is with the table at zero. The drawing is fitted around the cutting; rapids from and to afar
+are cut off at its edge.
 """
 
 from __future__ import annotations

@@ -11,6 +11,7 @@ from math import isfinite
 from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass
+from polycnc.geometry.vectors import minus, plus
 from polycnc.machine.kinematics import Kinematics
 
 if TYPE_CHECKING:
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 ENDLESS, HALF = 400.0, 12.0
 #: How far the slides stand away from the tool, mm: behind it and above it.
 AWAY = 60.0
+_ALONG_Z = (0.0, 0.0, 1.0)
 #: Which slide carries which: of a machine whose spindle carries the tool, and of one whose spindle carries the work.
 _MILL, _LATHE = (1, 0, 2), (2, 0, 1)
 
@@ -59,14 +61,18 @@ class Pose:
     Attributes:
         point: The tool's point on the work, in the system of the path, mm.
         machine: X, Y and Z of the machine, mm.
+        nose: Where the head holds the tool, machine coordinates, mm: there the picture has the tool's point.
         along: Direction from the tip along the tool, seen from the work.
         angles: Rotary axes in degrees.
+        head: Where the discs of the head are and what they turn about, machine coordinates, by their axes.
     """
 
     point: Vector
     machine: Vector
+    nose: Vector
     along: Vector
     angles: Mapping[str, float]
+    head: Mapping[str, tuple[Vector, Vector]]
 
 
 class MachineBodies:
@@ -131,12 +137,33 @@ class MachineBodies:
             made.append(Body(solid.shape, solid.size, _vector(middle), moves, solid.role, solid.direction))
         return made
 
-    def pose(self, point: Vector, position: Sequence[float]) -> Pose:
-        """Where everything stands while the tool is at a point and the axes of the channel at a machine position."""
+    def pose(self, point: Vector, position: Sequence[float], mechanism: Kinematics | None = None) -> Pose:
+        """Where everything stands.
+
+        Args:
+            point: Where the tool is on the work, mm.
+            position: Machine position of the axes of the channel.
+            mechanism: The rotary joints as the control has them; None for those of the machine file.
+        """
+        kinematics = mechanism or self._kinematics
         angles = {axis.name: position[i] for i, axis in enumerate(self._axes) if axis.rotary}
-        along = (1.0, 0.0, 0.0) if self.is_lathe else self._kinematics.tool_on_work(angles)
+        along = self._turning_tool(kinematics, angles) if self.is_lathe else kinematics.tool_on_work(angles)
         x, y, z = (position[i] if i >= 0 else 0.0 for i in self._geometry)
-        return Pose(point, (x, y, z), along, angles)
+        base = minus(plus((x, y, z), kinematics.to_nose), kinematics.head_turn({}).t)
+        nose = plus(base, kinematics.head_turn(angles).t)
+        head = {
+            joint.axis: (plus(base, frame.t), frame.direct(*joint.direction))
+            for joint, frame in zip(kinematics.tool, kinematics.head_places(angles), strict=True)
+        }
+        return Pose(point, (x, y, z), nose, along, angles, head)
+
+    def _turning_tool(self, kinematics: Kinematics, angles: Mapping[str, float]) -> Vector:
+        """On a lathe: along X, as turning tools stand, where neither the machine file nor a head says another thing.
+
+        The work turns under it, and stands still in the picture.
+        """
+        told = kinematics.tool or self._kinematics.along != _ALONG_Z
+        return kinematics.tool_on_machine(angles) if told else (1.0, 0.0, 0.0)
 
 
 def _vector(values: Sequence[float]) -> Vector:

@@ -128,6 +128,15 @@ def test_nothing_moves_before_words_have_told_the_tool_in_a_turned_work_system()
     assert [alarm.code for alarm in result.alarms] == ["PC0001"]
 
 
+def test_a_tool_that_stands_in_a_system_turned_about_it_may_move_before_words_tell_it() -> None:
+    text = "G54.4 P1\nG43.4 H1 Q1\nG00 X5. Y1. Z2.\nG00 C90.\nM30\n"
+    result = turned_work(text, "mill5-bc-head", [0.0, 0.0, 30.0])
+    assert result.ok, result.alarms
+    machine = next(row["machine"] for row in result.rows if "machine" in row)
+    c, s = cos(radians(30.0)), sin(radians(30.0))
+    assert [machine[axis] for axis in "XYZBC"] == pytest.approx([5 * c - s, 5 * s + c, 52.0, 0.0, 0.0])
+
+
 def test_directions_of_the_machine_count_again_behind_q0() -> None:
     text = "G54.4 P1\nG43.4 H1 Q1\nG00 X0 Y0 Z0 B0 C0\nG43.4 H1 Q0\nG00 B0 C0\nM30\n"
     result = turned_work(text, "mill5-bc-head", [0.0, 30.0, 0.0])

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from math import dist, inf, sqrt
+from math import cos, dist, inf, sin, sqrt
 from random import Random
 from typing import TYPE_CHECKING
 
+import numpy as np
 import pytest
 
 from polycnc.mainrun import State, VirtualControl
@@ -241,3 +242,76 @@ def test_a_tap_knows_no_override_and_no_hold() -> None:
     disturbed.cycle_start()
     assert disturbed.run() is State.READY
     assert disturbed.time == pytest.approx(plain.time, abs=0.05)
+
+
+#: Runs of SINUMERIK under SOFT, which a law leads (`execution/by_law.py`).
+BY_LAW = {
+    "lines": "SOFT G642 G1 X20 F6000\nY20\nX40 Y25\nY0\nX60\nX61 Y3\nX62 Y2\nX80\nM30\n",
+    "arcs": "SOFT G645 G1 X20 F6000\nY20\nG2 X40 Y20 CR=10\nG3 X60 Y20 CR=15 Z3\nG1 X61\nG0 X70 Y30\nG1 Y40\nM30\n",
+    "facets": "SOFT G642 CTOL=0.02 G1 F4000\n"
+    + "".join(f"X{20 - 20 * cos(k / 20):.3f} Y{20 * sin(k / 20):.3f}\n" for k in range(1, 80))
+    + "M30\n",
+    "spline": "SOFT G642 G1 X10 F5000\nBSPLINE X20 Y10\nX30 Y0\nX40 Y15\nX50 Y0\nCSPLINE X60 Y5\nX70 Y0\nG1 X90\nM30\n",
+    "distance": "SOFT G641 ADIS=1 G1 X20 F6000\nY20 M8\nX40 Y25\nG0 X50\nG1 X61 Y3\nX62 Y2\nM30\n",
+    "sharp": "SOFT G64 G1 X20 F6000\nX30 Y1\nX40 Y2.5\nY0\nX60\nX61 Y.3\nX80\nM30\n",
+}
+
+
+def every_ms(virtual: VirtualControl, places: list[list[float]]) -> None:
+    """Let a cycle pass; where the axes are at every millisecond of it."""
+    clock = virtual._loop._clock
+    begin, count = clock.time, round(clock.cycle_s / 0.001)
+    for k in range(1, count):
+        virtual._loop._advance(begin + 0.001 * k)
+        places.append(virtual.machine_position)
+    virtual.step()
+    places.append(virtual.machine_position)
+
+
+@pytest.mark.parametrize("name", BY_LAW)
+def test_no_script_disturbs_a_run_by_law_beyond_its_limits(name: str) -> None:
+    whole = power_on(BY_LAW[name], "sinumerik-840d")
+    path: list[list[float]] = [whole.machine_position]
+    whole.cycle_start()
+    while whole.state is State.RUNNING:
+        every_ms(whole, path)
+    lines = np.array(path)
+    start, way = lines[:-1], np.diff(lines, axis=0)
+    moved = (way**2).sum(axis=1) > 1e-16
+    start, way = start[moved], way[moved]
+    for seed in range(2):
+        virtual, random = power_on(BY_LAW[name], "sinumerik-840d"), Random(f"{name} {seed}")
+        places = [virtual.machine_position] * 4
+        virtual.cycle_start()
+        for k in range(8000):
+            if k < 1200 and random.random() < 0.03:
+                disturb(virtual, random)
+            elif k >= 1200:
+                virtual.override(feed=1.0, rapid=1.0)
+                virtual.set_switches(single_block=False)
+                if virtual.state in (State.HOLD, State.STOPPED):
+                    virtual.cycle_start()
+            every_ms(virtual, places)
+            if virtual.state is State.READY:
+                break
+        assert virtual.machine_position == whole.machine_position, seed
+        found = np.array(places)
+        assert np.abs(np.diff(found, axis=0)).max() <= 400.0 * 0.001 * 1.001, seed
+        assert np.abs(np.diff(found, 2, axis=0)).max() <= PULL * 0.001**2 * 1.002, seed
+        assert np.abs(np.diff(found, 3, axis=0)).max() <= JERK * 0.001**3 * 1.002, seed
+        for place in found[::5]:
+            share = np.clip(((place - start) * way).sum(axis=1) / (way**2).sum(axis=1), 0.0, 1.0)
+            off = np.sqrt(((start + share[:, None] * way - place) ** 2).sum(axis=1)).min()
+            assert off <= (1.0 if name == "distance" else 0.021), seed
+
+
+def test_a_hold_of_a_run_by_law_takes_as_long_as_the_axes_need() -> None:
+    for after in range(8):
+        virtual = power_on(BY_LAW["facets"], "sinumerik-840d")
+        virtual.cycle_start()
+        virtual.step(0.3 + 0.05 * after)
+        speed, time = execution_of(virtual).speed, virtual.time
+        virtual.feed_hold()
+        virtual.run()
+        assert virtual.state is State.HOLD
+        assert virtual.time - time <= 1.3 * 2.0 * sqrt(speed / JERK)

@@ -7,6 +7,7 @@ from math import hypot
 import pytest
 
 import polycnc
+from polycnc.machine import parse_setup
 from polycnc.mainrun import State
 from tests.mainrun.support import power_on
 
@@ -59,3 +60,20 @@ def test_no_axis_jumps_where_a_tool_along_the_infeed_comes_through_the_centre(le
         assert max(ways) < 3.0
         before = now
     assert virtual.state is State.READY
+
+
+@pytest.mark.parametrize("call", ["TRANSMIT", "TRACYL(40)"])
+def test_a_real_axis_beside_the_transformation_goes_along_the_next_block(call: str) -> None:
+    text = f"T1 D1 F1000\nG0 X25 Y5 Z0 CC=0\n{call}\nG1 X25 Y0 Z-5\nT2 D1\nX20 Y0\nM30\n"
+    setup = {"tools": {1: {"type": 120, "y": 2}, 2: {"type": 120, "y": -1}}}
+    virtual = power_on(text, "sinumerik-840d", machine="lathe-c-transmit-y", setup=parse_setup(setup))
+    virtual.cycle_start()
+    assert virtual.run_until(lambda control: control.active_block.line == 4, limit_s=100.0)
+    before = virtual.machine_position
+    while virtual.state is State.RUNNING:
+        virtual.step()
+        now = virtual.machine_position
+        assert abs(now[1] - before[1]) < 1.0, "the Y axis does not jump"
+        before = now
+    assert virtual.state is State.READY
+    assert before[1] == pytest.approx(-1.0)

@@ -44,3 +44,52 @@ def test_under_polar_interpolation_the_axes_moved_by_hand_are_shown_themselves()
     virtual.increment("C", 5, 1.0)
     virtual.run()
     assert virtual.positions.work["C"] == pytest.approx(50.0)
+
+
+FRAMES = "G90 G54\nG00 X10. Y5. Z2.\n{block}\nG69\nM30\n"
+
+
+@pytest.mark.parametrize(
+    ("control", "block", "work"),
+    [
+        ("fanuc-m", "G92 X0", (0.0, 5.0, 2.0)),
+        ("fanuc-m", "G52 Y3.", (10.0, 2.0, 2.0)),
+        ("meldas-m", "G55", (-90.0, 5.0, 2.0)),
+        ("syntec-mill", "G92 X0", (0.0, 5.0, 2.0)),
+        ("syntec-mill", "G43 H1", (10.0, 5.0, -48.0)),
+        ("syntec-mill", "G68.2 X1. Y0 Z0 I0 J90. K0", (9.0, 2.0, -5.0)),
+        ("fanuc-m", "G68.2 X1. Y0 Z0 I0 J90. K0", (9.0, 2.0, -5.0)),
+        ("fanuc-m", "G43.4 H1", (10.0, 5.0, -48.0)),
+    ],
+)
+def test_displays_follow_a_block_that_changes_frames_alone(
+    control: str, block: str, work: tuple[float, ...]
+) -> None:
+    setup = {"work_offsets": {"G55": {"X": 100}}, "tools": {1: {"length": 50}}}
+    virtual = VirtualControl(control, machine="mill5-ac-table", setup=setup)
+    virtual.load(FRAMES.format(block=block))
+    virtual.set_switches(single_block=True)
+    for _ in range(3):
+        virtual.cycle_start()
+        virtual.run()
+    assert virtual.snapshot.block.text == block
+    assert [virtual.positions.work[axis] for axis in "XYZ"] == pytest.approx(work)
+    assert [virtual.positions.machine[axis] for axis in "XYZ"] == pytest.approx([10.0, 5.0, 2.0])
+
+
+def test_displays_follow_frames_of_sinumerik_and_the_picture_stays_in_its_system() -> None:
+    virtual = VirtualControl("sinumerik-840d", machine="mill3", setup={"work_offsets": {"G55": {"X": 100}}})
+    virtual.load("G54\nG0 X10 Y5\nTRANS X3\nAROT Z90\nG55\nM30\n")
+    virtual.set_switches(single_block="SBL2")
+    shown = []
+    for _ in range(5):
+        virtual.cycle_start()
+        virtual.run()
+        work, point = virtual.positions.work, virtual.snapshot.channels[1].point
+        shown.append((work["X"], work["Y"], *point[:2]))
+    assert shown[1:] == [
+        pytest.approx((10.0, 5.0, 10.0, 5.0)),
+        pytest.approx((7.0, 5.0, 10.0, 5.0)),
+        pytest.approx((5.0, -7.0, 10.0, 5.0)),
+        pytest.approx((5.0, 93.0, -90.0, 5.0)),
+    ]

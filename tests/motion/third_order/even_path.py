@@ -58,4 +58,4 @@ def _bent(ways: Numbers, points: Numbers, count: int, feed: float, machine: Mach
         most = np.maximum(np.abs(first[1:]), np.abs(first[:-1]))
         cap2 = np.minimum(cap2, ((tops / np.maximum(most, 1e-9)) ** 2).min(1))
     row = np.zeros(count, np.int64)
-    return BentPath(way, place, first, second, cap2, row, np.zeros(1, np.int64), ways[-1:])
+    return BentPath(way, place, first, second, cap2, np.ones(count), row, np.zeros(1, np.int64), ways[-1:])

@@ -54,7 +54,9 @@ def _path(way: Numbers, second: Numbers, cap2: Numbers) -> BentPath:
     place = np.zeros_like(second)
     place[1:] = np.cumsum(step * (first[:-1] + step * (second[:-1] / 3.0 + second[1:] / 6.0)), axis=0)
     rows = np.zeros(1, np.int64)
-    return BentPath(way, place, first, second, cap2, np.zeros(len(cap2), np.int64), rows, way[-1:])
+    return BentPath(
+        way, place, first, second, cap2, np.ones(len(cap2)), np.zeros(len(cap2), np.int64), rows, way[-1:]
+    )
 
 
 def used(path: BentPath, law: JerkLaw, axes: Axes = AXES) -> Numbers:

@@ -11,8 +11,8 @@ import numpy as np
 from hypothesis import strategies as st
 
 from polycnc.motion.third_order.bend import legs
-from polycnc.motion.third_order.bends.programmed import Bounds, ProgrammedPath
 from polycnc.motion.third_order.bends.stretches import LINE, curve_lines
+from tests.motion.third_order.programmed import Bounds, ProgrammedPath
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -128,12 +128,13 @@ def parts_of_tolerance(drawn: Drawn, bent: list[BentPath], each: int = 8) -> tup
     """
     lines = turns = 0.0
     for part, leg in zip(legs(drawn.path.path), bent, strict=True):
-        line, turn = _parts_of_leg(part, leg, each)
+        line, turn = parts_of_leg(part, leg, each)
         lines, turns = max(lines, line), max(turns, turn)
     return float(lines), float(turns)
 
 
-def _parts_of_leg(path: Stretches, leg: BentPath, each: int) -> tuple[float, float]:
+def parts_of_leg(path: Stretches, leg: BentPath, each: int) -> tuple[float, float]:
+    """The same of one leg."""
     n = len(path.rotary)
     curve_lines(path, n, array("q", bytes(8 * len(path.way))))
     way, form = np.asarray(path.way), np.asarray(path.form)
@@ -148,6 +149,7 @@ def _parts_of_leg(path: Stretches, leg: BentPath, each: int) -> tuple[float, flo
     curve = (1.0 - f) * (leave[k] * length - chord) - f * (arrive[k] * length - chord)
     there = place[k] + f * (chord + np.where(form[k, None] == LINE, 0.0, 1.0 - f) * curve)
     apart = leg.at(s)[0] - there
-    part = np.sqrt((apart[:, :3] ** 2).sum(1)) / np.asarray(path.tolerance)[k]
-    turned = np.abs(apart[:, 3]) / np.asarray(path.turn_tolerance)[k]
-    return float(part.max()), float(turned.max())
+    turns = np.asarray(path.rotary) != 0.0
+    part = np.sqrt((apart[:, ~turns] ** 2).sum(1)) / np.asarray(path.tolerance)[k]
+    turned = np.abs(apart[:, turns]) / np.asarray(path.turn_tolerance)[k, None]
+    return float(part.max()), float(turned.max(initial=0.0))

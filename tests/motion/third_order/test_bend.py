@@ -11,7 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from polycnc.motion.third_order.bend import bend
-from polycnc.motion.third_order.bends.programmed import Bounds, ProgrammedPath
+from polycnc.motion.third_order.law import limits_of, quickest_law
+from tests.motion.paths import MILL
+from tests.motion.third_order.programmed import Bounds, ProgrammedPath
 from tests.motion.third_order.programmed_paths import TOPS, Drawn, drawn_paths, parts_of_tolerance
 
 SURELY = 1.0 + 1e-6
@@ -78,6 +80,29 @@ def test_a_line_is_one_piece_by_its_length() -> None:
     assert bent.row.tolist() == bent.rows.tolist() == [7]
 
 
+def test_a_slow_row_on_a_line_slows_no_other_one() -> None:
+    path = ProgrammedPath([0.0, 0.0, 0.0], [250.0] * 3)
+    for row, (x, speed) in enumerate([(10.0, 50.0), (10.0001, 1.0), (11.0, 1.02), (50.0, 50.0)]):
+        path.line([x, 0.0, 0.0], row, Bounds(0.01, speed))
+    (bent,) = bend(path.path)
+    assert np.sqrt(bent.cap2[np.searchsorted(bent.way, [9.0, 10.00005, 10.5, 12.0]) - 1]) == pytest.approx(
+        [50.0, 1.0, 1.0, 50.0]
+    )
+    assert len(bent.cap2) == 3
+    assert bent.row.tolist() == [0, 1, 3]
+    assert np.abs(bent.place[:, 0] - bent.way).max() < 1e-12
+    assert quickest_law(bent, limits_of(MILL.axes)).seconds < 3.0
+
+
+def test_a_part_that_is_eased_eases_no_other_one() -> None:
+    path = ProgrammedPath([0.0, 0.0, 0.0], [250.0] * 3)
+    for row, (x, ease) in enumerate([(10.0, 1.0), (20.0, 0.1), (50.0, 1.0)]):
+        path.line([x, 0.0, 0.0], row, Bounds(0.01, 100.0, ease=ease))
+    (bent,) = bend(path.path)
+    assert bent.way.tolist() == [0.0, 10.0, 20.0, 50.0]
+    assert bent.ease.tolist() == [1.0, 0.1, 1.0]
+
+
 @pytest.mark.parametrize("degrees", [20.0, 90.0, 150.0])
 @pytest.mark.parametrize("tolerance", [0.001, 0.1])
 def test_a_lone_corner_uses_its_tolerance_up(degrees: float, tolerance: float) -> None:
@@ -117,6 +142,23 @@ def test_a_path_rests_where_it_turns_back_or_may_not_be_left() -> None:
     assert np.abs(legs[0].place[-1] - [10.0, 0.0, 0.0, 0.0]).max() < 1e-12
 
 
+def test_a_path_rests_where_a_rotary_axis_turns_on_almost_no_way() -> None:
+    for turn, count in ((90.0, 3), (0.5, 1)):
+        path = ProgrammedPath([0.0, 0.0], [250.0, 100.0], [False, True], (0, -1, -1))
+        for row, end in enumerate(([10.0, 0.0], [10.01, turn], [50.0, turn])):
+            path.line(end, row, Bounds(0.01, 50.0))
+        assert len(bend(path.path)) == count
+
+
+def test_a_path_rests_beside_a_row_that_creeps() -> None:
+    path = ProgrammedPath([0.0, 0.0, 0.0], [250.0] * 3)
+    for row, (x, speed) in enumerate([(10.0, 50.0), (10.0001, 2e-4), (10.0002, 2e-4), (50.0, 50.0)]):
+        path.line([x, 0.0, 0.0], row, Bounds(0.01, speed))
+    legs = bend(path.path)
+    assert [leg.rows.tolist() for leg in legs] == [[0], [1, 2], [3]]
+    assert sum(quickest_law(leg, limits_of(MILL.axes)).seconds for leg in legs) < 2.3
+
+
 def test_short_zigzags_become_flatter() -> None:
     drawn = Drawn()
     for k in range(60):
@@ -126,6 +168,15 @@ def test_short_zigzags_become_flatter() -> None:
     assert np.abs(bent.second[inner]).max() < 0.6 * 0.087 / 0.5
     lines, _ = parts_of_tolerance(drawn, [bent])
     assert 0.85 < lines <= SURELY
+
+
+def test_a_small_tolerance_is_kept_beside_a_large_one() -> None:
+    drawn = Drawn()
+    for tolerance in (0.001, 0.1, 0.001):
+        drawn.line(1.0, 0.4, 0.0, 0.0, Bounds(tolerance))
+        drawn.arc(0.5, 2.0, 0.0, 0.0, 0.0, Bounds(0.1))
+    lines, _ = parts_of_tolerance(drawn, bend(drawn.path.path))
+    assert lines <= SURELY
 
 
 def test_what_cannot_be_met_raises() -> None:

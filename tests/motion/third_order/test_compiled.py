@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from polycnc.motion.third_order import bend as bending
-from polycnc.motion.third_order import compiled
+from polycnc.motion.third_order import compiled, parts
 from tests.motion.third_order.programmed_paths import Drawn, drawn_paths
 
 
@@ -21,7 +21,7 @@ def test_the_same_numbers(drawn: Drawn) -> None:
     path = drawn.path.path
     fast = bending.bend(deepcopy(path))
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(bending, "kernels", lambda: compiled.PLAIN)
+        patch.setattr(parts, "kernels", lambda: compiled.PLAIN)
         plain = bending.bend(deepcopy(path))
     for one, other in zip(fast, plain, strict=True):
         for name in ("way", "place", "first", "second", "cap2", "row"):

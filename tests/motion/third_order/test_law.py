@@ -11,8 +11,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from polycnc.motion.third_order.bend import bend
-from polycnc.motion.third_order.law import NoLawError, quickest_law
+from polycnc.motion.third_order.law import quickest_law
 from polycnc.motion.third_order.laws import compiled
+from polycnc.motion.third_order.laws.barrier import lay_stencils
+from polycnc.motion.third_order.laws.courses import Nodes, Phase, Stencil
+from polycnc.motion.third_order.laws.phases import PAIR, lay_phases, leads_on
+from polycnc.motion.third_order.laws.quickest import NoLawError, numbers
 from tests.kernels.strict import strict
 from tests.motion.jerk_paths import jerk_paths
 from tests.motion.optimum import least_time
@@ -44,7 +48,7 @@ def test_paths_are_run_close_to_the_least_time_and_within_all_limits() -> None:
     assert max(ratios.values()) <= WORST, ratios
 
 
-@pytest.mark.parametrize("length", [0.01, 1.0, 20.0, 100.0, 2000.0])
+@pytest.mark.parametrize("length", [0.01, 1.0, 20.0, 100.0, 2000.0, 50000.0])
 def test_a_line_takes_little_more_than_seven_phases(length: float) -> None:
     speed, pull, jerk = AXES.speed[0], AXES.pull[0], AXES.jerk[0]
     least = length / speed + speed / pull + pull / jerk
@@ -111,6 +115,35 @@ def test_a_law_from_a_motion_goes_on_with_it() -> None:
     assert used(path, to).max() <= KEPT
 
 
+@pytest.mark.parametrize(
+    ("length", "speed"), [(2e-4, 1e-3), (2e-4, 1e-5), (2.0, 1e-1), (2.0, 1e-5), (2.0, 1e-6)]
+)
+def test_at_a_slow_feed_the_way_to_its_speed_is_no_sliver(speed: float, length: float) -> None:
+    least = length / speed + 2.0 * (speed / AXES.jerk[0]) ** 0.5
+    path = line(length, speed)
+    law = quickest_law(path, AXES)
+    assert least <= law.seconds <= 1.3 * least
+    assert used(path, law).max() <= KEPT
+
+
+@given(st.integers(0, 2**32 - 1), st.booleans())
+def test_phases_lead_from_each_node_to_the_next_however_the_speed_falls(seed: int, moves: bool) -> None:
+    rng = np.random.default_rng(seed)
+    count = 12
+    way = array("d", np.append(0.0, np.cumsum(10.0 ** rng.uniform(-4.0, 0.0, count - 1))))
+    squares = array("d", 10.0 ** rng.uniform(-12.0, 4.0, count))
+    first = float(squares[0]) ** 0.5 if moves else 0.0
+    squares[0], squares[-1] = first * first, 0.0
+    nodes = Nodes(way, squares, numbers(count), numbers(count), array("d"), numbers(count * Stencil.SIZE))
+    phases = numbers(PAIR * (count - 1) * Phase.SIZE)
+    lay_stencils(nodes, array("d", (first, 0.0, 0.0, 0.0)))
+    lay_phases(nodes, phases, 0, count - 1)
+    assert all(leads_on(nodes, phases, k) for k in range(1 if moves else 0, count - 1))
+    table = np.array(phases).reshape(-1, Phase.SIZE)
+    assert table[:, Phase.TIME].min() >= 0.0
+    assert np.isfinite(table).all()
+
+
 def test_a_motion_that_cannot_come_to_rest_has_no_law() -> None:
     with pytest.raises(NoLawError):
         quickest_law(line(1.0), AXES, start=(200.0, 0.0))
@@ -127,8 +160,8 @@ def test_both_ways_to_run_the_kernels_give_the_same_bits(
 ) -> None:
     path = made()
     quick = quickest_law(path, AXES)
-    plain = compiled.Kernels(strict(compiled.PLAIN.place_nodes), strict(compiled.PLAIN.find_law))
-    monkeypatch.setattr("polycnc.motion.third_order.law.kernels", lambda: plain)
+    plain = compiled.Kernels._make(map(strict, compiled.PLAIN))
+    monkeypatch.setattr("polycnc.motion.third_order.laws.quickest.kernels", lambda: plain)
     slow = quickest_law(path, AXES)
     for name in ("start", "way", "speed", "pull", "jerk"):
         assert array("d", getattr(quick, name).tobytes()) == array("d", getattr(slow, name).tobytes())

@@ -77,4 +77,10 @@ def test_the_second_axis_may_have_a_column_of_its_own(x: float, y: float, start:
     assert own.pole.columns == (0, 1)
     slopes = own.jacobian([x, y, 7.0, 0.0])
     assert [slopes[3][0], slopes[3][1]] == [shared.jacobian([x, 0.0, 7.0, y])[3][k] for k in (0, 3)]
-    assert slopes[1] == [0.0] * 4
+    assert slopes[1] == [0.0, 0.0, 0.0, 1.0]
+
+
+def test_an_axis_beside_the_plane_stands_where_it_is() -> None:
+    plane = PolarPlane(0, 3, (0, 1, 2), virtual=1)
+    assert plane.to_work([5.0, 2.0, 7.0, 90.0]) == pytest.approx([0.0, 5.0, 7.0, 2.0])
+    assert plane.to_machine([0.0, 5.0, 7.0, 2.0]) == pytest.approx([5.0, 2.0, 7.0, 90.0])

@@ -128,3 +128,15 @@ def test_a_posture_counts_positions_from_the_work_zero() -> None:
     posture = Posture(of("mill5-bc-head"), ("X", "B", "C"), (5.0, 60.0, 0.0))
     assert posture.tool_at([0.0, 30.0, 0.0]) == pytest.approx((1.0, 0.0, 0.0))
     assert posture.tool_at([0.0, -60.0, 0.0]) == (0.0, 0.0, 1.0)
+
+
+def test_an_axis_along_the_tool_stays_where_it_is() -> None:
+    nothing = (0.0, 0.0, 0.0)
+    tilts, spins = (
+        Joint("B", True, "tool", (0.0, 1.0, 0.0), nothing),
+        Joint("C", True, "tool", (0.0, 0.0, 1.0), nothing),
+    )
+    machine = Kinematics((tilts, spins), ())
+    direction = machine.tool_on_work({"B": 37.0})
+    assert angles_for(machine, direction, {"C": 40.0}) == pytest.approx({"B": 37.0, "C": 40.0})
+    assert angles_for(machine, (0.6, 0.1, 0.8), {"C": 40.0}) is None

@@ -30,9 +30,9 @@ def test_the_axes_are_those_of_the_chain_of_frames(
     angles = dict(zip(AXES, machine, strict=True))
     kinematics = following.kinematics
     place = kinematics.work_turn(angles).apply(*machine[:3])
-    arm = minus(
-        kinematics.head_turn(angles).apply(*following.tip), kinematics.head_turn({}).apply(0.0, 0.0, 0.0)
-    )
+    # From the point that positions name: with all axes at zero it lies `to_nose` before the nose.
+    named = minus(kinematics.head_turn({}).t, kinematics.to_nose)
+    arm = minus(kinematics.head_turn(angles).apply(*following.tip), named)
     expected = [at - part - zero for at, part, zero in zip(place, arm, following.zero[:3], strict=True)]
     assert following.to_machine(point)[:3] == pytest.approx(expected, abs=1e-9)
 

@@ -68,7 +68,7 @@ class ChordPath:
     def turned(self, turning: Turning) -> Iterator[list[float]]:
         """The ends of the chords with rotary axes that turn along them; their knots end chords as well."""
         start = [self._points[0][1][column] for column in turning.columns]
-        paced = turning.paced(start, self.length)
+        paced = turning.smoothed(start).paced(start, self.length)
         for part in sorted({*self._parts[1:], *paced.shares}):
             position = self.at(part)
             for column, place in zip(paced.columns, paced.at(start, part), strict=True):

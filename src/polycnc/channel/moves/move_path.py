@@ -33,11 +33,14 @@ class MovePath:
     Args:
         move: A line, an arc, a helix or a spiral.
         geometry: Columns of X, Y, Z among the axes, -1 for none.
+        in_chords: The move becomes chords, in each of which rotary axes go evenly: their turning is smooth, so that
+            its knots are no corners.
     """
 
-    def __init__(self, move: Move, geometry: tuple[int, int, int]) -> None:
+    def __init__(self, move: Move, geometry: tuple[int, int, int], *, in_chords: bool = False) -> None:
         self.move = move
         self._geometry = geometry
+        self._in_chords = in_chords
         self._sweep = 0.0
         if move.center is not None:
             self._lay_out()
@@ -45,7 +48,8 @@ class MovePath:
         self._turning = move.turning
         if move.turning is not None:
             self._places = tuple(move.start[column] for column in move.turning.columns)
-            self._turning = move.turning.paced(self._places, self.length)
+            turning = move.turning.smoothed(self._places) if in_chords else move.turning
+            self._turning = turning.paced(self._places, self.length)
 
     def _lay_out(self) -> None:
         """An arc as start direction, direction of travel, angle, radii and rise along its normal."""
@@ -236,7 +240,9 @@ class MovePath:
     def turned(self, first: float, last: float) -> Turning | None:
         """How the rotary axes turn between two parts of the way."""
         turning = self._turning
-        return None if turning is None or last <= first else turning.part(self._places, first, last)
+        if turning is None or last <= first or self._in_chords:
+            return None
+        return turning.part(self._places, first, last)
 
 
 def _unit(vector: list[float]) -> Vector:

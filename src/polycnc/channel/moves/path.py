@@ -49,6 +49,8 @@ class Rank(IntEnum):
     CORNERS = auto()
     #: The contour as the tool sees it, where frames distort or tilt it.
     INTO_TOOL_PLANE = auto()
+    #: Edges of a contour tool: they see the contour.
+    EDGES = auto()
     #: Cutter and nose radius.
     COMPENSATION = auto()
     #: Back to programmed lengths and directions.

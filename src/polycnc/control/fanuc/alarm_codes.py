@@ -136,6 +136,7 @@ ALARMS: dict[str, str] = {
     "tip_machine": "PS5420",
     "tip_mode": "PS5421",
     "tip_company": "PS5421",
+    "five_axis_mode": "PS5452",
     "spatial_motion": "PS5460",
     "edge_words": "PS5406",
     "edge_command": "PS5407",

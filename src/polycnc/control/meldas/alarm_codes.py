@@ -76,6 +76,7 @@ ALARMS: dict[str, str] = {
     "normal_mode": "P481",
     "normal_plane": "P903",
     "normal_preset": "P901",
+    "tool_axis_company": "P931",
     "tip_machine": "P932",
     "tip_mode": "P941",
     "tip_company": "P942",

@@ -6,6 +6,7 @@ from functools import cache
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.control.fanuc.milling.codes import ADDRESSES, POWER_ON
+from polycnc.control.meldas import tool_axis_length
 from polycnc.control.meldas.alarm_codes import ALARMS
 from polycnc.control.meldas.code_calls import registered_codes
 from polycnc.control.meldas.cycles import DRILLING
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.compensation.policy import Policy
     from polycnc.control.word_address.block.codes import GCode, MCode, Planner
+    from polycnc.control.word_address.block.rules import Rule
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.cycles.drilling import Drilling
     from polycnc.control.word_address.macro_b.code_calls import CodeCalls
@@ -58,6 +60,7 @@ class MeldasMilling(MillingControl):
     power_on: ClassVar[Mapping[str, str]] = POWER_ON
     alarms: ClassVar[Mapping[str, str]] = ALARMS
     drilling: ClassVar[Drilling] = DRILLING
+    rules: ClassVar[tuple[Rule, ...]] = (tool_axis_length.RULE, *MillingControl.rules)
     SCALES_NAMED_AXES: ClassVar[bool] = True
     PLANE_HELD_BY_ROTATION: ClassVar[bool] = True
     JOINING_HINT: ClassVar[str] = "hint.single-conditions"

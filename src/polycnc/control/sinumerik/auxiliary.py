@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.machine_words import refuse
+from polycnc.control.sinumerik.axes import spindles as spindle_axes
 from polycnc.control.sinumerik.couplings import masters, synchronous
 from polycnc.control.sinumerik.couplings.spindle_pairs import turns
 from polycnc.control.sinumerik.errors import not_supported
@@ -27,6 +28,8 @@ from polycnc.control.sinumerik.m_functions import (
 from polycnc.control.sinumerik.replaced import program_of
 from polycnc.control.sinumerik.tools import master_holder, selection, stages
 from polycnc.control.sinumerik.tools.holders import active as carriers
+from polycnc.control.sinumerik.tools.management import adapters
+from polycnc.control.sinumerik.tools.sides import FACES
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.variables import part_counts
 from polycnc.control.tool_change import follow, way_to_change
@@ -95,6 +98,9 @@ def _put_out(channel: SinumerikChannel, code: int, spindle_number: int | None) -
         before = turns(channel, spindle.number)
         spindle.direction = direction
         spindle.controlled = code in (ORIENT, AXIS_MODE)
+        if code == ORIENT:
+            angle = memory.data.number("$SA_M19_SPOS", f"S{spindle.number}")
+            spindle_axes.orient(channel, spindle, angle)
         synchronous.overlay(channel, spindle, before)
         masters.settle(channel)
         channel.context_changed()
@@ -134,8 +140,12 @@ def _is_late(channel: SinumerikChannel, code: int) -> bool:
 
 
 def load_tool(channel: SinumerikChannel) -> None:
-    """The selected tool comes into the spindle; PC0020 under radius compensation where a transformation acts (6.10)."""
-    if channel.mode[seat.GROUP] and channel.mode["compensation"] != "G40":
+    """The selected tool comes into the spindle; PC0020 under radius compensation where a transformation acts (6.10).
+
+    A face mill in space may be changed: its dimensions wait for G41 or G42 (7.5.3).
+    """
+    compensates = channel.mode["compensation"] != "G40" and channel.mode["tool_offset"] not in FACES
+    if channel.mode[seat.GROUP] and compensates:
         raise AlarmError("PC0020")
     follow(channel, way_to_change(channel))
     memory = channel.memory
@@ -152,7 +162,8 @@ def first_location(channel: SinumerikChannel, before: int) -> None:
 
 
 def edge_selected(channel: SinumerikChannel) -> None:
-    """Another tool, edge or holder: an orientable holder is worked out anew."""
+    """Another tool, edge or holder: an orientable holder is worked out anew; PC0001 for a tool behind an adapter."""
+    adapters.check(channel)
     carriers.follow(channel)
     tool_changed(channel)
     wheels.selected(channel)

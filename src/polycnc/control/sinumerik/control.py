@@ -30,6 +30,7 @@ from polycnc.control.sinumerik.feed.dry_run import dry_run
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.feed.spindles import Spindle, Spindles
 from polycnc.control.sinumerik.frames import active as frames
+from polycnc.control.sinumerik.frames import tool_frames
 from polycnc.control.sinumerik.frames.memory import Frames, chain
 from polycnc.control.sinumerik.limits import working_area
 from polycnc.control.sinumerik.m_functions import PROGRAM_ENDS
@@ -77,6 +78,7 @@ if TYPE_CHECKING:
     from polycnc.language.sinumerik.actions.code import ActionCode
     from polycnc.language.sinumerik.iso_dialect import IsoBlock
     from polycnc.language.sinumerik.words import Block
+    from polycnc.machine.kinematics import Kinematics
     from polycnc.messages import Catalogue
     from polycnc.program import Program
 
@@ -396,7 +398,7 @@ class Sinumerik:
         delays_stops = sections.delays_stops(channel)
         return Context(
             plane=mode["plane"],
-            inch=False,
+            feed_inch=mode["unit"] == "G700",
             feed_mode=feed.mode,
             frame=coordinates.zero,
             offsets=tuple(coordinates.offsets),
@@ -484,6 +486,10 @@ class Sinumerik:
         """The program has run more blocks than allowed."""
         return AlarmError("PC0002", hint="hint.block-limit")
 
+    def mechanism(self, channel: SinumerikChannel, context: Context) -> Kinematics:
+        """That of an orientation transformation; a head that does not turn holds the tool across the plane."""
+        return tool_frames.mechanism(channel, context)
+
     def motion_settings(self, channel: SinumerikChannel) -> MotionSettings:
         """How the control leads the axes: rapids stop only where an exact stop does; feeds count linear axes.
 
@@ -492,6 +498,7 @@ class Sinumerik:
         data = MachineData.of(channel)
         waits = data.said("$MA_SPIND_ON_SPEED_AT_IPO_START")
         return MotionSettings(
+            bends_by_way=True,
             rapid_stops=False,
             rotary_in_feed=False,
             drive_speed=min(data.number("$MA_ACCEL_REDUCTION_SPEED_POINT", name) for name in channel.axes),

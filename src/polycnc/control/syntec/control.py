@@ -20,7 +20,17 @@ from polycnc.control.syntec.five_axes import spatial as spatial_radius
 from polycnc.control.syntec.macros import calls, interrupts, single_block
 from polycnc.control.syntec.macros.variables import USER, SpaceState, locals_of
 from polycnc.control.syntec.memory import SyntecMemory
-from polycnc.control.syntec.motion import arcs, conditions, dwell, moves, oscillation, polar, quiet, smoothing
+from polycnc.control.syntec.motion import (
+    arcs,
+    conditions,
+    dwell,
+    moves,
+    oscillation,
+    polar,
+    quiet,
+    rotary_ways,
+    smoothing,
+)
 from polycnc.control.syntec.motion.moves import FeedState
 from polycnc.control.syntec.parameters import SyntecParameters
 from polycnc.control.syntec.plain import SyntecPlainBlocks
@@ -116,6 +126,7 @@ class SyntecMill(WordAddressControl):
     )
     builder: ClassVar[type[Builder]] = SyntecBuilder
     rules: ClassVar[tuple[Rule, ...]] = (
+        rotary_ways.RULE,
         polar.RULE,
         frames.ROTATION_RULE,
         normal_line.RULE,

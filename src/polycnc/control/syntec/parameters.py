@@ -16,7 +16,8 @@ class SyntecParameters(ControlParameters["SyntecAxisParameters"]):
 
     #: 17: Least input unit: 1 for 0.01, 2 for 0.001, 3 for 0.0001 mm or degrees.
     input_unit = Whole(17, delivered=2)
-    #: 221: Type of each axis: 0 linear, 2 or 5 a rotary axis for normal direction control.
+    #: 221: Type of each axis: 0 linear, 2 or 5 a rotary axis that turns as a linear one goes, 1, 3 or 4 in
+    #: another way.
     axis_types = WholeRun(221, 20, delivered=None)
     #: 281: Words of each axis are radius values (0) or diameters (1).
     diameter_axes = WholeRun(281, 20, delivered=0)
@@ -73,17 +74,19 @@ class SyntecParameters(ControlParameters["SyntecAxisParameters"]):
     five_axis_mechanism = Whole(3001, delivered=None)
     #: 3002: Direction of the tool with all rotary axes at zero: not set (0), X (1), Y (2), Z (3).
     tool_direction = Whole(3002, delivered=None)
-    #: 3003: Angle RA by which the tool leans from its direction, thousandths of a degree.
+    #: 3003: Angle RA by which the tool leans from its direction (from X to Y, Y to Z, Z to X), least units.
     tool_lean_a = Whole(3003, delivered=0)
-    #: 3004: Angle RB by which the tool leans from its direction, thousandths of a degree.
+    #: 3004: Angle RB by which the tool, leaning by RA, is turned about its direction, least units.
     tool_lean_b = Whole(3004, delivered=0)
     #: 3009: Travel of the first rotary axis from and to, then of the second one, least units; the same number
     #: twice for none.
     rotary_travel = WholeRun(3009, 4, delivered=0)
     #: 3013: Length of the tool holder, from the rotary axis to the nose, least units.
-    holder_length = Whole(3013, delivered=0)
+    holder_length = Whole(3013, delivered=None)
     #: 3014: The tilted plane is kept over no reset (0), over a reset (1), over power-off too (2).
     keeps_tilt = Whole(3014, delivered=0)
+    #: 3021: Offsets of the rotary axes of the mechanism, least units; polycnc has them from the machine file.
+    mechanism_offsets = WholeRun(3021, 26, delivered=0)
     #: 3057: Directions of the tool count in the machine (0) or in the work system (1) under G43.4.
     posture_in_work = Whole(3057, delivered=0)
     #: 3091: Highest speed with which linear axes follow the rotary ones under G43.4 and G43.5; 0 for no limit

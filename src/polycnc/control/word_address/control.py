@@ -225,8 +225,7 @@ class WordAddressControl:
         """What a scanner must know of plain blocks."""
         from polycnc.control.word_address.block.plain import PlainBlocks  # for long programs only
 
-        digits = self.grammar.max_digits
-        return PlainBlocks(Spelling(digits, round_comments=True, open_comments=True))
+        return PlainBlocks(Spelling(self.grammar.max_digits, round_comments=True, open_comments=True))
 
     def make_memory(self, channel: Channel) -> Memory:
         """The control's memory as the setup fills it."""
@@ -464,6 +463,10 @@ class WordAddressControl:
         """The rotary joints of the machine, with what parameters add to them."""
         return Kinematics.of(channel.machine)
 
+    def mechanism(self, channel: Channel, _context: Context) -> Kinematics:
+        """A working plane turns no tool."""
+        return self.kinematics(channel)
+
     def feed_to(self, channel: Channel, _end: list[float]) -> float:
         """Feed of a straight cut to a position (absolute display), internal units."""
         return channel.feed
@@ -555,10 +558,7 @@ class WordAddressControl:
         mode, memory, c = channel.mode, channel.memory, channel.coordinates
         diameters = sum(1 << i for i in range(len(channel.axes)) if self.is_diameter(channel, i))
         polar, unrolled = PolarState.of(channel), CylinderState.of(channel).active
-        # A path that leads the axes leaves nothing to transform.
-        transformation = (
-            None if channel.path.leads_axes else c.transformation or PlaneAxes.of(channel).parallel
-        )
+        leading = c.transformation or PlaneAxes.of(channel).parallel
         return Context(
             plane=mode["plane"],
             inch=self.is_inch(mode),
@@ -573,7 +573,9 @@ class WordAddressControl:
             corner_mode=corner_mode(channel),
             diameter_axes=diameters,
             wcs=ZeroState.of(channel).system,
-            transformation=transformation,
+            part=systems.on_work(channel),
+            # A path that leads the axes leaves nothing to transform.
+            transformation=None if channel.path.leads_axes else leading,
             machine_diameters=diameters | polar.diameter << polar.plane.linear if polar.plane else None,
             unrolled=(unrolled.axis, 1.0 / unrolled.mm_per_degree) if unrolled else None,
         )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import copysign
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.channel.states.state import Lifetime, State, retained
@@ -105,6 +106,14 @@ class ProgrammingFrames(State, lifetime=Lifetime.RESET):
         """The whole frame."""
         frame = self.rotation @ self.mirror @ self.scale
         return IDENTITY if frame.is_identity else frame
+
+    @property
+    def directions(self) -> Frame:
+        """How directions are turned and mirrored; factors leave them, but that those below zero mirror."""
+        if self.product() is IDENTITY:
+            return IDENTITY
+        x, y, z = (copysign(1.0, self.scale.m[i][i]) for i in range(3))
+        return self.rotation @ self.mirror @ Frame(((x, 0.0, 0.0), (0.0, y, 0.0), (0.0, 0.0, z)))
 
 
 @dataclass(slots=True)

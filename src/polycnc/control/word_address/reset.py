@@ -27,7 +27,7 @@ def reset(channel: WordAddressChannel) -> None:
     end_of(channel, Lifetime.RESET, memory.kept_at_reset)
     memory.forget_locals()
     machine = channel.coordinates.machine
-    channel.coordinates.transformation = None
+    channel.coordinates.transformation = channel.coordinates.naming = None
     frames = memory.frames
     channel.path.clear()
     control = channel.control

@@ -2,6 +2,8 @@
 
 clock          simulated time
 execution      from event to event, one channel
+by_pieces      leads the axes along pieces, behind an interpolator
+by_law         leads them along runs with limited jerk, by a law along all of their rows
 outside        what it asks of those around it
 block_parts    its blocks, those of the program and those that it makes of them
 beside_path    axes that an operator has moved beside their path

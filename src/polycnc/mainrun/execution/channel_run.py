@@ -122,32 +122,38 @@ class ChannelRun:
     @property
     def point(self) -> Vector:
         """Where the tool is: X, Y and Z in the system of the work offset, mm (radius); 0 for no axis."""
-        place, part = self.work_position, self.execution.context.part
+        here, context = self._shown()
+        place, part = self.display.work_of(here, context), context.part
         x, y, z = (place[i] if i >= 0 else 0.0 for i in self.display.geometry)
         return (x, y, z) if part.is_identity else part.apply(x, y, z)
 
     def positions(self, locked: Mapping[int, float] | None = None) -> Positions:
         """Positions as the displays show them; `locked` axes stand there, and the displays run on."""
-        execution, context, display = self.execution, self.execution.context, self.display
         axes, uncounted = self.machine_position, self.axes.uncounted()
         real = [(locked or {}).get(i, value) for i, value in enumerate(axes)]
-        if self.axes.by_hand:
-            shown_in = context if self.axes.led is not None else shown_by_hand(context)
-            here = display.on_path(self.axes.path_at(axes), shown_in)
-            shown = display.positions(here, here, real, shown_in)
-        else:
-            here, end = (
-                self._known(carried(place, execution.place, context, display.geometry), context)
-                for place in (execution.machine, execution.row_end)
-            )
-            for column, _ in self.machine_axes.led_by_others(self.number, self.channel.group):
-                here[column] = end[column] = axes[column] - uncounted[column]
-            shown = display.positions(here, end, real, context)
+        here, context = self._shown()
+        end = here if self.axes.by_hand else self._shown(self.execution.row_end)[0]
+        display, shown = self.display, self.display.positions(here, end, real, context)
         if not any(uncounted):
             return shown
         return replace(
             shown, machine=display.positions(axes, axes, real, without_transformation(context)).machine
         )
+
+    def _shown(self, place: Sequence[float] | None = None) -> tuple[list[float], Context]:
+        """A position of the path, None for the one that the axes are at, in the context that displays show it in."""
+        execution, context, display = self.execution, self.execution.context, self.display
+        if self.axes.by_hand:
+            shown_in = context if self.axes.led is not None else shown_by_hand(context)
+            return display.on_path(self.axes.path_at(self.machine_position), shown_in), shown_in
+        place = execution.machine if place is None else place
+        here = self._known(carried(place, execution.place, context, display.geometry), context)
+        led = list(self.machine_axes.led_by_others(self.number, self.channel.group))
+        if led:
+            axes, uncounted = self.machine_position, self.axes.uncounted()
+            for column, _ in led:
+                here[column] = axes[column] - uncounted[column]
+        return here, context
 
     def _known(self, on_path: Sequence[float], context: Context) -> list[float]:
         """A position of the path with what coordinates know beside it: the axes that are commanded are real ones."""
@@ -265,6 +271,7 @@ class ChannelRun:
             program=program,
             parts=self.parts,
             point=self.point,
+            mechanism=self.channel.control.mechanism(self.channel, execution.context),
         )
 
     def reach(self, block: Block | None) -> None:

@@ -7,32 +7,29 @@ are, and an override or a hold takes effect at the very moment it is given.
 from __future__ import annotations
 
 from math import inf
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from polycnc.channel.waits import TYPED_BLOCKS_DONE, Why
 from polycnc.mainrun.execution.beside_path import beyond_limits, stops_beside, taken_back
-from polycnc.mainrun.motion.follower import Follower
-from polycnc.mainrun.motion.piece_motion import NO_WAYS, AxesMotion, Motion, PathMotion
-from polycnc.mainrun.motion.speed import FREE, Calm
+from polycnc.mainrun.execution.by_law import ByLaw
+from polycnc.mainrun.execution.by_pieces import REST2, ByPieces
+from polycnc.mainrun.motion.law_motion import LawMotion
+from polycnc.mainrun.motion.piece_motion import Motion, PathMotion
 from polycnc.mainrun.preparation.items import Block, BlockEnd, ChannelRates, Happening, Move, Rates, Standing
 from polycnc.motion.frames import with_axis
-from polycnc.motion.kernels.columns import UNEVEN_FORMS, PieceRecord
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.events import Deed
 
 if TYPE_CHECKING:
-    from array import array
     from collections.abc import Callable, Mapping, Sequence
 
     from polycnc.channel.interpolator import Influence
     from polycnc.mainrun.axes.channel_axes import ChannelAxes
     from polycnc.mainrun.execution.clock import Clock
     from polycnc.mainrun.execution.outside import Machinery
-    from polycnc.mainrun.preparation.items import Piece
+    from polycnc.mainrun.preparation.items import Item, Piece
     from polycnc.mainrun.preparation.preprocessing import Preprocessing
 
-#: Squared speed below which the axes stand, (mm/s)².
-REST2 = 1e-9
 #: What the control needs for a block, s; so many are prepared when the axes rest, and executed in no time.
 BLOCK_S, PREPARED = 0.001, 512
 
@@ -94,8 +91,9 @@ class Execution:
         self._gated = self._waiting = self._blocked = self._moved_on = False
         self._by_hand: tuple[float, ...] = ()
         self._skip_after_s, self._skips_at = skip_after_s, inf
-        self._follower, self._behind = Follower(), 0.0
-        self._calm, self._rest_time, self._worked_until = FREE, 0.0, -inf
+        self._worked_until = -inf
+        self._pieces = ByPieces(preprocessing, self.rates, clock)
+        self._by_law = ByLaw(preprocessing, self.rates, clock, self._rest_before)
 
     # ---- what a panel reads --------------------------------------------------------------------------------
 
@@ -103,33 +101,27 @@ class Execution:
     def moving(self) -> bool:
         """Whether the axes move now."""
         leads = self.motion is not None and self.motion.speed(self.clock.time) > 0.0
-        return leads or self.clock.time < self._rest_time
+        return leads or self.clock.time < self._pieces.rest_time
 
     @property
     def rests(self) -> bool:
         """Whether no motion is under way, nor comes next."""
         items = self.preprocessing.items
         comes = bool(items) and isinstance(items[0], Move) and self.running
-        return self.motion is None and not comes and self.clock.time >= self._rest_time
+        return self.motion is None and not comes and self.clock.time >= self._pieces.rest_time
 
     @property
     def speed(self) -> float:
         """Path speed now, mm/s."""
-        if self._follows:
-            return self._follower.speed(self.clock.time)
+        if self._pieces.follows(self.motion):
+            return self._pieces.speed
         return self.motion.speed(self.clock.time) if self.motion is not None else 0.0
-
-    @property
-    def _follows(self) -> bool:
-        """Whether the axes are behind the interpolator, which leads them."""
-        leads = self.motion is not None and self.clock.time < self.motion.rest
-        return self._follower.window > 0.0 and (leads or self.clock.time < self._rest_time)
 
     @property
     def machine(self) -> list[float]:
         """Machine position now."""
-        if self._follows:
-            return self._follower.machine(self.clock.time)
+        if self._pieces.follows(self.motion):
+            return self._pieces.machine
         return self.motion.machine(self.clock.time) if self.motion is not None else list(self.position)
 
     @property
@@ -165,8 +157,8 @@ class Execution:
             elif self.motion is not None:
                 if self.motion.end <= self.clock.time:
                     self._arrive()
-                elif self.rates.stops and self.motion.rest <= self.clock.time:
-                    self._drop()
+                elif self.motion.rest <= self.clock.time:
+                    self._rest_within()
             elif self._go_on():
                 self._blocked = False
             else:
@@ -189,7 +181,8 @@ class Execution:
             due = min(motion.end, self._skips_at, self._machinery.due)
             if now < motion.rest < due:
                 due = motion.rest
-            return self._rest_time if now < self._rest_time < due else due
+            rest = self._pieces.rest_time
+            return rest if now < rest < due else due
         if self._waiting and self._machinery.busy:
             return self._machinery.due
         return min(max(self._until, self.clock.time), self._machinery.due)
@@ -205,38 +198,32 @@ class Execution:
         motion = self.motion
         assert motion is not None
         self._x2 = motion.end2 if motion.end2 > REST2 else 0.0
-        self.position = motion.piece.at(1.0)
-        if isinstance(motion, PathMotion):
-            self._calm = motion.calm(self.clock.time)
+        self.position = motion.end_position
+        self._pieces.end(motion)
         self.motion, self._skips_at = None, inf
         if motion.piece.left > 0.0 and isinstance(motion, PathMotion):
-            self._coast(motion, 0.5 * self._follower.window)
+            self._coast(motion, 0.5 * self._pieces.window)
         if self.motion is None:
-            self._behind = motion.piece.length
+            self._pieces.leave(motion)
             if self._x2 == 0.0:
                 self._come_to_rest()
 
     def _come_to_rest(self) -> None:
         """The interpolator rests; nothing follows before the axes do, but for a stroke that overlaps."""
-        self._rest_time = self.clock.time + self._follower.window
-        self._until = max(self._until, self._rest_time - self.preprocessing.early)
+        self._pieces.come_to_rest()
+        self._until = max(self._until, self._pieces.rest_time - self.preprocessing.early)
 
-    def _lead(self) -> None:
-        """The axes follow what has just been decided."""
-        motion = self.motion
-        if motion is None or self._follower.window == 0.0:
-            return
-        motion.lead(self._follower)
-        if self.clock.time < motion.rest < inf:
-            self._rest_time = motion.rest + self._follower.window
+    def _rest_within(self) -> None:
+        """The axes rest within a row."""
+        if self.rates.stops:
+            self._drop()
+        elif isinstance(self.motion, LawMotion):
+            self._by_law.go_on(held=self._cap2 == 0.0)
+            self.motion.follow()
 
     def _coast(self, motion: PathMotion, late: float) -> None:
         """A skip signal has come: the axes brake on the line of the move, and the rest of it is dropped."""
-        done = motion.done(self.clock.time)
-        coasting = self.motion = motion.after_signal(self.clock.time, late)
-        if coasting is not None:
-            self._follower.enter(coasting.piece, coasting.length, done)
-            self._lead()
+        self.motion = self._pieces.coast(motion, late)
         self._x2, self._moved_on = 0.0, True
         self.preprocessing.queue.drop_moves()
 
@@ -275,6 +262,7 @@ class Execution:
             self.position = self.motion.machine(self.clock.time)
             self.motion = None
             self._come_to_rest()
+        self._by_law.drop()
         self.rates.stops, self._moved_on = False, True
         self._x2, self._skips_at = 0.0, inf
         self.preprocessing.queue.drop_moves()
@@ -292,8 +280,6 @@ class Execution:
             return True
         self._awaits = None
         filled = self.preprocessing.fill(one_block=self.single_block)
-        if self.preprocessing.revised:
-            self._look_ahead()
         if self.rates.influence.holds_next and self._x2 == 0.0 and self.preprocessing.begins_anew:
             self._until = self.clock.time + self.clock.cycle_s
             return True
@@ -370,6 +356,7 @@ class Execution:
             self._work()
         elif isinstance(item, BlockEnd):
             halts = self.single_block and not self.context.stop_delay
+            self.context = item.context or self.context
             if halts and self._x2 == 0.0 and not self.preprocessing.typed_blocks_end:
                 self.halted_behind = item.code
                 self.stop("single-block")
@@ -409,49 +396,54 @@ class Execution:
             if self._take_back(move, self.position):
                 self._look_ahead()
                 return True
-        if self.preprocessing.is_last_piece:
-            self.preprocessing.end_in_rest()
-            self._look_ahead()
         if move.done == 0.0 and self.on_row is not None:
             self.on_row(move)
         cap2 = self.preprocessing.front_cap2(self.rates)
         if self._x2 == 0.0 and cap2 == 0.0:
             return False
-        preprocessing = self.preprocessing
-        piece, record = preprocessing.queue.pop_piece()
-        self._cap2, self.context, self.place = cap2, piece.context, piece.context
-        if self.block is not None and (self.block.program, self.block.line) != (piece.program, piece.line):
-            self._enter(self.block.followed_by(piece.program, piece.line, self.modal))
+        led = self._by_law.motion(
+            move, at_rest=self._x2 == 0.0, held=cap2 == 0.0, one_block=self.single_block
+        )
+        if led is not None:
+            self._pieces.begin_by_law(at_rest=self._x2 == 0.0)
+            self.motion = led
+            self._take_up(led.piece, cap2)
+            return True
+        if self.preprocessing.is_last_piece:
+            self.preprocessing.end_in_rest()
+            self.preprocessing.revised = True
+        if self.preprocessing.revised:
+            self._look_ahead()
+        piece, record = self.preprocessing.queue.pop_piece()
+        self._take_up(piece, cap2)
         if piece.kind == Kind.SKIP and piece.first == 0.0 and self._skip_after_s is not None:
             self._skips_at = self.clock.time + self._skip_after_s
-        if self._x2 == 0.0 and self.clock.time < self._rest_time:
-            self._follower = Follower(self._follower, self._rest_time, self.position)
-        follower = self._follower
-        if self._x2 == 0.0:
-            follower.begin(self.clock.time, record[PieceRecord.RAMP], record[PieceRecord.BLEND])
-        follower.enter(piece, record[PieceRecord.LENGTH], self._behind)
-        if piece.by_axis:
-            self.motion = AxesMotion(
-                piece, preprocessing.rapid_limits, self.clock.time, self.rates, record[PieceRecord.RAMP]
-            )
-        else:
-            self.motion = PathMotion(
-                piece, record, preprocessing.limits, self.clock.time, self._x2, preprocessing.reach2, cap2,
-                follower.window, *self._steadiness(record),
-            )  # fmt: skip
-        self._lead()
+        self.motion = self._pieces.begin(piece, record, self._x2, cap2, self.position)
         if not self.preprocessing.queue.suits(self.rates, at_rest=False):
             self._lay_again(self.motion)
         return True
 
-    def _steadiness(self, record: array[Any]) -> tuple[Calm, tuple[float, float]]:
-        """Of a piece of a line from rest to rest: how long it keeps its speed, and how far behind it the axes rest."""
-        ramp = record[PieceRecord.RAMP]
-        if record[PieceRecord.ALONE] == 0.0 or ramp == 0.0:
-            return FREE, NO_WAYS
-        if self._x2 == 0.0:
-            self._calm = Calm(ramp)
-        return self._calm, self.preprocessing.ways_to_rest
+    def _take_up(self, piece: Piece, cap2: float) -> None:
+        """A piece, or a row, is in execution."""
+        self._cap2, self.context, self.place = cap2, piece.context, piece.context
+        if self.block is not None and (self.block.program, self.block.line) != (piece.program, piece.line):
+            self._enter(self.block.followed_by(piece.program, piece.line, self.modal))
+
+    def _rest_before(self, *, gated: bool, first: float = -inf) -> float:
+        """The row before which the axes shall rest, because an operator or an auxiliary function asks for it."""
+        return self.preprocessing.row_to_rest_before(
+            gated=gated and (self._gated or self._machinery.busy),
+            single_block=self.single_block,
+            stops=self._stops_beside,
+            first=first,
+        )
+
+    @property
+    def _stops_beside(self) -> Callable[[Item], bool] | None:
+        """Says in front of which items the axes, which are beside the path, stand; None where they are on it."""
+        return (
+            stops_beside(self.block, self.axes, self.preprocessing.channel) if self.axes.have_offset else None
+        )
 
     # ---- changes -------------------------------------------------------------------------------------------
 
@@ -462,9 +454,7 @@ class Execution:
             self._cap2,
             gated=self._gated or self._machinery.busy,
             single_block=self.single_block,
-            stops=stops_beside(self.block, self.axes, self.preprocessing.channel)
-            if self.axes.have_offset
-            else None,
+            stops=self._stops_beside,
         )
 
     def revise(self) -> None:
@@ -477,44 +467,44 @@ class Execution:
                 self.preprocessing.queue.lay_again(self.rates, at_rest=at_rest)
             self._look_ahead()
             return
-        if not self.preprocessing.queue.suits(self.rates, at_rest=False) and self._lay_again(motion):
+        by_law = isinstance(motion, LawMotion)
+        if (
+            not by_law
+            and not self.preprocessing.queue.suits(self.rates, at_rest=False)
+            and self._lay_again(motion)
+        ):
             return
         piece = motion.piece
         self._cap2 = self.rates.cap2(piece, piece.cap2, piece.asked)
-        self._look_ahead()
+        if by_law:
+            self.preprocessing.revised = True  # for what comes behind the run
+            self._by_law.revise(held=self._cap2 == 0.0)
+        else:
+            self._look_ahead()
         if isinstance(motion, PathMotion) and motion.is_bound:
             motion.ahead = self.preprocessing.ways_to_rest
         motion.revise(self.clock.time, self.preprocessing.reach2, self._cap2, self.rates)
-        self._lead()
+        self._pieces.lead(motion)
 
     def _lay_again(self, motion: Motion) -> bool:
         """Lay out again what lies ahead; true where the motion goes on along another piece of its row.
 
         Bounds of faster curves reach farther back. Where the axes could not brake to these any more, it stays as it is.
         """
-        time, follower = self.clock.time, self._follower
         open_row = isinstance(motion, PathMotion) and not motion.is_bound and not motion.piece.is_coasting
-        done = motion.done(time) if isinstance(motion, PathMotion) else 0.0
+        done = motion.done(self.clock.time) if isinstance(motion, PathMotion) else 0.0
         found = self.preprocessing.queue.lay_again(self.rates, motion.piece.row if open_row else None, done)
         if found is None or not isinstance(motion, PathMotion):
             return False
-        piece, record, here = found
-        speed, cap2 = motion.speed(time), self._cap2
+        before, piece = self._cap2, found[0]
         self._cap2 = self.rates.cap2(piece, piece.cap2, piece.asked)
         self._look_ahead()
-        left = record[PieceRecord.LENGTH] - here
-        reach2 = self.preprocessing.reach2 + 2.0 * record[PieceRecord.PULL] * left
-        if record[PieceRecord.FORM] not in UNEVEN_FORMS and speed * speed > reach2 + REST2:
+        other = self._pieces.exchange(motion, found, self._cap2)
+        if other is None:
             self.preprocessing.queue.lay_back()
-            self._cap2 = cap2
+            self._cap2 = before
             return False
-        if follower.window > 0.0:
-            follower.exchange(piece, record[PieceRecord.LENGTH], done - here)
-        self.motion = PathMotion(
-            piece, record, self.preprocessing.limits, time, speed * speed, self.preprocessing.reach2, self._cap2,
-            follower.window, done=here,
-        )  # fmt: skip
-        self._lead()
+        self.motion = other
         return True
 
     def influence(self, influence: Influence) -> None:
@@ -552,6 +542,7 @@ class Execution:
         taken = taken_back(self.block, piece, here, self.axes)
         if taken is not None:
             self.position = taken
+            self._by_law.drop()
             self.preprocessing.begin_elsewhere(piece, taken)
         return taken is not None
 
@@ -588,6 +579,8 @@ class Execution:
         self.axes.take_back(-1)
         self.axes.rebase()
         self.motion, self.running, self.halt = None, False, ""
-        self._x2, self._until, self._rest_time, self._skips_at = 0.0, self.clock.time, self.clock.time, inf
+        self._by_law.drop()
+        self._x2, self._until, self._skips_at = 0.0, self.clock.time, inf
+        self._pieces.rest_time = self.clock.time
         self.block, self.rates.stops, self._awaits = None, False, None
         self.preprocessing.clear(self.position)

@@ -61,6 +61,10 @@ class Motion(Protocol):
     def done(self, time: float) -> float:
         """How far along the piece the motion is, mm."""
 
+    @property
+    def end_position(self) -> list[float]:
+        """Machine position at its end."""
+
 
 class PathMotion:
     """Along the path, all axes together.
@@ -140,6 +144,11 @@ class PathMotion:
         return speed * speed
 
     @property
+    def end_position(self) -> list[float]:
+        """Machine position at the end of the piece."""
+        return self.piece.at(1.0)
+
+    @property
     def length(self) -> float:
         """Of the piece, mm."""
         return float(self._record[PieceRecord.LENGTH])
@@ -215,7 +224,8 @@ class AxesMotion:
         self.end2 = 0.0
         ways = [b - a for a, b in zip(piece.way.start, piece.way.end, strict=True)]
         alone = axis_rapids(ways, piece.context, limits, soft=ramp > 0.0)
-        self._top = tuple(piece.context.rapid_top(top) for top in limits.top_rapid)
+        tops = zip(limits.top_rapid, limits.rotary, strict=True)
+        self._top = tuple(piece.context.rapid_top(top, rotary=bool(turns)) for top, turns in tops)
         self._pull = tuple(own.pull for own in alone)
         self._ramps, self._ramp = tuple(own.ramp for own in alone), ramp
         self._moves = tuple(AxisMove(start, (), since, start) for start in piece.way.start)
@@ -225,6 +235,11 @@ class AxesMotion:
     def machine(self, time: float) -> list[float]:
         """Machine position."""
         return [move.after(time)[0] for move in self._moves]
+
+    @property
+    def end_position(self) -> list[float]:
+        """Machine position at its end."""
+        return self.piece.at(1.0)
 
     def lead(self, follower: Follower) -> None:
         """Say what the axes follow from now on."""

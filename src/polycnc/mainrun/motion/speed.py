@@ -56,8 +56,8 @@ class Profile(NamedTuple):
         way = 0.0
         for phase in self.phases:
             if seconds < phase.seconds:
-                speed = phase.speed + phase.pull * seconds
-                return way + way_after(seconds, phase.speed, phase.pull), max(speed, 0.0)
+                speed = phase.speed + seconds * (phase.pull + 0.5 * seconds * phase.jerk)
+                return way + way_after(seconds, *phase[2:]), max(speed, 0.0)
             seconds -= phase.seconds
             way += phase.way
         return way, sqrt(self.end2)

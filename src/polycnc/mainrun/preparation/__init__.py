@@ -2,6 +2,7 @@
 
 preprocessing  the channel's rows become pieces of the path and events, in order
 rows           a row as a move with its pieces
+law_rows       rows as stretches of a run that a law leads
 items          what is prepared and not yet executed
 piece_buffer   the planner's records of the pieces, and how fast each may be entered
 layout         for which overrides rows are laid out, and from what

@@ -60,9 +60,15 @@ class Block:
 
 @dataclass(frozen=True, slots=True)
 class BlockEnd:
-    """A block is over; single block operation halts here. `code` is its N word, or its line."""
+    """A block is over; single block operation halts here.
+
+    Attributes:
+        code: Its N word, or its line.
+        context: What holds behind it, where it has changed what its last row has; else None.
+    """
 
     code: str
+    context: Context | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,6 +16,7 @@ from polycnc.motion.kernels.chords import settle
 from polycnc.motion.kernels.columns import MAIN_RUN, TAP, Form, Limits, PieceRecord, new_state, piece_width
 from polycnc.motion.kernels.jerk import window_s
 from polycnc.motion.limits import ContextTables
+from polycnc.motion.standing.waits import least_seconds
 from polycnc.motion.time_constants import Use
 
 if TYPE_CHECKING:
@@ -92,6 +93,10 @@ class PieceBuffer:
         """The axes come to rest behind the last row."""
         self.state.run.stop, self._rested = 1.0, True
         settle(self._records, self._axes, self.led or self.limits, self.state)
+
+    def least_seconds(self, behind: int) -> float:
+        """The least time of the pieces ahead, but for so many of them in front."""
+        return least_seconds(self._records, self._taken + behind, self.state.run.pieces, self._width)
 
     def note_rest(self) -> bool:
         """Whether the axes rest before the next row for what is none, such as an auxiliary function; asked once."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 from array import array
 from collections import deque
 from functools import partial
+from math import inf
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.intervention import NOTHING_BACK, MovedByHand
@@ -46,7 +47,7 @@ from polycnc.motion.kernels.columns import (
 )
 from polycnc.motion.limits import ContextTables
 from polycnc.motion.standing.beside import Awaits, Begins
-from polycnc.motion.standing.waits import Waits
+from polycnc.motion.standing.waits import Parallel, Waits
 from polycnc.motion.time_constants import uses_of
 from polycnc.motion.transformed import RealAxes
 from polycnc.toolpath import Context, Kind, Toolpath
@@ -71,8 +72,8 @@ if TYPE_CHECKING:
 FULL, LOW = 512, 128
 #: Items that are prepared at most where short pieces do not make up the way that a bound reaches (`hold.py`).
 MOST = 4096
-#: Blocks that the channel runs in one interpolation cycle while it makes no item.
-BLOCKS_A_CYCLE = 100
+#: Blocks that the channel runs in one interpolation cycle while it makes no item, and at most to let a run go on.
+BLOCKS_A_CYCLE, BLOCKS_AHEAD = 100, 10_000
 #: Waits of the channel behind a block that counts as one even without rows.
 BEHIND_A_BLOCK = frozenset({Why.SINGLE_BLOCK, Why.STOP})
 #: Waits of the channel that only let others look in.
@@ -195,13 +196,49 @@ class Preprocessing:
         self.revised = self.revised or made
         return made or self._rests()
 
+    def fill_on(self, *, one_block: bool = False) -> bool:
+        """Let the channel run ahead by some blocks more, however much is prepared; false if it makes nothing."""
+        before = len(self.items)
+        for blocks in range(1, BLOCKS_AHEAD):
+            if self._rests() or self._halts_ahead(one_block=one_block):
+                break
+            self._step()
+            if blocks % BLOCKS_A_CYCLE == 0 and len(self.items) > before:
+                break
+        self.revised = self.revised or len(self.items) > before
+        return len(self.items) > before
+
+    def row_to_rest_before(
+        self, *, gated: bool, single_block: bool, stops: Callable[[Item], bool] | None, first: float = -inf
+    ) -> float:
+        """Number of the first row ahead before which the axes shall rest by what the operator has set; inf for none.
+
+        Rows before `first` do not count: the axes cannot come to rest there any more.
+        """
+        closed = False
+        for item in self.items if gated or single_block or stops is not None else ():
+            closed = closed or (stops is not None and stops(item))
+            if isinstance(item, Block):
+                closed = closed or gated
+            elif isinstance(item, BlockEnd):
+                closed = closed or single_block
+            elif isinstance(item, Move) and closed:
+                if item.row >= first:
+                    return item.row
+                closed = False
+        return inf
+
     def _suffices(self, items: int, *, one_block: bool) -> bool:
         """Whether so much is prepared, and enough for bounds that reach back; or where single block will halt."""
-        typed_in = self.channel.stack and self.channel.level.kind is LevelKind.TYPED_IN
-        if one_block and not typed_in and any(isinstance(item, BlockEnd) for item in self.items):
+        if self._halts_ahead(one_block=one_block):
             return True
         prepared = len(self.items)
         return prepared > items and (self._buffer.reaches or prepared > MOST - FULL + items)
+
+    def _halts_ahead(self, *, one_block: bool) -> bool:
+        """Whether single block will halt behind what is prepared."""
+        typed_in = self.channel.stack and self.channel.level.kind is LevelKind.TYPED_IN
+        return one_block and not typed_in and any(isinstance(item, BlockEnd) for item in self.items)
 
     def _rests(self) -> bool:
         """Whether the channel does not go on by itself."""
@@ -322,9 +359,10 @@ class Preprocessing:
             halts = wait is not None and wait.reason is Why.SINGLE_BLOCK and not channel.finished
             line, code = level.line_of(level.current), wait.code if halts and wait is not None else ""
             key = level.program_number, line
+            changed = channel.context if halts and channel.context_is_new else None
             self._blocks.note(
-                key, code or (str(line) if halts else ""), channel.mode.codes, channel.takes_back,
-                _callers(channel.stack), is_part=level.kind is LevelKind.SHAPE,
+                key, BlockEnd(code or (str(line) if halts else ""), changed), channel.mode.codes,
+                channel.takes_back, _callers(channel.stack), is_part=level.kind is LevelKind.SHAPE,
             )  # fmt: skip
             channel.takes_back = NOTHING_BACK
         self._stopped = self._rows.skips = self.has_caught_up = False
@@ -372,7 +410,7 @@ class Preprocessing:
         bounds = self._rows.real.bounds(chunk, self.toolpath.contexts)
         self._delays.clear()
         self._waits.take(chunk, self._rows.facing)
-        self._waits.parallel.clear()
+        beside, self._waits.parallel[:] = list(self._waits.parallel), []
         contexts = self.toolpath.contexts
         for row in range(len(chunk)):
             number, context, kind = chunk.first + row, contexts[chunk.context[row]], chunk.kind[row]
@@ -394,7 +432,19 @@ class Preprocessing:
                 self.end_in_rest()
             else:
                 self._rows.lay(chunk, row, bounds)
+            beside = self._rest_behind(beside, number)
         return True
+
+    def _rest_behind(self, beside: list[Parallel], row: int) -> list[Parallel]:
+        """The axes rest behind a block that a function beside it outlasts; the functions whose block goes on."""
+        open_yet = []
+        for entry in beside:
+            begun = entry._replace(pieces=len(self._buffer)) if entry.row == row else entry
+            if begun.last > row:
+                open_yet.append(begun)
+            elif self._buffer.least_seconds(begun.pieces) < begun.seconds:
+                self.end_in_rest()
+        return open_yet
 
     def _take_over(self) -> None:
         """An axis that another channel has moved since is where that one has left it."""
@@ -500,6 +550,11 @@ class Preprocessing:
     def limits(self) -> Limits:
         """The machine, as the planner's kernels take it."""
         return self._buffer.limits
+
+    @property
+    def contexts(self) -> array[float]:
+        """What the kernels know of the contexts of cuts and rapids."""
+        return self._buffer.contexts
 
     @property
     def rapid_limits(self) -> Limits:

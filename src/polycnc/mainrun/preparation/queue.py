@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import inf
 from typing import TYPE_CHECKING, Any
 
 from polycnc.mainrun.motion.geometry import piece_cubic
@@ -48,6 +49,20 @@ class Queue:
             self.items.popleft()
         self._front = move
         return self._piece(move, record, is_last=is_last), record
+
+    def pop_row(self) -> Piece:
+        """Take the move in front with all its pieces, as one: a law leads along it, and no record does."""
+        move, is_last = self.items.popleft(), False
+        assert isinstance(move, Move)
+        while not is_last:
+            is_last = self._buffer.is_last_of_row
+            self._buffer.take()
+        self._front, move.done = move, 1.0
+        return Piece(
+            move.way, move.row, move.kind, move.context, move.program, move.line, move.rapid, move.fixed,
+            move.per_revolution, 0.0, move.by_axis, move.overridden, move.held, move.faster, move.largest_override,
+            move.total, 0.0, 1.0, inf, move.asked(0.5),
+        )  # fmt: skip
 
     def drop_moves(self) -> None:
         """Take away the moves in front, up to what is no motion."""

@@ -13,6 +13,7 @@ from polycnc.mainrun.preparation.run_blocks import largest_override
 from polycnc.motion.kernels.arcs import asked_on_arc, facing_radius
 from polycnc.motion.kernels.columns import SHARES, ContextRecord, Form, PieceRecord, Rows, piece_width
 from polycnc.motion.kernels.feeds import faster, follows_radius, is_rapid, straight_speed
+from polycnc.motion.third_order.laying.rows import goes_by_law
 from polycnc.motion.time_constants import Use, use_of
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.kinds import ARC_KINDS
@@ -61,7 +62,7 @@ class RowLayer:
         self._uses: Uses
         self.facing = -1
         self.context = Context()
-        self.skips = False
+        self.skips = self._by_law = False
 
     def use(self, real: RealAxes, settings: MotionSettings, uses: Uses) -> None:
         """Say what leads the axes, and how the control does it."""
@@ -134,6 +135,10 @@ class RowLayer:
         start, limits = tuple(buffer.position), self.real.limits(context.transformation, use)
         record = chunk.context[row] * (ContextRecord.OFFSETS + n)
         per_revolution = buffer.contexts[record + ContextRecord.PER_REVOLUTION] != 0.0
+        by_law = goes_by_law(kind, record, buffer.contexts, limits)
+        if by_law is not self._by_law:  # the axes rest where a law begins to lead, or ends
+            buffer.end_in_rest()
+        self._by_law = by_law
         before, rests = Before.of(buffer.state), buffer.note_rest()
         prepared = PreparedRow(
             rows,

@@ -42,8 +42,8 @@ class RunBlocks:
 
     def __init__(self, items: deque[Item], programs: list[str]) -> None:
         self._items, self._programs = items, programs
-        self._run: deque[tuple[Key, str, Mapping[str, str], TakesBack, tuple[Key, ...], bool]] = deque()
-        self._open: tuple[Key, str] | None = None
+        self._run: deque[tuple[Key, BlockEnd, Mapping[str, str], TakesBack, tuple[Key, ...], bool]] = deque()
+        self._open: tuple[Key, BlockEnd] | None = None
 
     def clear(self) -> None:
         """No block has been run."""
@@ -53,15 +53,15 @@ class RunBlocks:
     def note(
         self,
         key: Key,
-        code: str,
+        end: BlockEnd,
         modal: Mapping[str, str],
         takes_back: TakesBack,
         callers: tuple[Key, ...],
         *,
         is_part: bool,
     ) -> None:
-        """The channel has run a block; `code` where single block halts behind it, as `BlockEnd` has it."""
-        self._run.append((key, code, modal, takes_back, callers, is_part))
+        """The channel has run a block; its `end` has no code where single block does not halt behind it."""
+        self._run.append((key, end, modal, takes_back, callers, is_part))
 
     def enter(self, key: Key, *, is_silent: bool = False) -> None:
         """A row of a block comes: every block run before that one is over."""
@@ -71,18 +71,18 @@ class RunBlocks:
             return  # a row that a stage has added counts for the block before it
         self._end()
         while self._run:
-            found, code, modal, back, called_from, is_part = self._run.popleft()
+            found, end, modal, back, called_from, is_part = self._run.popleft()
             silent, names = is_silent and found == key, self._programs
             callers = tuple((names[program], line) for program, line in called_from)
             self._items.append(Block(names[found[0]], found[1], modal, back, silent, callers, is_part))
-            self._open = (found, code)
+            self._open = (found, end)
             if found == key:
                 return
             self._end()
 
     def _end(self) -> None:
-        if self._open is not None and self._open[1]:
-            self._items.append(BlockEnd(self._open[1]))
+        if self._open is not None and self._open[1].code:
+            self._items.append(self._open[1])
         self._open = None
 
     def close(self) -> None:

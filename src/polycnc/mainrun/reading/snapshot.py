@@ -9,6 +9,7 @@ from polycnc.deferred.records import dataclass, field
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from polycnc.machine.kinematics import Kinematics
     from polycnc.mainrun.commands.states import Mode, State
     from polycnc.messages import Alarm
 
@@ -111,6 +112,7 @@ class ChannelSnapshot:
         program: Name of the program that is loaded in it; empty for none.
         parts: How often a program that an operator has started in it has come to its end.
         point: Where its tool is: X, Y and Z in the system of the work offset, mm (radius).
+        mechanism: The rotary joints of the machine, with the tool as it stands with them at zero; None before a start.
     """
 
     number: int
@@ -127,6 +129,7 @@ class ChannelSnapshot:
     program: str = ""
     parts: int = 0
     point: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    mechanism: Kinematics | None = None
 
 
 @dataclass(frozen=True, slots=True)

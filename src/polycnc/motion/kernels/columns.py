@@ -164,6 +164,8 @@ class ContextRecord(Places):
     TURN_SPEED = place()
     #: How many millimetres of that feed are a degree.
     TURN_WEIGHT = place()
+    #: With limited jerk: the path is bent by its way, and a law leads along it (1), in place of averages.
+    BY_WAY = place()
     #: Nine numbers by rows, then the shift.
     FRAME = place(12)
     OFFSETS = place(0)
@@ -182,6 +184,9 @@ class PieceRecord(Places):
     before have come to rest; PAUSE bounds them. PATH_PULL bounds the acceleration along a curved piece beside its axes.
     ZONE says that the piece is bent for the corner behind it (TO_CORNER) or before it (FROM_CORNER, `rounding.py`),
     ALONE (1) that it is of a line from rest to rest with averages of its own.
+
+    Of a JERKED piece, which `third_order/laws/records.py` writes, PULL is the acceleration along the path at its start
+    and JERK what that changes by in a second, to either side; q' and q'' are what they are, and RATE is nothing.
     """
 
     LENGTH = place()
@@ -208,6 +213,7 @@ class PieceRecord(Places):
     PATH_PULL = place()
     ZONE = place()
     ALONE = place()
+    JERK = place()
     VECTORS = place(0)
 
 
@@ -225,7 +231,8 @@ class Form(Places):
     """Forms of a piece.
 
     A line; a part of a curve under the limits of a line (with limited jerk); a part of a curve under limits that change
-    along it; a rapid of every axis by itself; a line of the tip, whose q' and q'' are those of the axes behind it.
+    along it; a rapid of every axis by itself; a line of the tip, whose q' and q'' are those of the axes behind it; a
+    part of a bent path under one constant jerk along it, which is planned already.
     """
 
     STRAIGHT = place()
@@ -233,6 +240,7 @@ class Form(Places):
     CURVED = place()
     TIMED = place()
     LED = place()
+    JERKED = place()
 
 
 #: Forms of pieces whose limits change along them.

@@ -18,9 +18,11 @@ from polycnc.motion.kernels.columns import CLOSED, OPEN, PLACES, Form, PieceReco
 
 #: A line is cut if what is left of it is at least this part of it; a part of a curve if that is so many mm, so that it
 #: makes no difference in how many parts it was laid.
-WORTH_CUTTING, WORTH_CUTTING_MM = 0.1, 1e-3
+WORTH_CUTTING, WORTH_CUTTING_MM = 0.1, 1e-5
 #: Ways shorter than this (mm) count as none.
 SLIVER_MM = 1e-6
+#: Bounds that are alike but for rounding, such as those of all parts of an arc, are one; a line is not cut for such.
+ALIKE = 1.0 - 1e-9
 
 
 def hold(pieces: Floats, first: int, n: int, state: State) -> None:
@@ -89,7 +91,7 @@ def hold_behind(pieces: Floats, p: int, n: int, state: State) -> int:
             pace2 = own2
             if left <= SLIVER_MM:
                 break
-        bounds = cap2 < pieces[at + PieceRecord.CAP2] or pull < pieces[at + PieceRecord.PULL]
+        bounds = cap2 < ALIKE * pieces[at + PieceRecord.CAP2] or pull < ALIKE * pieces[at + PieceRecord.PULL]
         if bounds and worth_cutting(pieces, at, left) and cut(pieces, q, n, state, length - left):
             cuts += 1
             q += 1
@@ -121,13 +123,17 @@ def hold_ahead(pieces: Floats, p: int, n: int, state: State) -> None:
         left = pieces[joint + PieceRecord.HOLD_WAY] - way
         if left > SLIVER_MM:
             hold2, hold_pull = pieces[joint + PieceRecord.HOLD2], pieces[joint + PieceRecord.HOLD_PULL]
-            if hold2 < low2 or (hold2 == low2 and left > end2):
+            if hold2 < ALIKE * low2:
                 low2, end2 = hold2, left
-            if hold_pull < low_pull or (hold_pull == low_pull and left > end_pull):
+            elif hold2 * ALIKE <= low2:
+                low2, end2 = min(low2, hold2), max(end2, left)
+            if hold_pull < ALIKE * low_pull:
                 low_pull, end_pull = hold_pull, left
+            elif hold_pull * ALIKE <= low_pull:
+                low_pull, end_pull = min(low_pull, hold_pull), max(end_pull, left)
         if q > 0:
             way += pieces[joint - width + PieceRecord.LENGTH]
-    edge = min(end2 if low2 < cap2 else inf, end_pull if low_pull < pull else inf)
+    edge = min(end2 if low2 < ALIKE * cap2 else inf, end_pull if low_pull < ALIKE * pull else inf)
     if worth_cutting(pieces, at, edge):
         cut(pieces, p, n, state, edge)
     pieces[at + PieceRecord.CAP2], pieces[at + PieceRecord.PULL] = min(cap2, low2), min(pull, low_pull)

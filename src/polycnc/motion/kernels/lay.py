@@ -85,33 +85,56 @@ def lay(
     Returns:
         The next row to lay: behind the last, or one for which there was no room.
     """
-    n = axes_of(state)
     for row in range(first, len(rows.kind)):
-        kind = rows.kind[row]
-        if kind == EVENT:
-            if rows.stops[rows.curve[row]] != 0:
-                rest(state)
-        elif kind == DWELL:
-            rest(state)
-        else:
-            record = rows.context[row] * (ContextRecord.OFFSETS + n)
-            if kind == THREAD and state.row.kind != THREAD:
-                state.run.stop = 1.0  # the axes wait for the spindle's zero mark
-            state.row.kind, state.row.number, state.row.feed = kind, number + row, rows.feed[row]
-            state.row.curve = rows.curve[row] * CURVE_WIDTH
-            take_shares(rows, row, state)
-            state.row.slot = 2 * rows.context[row] + (0 if is_rapid(state) else 1)
-            aim(rows.end, row * n, contexts, record, n, limits, state)
-            state.joint.top2, led = inf, is_led(contexts, record, limits, state)
-            if not led and state.run.corner_top2 > 0.0:
-                state.joint.top2 = state.run.corner_top2
-                state.run.exit2 = min(state.run.exit2, state.run.corner_top2)
-            if not lay_move(curves, contexts, record, n, limits, pieces, state):
-                return row
-            state.run.ease = state.share_ease[max(state.row.shares - 1, 0)]
-            state.run.corner_ease = state.share_ease[AT_END]
-            state.run.corner_top2 = state.run.corner_top2 if led else 0.0
+        if not lay_row(rows, row, curves, number, contexts, limits, pieces, state):
+            return row
     return len(rows.kind)
+
+
+def lay_row(
+    rows: Rows,
+    row: int,
+    curves: Floats,
+    number: int,
+    contexts: Floats,
+    limits: Limits,
+    pieces: Floats,
+    state: State,
+) -> bool:
+    """Lay one row out, as `lay` does; false when there is no room: it can then be tried again."""
+    kind = rows.kind[row]
+    if kind == EVENT:
+        if rows.stops[rows.curve[row]] != 0:
+            rest(state)
+        return True
+    if kind == DWELL:
+        rest(state)
+        return True
+    n, record = axes_of(state), take_row(rows, row, number, contexts, limits, state)
+    state.joint.top2, led = inf, is_led(contexts, record, limits, state)
+    if not led and state.run.corner_top2 > 0.0:
+        state.joint.top2 = state.run.corner_top2
+        state.run.exit2 = min(state.run.exit2, state.run.corner_top2)
+    if not lay_move(curves, contexts, record, n, limits, pieces, state):
+        return False
+    state.run.ease = state.share_ease[max(state.row.shares - 1, 0)]
+    state.run.corner_ease = state.share_ease[AT_END]
+    state.run.corner_top2 = state.run.corner_top2 if led else 0.0
+    return True
+
+
+def take_row(rows: Rows, row: int, number: int, contexts: Floats, limits: Limits, state: State) -> int:
+    """Make a move the row at hand, and set where it leads; where the record of its context begins."""
+    n, kind = axes_of(state), rows.kind[row]
+    record: int = rows.context[row] * (ContextRecord.OFFSETS + n)
+    if kind == THREAD and state.row.kind != THREAD:
+        state.run.stop = 1.0  # the axes wait for the spindle's zero mark
+    state.row.kind, state.row.number, state.row.feed = kind, number + row, rows.feed[row]
+    state.row.curve = rows.curve[row] * CURVE_WIDTH
+    take_shares(rows, row, state)
+    state.row.slot = 2 * rows.context[row] + (0 if is_rapid(state) else 1)
+    aim(rows.end, row * n, contexts, record, n, limits, state)
+    return record
 
 
 def rest(state: State) -> None:
@@ -275,8 +298,10 @@ def lay_rapid_by_axis(
 
 
 def rapid_top(contexts: Floats, record: int, limits: Limits, i: int) -> float:
-    """Highest speed of an axis that runs a rapid alone."""
+    """Highest speed of an axis that runs a rapid alone; one of the program's own counts degrees of a rotary axis."""
     own: float = contexts[record + ContextRecord.RAPID_SPEED]
+    if limits.rotary[i] != 0.0:
+        own = own / contexts[record + ContextRecord.TURN_WEIGHT]
     top: float = contexts[record + ContextRecord.RAPID_SHARE] * limits.top_rapid[i]
     return min(top, own) if own > 0.0 else top
 
@@ -293,7 +318,7 @@ def lay_straight(
     end_x, shared = state.row.facing, state.row.shares > 1.0
     if not has_room(pieces, contexts, record, state, parts, n):
         return False
-    top, pull = line_limits(curves, contexts, record, n, limits, state, length, start_x)
+    top, pull = line_limits(curves, contexts, record, n, limits, state, length, start_x, weight)
     if not goes_on_smoothly(n, limits, state, weight):
         end_chord(pieces, n, limits, state)
     entry2, first, last, whole_pull, before = 0.0, 0.0, 0.0, pull / state.row.ease, pull
@@ -378,26 +403,21 @@ def line_limits(
     state: State,
     length: float,
     radius: float,
+    weight: float,
 ) -> tuple[float, float]:
     """Speed and acceleration along the row at hand that its axes allow; sets `unit` to its direction."""
-    delta, unit = state.delta, state.unit
-    tops = limits.top_rapid if is_rapid(state) else limits.top_feed
-    faster = contexts[record + ContextRecord.RAPID_SHARE] if is_rapid(state) else 1.0
-    top = state.row.top if is_rapid(state) else min(limits.path.path_feed, state.row.top)
-    top = min(top, block_top(length, limits, state))
-    pull, soft = inf, contexts[record + ContextRecord.RAMP_S] > 0.0
+    unit, pull, soft = state.unit, inf, contexts[record + ContextRecord.RAMP_S] > 0.0
+    top = line_top(contexts, record, n, limits, state, length)
     for i in range(n):
-        unit[i] = delta[i] / length
         state.bend[i] = 0.0
         share = abs(unit[i])
-        if share > 0.0:
-            top = lowered(top, faster * tops[i], share)
-            pull = pull if soft else lowered(pull, limits.acceleration[i], share)
+        if share > 0.0 and not soft:
+            pull = lowered(pull, limits.acceleration[i], share)
     if soft:
         alone = is_rapid(state) and limits.path.rapid_stops != 0.0
         pull = line_pull(contexts, record, n, limits, state, alone or state.row.kind == TAP)
     elif contexts[record + ContextRecord.DRIVE_SPEED] < 1.0:
-        asked = bound(asked_speed(curves, contexts, record, state, length, radius), state)
+        asked = bound(straight_speed(curves, contexts, record, state, length, radius, weight), state)
         pull *= drive_factor(contexts, record, n, limits, state, unit, 0, min(top, asked))
     lead = lead_of(curves, state)
     if state.row.kind == TAP and lead > 0.0:
@@ -406,3 +426,18 @@ def line_limits(
         asked = asked_speed(curves, contexts, record, state, length, state.row.facing)
         pull = min(pull, lagging_pull(contexts, record, min(top, asked)))
     return top, state.row.ease * pull
+
+
+def line_top(contexts: Floats, record: int, n: int, limits: Limits, state: State, length: float) -> float:
+    """Speed along the row at hand that its axes and the control allow; sets `unit` to its direction."""
+    unit, rapid = state.unit, is_rapid(state)
+    tops = limits.top_rapid if rapid else limits.top_feed
+    faster = contexts[record + ContextRecord.RAPID_SHARE] if rapid else 1.0
+    top = state.row.top if rapid else min(limits.path.path_feed, state.row.top)
+    top = min(top, block_top(length, limits, state))
+    for i in range(n):
+        unit[i] = state.delta[i] / length
+        share = abs(unit[i])
+        if share > 0.0:
+            top = lowered(top, faster * tops[i], share)
+    return top

@@ -1,7 +1,8 @@
 """A run: what the axes do from one standstill to the next, as a function of time.
 
 A run is made of planned pieces. Its law along the path is exact, and so are the averages: of the way over RAMP_S
-(`law.py`), and of every axis's position over BLEND_S, twice (`averaging.py`).
+(`law.py`), and of every axis's position over BLEND_S, twice (`averaging.py`). Where its pieces are JERKED, all of them
+are: such a run has a law of limited jerk along a bent path, and needs no averages.
 """
 
 from __future__ import annotations
@@ -52,18 +53,24 @@ class Run:
         self._start, self._end = block[PLACES], block[PLACES + 1]
         self._length = np.maximum(pieces[:, PieceRecord.LENGTH], 1e-300)
         self._ways: Numbers = np.concatenate([[0.0], np.cumsum(pieces[:, PieceRecord.LENGTH])])
-        bent = np.isin(pieces[:, PieceRecord.FORM], (Form.BENT, Form.CURVED))[:, None]
+        bent = np.isin(pieces[:, PieceRecord.FORM], (Form.BENT, Form.CURVED, Form.JERKED))[:, None]
         scale = (self._length / pieces[:, PieceRecord.MARGIN])[:, None]
         chord = self._end - self._start
         self._leave = np.where(bent, block[0] * scale, chord)
         self._arrive = np.where(bent, block[1] * scale, chord)
         self._alone: list[Law] = []
+        self._bends: tuple[Numbers, Numbers] | None = None
         if pieces[0, PieceRecord.FORM] == Form.TIMED:
             ways = np.abs(chord[0]).tolist()
             self._alone = [_trapezoid(way, own.top, own.pull) for way, own in zip(ways, limits, strict=True)]
             self._ramps = [own.ramp for own in limits]
             ends = [law.seconds + own for law, own in zip(self._alone, self._ramps, strict=True)]
             self.law = self._alone[ends.index(max(ends))]
+        elif pieces[0, PieceRecord.FORM] == Form.JERKED:
+            self._bends = block[2] * scale * scale, block[3] * scale * scale
+            columns = PieceRecord.TIME, PieceRecord.LENGTH, PieceRecord.PULL, PieceRecord.JERK
+            seconds, ways, pulls, jerks = (pieces[:, column] for column in columns)
+            self.law = Law.of(seconds, ways, np.sqrt(pieces[:, PieceRecord.SPEED2]), pulls, jerks)
         else:
             self.law = Law.of(*_phases(pieces))
 
@@ -155,8 +162,12 @@ class Run:
         # A cubic through both ends with their tangents (Hermite); on a line it is the line.
         leave, arrive = self._leave[k] - chord, self._arrive[k] - chord
         position = start + f * (chord + (1.0 - f) * ((1.0 - f) * leave - f * arrive))
-        first = chord + (1.0 - f) * (1.0 - 3.0 * f) * leave + f * (3.0 * f - 2.0) * arrive
-        second = (6.0 * f - 4.0) * leave + (6.0 * f - 2.0) * arrive
+        if self._bends is None:
+            first = chord + (1.0 - f) * (1.0 - 3.0 * f) * leave + f * (3.0 * f - 2.0) * arrive
+            second = (6.0 * f - 4.0) * leave + (6.0 * f - 2.0) * arrive
+        else:  # of a short piece its ends would say little
+            bend, change = self._bends[0][k], self._bends[1][k] - self._bends[0][k]
+            first, second = self._leave[k] + f * (bend + 0.5 * f * change), bend + f * change
         return position, first * speed / length, second * (speed / length) ** 2 + first * rate / length
 
     def _each_alone(self, time: Numbers) -> Moved:

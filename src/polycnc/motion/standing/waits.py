@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from array import array
-from math import pi
+from math import pi, sqrt
 from typing import TYPE_CHECKING, Literal
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.motion.kernels.columns import Form, PieceRecord
 from polycnc.motion.standing.beside import Awaits, Begins, Search, Turning
 from polycnc.toolpath import Kind
 from polycnc.toolpath.events import (
@@ -25,7 +26,7 @@ from polycnc.toolpath.kinds import RAPID_KINDS
 from polycnc.toolpath.table import CURVE_WIDTH
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterator, Sequence
 
     from polycnc.machine import Machine, Spindle
     from polycnc.motion.standing.beside import Work
@@ -43,12 +44,27 @@ STRAIGHT = frozenset((Kind.RAPID, Kind.FEED, Kind.REF))
 
 
 class Parallel(NamedTuple):
-    """An auxiliary function that runs beside the motion of its block, the rows `row` to `last`."""
+    """An auxiliary function that runs beside the motion of its block, the rows `row` to `last`.
+
+    `pieces` lie ahead of the axes in front of its block, in the main run.
+    """
 
     row: int
     last: int
     context: int
     seconds: float
+    pieces: int = 0
+
+
+def least_seconds(pieces: Sequence[float], first: int, last: int, width: int) -> float:
+    """The least time of the pieces from one to before another one: at their highest speeds, which are open yet."""
+    seconds = 0.0
+    for at in range(first * width, last * width, width):
+        if pieces[at + PieceRecord.FORM] == Form.TIMED:
+            seconds += pieces[at + PieceRecord.PULL]
+        else:
+            seconds += pieces[at + PieceRecord.LENGTH] / sqrt(pieces[at + PieceRecord.CAP2])
+    return seconds
 
 
 def rpm_at(context: Context, radius_mm: float, spindle: Spindle | None) -> float:

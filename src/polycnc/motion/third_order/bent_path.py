@@ -27,6 +27,7 @@ class BentPath:
         first: q' there.
         second: q'' there.
         cap2: Largest square of the speed on each piece, by the feed and the highest speeds of the axes, (m,).
+        ease: The part of acceleration and jerk that may be used there, (m,).
         row: Number of the row that each piece belongs to, (m,); of a piece that takes several rows, the first.
         rows: Numbers of the rows of the run in order, (r,).
         row_way: The way at which each of them ends, (r,).
@@ -37,6 +38,7 @@ class BentPath:
     first: Numbers
     second: Numbers
     cap2: Numbers
+    ease: Numbers
     row: NDArray[np.int64]
     rows: NDArray[np.int64]
     row_way: Numbers

@@ -14,6 +14,8 @@ from polycnc.motion.third_order.bends import (
     levelling,
     pieces,
     rests,
+    seams,
+    seeking,
     stretches,
     turning,
     within,
@@ -22,7 +24,7 @@ from polycnc.motion.third_order.bends import (
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from polycnc.kernels.layout import Ints
+    from polycnc.kernels.layout import Floats, Ints
     from polycnc.motion.third_order.bends.controls import Spline
     from polycnc.motion.third_order.bends.knots import Samples
     from polycnc.motion.third_order.bends.pieces import Pieces
@@ -31,23 +33,33 @@ if TYPE_CHECKING:
 
 LIBRARY = Library(
     "third_order",
-    (stretches, turning, knots, controls, within, levelling, pieces, rests, bending),
-    (bending.bend_path, rests.next_rest),
+    (stretches, turning, seams, knots, controls, within, levelling, pieces, rests, seeking, bending),
+    (
+        bending.bend_path,
+        rests.next_rest,
+        pieces.end_rows,
+        seams.shift_ways,
+        seeking.find_seam,
+        seeking.far_enough,
+    ),
 )
 
 
 class Kernels(NamedTuple):
-    """The kernels that Python calls; see `bending.py` and `rests.py`."""
+    """The kernels that Python calls; see `bending.py`, `rests.py`, `pieces.py`, `seams.py` and `seeking.py`."""
 
-    bend_path: Callable[[Stretches, Ints, Turning, Samples, Spline, Pieces, Ints], int]
+    bend_path: Callable[[Stretches, Floats, Ints, Turning, Samples, Spline, Pieces, Ints], int]
     next_rest: Callable[[Stretches, int], int]
+    end_rows: Callable[[Stretches, float, float, Ints, Floats], int]
+    shift_ways: Callable[[Floats, int, int, float, Floats, int], object]
+    find_seam: Callable[[Stretches, int, int, Ints, Turning, Spline, Floats], int]
+    far_enough: Callable[[Stretches, int, int, int, float, int, Floats], int]
 
 
-PLAIN = Kernels(bending.bend_path, rests.next_rest)
+PLAIN = Kernels._make(LIBRARY.kernels)
 
 
 @cache
 def kernels() -> Kernels:
     """The compiled kernels; the plain ones where there are none."""
-    bend_path, next_rest = LIBRARY.compiled(PLAIN.bend_path), LIBRARY.compiled(PLAIN.next_rest)
-    return PLAIN if bend_path is None or next_rest is None else Kernels(bend_path, next_rest)
+    return PLAIN if LIBRARY.lack is not None else Kernels._make(map(LIBRARY.compiled, PLAIN))

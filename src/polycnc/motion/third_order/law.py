@@ -6,10 +6,8 @@ from array import array
 from typing import TYPE_CHECKING, TypeAlias
 
 from polycnc.deferred.records import dataclass
-from polycnc.motion.third_order.laws.barrier import BANDS
-from polycnc.motion.third_order.laws.compiled import kernels
-from polycnc.motion.third_order.laws.courses import Axes, Course, Nodes, Phase, Shape, Stencil
-from polycnc.motion.third_order.laws.phases import PAIR
+from polycnc.motion.third_order.laws.courses import Axes, Phase
+from polycnc.motion.third_order.laws.quickest import NoLawError, course_of, quickest
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -21,12 +19,6 @@ if TYPE_CHECKING:
     from polycnc.motion.third_order.bent_path import BentPath
 
 Numbers: TypeAlias = "NDArray[np.float64]"
-#: Room for nodes at first, by the places of the estimate and besides.
-PER_PLACE, BESIDES = 1, 256
-
-
-class NoLawError(ValueError):
-    """From the given state the end cannot be reached within the limits."""
 
 
 @dataclass(frozen=True)
@@ -113,41 +105,16 @@ def quickest_law(
     Raises:
         NoLawError: From the motion at its start the end cannot be reached as it shall be.
     """
-    pieces, ends = len(path.cap2), array("d", [*start, *end])
-    course = Course(
-        _flat(path.way),
-        _flat(path.first),
-        _flat(path.second),
-        _flat(path.cap2),
-        _zeros(pieces),
-        _zeros(pieces + 1),
-    )
-    room = 3 * pieces + 2
-    places, squares, gaps = _zeros(room), _zeros(room), _zeros(room)
-    way = _zeros(PER_PLACE * room + BESIDES)
-    count = kernels().place_nodes(course, axes, ends, places, squares, gaps, way)
-    if count > len(way):
-        way = _zeros(count)
-        count = kernels().place_nodes(course, axes, ends, places, squares, gaps, way)
-    nodes = Nodes(
-        way[:count],
-        _zeros(count),
-        _zeros(count),
-        _zeros(count),
-        _zeros(count * path.axes * Shape.SIZE),
-        _zeros(count * Stencil.SIZE),
-    )
-    phases, most = _zeros(PAIR * (count - 1) * Phase.SIZE), _zeros(3 * PAIR * (count - 1))
-    if (
-        kernels().find_law(course, axes, ends, places, squares, nodes, _zeros(BANDS * count), phases, most)
-        < 0
-    ):
+    course = course_of(*(_flat(v) for v in (path.way, path.first, path.second, path.cap2, path.ease)))
+    found = quickest(course, axes, array("d", [*start, *end]))
+    if found is None:
         msg = "no law within the limits from this state"
         raise NoLawError(msg)
-    return _law(phases, float(path.way[-1]))
+    return law_of(found.phases, float(path.way[-1]))
 
 
-def _law(phases: array[float], length: float) -> JerkLaw:
+def law_of(phases: array[float], length: float) -> JerkLaw:
+    """Phases, see `Phase`, as arrays of numpy."""
     import numpy as np
 
     table = np.frombuffer(phases).reshape(-1, Phase.SIZE)
@@ -162,10 +129,6 @@ def _law(phases: array[float], length: float) -> JerkLaw:
         float(ends[-1]),
         length,
     )
-
-
-def _zeros(count: int) -> array[float]:
-    return array("d", bytes(8 * count))
 
 
 def _flat(values: Numbers) -> array[float]:

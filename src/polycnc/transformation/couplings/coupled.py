@@ -84,10 +84,12 @@ class Shown(OneToOne):
     Attributes:
         led: From the work to the machine, with couplings (turns of the table).
         bare: The same without them.
+        beside: What is added to each axis while a point goes through both; empty for nothing.
     """
 
     led: Transformation
     bare: Transformation
+    beside: tuple[float, ...] = ()
 
     @property
     def geometry(self) -> Geometry:
@@ -96,11 +98,16 @@ class Shown(OneToOne):
 
     def to_machine(self, work: Sequence[N]) -> list[N]:
         """The ways of the axes by themselves at a point that is shown."""
-        return self.led.to_work(self.bare.to_machine(work))
+        return self._moved(self.led.to_work(self.bare.to_machine(self._moved(work, 1.0))), -1.0)
 
     def to_work(self, axes: Sequence[N]) -> list[N]:
         """The point that is shown for the ways of the axes."""
-        return self.bare.to_work(self.led.to_machine(axes))
+        return self._moved(self.bare.to_work(self.led.to_machine(self._moved(axes, 1.0))), -1.0)
+
+    def _moved(self, point: Sequence[N], sense: float) -> list[N]:
+        if not self.beside:
+            return list(point)
+        return [value + sense * way for value, way in zip(point, self.beside, strict=True)]
 
     def jacobian(self, work: Sequence[N]) -> list[list[N | float]]:
         """Nobody plans by what is shown."""

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass
 from polycnc.transformation.contract import OneToOne, unchanged
-from polycnc.transformation.numbers import RADIAN, constant
+from polycnc.transformation.numbers import RADIAN
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -24,7 +24,7 @@ class Cylinder(OneToOne):
         mm_per_degree: Length of a degree on the surface.
         geometry: Columns of X, Y and Z while the cylinder is unrolled.
         virtual: Column of the length where it has one of its own, beside the rotary axis; else -1. In points of the
-            path the rotary axis is zero then, in positions of the axes the column is.
+            path the column of the rotary axis says then where the machine's axis of that column stands.
     """
 
     axis: int
@@ -46,7 +46,7 @@ class Cylinder(OneToOne):
         """Degrees for a length on the surface."""
         axes, length = list(work), work[self.along]
         if self.virtual >= 0:
-            axes[self.virtual] = constant(0.0, length)
+            axes[self.virtual] = work[self.axis]
         axes[self.axis] = length * (1.0 / self.mm_per_degree)
         return axes
 
@@ -54,7 +54,7 @@ class Cylinder(OneToOne):
         """Length on the surface for degrees."""
         work, angle = list(axes), axes[self.axis]
         if self.virtual >= 0:
-            work[self.axis] = constant(0.0, angle)
+            work[self.axis] = axes[self.virtual]
         work[self.along] = angle * self.mm_per_degree
         return work
 
@@ -63,5 +63,6 @@ class Cylinder(OneToOne):
         slopes = unchanged(work)
         if self.virtual >= 0:
             slopes[self.axis][self.axis] = slopes[self.virtual][self.virtual] = 0.0
+            slopes[self.virtual][self.axis] = 1.0
         slopes[self.axis][self.along] = 1.0 / self.mm_per_degree
         return slopes

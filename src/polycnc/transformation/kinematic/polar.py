@@ -13,7 +13,6 @@ from polycnc.transformation.numbers import (
     DEGREE,
     RADIAN,
     angle_deg,
-    constant,
     cosine,
     distance,
     kept_off,
@@ -44,7 +43,7 @@ class PolarPlane:
         eccentricity: Zero of the plane against the centre, mm.
         side: -1 where the linear axis stands on the negative side of the centre.
         virtual: Column of the plane's second axis where it has one of its own, beside the rotary axis; else -1. In
-            points of the path the rotary axis is zero then, in positions of the axes the column is.
+            points of the path the column of the rotary axis says then where the machine's axis of that column stands.
         pole_deg: Where the rotary axis stands in the centre itself; None for where the first axis leads there.
     """
 
@@ -74,7 +73,7 @@ class PolarPlane:
         second = self.side * (work[self.second] + self.eccentricity[1])
         axes = list(work)
         if self.virtual >= 0:
-            axes[self.virtual] = constant(0.0, first)
+            axes[self.virtual] = work[self.rotary]
         away, direction = distance(first, second), self.start_deg + angle_deg(second, first)
         axes[self.linear] = self.side * away
         axes[self.rotary] = (
@@ -87,7 +86,7 @@ class PolarPlane:
         away, angle = axes[self.linear], (axes[self.rotary] - self.start_deg) * RADIAN
         work = list(axes)
         if self.virtual >= 0:
-            work[self.rotary] = constant(0.0, away)
+            work[self.rotary] = axes[self.virtual]
         work[self.linear] = away * cosine(angle) - self.eccentricity[0]
         work[self.second] = away * sine(angle) - self.eccentricity[1]
         return work
@@ -102,6 +101,7 @@ class PolarPlane:
         rotary[own], rotary[second] = -DEGREE * y / square, DEGREE * x / square
         if self.virtual >= 0:
             rotary[self.rotary] = slopes[self.virtual][self.virtual] = 0.0
+            slopes[self.virtual][self.rotary] = 1.0
         return slopes
 
     def solutions(self, work: Sequence[float]) -> list[list[float]]:

@@ -59,8 +59,8 @@ def zero_of(transformation: Transformation | None, n: int) -> tuple[float, ...]:
         return (0.0,) * n
     shifts = list(seated.shifts) if seated is not None and seated.shifts else [0.0] * n
     behind = seated.offsets if seated is not None and seated.offsets else (0.0,) * n
-    for column, nose in zip(point.geometry, point.kinematics.nose, strict=True):
-        shifts[column] = nose - point.zero[column]
+    for column, way in zip(point.geometry, point.apart, strict=True):
+        shifts[column] = way - point.zero[column]
     return tuple(a + b for a, b in zip(shifts, behind, strict=True))
 
 

@@ -135,7 +135,8 @@ def _pair_angles(
     k2 = _turned(between, unit(inner.direction), near)
     tool = _turned(between, _turned(turns[pair[1] + 1 :], drawn, near), near)
     found = []
-    for inner_deg in _inner_angles(k1, k2, tool, wanted):
+    stays = inner_sign * near.get(inner.axis, 0.0)
+    for inner_deg in _inner_angles(k1, k2, tool, wanted, stays):
         angles = {inner.axis: inner_sign * inner_deg}
         outer_deg = _angle_about(k1, turn_about(k2, inner_deg).direct(*tool), wanted)
         if outer_deg is not None:
@@ -158,13 +159,18 @@ def _turned_back(turns: Sequence[Turn], direction: Vector, angles: Angles) -> Ve
     return direction
 
 
-def _inner_angles(k1: Vector, k2: Vector, tool: Vector, wanted: Vector) -> tuple[float, ...]:
-    """Angles about k2 for which the turned tool has the same component along k1 as the wanted direction."""
+def _inner_angles(k1: Vector, k2: Vector, tool: Vector, wanted: Vector, stays: float) -> tuple[float, ...]:
+    """Angles about k2 for which the turned tool has the same component along k1 as the wanted direction.
+
+    Where k2 lies along the tool, or along k1, none of its angles changes that component: it stays where it is.
+    """
     along = dot(k2, tool)
     across = (tool[0] - k2[0] * along, tool[1] - k2[1] * along, tool[2] - k2[2] * along)
     a, b = dot(k1, across), dot(k1, cross(k2, tool))
     size, rest = hypot(a, b), dot(k1, wanted) - dot(k1, k2) * along
-    if size < PARALLEL or abs(rest) > size * (1.0 + PARALLEL):
+    if size < PARALLEL:
+        return (stays,)
+    if abs(rest) > size * (1.0 + PARALLEL):
         return ()
     middle, half = degrees(atan2(b, a)), degrees(acos(max(-1.0, min(1.0, rest / size))))
     return (middle + half, middle - half)

@@ -11,6 +11,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass, field
+from polycnc.geometry.vectors import minus, plus
 from polycnc.machine.kinematics import unit
 from polycnc.transformation.contract import unchanged
 from polycnc.transformation.numbers import RADIAN, cosine_and_sine_deg
@@ -51,6 +52,7 @@ class ToolCentrePoint:
         zero: From the work zero to that of the machine, for every axis, without the tool (mm, degrees).
         tip: From the point that the linear axes move to the tip with the rotary axes at zero, mm.
         hung: From the last joint of the head to the tip: the nose, then the tool.
+        apart: From the last joint of the head to the point that the linear axes name, with the rotary axes at zero.
     """
 
     kinematics: Kinematics
@@ -59,12 +61,14 @@ class ToolCentrePoint:
     zero: tuple[float, ...]
     tip: Vector
     hung: Vector = field(init=False, repr=False, compare=False)
+    apart: Vector = field(init=False, repr=False, compare=False)
     _head: tuple[Link, ...] = field(init=False, repr=False, compare=False)
     _table: tuple[Link, ...] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        x, y, z = (nose + part for nose, part in zip(self.kinematics.nose, self.tip, strict=True))
-        object.__setattr__(self, "hung", (x, y, z))
+        nose = self.kinematics.nose
+        object.__setattr__(self, "hung", plus(nose, self.tip))
+        object.__setattr__(self, "apart", minus(nose, self.kinematics.to_nose))
         object.__setattr__(self, "_head", self._links(self.kinematics.tool))
         object.__setattr__(self, "_table", self._links(self.kinematics.work))
 
@@ -168,7 +172,7 @@ class ToolCentrePoint:
         arm = self._through(point, self._head, self.hung)
         for link in self._head:
             arm = _moved(arm, link.offset, -1.0)
-        return _moved(arm, self.kinematics.nose, -1.0)
+        return _moved(arm, self.apart, -1.0)
 
     def _through(self, angles: Sequence[N], chain: Sequence[Link], point: Point[N]) -> Point[N]:
         """A point that the end of a chain carries, seen from its base."""

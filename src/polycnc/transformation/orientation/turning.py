@@ -104,6 +104,66 @@ class Turning:
         shares = (*((share - first) / width for share, _ in inner), 1.0)
         return Turning(self.columns, shares, (*(places for _, places in inner), self.at(start, last)))
 
+    def smoothed(self, start: Sequence[float]) -> Turning:
+        """The same knots on a smooth curve, for a move that becomes chords; `start` are the positions in front of it.
+
+        What has a course keeps its rate.
+        """
+        if self.course is not None or len(self.shares) == 1:
+            return self
+        ways = zip(start, *self.places, strict=True)
+        slopes = tuple(_slopes((0.0, *self.shares), way) for way in ways)
+        return SmoothTurning(self.columns, self.shares, self.places, None, slopes)
+
+
+@dataclass(frozen=True, slots=True)
+class SmoothTurning(Turning):
+    """A turn whose knots lie on a smooth curve that goes neither back nor beyond them.
+
+    Between knots lie cubics with the slopes of Fritsch and Butland (SIAM J. Sci. Stat. Comput. 5, 1984).
+
+    Attributes:
+        slopes: Of each axis by the share of the move: at its start and at each knot.
+    """
+
+    slopes: tuple[tuple[float, ...], ...] = ()
+
+    def at(self, start: Sequence[float], share: float) -> tuple[float, ...]:
+        """Positions after a share of the turn; `start` are those in front of it."""
+        k = next((k for k, knot in enumerate(self.shares) if share <= knot), len(self.shares) - 1)
+        before, first = (self.places[k - 1], self.shares[k - 1]) if k else (start, 0.0)
+        width = self.shares[k] - first
+        t = (share - first) / width
+        return tuple(
+            (1.0 + 2.0 * t) * (1.0 - t) ** 2 * a
+            + t * t * (3.0 - 2.0 * t) * b
+            + t * (1.0 - t) * width * ((1.0 - t) * slopes[k] - t * slopes[k + 1])
+            for a, b, slopes in zip(before, self.places[k], self.slopes, strict=True)
+        )
+
+
+def _slopes(shares: Sequence[float], places: Sequence[float]) -> tuple[float, ...]:
+    """Slopes at places by their shares: between slopes of one sign their weighted harmonic mean, else none."""
+    widths = [b - a for a, b in pairwise(shares)]
+    rises = [(b - a) / width for (a, b), width in zip(pairwise(places), widths, strict=True)]
+    inner = []
+    for (p, q), (a, b) in zip(pairwise(widths), pairwise(rises), strict=True):
+        one, two = p + 2.0 * q, 2.0 * p + q
+        inner.append((one + two) / (two / a + one / b) if a * b > 0.0 else 0.0)
+    return (
+        _end_slope(widths[0], widths[1], rises[0], rises[1]),
+        *inner,
+        _end_slope(widths[-1], widths[-2], rises[-1], rises[-2]),
+    )
+
+
+def _end_slope(width: float, next_width: float, rise: float, next_rise: float) -> float:
+    """The slope at an end of a curve: that of the parabola there, as far as it does not go back or beyond."""
+    slope = ((2.0 * width + next_width) * rise - width * next_rise) / (width + next_width)
+    if slope * rise <= 0.0:
+        return 0.0
+    return 3.0 * rise if rise * next_rise <= 0.0 and abs(slope) > 3.0 * abs(rise) else slope
+
 
 @dataclass(frozen=True, slots=True)
 class Knot:

@@ -6,7 +6,7 @@ from math import asin, atan2, degrees
 from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass
-from polycnc.geometry.frames import Frame, translation
+from polycnc.geometry.frames import IDENTITY, Frame, translation
 from polycnc.transformation.planes.tilted import by_fixed_axes
 
 if TYPE_CHECKING:
@@ -22,10 +22,17 @@ class Misplaced:
             each with how the table had turned when that was measured, machine coordinates. Several are added as they
             are with the table at zero (A-79634E, page 10).
         turn: How the table has turned now.
+        told: How words tell it to have turned, where the tool stands on the work as it lies; None for the same.
     """
 
     errors: tuple[tuple[Frame, Frame], ...]
     turn: Frame
+    told: Frame | None = None
+
+    @property
+    def turns(self) -> bool:
+        """Whether it lies turned, not shifted alone."""
+        return any(error.m != IDENTITY.m for error, _ in self.errors)
 
     def on_table(self, zero: Vector) -> Frame:
         """The error seen from the work zero (machine coordinates, mm) with the table at zero: it goes along with it."""
@@ -35,8 +42,8 @@ class Misplaced:
 
     def seen(self, zero: Vector) -> Frame:
         """The same with the table as it has turned: what positions along the axes of the machine are led by."""
-        now = _about(zero, self.turn)
-        return now @ self.on_table(zero) @ now.inverse()
+        now, told = _about(zero, self.turn), self.turn if self.told is None else self.told
+        return now @ self.on_table(zero) @ _about(zero, told).inverse()
 
 
 def _sum(frames: list[Frame]) -> Frame:

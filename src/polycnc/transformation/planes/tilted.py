@@ -54,6 +54,11 @@ def by_solid_angle(around: float, down: float) -> Frame:
     return rotation(2, around) @ rotation(1, down)
 
 
+def by_leaning(axis: int, lean: float, about: float) -> Frame:
+    """A tool leans from its axis (0 to 2), from X to Y, Y to Z or Z to X, then turns about it; degrees (RA, RB)."""
+    return rotation(axis, about) @ rotation((axis + 2) % 3, lean)
+
+
 def by_projections(about_y: float, about_x: float, spin: float) -> Frame | None:
     """Through X turned about Y and Y turned about X, X along the first, turned about Z at last; degrees (G68.2 P4).
 

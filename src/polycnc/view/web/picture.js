@@ -349,11 +349,13 @@ export default {
       if (!this.works || !this.held) return;
       this.tool.position.set(...pose.point);
       this.tool.quaternion.setFromUnitVectors(new THREE.Vector3(0, 0, 1), new THREE.Vector3(...pose.along).normalize());
-      const shift = pose.point.map((value, i) => value - pose.machine[i]);
+      const shift = pose.point.map((value, i) => value - pose.nose[i]);
       for (const part of this.parts) {
         const body = part.userData;
-        part.position.set(...body.at.map((value, i) => value + shift[i] + body.moves[i] * pose.machine[i]));
-        const along = new THREE.Vector3(...body.direction).normalize();
+        const [at, direction] = pose.head[body.turns] ||
+          [body.at.map((value, i) => value + body.moves[i] * pose.machine[i]), body.direction];
+        part.position.set(...at.map((value, i) => value + shift[i]));
+        const along = new THREE.Vector3(...direction).normalize();
         part.quaternion.setFromUnitVectors(new THREE.Vector3(0, 0, 1), along);
         if (body.turns) {
           const turn = new THREE.Quaternion().setFromAxisAngle(along, ((pose.angles[body.turns] || 0) * Math.PI) / 180);

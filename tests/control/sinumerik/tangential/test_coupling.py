@@ -14,8 +14,8 @@ from polycnc.toolpath import Kind
 
 GEOMETRY = (0, 1, 2)
 COUPLING = Coupling(
-    column=3, leading=(0, 1), factor=1.0, offset=90.0, lifts=False, lift_deg=5.0, lift_feed=100.0, leads_speed=False,
-    smoothing_mm=0.0, tolerance_deg=inf, velocity=100.0, acceleration=400.0, at=0.0,
+    column=3, leading=(0, 1), factor=1.0, offset=90.0, lifts=False, lift_deg=5.0, lift_feed=100.0, lift_radius=0.0,
+    leads_speed=False, smoothing_mm=0.0, tolerance_deg=inf, velocity=100.0, acceleration=400.0, at=0.0,
 )  # fmt: skip
 
 

@@ -11,7 +11,7 @@ from polycnc.messages import AlarmError
 from tests.control.sinumerik.support import codes, run
 
 
-@pytest.mark.parametrize("name", ["$TC_DPROT", "$AN_REBOOT_DELAY_TIME", "$VA_CURR"])
+@pytest.mark.parametrize("name", ["$TC_DPX1", "$AN_REBOOT_DELAY_TIME", "$VA_CURR"])
 def test_a_variable_of_the_control_that_is_not_kept_says_so(name: str) -> None:
     assert is_known(name)
     with pytest.raises(AlarmError) as caught:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from array import array
 from math import pi
 
-from polycnc.motion.third_order.bends.programmed import Bounds
 from polycnc.motion.third_order.bends.stretches import curve_lines
+from tests.motion.third_order.programmed import Bounds
 from tests.motion.third_order.programmed_paths import Drawn
 
 

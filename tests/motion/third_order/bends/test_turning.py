@@ -7,8 +7,8 @@ from math import pi
 
 import pytest
 
-from polycnc.motion.third_order.bends.programmed import Bounds
 from polycnc.motion.third_order.bends.turning import FULL, SHARE, Turning, reach, sum_turning
+from tests.motion.third_order.programmed import Bounds
 from tests.motion.third_order.programmed_paths import Drawn
 
 

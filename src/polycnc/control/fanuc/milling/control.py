@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.macro_b.code_calls import CodeCalls
     from polycnc.control.word_address.macro_b.variables import Registry
     from polycnc.geometry.frames import Frame, Vector
+    from polycnc.machine.kinematics import Kinematics
     from polycnc.toolpath.motion_settings import MotionSettings
 
 
@@ -74,13 +75,14 @@ class FanucMilling(MillingControl):
     context_steps: ClassVar[tuple[ContextStep, ...]] = (
         *MillingControl.context_steps,
         standing_system.displayed,
-        table_system.displayed,
     )
     rules: ClassVar[tuple[Rule, ...]] = (
         five_axes.RULE,
         table_system.RULE,
+        table_system.START_RULE,
         five_axes.VECTOR_RULE,
         leading_edge.RULE,
+        standing_system.LENGTH_RULE,
         standing_system.START_RULE,
         standing_system.ARC_RULE,
         standing_system.RULE,
@@ -165,6 +167,12 @@ class FanucMilling(MillingControl):
     def keeps_point_at_rotation(self, channel: Channel) -> bool:
         """11600#5 AX1 = 0."""
         return not _given(channel).AX1
+
+    def kinematics(self, channel: Channel) -> Kinematics:
+        """With 19666, 19697 to 19714 and 19665#4, #5."""
+        from polycnc.control.fanuc.milling import mechanism
+
+        return mechanism.kinematics_of(channel, _given(channel))
 
     def rotary_ranges(self, channel: Channel) -> Mapping[str, tuple[float, float]]:
         """19741 to 19744: of the first rotary axis (it carries the other one, or is in the head), and of the second."""

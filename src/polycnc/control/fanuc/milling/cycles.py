@@ -15,6 +15,7 @@ from polycnc.control.word_address.cycles.drilling import (
     turn_spindle,
 )
 from polycnc.control.word_address.cycles.shift import shift_by_i_and_j
+from polycnc.control.word_address.transformations import workpiece
 from polycnc.cycles.drilling import holes, lathe
 
 if TYPE_CHECKING:
@@ -139,4 +140,5 @@ MILLING_DRILLING = Drilling(
     check=check_tapping,
     dress=in_step,
     turn=turn,
+    over=workpiece.go_over_hole,
 )

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.compensation.spatial_rules import INTERSECTION_FIRST, Corners, Rules
+from polycnc.compensation.spatial.rules import INTERSECTION_FIRST, Corners, Rules
 from polycnc.control.fanuc.milling.parameters import FanucMillingParameters
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.coordinates.on_table import OnTable
@@ -56,7 +56,7 @@ def compensate(channel: WordAddressChannel, words: Words) -> None:
     code, parameters = channel.mode["compensation"], _parameters(channel)
     begins = spatial.stage_of(channel) is None
     if RadiusState.of(channel).side:
-        raise words.fail("tip_mode", code)
+        raise words.fail("five_axis_mode", code)
     led = channel.mode["length"] in TIP_CODES
     if begins:
         _check_machine(channel, words, code)

@@ -9,7 +9,6 @@ from math import cos, radians, sin, sqrt
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
-from polycnc.control.fanuc.milling.five_axes import not_yet
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.transformations.tool_center_point import plan_with_direction
 from polycnc.deferred.records import dataclass
@@ -36,10 +35,8 @@ class LeanState(State, lifetime=Lifetime.RESET):
 
 
 def begin(channel: WordAddressChannel, words: Words) -> None:
-    """Q beside G43.5; PC0001 for I J K and axis words beside it: where the tip goes is not known for sure there."""
+    """Q beside G43.5."""
     angle = words.angle("Q") or 0.0
-    if angle and (words.axes() or any(letter in words for letter in "IJK")):
-        raise not_yet("G43.5 Q")
     LeanState.of(channel).angle = angle
     channel.mode = channel.mode.with_code(GROUP, "Q" if angle else "")
 
@@ -49,23 +46,22 @@ def end(channel: WordAddressChannel) -> None:
     channel.mode = channel.mode.with_code(GROUP, "")
 
 
-def _leaned(channel: WordAddressChannel, vector: Vector, position: list[float]) -> Vector:
-    """The direction towards where the tip goes, by the angle from the programmed one."""
+def leaned(channel: WordAddressChannel, vector: Vector, position: list[float]) -> Vector:
+    """The direction towards where the tip goes, by the angle from the programmed one.
+
+    Where the tip goes along that, or stands, no plane is told in which the tool could lean: it does not.
+    """
     c = channel.coordinates
-    if not c.direct:
-        raise not_yet("G43.5 Q: G51.1")
     ways = (position[axis] - c.position[axis] for axis in c.geometry)
     x, y, z = ways
     size = sqrt(dot(vector, vector))
     if size < SHORTEST:
         return vector
-    if x * x + y * y + z * z < SHORTEST:
-        raise not_yet("G43.5 Q")
     normal = times(vector, 1.0 / size)
     flat = minus((x, y, z), times(normal, dot(normal, (x, y, z))))
     length = sqrt(dot(flat, flat))
     if length < SHORTEST:
-        return vector  # along the tool there is no way to lean to
+        return vector
     angle = radians(LeanState.of(channel).angle)
     i, j, k = (cos(angle) * a + sin(angle) * b / length for a, b in zip(normal, flat, strict=True))
     return (i, j, k)
@@ -75,7 +71,7 @@ def _plan(builder: Builder, plan: Plan) -> Step | None:
     """A straight block that leans the tool; without I J K it stays as it stands (15i, B-63323EN-1, page 1053)."""
     if builder.mode["length"] != "G43.5":
         return None
-    return plan_with_direction(builder, plan, _leaned)
+    return plan_with_direction(builder, plan, leaned)
 
 
 #: Straight blocks while the tool leans.

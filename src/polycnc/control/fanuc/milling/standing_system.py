@@ -1,9 +1,8 @@
 """19696#5 WKP = 1: words of G43.4 name the tip in the work system, which does not turn with the table.
 
 The end of a block is named as the table has turned at it; the tip goes straight on the table (FANUC 30i, A-79348E, page
-20). So rows hold the tip on the table, as without WKP, and displays show it in the work system. Arcs are those on the
-table; it may turn their plane in itself only. What would take words in another way is PC0001: one-shot codes with axis
-words, G92, G16, chamfers, and a system that is mirrored, scaled or rotated.
+20). So rows hold the tip on the table, as without WKP, and displays show it in the work system (`Coordinates.naming`).
+Arcs, chamfers and roundings are those on the table; it may turn their plane in itself only.
 """
 
 from __future__ import annotations
@@ -16,11 +15,10 @@ from polycnc.control.fanuc.milling.five_axes import not_yet
 from polycnc.control.fanuc.milling.parameters import FanucMillingParameters
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.coordinates import on_table
-from polycnc.control.word_address.coordinates.on_table import OnTable
 from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.motion import path
-from polycnc.control.word_address.motion.arcs import emit_arc, write_with_rest
-from polycnc.control.word_address.transformations import tool_center_point
+from polycnc.control.word_address.motion.arcs import mirrors_plane, scales, write_with_rest
+from polycnc.control.word_address.transformations import tool_center_point, workpiece
 from polycnc.deferred.records import replace
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.vectors import axis_vector, cross, dot
@@ -29,26 +27,25 @@ from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.block.codes import Step
-    from polycnc.control.word_address.block.plan import AxisWord, Builder, Plan
+    from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import WordAddressChannel
+    from polycnc.geometry.arcs import Point
     from polycnc.toolpath import Context
-    from polycnc.transformation.couplings.coupled import Shown
 
 #: Modal group: "work" while words name the tip in a system that does not turn.
 SYSTEM = "tip_system"
 STRAIGHT, ARCS = {"G0": Kind.RAPID, "G1": Kind.FEED}, ("G2", "G3")
 #: An axis that turns by less (degrees) stands; directions whose sine is smaller are the same.
 NO_TURN_DEG, ALONG = 1e-6, 1e-6
-#: Codes with axis words that name no place of the tip.
-ALLOWED = frozenset(("G4", "G10", "G52", "G65", "G66", "G66.1"))
+#: Codes whose ways are not told in that system: polycnc executes them without it alone.
+NOT_STANDING = frozenset(("G6.2", "G31", "G37", "G45", "G46", "G47", "G48", "G60"))
 
 
 def start_following(channel: WordAddressChannel, words: Words) -> None:
     """G43.4, G43.5 H: words name the tip on the table, by 19696#5 WKP in the work system; PS5459 for G43.5 with that.
 
     Where the table turns, directions begin behind the block of G43.5 (PS5421, as in the control's list of alarms).
-    PC0001 by WKP with an arc in the block and with G54.4.
     """
     directed = channel.mode["length"] == "G43.5" and any(letter in words for letter in "IJK")
     if directed and channel.control.kinematics(channel).work:
@@ -56,9 +53,8 @@ def start_following(channel: WordAddressChannel, words: Words) -> None:
     stands = FanucMillingParameters.naming(channel.setup.parameters).WKP
     if stands and channel.mode["length"] == "G43.5":
         raise words.fail("tip_direction", "G43.5")
-    curved = bool(words.axes()) and channel.mode["motion"] not in STRAIGHT
-    if stands and (OnTable.of(channel).error or curved):
-        raise not_yet("G43.4: 19696#5")
+    state = TipState.of(channel)
+    state.stands, state.beside = stands, ()
     tool_center_point.start_following(channel, words)
     leaning.begin(channel, words)
     channel.mode = channel.mode.with_code(SYSTEM, "work" if stands else "")
@@ -67,124 +63,111 @@ def start_following(channel: WordAddressChannel, words: Words) -> None:
 
 def end_following(channel: WordAddressChannel) -> None:
     """G49 or another length code: the axes are named themselves again; nothing moves."""
+    TipState.of(channel).stands = False
     tool_center_point.end_following(channel)
     leaning.end(channel)
     channel.mode = channel.mode.with_code(SYSTEM, "")
 
 
-def shown(channel: WordAddressChannel) -> Shown:
-    """From the tip in the work system to its places on the table, and back."""
-    from polycnc.transformation.couplings.coupled import Shown
-
-    state = TipState.of(channel)
-    if state.active is None or state.seated is None:
-        raise ValueError("tip control does not lead")
-    bare = replace(state.active, kinematics=replace(state.active.kinematics, work=()))
-    return Shown(state.seated, bare)
-
-
-def place(channel: WordAddressChannel, position: list[float]) -> list[float]:
-    """A position of the path as words name it."""
-    return shown(channel).to_work(position) if _acts(channel) else position
-
-
-def _acts(channel: WordAddressChannel) -> bool:
-    return channel.mode.codes.get(SYSTEM) == "work" and TipState.of(channel).is_leading(channel)
-
-
 def displayed(channel: WordAddressChannel, context: Context) -> Context:
-    """A context while words name the tip in the work system: displays show it there."""
-    return replace(context, shown_by=shown(channel)) if _acts(channel) else context
+    """A context while words name points of another system than that of the path: displays show them there."""
+    naming = channel.coordinates.naming
+    return context if naming is None else replace(context, shown_by=naming)
+
+
+def _check_lengths(builder: Builder) -> None:
+    """PS5421 for G43.4 within G43.5 and the other way round, PS5452 for tip control within G43, G44 and so on.
+
+    General knowledge of FANUC 30i (its lists of these alarms).
+    """
+    before, after = builder.before["length"], builder.mode["length"]
+    led = [code in tool_center_point.TIP_CODES for code in (before, after)]
+    if all(led) and before != after:
+        raise builder.control.fail("tip_company", address=after)
+    if any(led) and not all(led) and "G49" not in (before, after):
+        raise builder.control.fail("five_axis_mode", address=after)
 
 
 def _check_block(builder: Builder) -> None:
     if builder.mode["length"] != "G43.4":
         return
     for row in builder.codes:
-        other = row.group == "motion" and row.code not in (*STRAIGHT, *ARCS)
-        if other or row.code == "G92" or (row.axis_words and row.code not in ALLOWED):
+        if row.code in NOT_STANDING:
             raise not_yet(f"{row.code}: 19696#5")
-    if builder.mode["polar"] == "G16":
-        raise not_yet("G16: 19696#5")
 
 
 def _plan(builder: Builder, plan: Plan) -> Step | None:
-    """A block names its end in the work system, as the table has turned there."""
-    motion = builder.mode["motion"]
-    if builder.mode["length"] != "G43.4" or motion not in (*STRAIGHT, *ARCS):
+    """An arc ends in the work system, as the table has turned there."""
+    if builder.mode["length"] != "G43.4" or builder.mode["motion"] not in ARCS:
         return None
-    told = path.read_center(builder) if motion in ARCS else None
-    if told is not None:
-        _refuse_corner(builder)
-        return _arc(builder, plan, told)
-    if not plan.axis_words:
-        return None
-    _refuse_corner(builder)
-    if motion in ARCS:
-        builder.control.plan_arc_without_center(builder, plan)  # refuses where that is no line
-    return _straight(builder, plan)
-
-
-def _refuse_corner(builder: Builder) -> None:
-    if builder.corner() is not None:
-        raise not_yet(",C: 19696#5")
-
-
-def _straight(builder: Builder, plan: Plan) -> Step:
-    words, kind, names_feed = (
-        plan.axis_words,
-        STRAIGHT.get(builder.mode["motion"], Kind.FEED),
-        builder.has("F"),
-    )
-
-    def move(channel: WordAddressChannel, values: list[float]) -> None:
-        feed = channel.feed if kind == Kind.FEED or names_feed else nan
-        if kind == Kind.FEED and not feed > 0.0:
-            raise channel.control.fail("no_feed")
-        channel.straight(kind, _end(channel, words, values), feed)
-
-    return move
-
-
-def _end(channel: WordAddressChannel, words: tuple[AxisWord, ...], values: list[float]) -> list[float]:
-    """The end of a block on the table."""
-    c, seen = channel.coordinates, shown(channel)
-    if not c.direct:
-        raise not_yet("G51.1: 19696#5")
-    end = seen.to_machine(path.target(channel, words, values, seen.to_work(c.position)))
-    c.pending = [0.0] * len(c.pending)
-    c.owes = False
-    return end
+    told = path.read_center(builder)
+    return None if told is None else _arc(builder, plan, told)
 
 
 def _arc(builder: Builder, plan: Plan, told: path.CenterWords) -> Step:
     """An arc on the table: its centre counts from its start, as the table has turned there (B-63944EN/02, page 669)."""
-    words, plane, ccw = plan.axis_words, PLANES[builder.mode["plane"]], builder.mode["motion"] == "G3"
-    u, v, w = plane
+    motion, plane = builder.mode["motion"], PLANES[builder.mode["plane"]]
+    polar, corner = builder.mode.codes.get("polar") == "G16", builder.corner()
+    reached = workpiece.reach_posed if builder.mode[workpiece.ERROR] else path.reach
+    if polar and builder.mode[workpiece.ERROR]:
+        raise not_yet("G54.4 G16: 19696#5")
 
     def move(channel: WordAddressChannel, values: list[float]) -> None:
         if not channel.feed > 0.0:
             raise channel.control.fail("no_feed")
-        c, seen = channel.coordinates, shown(channel)
-        begin, named = c.position[:], told.tell(values)
-        center = seen.to_work(begin)
-        end = _end(channel, words, values)
-        if not _turns_in_plane(channel, w, begin, end):
-            raise channel.control.fail("tip_company", address=builder.mode["motion"])
-        columns = c.geometry[u], c.geometry[v]
-        if not isinstance(named, float):
-            for column, way in zip(columns, named, strict=True):
-                center[column] += way
-            center = seen.to_machine(center)
-            named = center[columns[0]] - begin[columns[0]], center[columns[1]] - begin[columns[1]]
-        first, last = ((point[columns[0]], point[columns[1]]) for point in (begin, end))
-        found, beside = path.find_center(channel, first, last, named, ccw)
-        if found is None:
-            channel.straight(Kind.FEED, end, channel.feed)
-        elif beside:
-            write_with_rest(channel, end, found, plane, ccw=ccw, feed=channel.feed, programmed=end)
+        c, named, begin = channel.coordinates, told.tell(values), _told(channel, channel.coordinates.position)
+        columns = [c.geometry[axis] for axis in plane[:2]]
+        middle = _middle(channel, columns, named)
+        if polar:
+            goal = channel.control.polar_target(channel, plan, values)
         else:
-            emit_arc(channel, end, found, plane, ccw=ccw, feed=channel.feed)
+            goal = reached(channel, plan.axis_words, values)
+        end, ccw = c.to_position(goal), (motion == "G3") != mirrors_plane(c.programming, plane)
+        if not _turns_in_plane(channel, plane[2], begin, _told(channel, end)):
+            raise channel.control.fail("tip_company", address=motion)
+        first, last = ((point[columns[0]], point[columns[1]]) for point in (c.position, end))
+        if isinstance(named, float):
+            named *= max(scales(c.programming, plane))
+        else:
+            named = middle[columns[0]] - first[0], middle[columns[1]] - first[1]
+        found, _ = path.find_center(channel, first, last, named, ccw)
+        if corner is not None:
+            corner(channel, values)
+        if found is None:
+            channel.straight(Kind.FEED, end, channel.feed, goal)
+        else:
+            write_with_rest(channel, end, found, plane, ccw=ccw, feed=channel.feed, programmed=goal)
+
+    return move
+
+
+def _middle(channel: WordAddressChannel, columns: list[int], named: float | Point) -> list[float]:
+    """The centre on the table, by its way from the start; the start where a radius tells the arc."""
+    c = channel.coordinates
+    middle = c.programmed[:]
+    if not isinstance(named, float):
+        for column, way in zip(columns, named, strict=True):
+            middle[column] += way
+    return c.to_position(middle)
+
+
+def _told(channel: WordAddressChannel, position: list[float]) -> list[float]:
+    """A position of the path with rotary axes as words tell them, on a work that lies elsewhere too."""
+    beside = TipState.of(channel).beside
+    return [value + way for value, way in zip(position, beside, strict=True)] if beside else position
+
+
+def _in_plane(builder: Builder, _plan: Plan, step: Step | None) -> Step | None:
+    """PS5421 for a chamfer or a rounding in a plane that the table turns out of itself."""
+    if step is None or builder.mode["length"] != "G43.4" or builder.corner() is None:
+        return step
+    motion, w = builder.mode["motion"], PLANES[builder.mode["plane"]][2]
+
+    def move(channel: WordAddressChannel, values: list[float]) -> None:
+        begin = _told(channel, channel.coordinates.position)
+        step(channel, values)
+        if not _turns_in_plane(channel, w, begin, _told(channel, channel.coordinates.position)):
+            raise channel.control.fail("tip_company", address=motion)
 
     return move
 
@@ -192,10 +175,15 @@ def _arc(builder: Builder, plan: Plan, told: path.CenterWords) -> Step:
 def _plan_start(builder: Builder, plan: Plan) -> Step | None:
     """The block in which tip control begins: the axes go straight to where its words are (B-63944EN/02, page 656)."""
     motion, words = builder.mode["motion"], plan.axis_words
-    begins = motion in STRAIGHT and builder.before["length"] not in tool_center_point.TIP_CODES
-    if not words or not begins or any(builder.has(letter) for letter in "IJK"):
+    if motion not in STRAIGHT or builder.before["length"] in tool_center_point.TIP_CODES:
         return None
-    if builder.mode["polar"] == "G16" or builder.corner() is not None:
+    if builder.mode["length"] == "G43.5":
+        directed = tool_center_point.plan_with_direction(
+            builder, plan, leaning.leaned if builder.has("Q") else None, _straight_by_axes
+        )
+        if directed is not None:
+            return directed
+    if not words or builder.mode["polar"] == "G16" or builder.corner() is not None:
         return None
     kind, names_feed = STRAIGHT[motion], builder.has("F")
 
@@ -203,19 +191,30 @@ def _plan_start(builder: Builder, plan: Plan) -> Step | None:
         feed = channel.feed if kind == Kind.FEED or names_feed else nan
         if kind == Kind.FEED and not feed > 0.0:
             raise channel.control.fail("no_feed")
-        c, led = channel.coordinates, channel.coordinates.transformation
-        machine = c.to_machine(c.to_position(path.reach(channel, words, values)))
-        channel.flush()
-        c.transform(None)
-        with channel.under(replace(channel.context, shown_by=led)):
-            channel.straight(kind, c.from_machine(machine), feed)
-            channel.flush()
-        c.transform(led)
+        programmed = path.reach(channel, words, values)
+        _straight_by_axes(channel, kind, channel.coordinates.to_position(programmed), feed, programmed)
         standing = channel.control.kinematics(channel).axes
         on_table.begin_posture(channel, told=any(channel.axes[word.axis] in standing for word in words))
-        channel.context_changed()
 
     return move
+
+
+def _straight_by_axes(
+    channel: WordAddressChannel, kind: Kind, end: list[float], feed: float, _programmed: list[float]
+) -> None:
+    """Straight in the axes to where tip control will have the tip; displays show this already."""
+    from polycnc.transformation.couplings.coupled import Shown
+
+    c = channel.coordinates
+    led, naming, machine = c.transformation, c.naming, c.to_machine(end)
+    channel.flush()
+    c.transform(None)
+    shown = naming.bare if isinstance(naming, Shown) else led
+    with channel.under(replace(channel.context, shown_by=shown)):
+        channel.straight(kind, c.from_machine(machine), feed)
+        channel.flush()
+    c.transform(led, naming=naming)
+    channel.context_changed()
 
 
 def _refuse_standing_arc(builder: Builder, plan: Plan) -> Step | None:
@@ -260,7 +259,9 @@ def _turns_in_plane(channel: WordAddressChannel, w: int, begin: list[float], end
 
 
 #: Words while they name the tip in a system that does not turn.
-RULE = Rule("tip in a system that stands", modes={SYSTEM: ("work",)}, check=_check_block, motion=_plan)
+RULE = Rule(
+    "tip in a system that stands", modes={SYSTEM: ("work",)}, check=_check_block, motion=_plan, wrap=_in_plane
+)
 #: Arcs of the tip.
 ARC_RULE = Rule(
     "arcs under tip control",
@@ -269,3 +270,9 @@ ARC_RULE = Rule(
 )
 #: Straight blocks in which tip control begins.
 START_RULE = Rule("block in which tip control begins", codes=tool_center_point.TIP_CODES, motion=_plan_start)
+#: One kind of length compensation in another.
+LENGTH_RULE = Rule(
+    "kinds of length compensation",
+    codes=("G43", "G44", *tool_center_point.TIP_CODES),
+    check=_check_lengths,
+)

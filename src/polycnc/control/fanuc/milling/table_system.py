@@ -29,9 +29,9 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.family import WordAddressChannel
-    from polycnc.toolpath import Context
     from polycnc.transformation.seated import Seated
 
+NOWHERE = (0.0, 0.0, 0.0)
 #: Modal group: "table" while words name points of the table.
 SYSTEM = "point_system"
 STRAIGHT = {"G0": Kind.RAPID, "G1": Kind.FEED}
@@ -61,6 +61,7 @@ def cancel(channel: WordAddressChannel, words: Words) -> None:
     leading_edge.cancel(channel, words)
     if TableState.of(channel).led is not None:
         TableState.of(channel).led = None
+        channel.coordinates.name(None)
         channel.mode = channel.mode.with_code(SYSTEM, "")
         channel.context_changed()
 
@@ -71,7 +72,7 @@ def _begin(channel: WordAddressChannel, words: Words) -> None:
     from polycnc.transformation.seated import Seated
 
     c = channel.coordinates
-    table = replace(channel.control.kinematics(channel), tool=(), nose=(0.0, 0.0, 0.0))
+    table = replace(channel.control.kinematics(channel), tool=(), nose=NOWHERE, to_nose=NOWHERE)
     zero, offsets = work_zero(channel, c.offsets), c.offsets.copy()
     for axis, place in zip(c.geometry, zero, strict=True):
         offsets[axis] = place
@@ -83,27 +84,28 @@ def _begin(channel: WordAddressChannel, words: Words) -> None:
     channel.context_changed()
 
 
-def place(channel: WordAddressChannel, position: list[float]) -> list[float]:
-    """A position of the path as words name it."""
-    led = TableState.of(channel).led
-    return position if led is None else led.to_work(position)
+def _behind(builder: Builder, _plan: Plan) -> Step | None:
+    """From the block behind the first one on words name points of the table."""
+    if builder.mode["compensation"] not in spatial.SIDES:
+        return None
 
+    def name(channel: WordAddressChannel, _values: list[float]) -> None:
+        led = TableState.of(channel).led
+        if led is not channel.coordinates.naming and led is not None:
+            channel.coordinates.name(led)
+            channel.context_changed()
 
-def displayed(channel: WordAddressChannel, context: Context) -> Context:
-    """A context while words name points of the table: displays show these."""
-    led = TableState.of(channel).led
-    return context if led is None else replace(context, shown_by=led)
+    return name
 
 
 def _plan(builder: Builder, plan: Plan) -> Step | None:
-    """A straight block: its words are the end on the table."""
+    """A straight block whose I J K name the direction of the tool on the table."""
     words, motion = plan.axis_words, builder.mode["motion"]
     side = builder.mode["compensation"]
     letters = [letter for letter in "IJK" if side in spatial.BY_VECTOR and builder.has(letter)]
-    if not (words or letters) or motion not in STRAIGHT or side not in spatial.SIDES:
+    if not letters or motion not in STRAIGHT:
         return None
-    if letters:
-        five_axes.refuse_two_directions(builder, plan)
+    five_axes.refuse_two_directions(builder, plan)
     builder.take(*letters)
     kind, names_feed = STRAIGHT[motion], builder.has("F")
 
@@ -112,22 +114,18 @@ def _plan(builder: Builder, plan: Plan) -> Step | None:
         feed = channel.feed if kind == Kind.FEED or names_feed else nan
         if kind == Kind.FEED and not feed > 0.0:
             raise channel.control.fail("no_feed")
-        if led is None or not c.direct:
-            raise not_yet("G51.1: 19746#4")
-        point = path.target(channel, words, values, led.to_work(c.position))
-        if letters:
+        point = path.reach(channel, words, values)
+        if led is not None:
             _turn(channel, led, Words(plan, values), point)
-        end = led.to_machine(point)
-        c.pending = [0.0] * len(c.pending)
-        c.owes = False
-        channel.straight(kind, end, feed)
+        channel.straight(kind, c.to_position(point), feed, point)
 
     return move
 
 
 def _turn(channel: WordAddressChannel, led: Seated, words: Words, point: list[float]) -> None:
     """Let the rotary axes of a point of the table stand the tool along I J K there."""
-    x, y, z = (words.typed(letter) or 0.0 for letter in "IJK")
+    i, j, k = (words.part(letter) or 0.0 for letter in "IJK")
+    x, y, z = channel.memory.frames.directions.direct(i, j, k)
     if not (x or y or z) or not turn_to(channel, led.frame.direct(x, y, z), _here(channel), point):
         raise words.fail("tip_direction", "I")
 
@@ -157,3 +155,5 @@ def _before(builder: Builder, plan: Plan) -> Step | None:
 SAME_MM = 1e-6
 #: Words while they name points of the table.
 RULE = Rule("points of the table", modes={SYSTEM: ("table",)}, before=_before, motion=_plan)
+#: Blocks in which the compensation begins.
+START_RULE = Rule("block in which points of the table begin", codes=tuple(spatial.SIDES), after=_behind)

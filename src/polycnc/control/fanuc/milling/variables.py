@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.fanuc.milling import standing_system, table_system
 from polycnc.control.fanuc.system_variables import (
     COMMON_VARIABLES,
     axis_at,
@@ -203,15 +202,10 @@ def _shown(m: MacroMemory, axis: int, value: float) -> float:
     return m.to_program_unit(value)
 
 
-def _named(channel: MacroChannel, position: list[float]) -> list[float]:
-    """A position of the path as words name it."""
-    return table_system.place(channel, standing_system.place(channel, position))
-
-
 def _end_point(m: MacroMemory, i: int) -> float:
     """Work coordinates of the block end, as programmed."""
     axis = axis_at(m, i)
-    return _shown(m, axis, _named(m.channel, m.channel.coordinates.position)[axis])
+    return _shown(m, axis, m.channel.coordinates.named(m.channel.coordinates.position)[axis])
 
 
 def _machine(m: MacroMemory, i: int) -> float:
@@ -221,22 +215,33 @@ def _machine(m: MacroMemory, i: int) -> float:
     return machine if channel.axis_data[axis].rotary else m.to_program_unit(machine)
 
 
+def _lengths(channel: MacroChannel) -> list[float]:
+    """The tool length along every axis, on a tilted plane along those of the plane."""
+    c, lengths = channel.coordinates, list(ZeroState.of(channel).length)
+    if not c.zero.is_identity:
+        x, y, z = (lengths[axis] if axis >= 0 else 0.0 for axis in c.geometry)
+        for axis, part in zip(c.geometry, c.zero.inverse().direct(x, y, z), strict=True):
+            if axis >= 0:
+                lengths[axis] = part
+    return lengths
+
+
 def _work_with_length(m: MacroMemory, i: int) -> float:
     """Work position now: machine position less work zero, the tool length not taken off."""
     axis = axis_at(m, i)
-    place = _named(m.channel, tool_position(m.channel))
-    return _shown(m, axis, place[axis] + ZeroState.of(m.channel).length[axis])
+    place = m.channel.coordinates.named(tool_position(m.channel))
+    return _shown(m, axis, place[axis] + _lengths(m.channel)[axis])
 
 
 def _skip(m: MacroMemory, i: int) -> float:
     """Where the last G31 ended; as the work position, with the tool length in it."""
     axis = axis_at(m, i)
     position = LastSkip.here(m.channel)
-    return m.to_program_unit(position[axis] + ZeroState.of(m.channel).length[axis])
+    return m.to_program_unit(position[axis] + _lengths(m.channel)[axis])
 
 
 def _length(m: MacroMemory, i: int) -> float:
-    return m.to_program_unit(ZeroState.of(m.channel).length[axis_at(m, i)])
+    return m.to_program_unit(_lengths(m.channel)[axis_at(m, i)])
 
 
 MILLING_VARIABLES = Registry(

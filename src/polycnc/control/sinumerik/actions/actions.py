@@ -14,6 +14,7 @@ from polycnc.control.sinumerik.actions import axes as action_axes
 from polycnc.control.sinumerik.actions import overlay
 from polycnc.control.sinumerik.actions.acting import ActionRun, is_executed
 from polycnc.control.sinumerik.actions.action import Action
+from polycnc.control.sinumerik.axes import spindles as spindle_axes
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.signals import measuring_actions
@@ -286,6 +287,8 @@ def define(channel: SinumerikChannel, code: ActionCode, number: int | None, froz
     actions = SynchronisedActions.of(channel)
     clocked.watch(actions)
     commanded, shifted = (_columns(channel, axes) for axes in (code.needs.axes, code.needs.shifts))
+    if "SPOS" in code.needs.words:
+        commanded = [*commanded, *spindle_axes.all_of(channel)]
     if commanded:
         action_axes.expect(channel, commanded)
     if shifted:

@@ -8,6 +8,7 @@ from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.actions import axes as action_axes
 from polycnc.control.sinumerik.actions import fixed_stop
 from polycnc.control.sinumerik.actions.axes import ActionAxes
+from polycnc.control.sinumerik.axes import spindles as spindle_axes
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.positions import Dimension, is_diameter
 from polycnc.control.sinumerik.m_functions import DIRECTIONS
@@ -52,12 +53,17 @@ def _rotary(run: Running, column: int, here: float, target: float, modifier: str
     """A modulo axis goes within its turn, or the way that DC, ACP, ACN ask for."""
     if not run.channel.axis_data[column].modulo:
         return target
-    way = (target - here) % tables.TURN
-    if modifier == "ACN" or (modifier == "DC" and way > tables.TURN / 2.0):
-        way -= tables.TURN if way else 0.0
-    elif modifier not in ("DC", "ACP"):
+    if modifier not in ("DC", "ACP", "ACN"):
         return here - here % tables.TURN + target % tables.TURN
-    return here + way
+    return here + _way(here, target, modifier)
+
+
+def _way(here: float, target: float, modifier: str) -> float:
+    """To an angle by the shorter way (DC), or in a direction (ACP, ACN), degrees."""
+    way = (target - here) % tables.TURN
+    if modifier == "ACN" or (modifier != "ACP" and way > tables.TURN / 2.0):
+        way -= tables.TURN if way else 0.0
+    return way
 
 
 def endless(run: Running, index: Any, _modifier: str, value: float) -> None:
@@ -87,9 +93,13 @@ def feed(run: Running, index: Any, _modifier: str, value: float) -> None:
 def _commandable(run: Running, index: Any) -> int:
     """Column of an axis that may be commanded; 20141 for one that the path moves, or that another channel has."""
     column = arguments.column(run.channel, index)
+    _check_commandable(run, column)
+    return column
+
+
+def _check_commandable(run: Running, column: int) -> None:
     if run.clocked.is_on_path(column) or action_axes.is_elsewhere(run.channel, column):
         raise AlarmError("20141", axis=run.channel.axes[column])
-    return column
 
 
 def auxiliary_function(run: Running, index: Any, _modifier: str, value: float) -> None:
@@ -127,8 +137,18 @@ def spindle_speed(run: Running, index: Any, _modifier: str, value: float) -> Non
 
 
 def spindle_position(run: Running, index: Any, modifier: str, value: float) -> None:
-    """SPOS: the spindle stands at an angle, beside the program."""
+    """SPOS: the spindle stands at an angle, beside the program; the axis that it is goes there, as by POS."""
     spindle = run.channel.memory.spindles.get(arguments.spindle(index))
+    column = spindle_axes.axis_of(run.channel, spindle.number)
+    if column >= 0:
+        _check_commandable(run, column)
+        here = run.clocked.machine(column)
+        if spindle.direction == 0:
+            spindle.position = here % tables.TURN
+        way = value if modifier == "IC" else _way(here, value, modifier or "DC")
+        action_axes.check_target(run.channel, column, here + way)
+        run.targets[column] = here + way
+        run.directions.pop(column, None)
     place = spindle.position + value if modifier == "IC" else value
     run.changed = run.changed or spindle.direction != 0 or spindle.position != place % tables.TURN
     spindle.position, spindle.direction, spindle.controlled = place % tables.TURN, 0, True

@@ -23,6 +23,12 @@ def axis_of(channel: SinumerikChannel, number: int) -> int:
     return names.index(spindle.axis) if spindle is not None and spindle.axis in names else -1
 
 
+def all_of(channel: SinumerikChannel) -> list[int]:
+    """Columns of the axes that are spindles as well."""
+    found = (axis_of(channel, number) for number in sorted(channel.machine.spindle))
+    return [column for column in found if column >= 0]
+
+
 def follow_axis(channel: SinumerikChannel, spindle: Spindle) -> None:
     """A spindle that does not turn is where its axis has gone since."""
     column = axis_of(channel, spindle.number)
@@ -50,6 +56,13 @@ def stand(channel: SinumerikChannel, spindle: Spindle, *, awaited: bool) -> None
     coordinates.arrive(end)
     if awaited:
         action_axes.await_positioned(channel, column)
+
+
+def orient(channel: SinumerikChannel, spindle: Spindle, angle: float) -> None:
+    """M19, and SPOS of a cycle: the spindle stops and stands at an angle, degrees; its axis stands there too."""
+    spindle.position, spindle.direction, spindle.controlled = angle % tables.TURN, 0, True
+    channel.context_changed()
+    stand(channel, spindle, awaited=True)
 
 
 def wait(channel: SinumerikChannel, number: int) -> None:

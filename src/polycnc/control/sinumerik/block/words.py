@@ -447,12 +447,19 @@ def cutting_rate(draft: Draft, position: int, _shape: WordShape) -> Step:
 
 
 def path_feed_of_axis(draft: Draft, position: int, shape: WordShape) -> Step:
-    """FGREF, FL: reference radius of a rotary axis, limit of a synchronous axis; for the motion planner (`pace.py`)."""
+    """FGREF, FL: reference radius of a rotary axis, limit of a synchronous axis; for the motion planner (`pace.py`).
+
+    The limit is mm, inches or degrees a minute, whatever F is.
+    """
     column = axis_column(draft, position, shape)
-    factor = length_factor(draft.mode) if shape.address == "FGREF" else moves.feed_factor(draft)
+    factors = (
+        [length_factor(draft.mode)] * 2
+        if shape.address == "FGREF"
+        else [tables.axis_feed_factor(draft.mode, rotary=rotary) for rotary in (False, True)]
+    )
 
     def run(channel: SinumerikChannel, values: Values) -> None:
-        value = number(values, position) * factor
+        value = number(values, position) * factors[channel.axis_data[column].rotary]
         if value <= 0.0:
             raise WordAlarm("12560", position, text=shape.address)
         overrides = Overrides.of(channel)

@@ -13,7 +13,7 @@ from functools import partial
 from math import nan
 from typing import TYPE_CHECKING, ParamSpec, TypeAlias
 
-from polycnc.control.sinumerik import tables
+from polycnc.control.sinumerik.axes import spindles as spindle_axes
 from polycnc.control.sinumerik.motion import circles
 from polycnc.control.sinumerik.motion import moves as motion
 from polycnc.geometry.planes import PLANES
@@ -198,10 +198,7 @@ class Moves:
         self.channel.event(Auxiliary(M_OF_DIRECTION[direction]))
 
     def _orient(self, angle: float) -> None:
-        spindle = self.spindle
-        spindle.position = angle % tables.TURN
-        spindle.controlled, spindle.direction = True, 0
-        self.channel.context_changed()
+        spindle_axes.orient(self.channel, self.spindle, angle)
 
     def _speed(self, rpm: float) -> None:
         spindle = self.spindle

@@ -101,6 +101,7 @@ def _edge_data(edge: Edge) -> Iterator[tuple[str, float]]:
         yield "$TC_DPNT", edge.teeth
     if edge.cutting_edge:
         yield "$TC_DPCE", edge.cutting_edge
+    yield from ((f"$TC_DP{part}", value) for part, value in edge.directions.items() if value)
     for (kind, number), value in edge.additive.items():
         if value:
             yield f"$TC_{kind}{number}", value

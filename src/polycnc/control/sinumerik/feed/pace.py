@@ -58,6 +58,7 @@ def pace(channel: SinumerikChannel, side: int) -> Pace | None:
         rapid=overrides.percent.get(("OVRRAP", ""), 100.0) / 100.0,
         edge=EDGES[channel.mode["curve_feed"]] if side else "never",
         weights=_weights(channel),
+        turning=_turning(channel),
         top=_tops(channel),
         reach=_reach(channel),
         velocity=_factors(channel, "VELOLIM"),
@@ -109,6 +110,13 @@ def _weights(channel: SinumerikChannel) -> tuple[float, ...]:
         turns = channel.memory.axes[column].rotary
         weights[column] = radius * pi / 180.0 if turns else sizes.get(column, 1.0)
     return tuple(weights) if named or sizes else ()
+
+
+def _turning(channel: SinumerikChannel) -> tuple[float, ...]:
+    """What a degree counts where rotary axes outside of FGROUP move alone: an arc of FGREF, mm."""
+    radii = Overrides.of(channel).radii
+    columns = range(len(channel.axes)) if radii else ()
+    return tuple(radii.get(column, DEGREE_MM) * pi / 180.0 for column in columns)
 
 
 def _sizes(channel: SinumerikChannel) -> dict[int, float]:

@@ -16,15 +16,17 @@ from polycnc.control.sinumerik.frames.memory import BEFORE_BASE, chain
 from polycnc.control.sinumerik.tools.holders import active as carriers
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.transformations.posture import Posture
+from polycnc.deferred.records import replace
 from polycnc.geometry.frames import Frame, Vector
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.vectors import axis_vector, cross, dot, minus, times
 from polycnc.language.sinumerik.names.frame import NEUTRAL, NcFrame
-from polycnc.machine.kinematics import unit
+from polycnc.machine.kinematics import Kinematics, unit
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.block.draft import Values
     from polycnc.control.sinumerik.family import SinumerikChannel
+    from polycnc.toolpath import Context
 
 OFF = "TOROTOF"
 #: Functions that also take the programmable frame away.
@@ -68,14 +70,27 @@ def by_table(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001
 def tool_direction(channel: SinumerikChannel) -> Vector:
     """Direction along the tool in the basic coordinate system.
 
-    An orientation transformation says it; else it is the plane's third axis as the holder turns it.
+    An orientation transformation says it; else its edge does, or the plane with its third axis, as the holder turns it.
     """
     if seat.centre_point(channel) is not None:
         posture = Posture.of(channel, channel.mode)
         return posture.direction(posture.angles(channel.coordinates.position))
-    across = axis_vector(PLANES[channel.mode["plane"]][2])
-    carrier = channel.memory.tools.carrier
-    return across if carrier is None else carrier.direct(*across)
+    return channel.memory.tools.direction(channel.mode["plane"])
+
+
+def mechanism(channel: SinumerikChannel, context: Context) -> Kinematics:
+    """The rotary joints of the machine, with the tool as it stands with them at zero.
+
+    Where no joint carries it, and the machine file names no other axis than Z, it points along the plane's third axis,
+    as its length counts, and as a holder turns it.
+    """
+    point, kinematics = seat.centre_point(channel), Kinematics.of(channel.machine)
+    if point is not None:
+        return point.kinematics
+    if kinematics.tool or kinematics.along != axis_vector(2):
+        return kinematics
+    across, carrier = axis_vector(PLANES[context.plane][2]), channel.memory.tools.carrier
+    return replace(kinematics, along=across if carrier is None else carrier.direct(*across))
 
 
 def _turned(frame: Frame) -> tuple[Vector, Vector, Vector]:

@@ -91,7 +91,7 @@ class Coupling:
         factor: Degrees of the axis for a degree of the path's direction.
         offset: Offset angle, degrees; `added` is what words of the axis have put to it.
         lifts: At corners of more than `lift_deg` the path stands while the axis turns (TLIFT), at `lift_feed` in
-            degrees/s.
+            degrees/s, or on a circle of `lift_radius` at the speed of the path where that is not 0, mm.
         leads_speed: Optimisation P: the path waits for the axis at corners.
         smoothing_mm: With P, the way over which the axis may still turn behind a corner.
         tolerance_deg: With P, by how much it may be off meanwhile.
@@ -108,6 +108,7 @@ class Coupling:
     lifts: bool
     lift_deg: float
     lift_feed: float
+    lift_radius: float
     leads_speed: bool
     smoothing_mm: float
     tolerance_deg: float

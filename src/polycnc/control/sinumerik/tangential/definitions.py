@@ -5,7 +5,7 @@ A word of a coupled axis is put to its offset angle: absolute ones take the plac
 
 from __future__ import annotations
 
-from math import inf, nan, pi
+from math import inf, nan
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.path import PlacedEvent
@@ -123,7 +123,8 @@ def couple(channel: SinumerikChannel, args: Arguments) -> None:
         angle,
         definition.lifts,
         memory.data.number("$MA_EPS_TLIFT_TANG_STEP", channel.axes[column]),
-        _lift_feed(channel, column),
+        action_axes.speed_of(channel, column),
+        Overrides.of(channel).radii.get(column, 0.0),
         definition.optimised,
         distance * tables.length_factor(channel.mode),
         inf if unbounded else tolerance,
@@ -191,14 +192,6 @@ def _couple_anew(channel: SinumerikChannel, column: int) -> None:
         stage.couplings[column] = replace(
             coupling, factor=told.factor, leads_speed=told.optimised, lifts=told.lifts
         )
-
-
-def _lift_feed(channel: SinumerikChannel, column: int) -> float:
-    """Speed of the block that TLIFT inserts, degrees/s: F on the circle of FGREF, else that of positioning."""
-    radius = Overrides.of(channel).radii.get(column)
-    if radius is not None and channel.feed > 0.0:
-        return min(channel.feed * 180.0 / (pi * radius), channel.axis_data[column].rapid)
-    return action_axes.speed_of(channel, column)
 
 
 def is_coupled(channel: SinumerikChannel, column: int) -> bool:

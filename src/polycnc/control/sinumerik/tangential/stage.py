@@ -7,7 +7,7 @@ the latest up to the end of the move.
 
 from __future__ import annotations
 
-from math import inf
+from math import degrees, inf
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves import knots, origins
@@ -118,7 +118,14 @@ class TangentialStage(Stage):
     def _turn_first(self, move: Move, coupling: Coupling, jump: float) -> float:
         """What is left of a jump behind the turn in front of the move, where there is one."""
         if coupling.lifts and abs(jump) > coupling.lift_deg:
-            self._turn(move, coupling, coupling.at + jump, coupling.lift_feed, move.context, origins.TURN)
+            self._turn(
+                move,
+                coupling,
+                coupling.at + jump,
+                self._lift_speed(move, coupling),
+                move.context,
+                origins.TURN,
+            )
             return 0.0
         if coupling.leads_speed and move.kind is not Kind.RAPID and move.turning is None:
             left = min(abs(jump), coupling.tolerance_deg) if coupling.smoothing_mm else 0.0
@@ -131,6 +138,13 @@ class TangentialStage(Stage):
                 return left
         return jump
 
+    def _lift_speed(self, move: Move, coupling: Coupling) -> float:
+        """How fast TLIFT turns an axis in front of a move, degrees/s."""
+        speed = self._speed(move, MovePath(move, self._channel.coordinates.geometry).length)
+        if not speed or not coupling.lift_radius:
+            return coupling.lift_feed
+        return min(degrees(speed / coupling.lift_radius), coupling.velocity)
+
     def _turn(
         self, move: Move, coupling: Coupling, place: float, feed: float, context: int, origin: int
     ) -> None:
@@ -142,9 +156,11 @@ class TangentialStage(Stage):
             center=None, turns=0.0, parameters=(), turning=None, origin=origin,
         )  # fmt: skip
         toolpath = self._channel.toolpath
-        if toolpath.contexts[context].feed_mode is not FeedMode.PER_MINUTE:
-            per_minute = replace(toolpath.contexts[context], feed_mode=FeedMode.PER_MINUTE)
-            turn.context = toolpath.context_number(per_minute)
+        own = toolpath.contexts[context]
+        turn.feed *= own.degree_mm
+        pace = replace(own.pace, weights=(), turning=()) if own.pace is not None else None
+        if own.feed_mode is not FeedMode.PER_MINUTE or pace != own.pace:
+            turn.context = toolpath.context_number(replace(own, feed_mode=FeedMode.PER_MINUTE, pace=pace))
         self.after.move(turn)
         move.start = end.copy()
         coupling.at = place

@@ -55,7 +55,8 @@ def set_number(channel: SinumerikChannel, args: Arguments) -> int:
 def check_numbers(channel: SinumerikChannel, args: Arguments) -> bool:
     """CHKDNO([t1 [, t2 [, d]]]): whether D numbers are unique; variables that are given get those that are not.
 
-    Without tools all are compared, with one that one with all others. Edges that DZERO has marked do not count.
+    Without tools all are compared, with one that one with all others, and without d, or where it is 0, all numbers.
+    Edges that DZERO has marked do not count.
     """
     tools: Tools = channel.memory.tools
     places = [*args, None, None, None][:3]
@@ -66,7 +67,7 @@ def check_numbers(channel: SinumerikChannel, args: Arguments) -> bool:
         if any(wanted is not None and wanted not in (one, other) for wanted in (first, second)):
             continue
         both = _valid(tools.tools[one]) & _valid(tools.tools[other])
-        found = min((d for d in both if number in (None, d)), default=None)
+        found = min((d for d in both if number in (None, 0, d)), default=None)
         if found is not None:
             pair = (other, one) if other == first or one == second else (one, other)
             for place, value in zip(places, (*pair, found), strict=True):

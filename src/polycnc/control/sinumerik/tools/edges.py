@@ -5,7 +5,7 @@ Source: job planning 7.1 (tool parameters), 7.2 (additive offsets).
 
 from __future__ import annotations
 
-from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.records import dataclass, field, replace
 from polycnc.memory.encoding import encoded
 
 #: Parameters of a cutting edge: $TC_DP1 … $TC_DP25.
@@ -26,6 +26,9 @@ TURNING_TYPES = range(400, 600)
 GRINDING_TYPES = range(400, 500)
 #: Of a slotting saw $TC_DP6 is the diameter.
 SAW = 700
+#: Names behind `$TC_DP` of the direction of the tool: as a number, and along lengths 1 to 3; and of the edge's normal.
+DIRECTION, DIRECTION_PARTS = "V", ("V3", "V4", "V5")
+NORMAL_PARTS = ("VN3", "VN4", "VN5")
 #: Additive offsets: wear (fine), set-up (coarse).
 FINE, COARSE = "SCP", "ECP"
 
@@ -41,6 +44,8 @@ class Edge:
         cutting_edge: `$TC_DPCE`, 0 while it equals the D number.
         is_valid: False after DZERO.
         additive: Additive offsets, wear (`$TC_SCPn`) and setup (`$TC_ECPn`), by kind and number n.
+        directions: Direction of the tool and normal of the edge, `$TC_DPV…` by what is behind `$TC_DP` in their names;
+            what is not there is 0.
     """
 
     values: list[float] = field(default_factory=lambda: [0.0] * (PARAMETERS + 1))
@@ -48,6 +53,7 @@ class Edge:
     cutting_edge: int = 0
     is_valid: bool = True
     additive: dict[tuple[str, int], float] = field(default_factory=dict)
+    directions: dict[str, float] = field(default_factory=dict)
 
     @property
     def type(self) -> int:
@@ -63,6 +69,20 @@ class Edge:
     def has_angle_limits(self) -> bool:
         """Whether it cuts between two angles only, as an edge of a contour tool (7.1)."""
         return self.is_turning and any(self.total(n) for n in (DP_LEAST_ANGLE, DP_LARGEST_ANGLE))
+
+    @property
+    def without_base(self) -> Edge:
+        """The same without base dimensions."""
+        values = [
+            value if n < DP_BASE_LENGTH or n > DP_BASE_LENGTH + 2 else 0.0
+            for n, value in enumerate(self.values)
+        ]
+        return replace(self, values=values)
+
+    @property
+    def has_normal(self) -> bool:
+        """Whether it has a normal of its own ($TC_DPVN3 to 5)."""
+        return any(self.directions.get(name) for name in NORMAL_PARTS)
 
     @property
     def is_grinding(self) -> bool:

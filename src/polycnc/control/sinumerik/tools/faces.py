@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 from polycnc.channel.moves.knots import join
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move, Rank, Stage
-from polycnc.compensation.spatial import CHORD_ERROR_MM, MOST_CHORDS, Directions, bends
+from polycnc.compensation.spatial.chords import CHORD_ERROR_MM, Directions, bends, doubled, strays
 from polycnc.control.sinumerik.tools.edges import DP_CORNER_RADIUS, DP_RADIUS, DP_SIDE_ANGLE
 from polycnc.control.sinumerik.tools.spatial import ToolOnWork
 from polycnc.control.sinumerik.transformations import seat
@@ -37,7 +37,6 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.tools.memory import Tools
     from polycnc.geometry.frames import Vector
 
-CODES = frozenset(("CUT3DF", "CUT3DFS", "CUT3DFF"))
 #: Shapes by type of the tool: what touches, and whether a cone limits it. Other types count as a ball (110).
 BALL, LENS, EDGE, TORUS = "ball", "lens", "edge", "torus"
 SHAPES = {
@@ -166,7 +165,7 @@ class FaceStage(Stage):
 
     def move(self, move: Move) -> None:
         """Take the next move; an arc becomes chords."""
-        path = MovePath(move, self._geometry)
+        path = MovePath(move, self._geometry, in_chords=True)
         first, last = self._surface.first_normal, self._surface.normal
         self._surface.first_normal = self._surface.normal
         if self._at is not None:
@@ -184,8 +183,7 @@ class FaceStage(Stage):
         count = self._pieces(move, first, last)
         if move.is_arc:
             count = max(count, parts_for_chord_error(path.radius, path.sweep, CHORD_ERROR_MM))
-        while count < MOST_CHORDS and bends(beside, count):
-            count *= 2
+        count = doubled(count, lambda n: bends(beside, n) or strays(path, self.posture, n))
         pieces = [path.between(k / count, (k + 1) / count) for k in range(count)]
         chords = [replace(piece, kind=Kind.SPLINE, center=None, turns=0.0) for piece in pieces]
         if not move.is_arc:

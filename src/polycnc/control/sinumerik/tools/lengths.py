@@ -4,7 +4,8 @@ Setting data, the functions TOWSTD … and the frame count as they were when the
 with the next T or D (job planning 7.3). The plane acts at once, but for wear that lies in a system of its own: that
 keeps the axes which it had at the selection (Function Manual W1).
 
-Source: job planning 7.3 (SD42900 to SD42960, TOWSTD …); Function Manual W1 (bits of SD42935, which sign acts where).
+Source: job planning 7.3 (SD42900 to SD42960, TOWSTD …); Function Manual W1 (bits of SD42935, which sign acts where;
+`$TC_DPV`, values of SD42950).
 """
 
 from __future__ import annotations
@@ -13,6 +14,8 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.tools.edges import (
     COARSE,
+    DIRECTION,
+    DIRECTION_PARTS,
     DP_BASE_LENGTH,
     DP_LENGTH,
     DP_TIP,
@@ -21,6 +24,7 @@ from polycnc.control.sinumerik.tools.edges import (
 )
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.geometry.frames import IDENTITY, Frame, Vector
+from polycnc.machine.kinematics import unit
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -47,6 +51,8 @@ WITH_CARRIER, OF_WORK = "TOWTCS", "TOWWCS"
 #: The system of the machine's axes, and all in which wear stays as it is while a transformation turns the tool.
 OF_MACHINE = "TOWMCS"
 AGAINST_TOOL = frozenset((OF_MACHINE, "TOWBCS", OF_WORK))
+#: SD42950: lengths of every tool lie as those of a milling or of a turning tool; another value leaves it to the type.
+AS_MILLING, AS_TURNING = 1, 2
 
 
 class Rules(NamedTuple):
@@ -55,7 +61,7 @@ class Rules(NamedTuple):
     Attributes:
         plane: Plane in which the edge was selected.
         constant: SD42940, 0 where lengths follow the plane.
-        as_turning: SD42950 makes every tool a turning tool.
+        length_type: SD42950.
         mirrors_lengths: SD42900.
         mirrors_wear: SD42910.
         sign_by_tip: SD42920.
@@ -70,7 +76,7 @@ class Rules(NamedTuple):
 
     plane: str = "G17"
     constant: int = 0
-    as_turning: bool = False
+    length_type: int = 0
     mirrors_lengths: bool = False
     mirrors_wear: bool = False
     sign_by_tip: bool = False
@@ -92,9 +98,35 @@ class Lengths(NamedTuple):
 
 def axes_of(edge: Edge, rules: Rules, plane: str) -> tuple[int, int, int]:
     """Geometry axes (0 X, 1 Y, 2 Z) of lengths 1, 2 and 3."""
-    turning = edge.is_turning or rules.as_turning
+    turning = counts_as_turning(edge, rules)
     table = TURNING_LENGTHS if turning else OTHER_LENGTHS
     return table.get(rules.constant or int(plane[1:]), table[18 if turning else 17])
+
+
+def counts_as_turning(edge: Edge, rules: Rules) -> bool:
+    """Whether lengths lie as those of a turning tool."""
+    return rules.length_type == AS_TURNING or (edge.is_turning and rules.length_type != AS_MILLING)
+
+
+def direction_of(edge: Edge, rules: Rules, plane: str) -> Vector | None:
+    """Direction along the tool, away from its tip, that `$TC_DPV…` give it; None where the plane says it (W1).
+
+    `$TC_DPV` names one by its number: 1 to 3 along lengths 1 to 3 of a mill, along 3 to 1 of a turning tool, 4 to 6
+    against them. The others are parts of it along the lengths, and lie where these lie.
+    """
+    parts = [edge.directions.get(name, 0.0) for name in DIRECTION_PARTS]
+    number = int(edge.directions.get(DIRECTION, 0.0))
+    if 1 <= number <= 6:
+        place = (number - 1) % 3
+        place = 2 - place if counts_as_turning(edge, rules) else place
+        parts = [0.0, 0.0, 0.0]
+        parts[place] = 1.0 if number <= 3 else -1.0
+    if not any(parts):
+        return None
+    found = [0.0, 0.0, 0.0]
+    for axis, part in zip(axes_of(edge, rules, plane), parts, strict=True):
+        found[axis] = -part if rules.mirrored[axis] and rules.mirrors_lengths else part
+    return unit((found[0], found[1], found[2]))
 
 
 def along_axes(edge: Edge, rules: Rules, plane: str, location: int, added: Sequence[float]) -> Lengths:

@@ -27,10 +27,13 @@ from polycnc.control.sinumerik.tools.lengths import (
     TURNING_LENGTHS,
     Rules,
     along_axes,
+    direction_of,
 )
 from polycnc.deferred.records import dataclass, field
 from polycnc.geometry.frames import IDENTITY
-from polycnc.geometry.vectors import minus, times
+from polycnc.geometry.planes import PLANES
+from polycnc.geometry.vectors import axis_vector, minus, times
+from polycnc.machine.kinematics import turn_between
 from polycnc.memory.encoding import encoded
 from polycnc.memory.retained import TOOLS
 from polycnc.messages import AlarmError
@@ -231,16 +234,40 @@ class Tools(State, lifetime=Lifetime.POWER):
     def cutting_data(self, plane: str) -> CuttingData | None:
         """Edge position and its companions as the tool stands now; None without an edge."""
         edge = self.edge
-        if edge is None or self.carrier is None or not self.cut_turns:
-            return None if edge is None else cutting_data.unchanged(edge)
-        return cutting_data.turned(edge, self._cutting_plane(plane), self.carrier)
+        return None if edge is None else self._turned_data(edge, plane) or cutting_data.unchanged(edge)
+
+    def _turned_data(self, edge: Edge, plane: str) -> CuttingData | None:
+        """The same of an edge that the carrier turns (CUTMOD); None where it does not, or away from the plane."""
+        plane = self._cutting_plane(plane)
+        if self.carrier is None or not self.cut_turns or not cutting_data.is_seen(plane, self.carrier):
+            return None
+        return cutting_data.turned(edge, plane, self.carrier)
+
+    def own_direction(self, plane: str) -> Vector | None:
+        """Direction along the tool that its edge has ($TC_DPV), no carrier turning it; None for that of the plane."""
+        edge = self.edge
+        return None if edge is None else direction_of(edge, self.rules or Rules(), plane)
+
+    def direction(self, plane: str) -> Vector:
+        """Direction along the tool, away from its tip, as a carrier turns it."""
+        across = self.own_direction(plane) or axis_vector(PLANES[plane][2])
+        return across if self.carrier is None else self.carrier.direct(*across)
+
+    def stance(self, plane: str) -> Frame | None:
+        """How the tool is turned against the plane, by its edge and by a carrier; None where it is not."""
+        own = self.own_direction(plane)
+        if own is None:
+            return self.carrier
+        u, _, w = PLANES[plane]
+        lean = turn_between(axis_vector(w), own, axis_vector(u))
+        return lean if self.carrier is None else self.carrier @ lean
 
     def tip(self, plane: str) -> Vector:
         """From the nose centre to the programmed tip along X, Y, Z, in units of the radius; zero for milling tools."""
         edge, carrier = self.edge, self.carrier
         if edge is None or not edge.is_turning:
             return (0.0, 0.0, 0.0)
-        data = self.cutting_data(plane) if self.cut_turns else None
+        data = self._turned_data(edge, plane)
         position = edge.values[DP_TIP] if data is None else data.position
         tip = cutting_data.in_space(plane, tip_direction(int(position)))
         return tip if carrier is None or data is not None else carrier.direct(*tip)
@@ -248,11 +275,11 @@ class Tools(State, lifetime=Lifetime.POWER):
     def _to_tip(self, plane: str) -> Vector:
         """From the programmed tip as the carrier turns it to that of the edge position which follows from it, mm."""
         edge, carrier = self.edge, self.carrier
-        if edge is None or carrier is None or not self.cut_turns or not edge.is_turning:
+        data = None if edge is None or not edge.is_turning else self._turned_data(edge, plane)
+        if edge is None or carrier is None or data is None:
             return (0.0, 0.0, 0.0)
         plane = self._cutting_plane(plane)
         before = cutting_data.in_space(plane, tip_direction(int(edge.values[DP_TIP])))
-        data = cutting_data.turned(edge, plane, carrier)
         after = cutting_data.in_space(plane, tip_direction(int(data.position)))
         return times(minus(carrier.direct(*before), after), self.radius)
 

@@ -13,9 +13,6 @@ from polycnc.geometry.frames import Frame
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.family import SinumerikChannel
 
-#: SD42950: the lengths of every tool are those of a turning tool.
-AS_TURNING = 2
-
 
 @dataclass(slots=True)
 class LengthSign(State, lifetime=Lifetime.RESET):
@@ -38,7 +35,7 @@ def rules_of(channel: SinumerikChannel) -> Rules:
     return Rules(
         channel.mode["plane"],
         data.integer("$SC_TOOL_LENGTH_CONST"),
-        data.integer("$SC_TOOL_LENGTH_TYPE") == AS_TURNING,
+        data.integer("$SC_TOOL_LENGTH_TYPE"),
         bool(data.integer("$SC_MIRROR_TOOL_LENGTH")),
         bool(data.integer("$SC_MIRROR_TOOL_WEAR")),
         bool(data.integer("$SC_WEAR_SIGN_CUTPOS")),

@@ -7,6 +7,8 @@ from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, Matrix
 
 SIDES = {"G41": 1, "G42": -1}
+#: Functions of group 22 that compensate a face mill in space: dimensions act with G41 and G42, lengths at once (7.5.3).
+FACES = frozenset(("CUT3DF", "CUT3DFS", "CUT3DFF"))
 
 
 @dataclass(slots=True)

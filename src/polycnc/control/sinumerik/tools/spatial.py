@@ -2,7 +2,7 @@
 
 The tool stands beside the path by its radius, square on the path and on itself. An approach is always NORM. CUT3DCC is
 told the contour, CUT3DCCD the path of the standard tool's centre: there wear and OFFN alone are the offset. Both take
-the tool along itself to the limiting surface, whose normal A4 to C5 tell (`compensation.limiting_surface`).
+the tool along itself to the limiting surface, whose normal A4 to C5 tell (`compensation.spatial.limiting_surface`).
 
 Source: job planning 7.5 (CUT3D…, ISD), 7.6 (ORIC, ORID).
 """
@@ -13,9 +13,8 @@ from functools import partial
 from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 from polycnc.channel.moves.knots import join
-from polycnc.compensation.limiting_surface import Mill, across, infeed
-from polycnc.compensation.spatial import SpatialStage
-from polycnc.compensation.spatial_rules import (
+from polycnc.compensation.spatial.limiting_surface import Mill, across, infeed
+from polycnc.compensation.spatial.rules import (
     ARC_FIRST,
     INTERSECTION_FIRST,
     TURNS_ALONG,
@@ -23,6 +22,7 @@ from polycnc.compensation.spatial_rules import (
     Corners,
     Rules,
 )
+from polycnc.compensation.spatial.stage import SpatialStage
 from polycnc.control.sinumerik.tools.edges import DP_CORNER_RADIUS, DP_RADIUS
 from polycnc.control.sinumerik.tools.sides import SIDES, Contour
 from polycnc.control.sinumerik.transformations.posture import Orienting

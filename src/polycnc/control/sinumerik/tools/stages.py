@@ -9,31 +9,38 @@ from __future__ import annotations
 
 from functools import partial
 from math import hypot, nan
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NoReturn
 
 from polycnc.channel.moves.knots import Motions, join
+from polycnc.compensation.contour_tool import ContourTool, CuttingEdge
 from polycnc.compensation.corner import CornerPolicy, CornerStage, CornerViolation, Shape
 from polycnc.compensation.cutter import CutterCompensation
 from polycnc.compensation.plane import Plane
 from polycnc.compensation.policy import Approach, Policy, Violation
+from polycnc.compensation.tips import tip_direction
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.motion.spline_stage import SplineStage
 from polycnc.control.sinumerik.tools import faces, spatial
-from polycnc.control.sinumerik.tools.sides import SIDES, Contour
+from polycnc.control.sinumerik.tools.cutting_data import in_space
+from polycnc.control.sinumerik.tools.edges import DP_LARGEST_ANGLE, DP_LEAST_ANGLE, DP_TIP
+from polycnc.control.sinumerik.tools.lengths import Rules, along_axes
+from polycnc.control.sinumerik.tools.sides import FACES, SIDES, Contour
 from polycnc.control.sinumerik.tools.smooth_stage import SmoothApproach
 from polycnc.control.sinumerik.tools.tool_plane import lead, tool_plane
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.transformations.walls import WallStage
 from polycnc.deferred.records import replace
 from polycnc.geometry.arcs import EVEN
-from polycnc.geometry.frames import Frame
+from polycnc.geometry.frames import IDENTITY, Frame
 from polycnc.geometry.offset import Joint, Outer
 from polycnc.geometry.planes import PLANES
-from polycnc.geometry.vectors import times
+from polycnc.geometry.tolerances import NO_WAY
+from polycnc.geometry.vectors import minus, times
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.family import SinumerikChannel
+    from polycnc.control.sinumerik.tools.edges import Edge
     from polycnc.geometry.arcs import Point
     from polycnc.geometry.frames import Vector
 
@@ -217,27 +224,99 @@ def select_side(channel: SinumerikChannel) -> None:
     _check_shape(channel)
     _lead_walls(channel)
     Contour.of(channel).linear = seat.frame_in_front(channel).m
-    if channel.mode["tool_offset"] in (*spatial.CODES, *faces.CODES):
+    if channel.mode["tool_offset"] in (*spatial.CODES, *FACES):
         _check_size(channel)
     if channel.mode["tool_offset"] in spatial.CODES:
         spatial.select_side(channel)
         return
-    if channel.mode["tool_offset"] in faces.CODES:
+    if channel.mode["tool_offset"] in FACES:
         faces.select(channel)
         return
     _settle_corner(channel)
     stage = cutter(channel)
     stage.policy = policy(channel)
     lead(channel, stage, tool_plane(channel).frame)
-    stage.engage(SIDES[channel.mode["compensation"]], radius(channel), tip(channel))
+    _release_edge(channel)
+    channel.path.take(ContourTool)
+    stage.engage(SIDES[channel.mode["compensation"]], *_offset(channel))
+    _choose_edges(channel, stage)
+
+
+def _choose_edges(channel: SinumerikChannel, stage: CutterCompensation) -> None:
+    """A contour tool (7.1), where MD28290 says so, cuts with those of its edges that touch the contour.
+
+    PC0001 where a toolholder, mirror or scale would change its angles, and where its edges cannot cut (`ContourTool`).
+    """
+    tools, led = channel.memory.tools, tool_plane(channel)
+    active, enabled = tools.edge, channel.memory.data.integer("$MC_MM_SHAPED_TOOLS_ENABLE")
+    if active is None or not active.has_angle_limits or not enabled:
+        return
+    linear = Frame(seat.frame_in_front(channel).m)
+    is_even = led.frame is IDENTITY and abs(led.scale - 1.0) < EVEN and not linear.mirrors
+    if not is_even or tools.carrier is not None:
+        _refuse_edges()
+    others = (edge for edge in tools.edges.values() if edge is not active and edge.has_angle_limits)
+    edges = tuple(_cutting_edge(channel, active, edge, linear.inverse()) for edge in (active, *others))
+    side = SIDES[channel.mode["compensation"]]
+    channel.path.put(ContourTool(stage, side, edges, partial(_counted, channel), _refuse_edges))
+
+
+def _cutting_edge(channel: SinumerikChannel, active: Edge, edge: Edge, back: Frame) -> CuttingEdge:
+    """An edge of a contour tool, as the reference point of the active one sees it in the program (`back`).
+
+    Base dimensions move all edges alike (7.1). PC0001 for one without a reference direction (positions 0 and 9).
+    """
+    tools, (u, v, w) = channel.memory.tools, PLANES[channel.mode["plane"]]
+    inverts = tools.rules is not None and tools.rules.inverts_wear
+    nose = edge.radius(tools.additive, inverts=inverts) + tools.added_radius
+    size = nose + Contour.of(channel).allowance_mm
+    tip = in_space(channel.mode["plane"], tip_direction(int(edge.values[DP_TIP])))
+    beside = minus(_measured(channel, active), _measured(channel, edge))
+    if not any(tip) or min(nose, size) <= NO_WAY or abs(beside[w]) > NO_WAY:
+        _refuse_edges()
+    reference, shift = back.direct(*tip), back.direct(*minus(times(tip, nose), beside))
+    least, largest = (edge.total(n) for n in (DP_LEAST_ANGLE, DP_LARGEST_ANGLE))
+    return CuttingEdge((reference[u], reference[v]), least, largest, size, (shift[u], shift[v]))
+
+
+def _measured(channel: SinumerikChannel, edge: Edge) -> Vector:
+    """Lengths of an edge along X, Y, Z without base dimensions."""
+    tools = channel.memory.tools
+    rules, none = tools.rules or Rules(), (0.0, 0.0, 0.0)
+    found = along_axes(edge.without_base, rules, channel.mode["plane"], tools.additive, none)
+    return minus(found.turning, times(found.fixed, -1.0))
+
+
+def _counted(channel: SinumerikChannel, context: int, radius_mm: float) -> int:
+    """The context of a move that another edge makes: the feed of an arc counts with its radius."""
+    toolpath = channel.toolpath
+    return toolpath.context_number(replace(toolpath.contexts[context], radius_mm=radius_mm))
+
+
+def _refuse_edges() -> NoReturn:
+    raise not_supported("$TC_DP10 $TC_DP11: G41 G42")
+
+
+def _release_edge(channel: SinumerikChannel) -> None:
+    """What holds for compensation changes: a move that waits for its corner goes on as it is."""
+    stage = channel.path.find(ContourTool)
+    if stage is not None:
+        stage.release()
 
 
 def _check_shape(channel: SinumerikChannel) -> None:
-    """PC0001 for a contour tool (7.1): where the contour leaves the angles of an edge, the next one would cut."""
+    """PC0001 for tools that are not led along a contour.
+
+    A tool whose direction ($TC_DPV) comes from behind the plane, or a turning tool with one that is not square on it:
+    which side is left then, and where its edge position lies, is not known.
+    """
     memory = channel.memory
-    edge = memory.tools.edge
-    if edge is not None and edge.has_angle_limits and memory.data.integer("$MC_MM_SHAPED_TOOLS_ENABLE"):
-        raise not_supported("$TC_DP10 $TC_DP11: G41 G42")
+    edge, plane = memory.tools.edge, channel.mode["plane"]
+    own = memory.tools.own_direction(plane)
+    if edge is not None and own is not None:
+        least = 1.0 - EVEN if edge.is_turning else -EVEN
+        if own[PLANES[plane][2]] < least:
+            raise not_supported("$TC_DPV: G41 G42")
 
 
 def _lead_walls(channel: SinumerikChannel) -> None:
@@ -246,7 +325,10 @@ def _lead_walls(channel: SinumerikChannel) -> None:
     if column >= 0 and channel.path.find(WallStage) is None:
         if channel.mode["plane"] != "G19":
             raise not_supported("TRACYL: G17 G18 G41 G42")
-        channel.path.put(WallStage(channel, column))
+        position = channel.coordinates.position.copy()
+        channel.path.put(WallStage(channel, column, position[column]))
+        position[column] = 0.0  # the stage leads it from here on, and off the walls to the centre line
+        channel.coordinates.arrive(position)
 
 
 def leave_contour(channel: SinumerikChannel) -> None:
@@ -256,6 +338,7 @@ def leave_contour(channel: SinumerikChannel) -> None:
     stage = active_cutter(channel)
     if stage is not None:
         _settle_corner(channel)
+        _release_edge(channel)
         stage.cancel()
 
 
@@ -278,7 +361,10 @@ def changed_radius(channel: SinumerikChannel) -> None:
     if stage is not None and channel.mode["compensation"] != "G40":
         _check_shape(channel)
         _settle_corner(channel)
-        stage.change_radius(radius(channel), tip(channel))
+        _release_edge(channel)
+        channel.path.take(ContourTool)
+        stage.change_radius(*_offset(channel))
+        _choose_edges(channel, stage)
         channel.context_changed()  # rows tell the distance from the contour
 
 
@@ -294,7 +380,7 @@ def changed_frame(channel: SinumerikChannel) -> None:
     contour.linear = linear
     if isinstance(stage, CutterCompensation):
         lead(channel, stage, tool_plane(channel).frame)
-        stage.change_radius(radius(channel), tip(channel))
+        stage.change_radius(*_offset(channel))
     else:
         _check_size(channel)
         spatial.follow(channel)
@@ -313,6 +399,7 @@ def changed_rules(channel: SinumerikChannel) -> None:
     spatial.follow(channel)
     stage = active_cutter(channel)
     if stage is not None:
+        _release_edge(channel)
         stage.policy = policy(channel)
 
 
@@ -320,6 +407,7 @@ def suspend(channel: SinumerikChannel) -> None:
     """CUTCONON, CUTCONOF: blocks keep the vector of the last one, or are compensated themselves again."""
     stage = channel.path.find(CutterCompensation)
     if stage is not None:
+        _release_edge(channel)
         stage.suspended = channel.mode["constant_side"] == "CUTCONON"
 
 
@@ -335,6 +423,21 @@ def distance(channel: SinumerikChannel) -> float:
 def radius(channel: SinumerikChannel) -> float:
     """The same in units of the programmed contour, which frames may scale."""
     return distance(channel) / tool_plane(channel).scale
+
+
+def _offset(channel: SinumerikChannel) -> tuple[float, Point]:
+    """Radius and tip as compensation takes them: an allowance (OFFN) is no part of the way from nose to tip.
+
+    PC0001 where an allowance takes the whole radius of a turning tool away, of which the tip would be a part.
+    """
+    size, (u, v) = radius(channel), tip(channel)
+    if (u, v) == (0.0, 0.0) or not Contour.of(channel).allowance_mm:
+        return size, (u, v)
+    whole = distance(channel)
+    if abs(whole) < NO_WAY:
+        raise not_supported("OFFN: $TC_DP2 G41 G42")
+    part = abs(channel.memory.tools.radius / whole)
+    return size, (part * u, part * v)
 
 
 def tip(channel: SinumerikChannel) -> Point:

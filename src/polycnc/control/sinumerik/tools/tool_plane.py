@@ -57,15 +57,13 @@ def bends_arcs(channel: SinumerikChannel, normal: Vector) -> bool:
 def tool_plane(channel: SinumerikChannel) -> ToolPlane:
     """The system of the tool as plane, frames and CUT2D or CUT2DF have it now."""
     linear = Frame(seat.frame_in_front(channel).m)
-    follows_tool = channel.mode["tool_offset"] != "CUT2DF" and channel.memory.tools.carrier is not None
-    if linear.is_identity and not follows_tool:
+    plane, of_frame = channel.mode["plane"], channel.mode["tool_offset"] == "CUT2DF"
+    stance = None if of_frame else channel.memory.tools.stance(plane)
+    if linear.is_identity and stance is None:
         return ToolPlane()
-    u, v, w = PLANES[channel.mode["plane"]]
+    u, v, w = PLANES[plane]
     columns = list(zip(*linear.m, strict=True))
-    if channel.mode["tool_offset"] == "CUT2DF":
-        basis = _of_frame(columns, u, v)
-    else:
-        basis = _of_machine(columns, (u, v, w), channel.memory.tools.carrier)
+    basis = _of_frame(columns, u, v) if of_frame else _of_machine(columns, (u, v, w), stance or IDENTITY)
     rows: list[Vector] = [(0.0, 0.0, 0.0)] * 3
     for axis, direction in zip((u, v, w), basis, strict=True):
         rows[axis] = tuple(dot(direction, column) for column in columns)  # type: ignore[assignment]  # three columns
@@ -86,16 +84,15 @@ def _of_frame(columns: list[Vector], u: int, v: int) -> tuple[Vector, Vector, Ve
 
 
 def _of_machine(
-    columns: list[Vector], plane: tuple[int, int, int], carrier: Frame | None
+    columns: list[Vector], plane: tuple[int, int, int], stance: Frame
 ) -> tuple[Vector, Vector, Vector]:
-    """Unit vectors of the plane of the basic system, which a swivelling head turns with the tool.
+    """Unit vectors of the plane of the basic system, which a swivelling head, or its edge, turns with the tool.
 
     A mirrored contour is seen from behind, so that sides stay as the program means them.
     """
-    turned = carrier or IDENTITY
-    first, second, third = (turned.direct(*axis_vector(axis)) for axis in plane)
+    first, second, third = (stance.direct(*axis_vector(axis)) for axis in plane)
     u, v = columns[plane[0]], columns[plane[1]]
-    mirrored = dot(first, u) * dot(second, v) - dot(first, v) * dot(second, u) < 0.0
+    mirrored = dot(first, u) * dot(second, v) - dot(first, v) * dot(second, u) < -EVEN
     return (times(first, -1.0) if mirrored else first), second, third
 
 

@@ -11,16 +11,20 @@ from typing import TYPE_CHECKING, Any
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed import tooth_feed, wheels
 from polycnc.control.sinumerik.tools.edges import (
+    DIRECTION,
+    DIRECTION_PARTS,
     DP_CLEARANCE,
     DP_DIRECTION,
     DP_HOLDER_ANGLE,
     DP_TIP,
     DP_TYPE,
+    NORMAL_PARTS,
     PARAMETERS,
     WEAR_PARAMETERS,
 )
 from polycnc.control.sinumerik.tools.holders import stored as carrier_data
 from polycnc.control.sinumerik.tools.holders.active import ActiveCarrier
+from polycnc.control.sinumerik.tools.lengths import counts_as_turning
 from polycnc.control.sinumerik.tools.memory import FLAT
 from polycnc.control.sinumerik.variables.row import Indices, Row
 from polycnc.control.sinumerik.variables.stored import Stored
@@ -109,11 +113,23 @@ def _additive(kind: str, number: int) -> Row:
     return Type.REAL, read, write
 
 
-def _direction(name: str) -> Row:
-    """`$TC_DPV[t,d]`, `$TC_DPV3[t,d]` …: a direction of the edge beside that of the plane; 0, as delivered, is none.
+def _direction(part: str) -> Row:
+    """`$TC_DPV[t,d]`, `$TC_DPV3[t,d]` …: direction of the tool, normal of the edge; 0, as delivered, is none (W1)."""
+    name = f"$TC_DP{part}"
 
-    Another one would turn the tool against the plane, which is not executed: PC0001 (Function Manual W1).
-    """
+    def read(channel: SinumerikChannel, indices: Indices) -> float:
+        tool, edge = _place(channel, indices, name)
+        return _edge(channel, tool, edge).directions.get(part, 0.0)
+
+    def write(channel: SinumerikChannel, indices: Indices, value: float) -> None:
+        tool, edge = _place(channel, indices, name)
+        _edge(channel, tool, edge).directions[part] = float(value)
+
+    return (Type.INT if part == DIRECTION else Type.REAL), read, write
+
+
+def _not_executed(name: str) -> Row:
+    """A datum of an edge that archives write and that has no effect as delivered; PC0001 for another value than 0."""
 
     def read(channel: SinumerikChannel, indices: Indices) -> float:
         tool, edge = _place(channel, indices, name)
@@ -121,12 +137,11 @@ def _direction(name: str) -> Row:
         return 0.0
 
     def write(channel: SinumerikChannel, indices: Indices, value: float) -> None:
-        tool, edge = _place(channel, indices, name)
-        _edge(channel, tool, edge)
+        read(channel, indices)
         if value:
             raise not_supported(name)
 
-    return (Type.INT if name == "$TC_DPV" else Type.REAL), read, write
+    return Type.REAL, read, write
 
 
 def _cutting_edge(channel: SinumerikChannel, indices: Indices) -> int:
@@ -213,8 +228,9 @@ def _cut_is_inverted(channel: SinumerikChannel, _indices: Indices) -> bool:
     """`$P_CUT_INV`: a turning tool is seen from behind, so the spindle must turn the other way."""
     tools: Tools = channel.memory.tools
     data, edge = tools.cutting_data(channel.mode["plane"]), tools.edge
-    as_turning = tools.rules is not None and tools.rules.as_turning
-    return data is not None and edge is not None and data.is_inverted and (edge.is_turning or as_turning)
+    if data is None or edge is None or not data.is_inverted:
+        return False
+    return edge.is_turning or (tools.rules is not None and counts_as_turning(edge, tools.rules))
 
 
 def _of_carrier(attribute: str) -> Callable[[SinumerikChannel, Indices], Any]:
@@ -251,10 +267,8 @@ TOOL_VARIABLES: dict[str, Row] = {
     **{f"$TC_{kind}{n}": _additive(kind, n) for kind in ("SCP", "ECP") for n in _ADDITIVE},
     **{f"$TC_CARR{n}": carrier_data.row(n) for n in carrier_data.NUMBERS},
     **{f"$TC_{kind}{n}": _oem(kind, n) for kind in ("DPC", "TPC") for n in range(1, 11)},
-    **{
-        name: _direction(name)
-        for name in ("$TC_DPV", *(f"$TC_DP{v}{n}" for v in ("V", "VN") for n in (3, 4, 5)))
-    },
+    **{f"$TC_DP{part}": _direction(part) for part in (DIRECTION, *DIRECTION_PARTS, *NORMAL_PARTS)},
+    **{name: _not_executed(name) for name in ("$TC_DPH", "$TC_DPROT")},
     "$TC_DPCE": (Type.INT, _cutting_edge, _set_cutting_edge),
     **{f"$TC_DP{n}": _parameter(n) for n in range(1, PARAMETERS + 1)},
     **{f"$TC_TP{n}": _tool_value(f"$TC_TP{n}") for n in (1, 3, 4, 5, 6, 7, 8, 9, 10, 11)},

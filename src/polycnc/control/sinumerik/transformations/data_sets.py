@@ -1,7 +1,8 @@
 """What is configured: the transformations that TRAORI(n), TRANSMIT(n) … choose from.
 
-Machine data name them: `$MC_TRAFO_TYPE_1` and so on give the types, and the n-th of a kind is what `n` means. A machine
-whose data say nothing has what its kinematic chain allows, one of each kind. The geometry is that of the machine file.
+Machine data name them: `$MC_TRAFO_TYPE_1` and so on give the types, and the n-th of a kind is what `n` means. A
+machine whose data say nothing has what its kinematic chain allows, one of each kind. The axes are those of the
+machine file; how far they lie apart, and how far the tool lies from them, data may say anew.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass, replace
-from polycnc.geometry.vectors import dot
+from polycnc.geometry.vectors import dot, times
 from polycnc.machine.kinematics import Kinematics, unit
 from polycnc.messages import AlarmError
 from polycnc.transformation.kinematic.cylinder import Cylinder
@@ -22,8 +23,11 @@ from polycnc.transformation.numbers import RADIAN
 from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.geometry.frames import Vector
+    from polycnc.machine.model import Joint
     from polycnc.transformation.contract import Geometry, Transformation
 
 #: Kinds, by the procedure that selects them, and the types of each (MD24100 and following).
@@ -34,32 +38,44 @@ TYPES: dict[str, range] = {
     "TRAANG": range(1024, 1025),
     "TRACON": range(9999, 10000),
 }
+#: Types of TRAORI that say whether axes turn the head, and whether the table (general knowledge); others say neither.
+TURNED: dict[range, tuple[bool, bool]] = {
+    range(16, 32): (True, False),
+    range(32, 48): (False, True),
+    range(48, 64): (True, True),
+}
 #: Types of TRACYL: groove walls by a linear axis, always or by the third argument.
 WITH_WALLS, WALLS_BY_ARGUMENT = 513, 514
 #: Sides of the pole of TRANSMIT by MD24911 and MD24951; 0, as delivered, leaves both.
 SIDES = {1: 1.0, 2: -1.0}
 #: As many transformations as machine data can name.
 COUNT = 10
-#: Machine data of lengths and angles in a transformation, `_n` behind them: with a value they would move its joints.
+#: Machine data of angles and lengths in a transformation, by its number, that polycnc does not follow.
 SHIFTS: dict[str, tuple[str, ...]] = {
-    "TRAORI": (
-        "$MC_TRAFO5_PART_OFFSET",
-        "$MC_TRAFO5_JOINT_OFFSET",
-        "$MC_TRAFO5_JOINT_OFFSET_PART",
-        "$MC_TRAFO5_BASE_TOOL",
-        "$MC_TRAFO5_NUTATOR_AX_ANGLE",
-        "$MC_TRAFO5_TOOL_ROT_AX_OFFSET",
-    ),
-    "TRANSMIT": ("$MC_TRANSMIT_BASE_TOOL", "$MC_TRANSMIT_ROT_AX_OFFSET"),
-    "TRACYL": ("$MC_TRACYL_BASE_TOOL", "$MC_TRACYL_ROT_AX_OFFSET"),
-    "TRAANG": ("$MC_TRAANG_BASE_TOOL",),
+    "TRAORI": ("$MC_TRAFO5_NUTATOR_AX_ANGLE_{n}", "$MC_TRAFO5_TOOL_ROT_AX_OFFSET_{n}"),
+    "TRANSMIT": ("$MC_TRANSMIT_ROT_AX_OFFSET_{n}",),
+    "TRACYL": ("$MC_TRACYL_ROT_AX_OFFSET_{n}",),
+}
+PART, JOINT, JOINT_OF_PART, BASE_TOOL = (
+    "$MC_TRAFO5_PART_OFFSET_{n}",
+    "$MC_TRAFO5_JOINT_OFFSET_{n}",
+    "$MC_TRAFO5_JOINT_OFFSET_PART_{n}",
+    "$MC_TRAFO5_BASE_TOOL_{n}",
+)
+#: Vectors of TRAORI by how many axes turn the head and the table: of each chain those in front of its joints, and the
+#: one behind. They are l1 to l4 of toolholders of types T, P and M (commissioning of CYCLE800), which job planning has.
+VECTORS: dict[tuple[int, int], tuple[tuple[str, ...], tuple[str, ...]]] = {
+    (2, 0): ((PART, JOINT, BASE_TOOL), ()),
+    (0, 2): ((), (BASE_TOOL, JOINT, PART)),
+    (1, 1): ((JOINT, BASE_TOOL), (JOINT_OF_PART, PART)),
 }
 #: Machine data that turn the sense of a rotary axis round where they are 0.
 SENSES = {
-    "TRAORI": "$MC_TRAFO5_ROT_SIGN_IS_PLUS",
-    "TRANSMIT": "$MC_TRANSMIT_ROT_SIGN_IS_PLUS",
-    "TRACYL": "$MC_TRACYL_ROT_SIGN_IS_PLUS",
+    "TRAORI": "$MC_TRAFO5_ROT_SIGN_IS_PLUS_{n}",
+    "TRANSMIT": "$MC_TRANSMIT_ROT_SIGN_IS_PLUS_{n}",
+    "TRACYL": "$MC_TRACYL_ROT_SIGN_IS_PLUS_{n}",
 }
+_NOWHERE: Vector = (0.0, 0.0, 0.0)
 _PARALLEL = 1e-6
 _TURNS = 1e-9
 
@@ -84,7 +100,10 @@ class Build:
             that says how far it goes; else -1.
         bound: Columns of axes that move with the path alone: neither positioned nor oscillating beside it.
         order: Number of its machine data, among those of its kind.
+        follows_tool: The tool may say its direction (TRAORI whose call does not).
         changes_sides: The infeed axis goes through the pole to its other side (TRANSMIT with MD24911 = 0).
+        in_front: What vectors of machine data add to positions in front of it, X, Y, Z, mm.
+        behind: The same along the machine's axes behind it.
     """
 
     inner: Transformation
@@ -93,7 +112,10 @@ class Build:
     walls: int = -1
     bound: frozenset[int] = frozenset()
     order: int = 1
+    follows_tool: bool = False
     changes_sides: bool = False
+    in_front: Vector = _NOWHERE
+    behind: Vector = _NOWHERE
 
 
 def find(channel: SinumerikChannel, kind: str, number: int) -> DataSet:
@@ -146,25 +168,44 @@ def number_of(channel: SinumerikChannel, name: str, index: int, default: float) 
 
 
 def check(channel: SinumerikChannel, found: DataSet) -> None:
-    """Machine data that describe another machine than its file are refused: its geometry is that of the file.
+    """Machine data that describe another machine than its file are refused: its axes are those of the file.
 
     Raises:
-        AlarmError: PC0019 for an offset or a sense of rotation beside the chain of joints, and under TRAORI for
-            the direction or the number of an axis that is not the chain's.
+        AlarmError: PC0019 for an angle or a sense of rotation beside the chain of joints, and under TRAORI for a type
+            that turns something else, the direction or the number of an axis that is not the chain's, and vectors of
+            joints that it does not have.
     """
     data, n = channel.memory.data, order(channel, found)
-    for name in SHIFTS.get(found.kind, ()):
-        if any(data.is_set(f"{name}_{n}", *at) and data.number(f"{name}_{n}", *at) for at in _PLACES):
-            raise _another_machine(f"{name}_{n}")
-    sense = f"{SENSES.get(found.kind)}_{n}"
+    for name in (each.format(n=n) for each in SHIFTS.get(found.kind, ())):
+        if _has_value(channel, name):
+            raise another_machine(name)
+    sense = SENSES.get(found.kind, "").format(n=n)
     if any(data.is_set(sense, *at) and not data.number(sense, *at) for at in _PLACES):
-        raise _another_machine(sense)
+        raise another_machine(sense)
     if found.kind == "TRAORI":
+        _check_type(channel, found)
         _check_joints(channel, found)
+        known = {name for chain in _vectors(Kinematics.of(channel.machine)) for name in chain}
+        for name in (each.format(n=n) for each in {PART, JOINT, JOINT_OF_PART, BASE_TOOL} - known):
+            if _has_value(channel, name):
+                raise another_machine(name)
+
+
+def _has_value(channel: SinumerikChannel, name: str) -> bool:
+    data = channel.memory.data
+    return any(data.is_set(name, *at) and data.number(name, *at) for at in _PLACES)
 
 
 #: A datum without index, or any of its elements.
 _PLACES: tuple[tuple[int, ...], ...] = ((), (0,), (1,), (2,))
+
+
+def _check_type(channel: SinumerikChannel, found: DataSet) -> None:
+    """What the axes turn: head, table or both."""
+    kinematics = Kinematics.of(channel.machine)
+    turns = (bool(kinematics.tool), bool(kinematics.work))
+    if any(found.type in types and turns != told for types, told in TURNED.items()):
+        raise another_machine(f"$MC_TRAFO_TYPE_{found.number}")
 
 
 def _check_joints(channel: SinumerikChannel, found: DataSet) -> None:
@@ -172,23 +213,68 @@ def _check_joints(channel: SinumerikChannel, found: DataSet) -> None:
     data, n = channel.memory.data, order(channel, found)
     kinematics, axes = Kinematics.of(channel.machine), channel_names(channel)
     joints = (*kinematics.tool, *kinematics.work)
-    for i in range(3):
-        name = f"$MC_TRAFO5_AXIS{i + 1}_{n}"
+    for axis in (1, 2, 3):
+        name = f"$MC_TRAFO5_AXIS{axis}_{n}"
         direction = vector(channel, name)
         if direction is None or not any(direction):
             continue
-        cosine = dot(unit(direction), unit(joints[i].direction)) if i < len(joints) else 0.0
-        if (cosine if i < len(kinematics.tool) else abs(cosine)) < 1.0 - _PARALLEL:
-            raise _another_machine(name)
+        cosine = dot(unit(direction), unit(joints[axis - 1].direction)) if axis <= len(joints) else 0.0
+        if (cosine if axis <= len(kinematics.tool) else abs(cosine)) < 1.0 - _PARALLEL:
+            raise another_machine(name)
     columns = (*native(channel), *(axes.index(axis) for axis in in_order(kinematics) if axis in axes))
+    number = found.number or n
     for i, column in enumerate(columns):
-        name = f"$MC_TRAFO_AXES_IN_{found.number or n}"
+        name = f"$MC_TRAFO_AXES_IN_{number}"
         if data.is_set(name, i) and data.number(name, i) not in (0.0, column + 1.0):
-            raise _another_machine(name)
+            raise another_machine(name)
 
 
-def _another_machine(name: str) -> AlarmError:
+def another_machine(name: str) -> AlarmError:
+    """PC0019 for a machine datum."""
     return AlarmError("PC0019", text=name)
+
+
+# ---- vectors
+
+
+def placed(channel: SinumerikChannel, kinematics: Kinematics, n: int) -> tuple[Kinematics, Vector]:
+    """The joints with the vectors that machine data give, and what those of the table add to positions in front.
+
+    Vectors of the head count as tool lengths do, from the tip to the machine, those of the table the other way round.
+    Others are as the machine file has them. That leaves positions alone with all axes at zero; given vectors that do
+    not close their chain do not.
+    """
+    of_head, of_table = (
+        [vector(channel, name.format(n=n)) for name in names] for names in _vectors(kinematics)
+    )
+    noses = [None if given is None else times(given, -1.0) for given in of_head]
+    tool = _apart(kinematics.tool, noses[:-1])
+    nose = noses[-1] if noses and noses[-1] is not None else kinematics.nose
+    work = _apart(kinematics.work, of_table[:-1])
+    return replace(kinematics, tool=tool, work=work, nose=nose, to_nose=_sum(noses)), _sum(of_table)
+
+
+def base_tool(channel: SinumerikChannel, kind: str, n: int) -> Vector:
+    """MD24920, MD24820 and MD24710: what a transformation adds to the lengths of every tool, mm."""
+    return vector(channel, f"$MC_{kind}_BASE_TOOL_{n}") or _NOWHERE
+
+
+def _vectors(kinematics: Kinematics) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Names of the vectors of head and table."""
+    return VECTORS.get((len(kinematics.tool), len(kinematics.work)), ((), ()))
+
+
+def _apart(joints: tuple[Joint, ...], given: Sequence[Vector | None]) -> tuple[Joint, ...]:
+    """Joints of a chain with other offsets in front of them, where those are given."""
+    if not given:
+        return joints
+    pairs = zip(joints, given, strict=True)
+    return tuple(joint if offset is None else replace(joint, offset=offset) for joint, offset in pairs)
+
+
+def _sum(vectors: Sequence[Vector | None]) -> Vector:
+    x, y, z = (sum(parts) for parts in zip(_NOWHERE, *filter(None, vectors), strict=True))
+    return (x, y, z)
 
 
 # ---- orientation
@@ -202,7 +288,8 @@ def orientation(
     Args:
         channel: The channel.
         found: The data set.
-        along: Basic direction of the tool as the call has it; None for that of the machine data.
+        along: Basic direction of the tool as the call has it; None for that of the tool ($TC_DPV), else of the
+            machine data.
         added: Further offsets of the rotary axes.
 
     Raises:
@@ -216,12 +303,13 @@ def orientation(
     direction = along or vector(channel, f"$MC_TRAFO5_BASE_ORIENT_{n}")
     if direction is not None and any(direction):
         kinematics = replace(kinematics, along=unit(direction))
+    joints, in_front = placed(channel, kinematics, n)
     zero = [0.0] * len(axes)
     for i, axis in enumerate(in_order(kinematics)):
         offset = number_of(channel, f"$MC_TRAFO5_ROT_AX_OFFSET_{n}", i, 0.0)
         zero[axes.index(axis)] = -(offset + (added[i] if i < len(added) else 0.0))
-    inner = ToolCentrePoint(kinematics, axes, geometry, tuple(zero), (0.0, 0.0, 0.0))
-    return Build(inner, lengths="tip", order=n)
+    inner = ToolCentrePoint(joints, axes, geometry, tuple(zero), (0.0, 0.0, 0.0))
+    return Build(inner, lengths="tip", order=n, in_front=in_front, follows_tool=along is None)
 
 
 def in_order(kinematics: Kinematics) -> tuple[str, ...]:
@@ -253,7 +341,8 @@ def polar(channel: SinumerikChannel, found: DataSet, infeed: int = -1) -> Build:
     inner = PolarPlane(
         geometry[0], rotary, (geometry[0], second, geometry[2]), side=fixed or 1.0, virtual=virtual
     )  # fmt: skip
-    return Build(inner, frozenset((rotary,)), order=n, changes_sides=fixed is None)
+    base = base_tool(channel, "TRANSMIT", n)
+    return Build(inner, frozenset((rotary,)), order=n, changes_sides=fixed is None, behind=base)
 
 
 def cylinder(
@@ -269,13 +358,15 @@ def cylinder(
     geometry, rotary = _with_infeed(channel, infeed), _work_axis(channel, found)
     has_y = geometry[1] >= 0
     made = (geometry[0], geometry[1] if has_y else rotary, geometry[2])
+    base = base_tool(channel, "TRACYL", order(channel, found))
     if walls:
         if not has_y:
             raise AlarmError("14401", text="TRACYL")
         groove = GrooveCylinder(rotary, geometry[1], diameter / 2.0 * RADIAN, made)
-        return Build(groove, frozenset((rotary,)), walls=rotary, bound=frozenset((geometry[1],)))
+        bound = frozenset((geometry[1],))
+        return Build(groove, frozenset((rotary,)), walls=rotary, bound=bound, behind=base)
     inner = Cylinder.of_radius(rotary, diameter / 2.0, made, geometry[1] if has_y else -1)
-    return Build(inner, frozenset((rotary,)), bound=frozenset((made[1],)))
+    return Build(inner, frozenset((rotary,)), bound=frozenset((made[1],)), behind=base)
 
 
 def walls_of_machine(channel: SinumerikChannel, found: DataSet) -> float:
@@ -283,7 +374,7 @@ def walls_of_machine(channel: SinumerikChannel, found: DataSet) -> float:
     return number_of(channel, f"$MC_TRACYL_DEFAULT_MODE_{order(channel, found)}", 0, 0.0)
 
 
-def inclined(channel: SinumerikChannel, angle: float) -> Build:
+def inclined(channel: SinumerikChannel, found: DataSet, angle: float) -> Build:
     """TRAANG: an oblique axis and the one that it leans on become two that are square.
 
     Raises:
@@ -294,7 +385,7 @@ def inclined(channel: SinumerikChannel, angle: float) -> Build:
         raise AlarmError("14401", text="TRAANG")
     inner = InclinedAxis(column, geometry[2], angle, (column, geometry[1], geometry[2]))
     used = frozenset((column,)) if geometry[0] != column else frozenset()
-    return Build(inner, used, "before")
+    return Build(inner, used, "before", in_front=base_tool(channel, "TRAANG", order(channel, found)))
 
 
 def angle_of_machine(channel: SinumerikChannel, found: DataSet) -> float:

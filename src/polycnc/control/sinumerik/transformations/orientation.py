@@ -72,13 +72,14 @@ def plan(draft: Draft) -> None:
     """Take the words of orientation of a block, which then leads its goal.
 
     Raises:
-        AlarmError: 14101 where no orientation transformation acts.
+        AlarmError: 14101 where no orientation transformation acts, PC0001 for a cone where the axes go evenly.
     """
     acts = draft.mode[seat.GROUP] in ("TRAORI", "TRACON")
     point = seat.centre_point(draft.channel) if acts else None
     axes = frozenset() if point is None else frozenset(point.axes.index(a) for a in point.kinematics.axes)
     virtual = point is not None and bool(draft.memory.data.integer("$MC_ORI_DEF_WITH_G_CODE"))
-    words = take(draft, axes, virtual=virtual and draft.mode["orientation_angles"] != "ORIAXPOS")
+    virtual = virtual and draft.mode["orientation_angles"] != "ORIAXPOS"
+    words = take(draft, axes, acts=point is not None, virtual=virtual)
     if words is None:
         return
     if point is None and _tells_a_surface(draft, words):
@@ -92,7 +93,10 @@ def plan(draft: Draft) -> None:
         raise AlarmError("14133", text=mode["orientation_smoothing"])
     if words.columns and not _is_way(words) and not _matters(mode, draft):
         return
-    _check_polynomials(words, mode, interpolation(mode, draft.channel, by_axes=bool(words.columns)))
+    kind = interpolation(mode, draft.channel, by_axes=bool(words.columns))
+    if words.tells_cone and (kind not in CONES or is_point_to_point(mode)):
+        raise not_supported(f"{mode['motion']}: {mode['orientation_motion']}")
+    _check_polynomials(words, mode, kind)
     draft.lead = lambda channel, values, end, path: turn(channel, words, mode, values, end, path)
     draft.direction = standing.places_of(words, mode, interpolation(mode, draft.channel))
 
@@ -336,12 +340,19 @@ def _forward(angle: float, near: float) -> float:
 
 
 def _as_named(posture: Posture, words: Words, end: list[float], knots: list[Knot]) -> list[Knot]:
-    """Axes that the block names itself end where it says; along another solution they go evenly."""
+    """Axes that the block names itself end where it says; along another solution they go evenly.
+
+    Raises:
+        AlarmError: PC0001 where that would leave out the cone that the block tells.
+    """
     if not words.columns:
         return knots
     named, last = posture.angles(end), knots[-1].angles
     if all(abs(named[axis] - last[axis]) < SAME_DEG for axis in named):
         return knots
+    if words.tells_cone:
+        kind = posture.channel.mode["orientation_motion"]
+        raise not_supported(f"{kind}: {' '.join(posture.point.kinematics.axes)}")
     return [Knot(1.0, named)]
 
 

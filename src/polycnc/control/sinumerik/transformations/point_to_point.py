@@ -32,6 +32,8 @@ if TYPE_CHECKING:
 #: TU says something of so many rotary axes, and STAT and TU have so many bits.
 MOST_AXES, BITS = 3, 8
 TURN = 360.0
+#: Words by which a block moves that names no end: a full circle, an arc of an angle, a polynomial.
+WITHOUT_END = ("I", "J", "K", "AR", "PO")
 #: A turn that is shorter than half a round by less goes forward, degrees.
 HALF_TURN = 1e-6
 
@@ -58,8 +60,8 @@ def plan(draft: Draft) -> None:
     """Take STAT and TU; a straight block under PTP goes with the axes.
 
     Raises:
-        AlarmError: 14140 for STAT and TU without a transformation, 14144 for PTP under radius compensation, for arcs,
-            smooth approach and retraction, and for positioning axes of the transformation.
+        AlarmError: 14140 for STAT and TU without a transformation, 14144 for PTP under radius compensation, for all but
+            straight blocks, smooth approach and retraction, and for positioning axes of the transformation.
     """
     words = [(address, draft.take(address)) for address in ("STAT", "TU")]
     given = [(address, place) for address, place in words if place is not None]
@@ -72,7 +74,7 @@ def plan(draft: Draft) -> None:
     is_smooth = draft.codes.get("block_motion") in (*APPROACHES, *RETRACTIONS)
     if draft.mode["point_to_point"] == "PTP" and (is_smooth or draft.mode["compensation"] != "G40"):
         raise AlarmError("14144")
-    moves = draft.lead is not None or bool(draft.axis_terms())
+    moves = draft.lead is not None or bool(draft.axis_terms()) or draft.has(*WITHOUT_END)
     if draft.mode["point_to_point"] == "PTP" and moves and draft.mode["motion"] not in ("G0", "G1"):
         raise AlarmError("14144")
     if "TU" in dict(given):

@@ -9,7 +9,7 @@ from polycnc.control.sinumerik.transformations import seat
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass
 from polycnc.messages import AlarmError
-from polycnc.transformation.orientation.choice import is_within
+from polycnc.transformation.orientation.choice import is_within, on_turns_within
 from polycnc.transformation.orientation.directions import unit_of
 from polycnc.transformation.orientation.solutions import solutions_for
 
@@ -132,9 +132,20 @@ class Posture(NamedTuple):
         return (x, y, z)
 
     def standing(self, direction: Vector, near: Angles) -> list[dict[str, float]]:
-        """Angles that stand the tool along a direction; alarm 14112 where there are none within reach."""
+        """Angles that stand the tool along a direction, each on the nearest turn that the travel of its axis allows.
+
+        Raises:
+            AlarmError: 14112 where there are none within reach.
+        """
         kinematics = self.point.kinematics
-        found = [each for each in solutions_for(kinematics, direction, near) if self.reaches(each)]
+        ranges = {axis: self._range(axis) for axis in kinematics.axes}
+        placed = (on_turns_within(each, near, ranges) for each in solutions_for(kinematics, direction, near))
+        found = [each for each in placed if each is not None]
         if not found:
             raise AlarmError("14112")
         return found
+
+    def _range(self, axis: str) -> tuple[float, float]:
+        """Lowest and highest angle of a rotary joint."""
+        (low, high), zero = self.travel(axis), self.point.zero[self.column(axis)]
+        return low + zero, high + zero

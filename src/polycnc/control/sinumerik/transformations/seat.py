@@ -20,10 +20,11 @@ from polycnc.control.sinumerik.transformations import data_sets
 from polycnc.control.sinumerik.transformations.data_sets import Build
 from polycnc.deferred.records import dataclass, replace
 from polycnc.geometry.frames import IDENTITY
-from polycnc.geometry.vectors import minus
+from polycnc.geometry.vectors import minus, plus
 from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES
 from polycnc.messages import AlarmError
 from polycnc.transformation.chain import Chain
+from polycnc.transformation.kinematic.cylinder import Cylinder
 from polycnc.transformation.kinematic.parallel import ParallelAxes
 from polycnc.transformation.kinematic.polar import CLOSEST_MM, PolarPlane
 from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
@@ -185,7 +186,23 @@ def _sit(channel: SinumerikChannel, seated: Seated) -> None:
     coordinates.transform(seated, seated.geometry, (IDENTITY, [0.0] * len(channel.axes)))
     coordinates.pending = [0.0] * len(channel.axes)
     coordinates.owes = False
+    aside = _aside(seated.inner)
+    if aside >= 0 and coordinates.position[aside]:
+        position = coordinates.position.copy()
+        position[aside] = 0.0
+        coordinates.arrive(position)
     channel.context_changed()
+
+
+def _aside(inner: Any) -> int:
+    """Column that says where a real Y axis stands beside the one of TRANSMIT or TRACYL; -1 without one.
+
+    The next block brings it to where the transformation and the tool need it.
+    """
+    first = inner.links[0] if isinstance(inner, Chain) else inner
+    if isinstance(first, PolarPlane) and first.virtual >= 0:
+        return first.rotary
+    return first.axis if isinstance(first, Cylinder) and first.virtual >= 0 else -1
 
 
 def _stand_regrouped(
@@ -257,11 +274,15 @@ def _seated(channel: SinumerikChannel, build: Build, total: NcFrame) -> Seated:
     on_axes = build.lengths == "tip" and tools.rules is not None and tools.rules.system == OF_MACHINE
     in_front, behind = (_NONE, tools.apart) if on_axes else (tools.apart, _NONE)
     if build.lengths == "tip":
-        inner = _with_tip(inner, (-x, -y, -z))
+        own = tools.own_direction(channel.mode["plane"]) if build.follows_tool else None
+        inner = _with_tip(
+            inner, (-x, -y, -z), None if own is None else (tools.carrier or IDENTITY).direct(*own)
+        )
     elif build.lengths == "before":
-        in_front = (in_front[0] + x, in_front[1] + y, in_front[2] + z)
+        in_front = plus(in_front, lengths)
     else:
         behind = lengths
+    in_front, behind = plus(in_front, build.in_front), plus(behind, build.behind)
     for column, length in zip(inner.geometry, in_front, strict=True):
         if column >= 0:
             shifts[column] += length
@@ -292,12 +313,16 @@ def _add_to_axes(channel: SinumerikChannel, inner: Any, offsets: list[float], le
             offsets[:] = link.to_machine(offsets)
 
 
-def _with_tip(inner: Any, tip: tuple[float, float, float]) -> Any:
-    """The transformation with another tool; of a chain it is the first link that has the tool."""
+def _with_tip(inner: Any, tip: Vector, along: Vector | None) -> Any:
+    """The transformation with another tool; of a chain it is the first link that has the tool.
+
+    `along` is the direction of the tool, None where it has none of its own.
+    """
     if isinstance(inner, Chain):
         first, *others = inner.links
-        return Chain((_with_tip(first, tip), *others))
-    return replace(inner, tip=tip)
+        return Chain((_with_tip(first, tip, along), *others))
+    kinematics = inner.kinematics if along is None else replace(inner.kinematics, along=along)
+    return replace(inner, tip=tip, kinematics=kinematics)
 
 
 # ---- names

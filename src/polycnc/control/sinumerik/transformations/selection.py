@@ -108,7 +108,7 @@ def _leaning(channel: SinumerikChannel, found: data_sets.DataSet, angle: float |
     if not -SQUARE < angle < SQUARE:
         raise AlarmError("14404", text="TRAANG")
     angles[found.number] = angle
-    return data_sets.inclined(channel, angle)
+    return data_sets.inclined(channel, found, angle)
 
 
 def chained(channel: SinumerikChannel, args: Arguments) -> None:
@@ -139,6 +139,8 @@ def _linked(channel: SinumerikChannel, found: data_sets.DataSet, rest: list[floa
     first = _first_link(channel, links[0], parameters[0])
     second = _leaning(channel, links[1], parameters[own])
     inner = Chain((first.inner, second.inner))
+    if any(second.in_front):
+        raise data_sets.another_machine(f"$MC_TRAANG_BASE_TOOL_{data_sets.order(channel, links[1])}")
     return replace(first, inner=inner, used=first.used | second.used)
 
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 from math import atan2, degrees
 from typing import TYPE_CHECKING
 
+from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.transformations.directions import tangent_of
 from polycnc.control.sinumerik.transformations.words import ANGLES
 from polycnc.geometry.vectors import cross, dot, minus, times
@@ -56,7 +57,7 @@ def turned(
 
     Raises:
         AlarmError: 14125 for THETA on a machine that cannot spin the tool, 14128 for a spin by positions or angles
-            while ORIROTC is active.
+            while ORIROTC is active; PC0001 for an edge with a normal of its own, from which the angle would count.
     """
     axis, code = axis_of(posture), mode["rotation_vector"]
     tells = "THETA" in words.single or "THT" in words.polynomials
@@ -68,6 +69,9 @@ def turned(
         raise AlarmError("14128")
     if not tells and code != ALONG_PATH:
         return knots
+    edge = posture.channel.memory.tools.edge
+    if edge is not None and edge.has_normal:
+        raise not_supported("$TC_DPVN3: THETA")
     start, end = (posture.direction(each) for each in (near, knots[-1].angles))
     moves = angle_between(start, end) > SAME
     tangent = tangent_of(posture, path, 0.0)

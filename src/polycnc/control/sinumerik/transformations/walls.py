@@ -45,14 +45,15 @@ class WallStage(Stage):
     Args:
         channel: The channel.
         column: Of the rotary axis, in which points of the path have the part that the linear axis goes.
+        at: Where the linear axis stands when the stage begins to lead it.
     """
 
     rank = Rank.NORMAL
 
-    def __init__(self, channel: SinumerikChannel, column: int) -> None:
+    def __init__(self, channel: SinumerikChannel, column: int, at: float = 0.0) -> None:
         self._channel, self._column = channel, column
         self._held: list[_Held] = []
-        self._at = 0.0  # where the linear axis stands at the start of the first move that is held
+        self._at = at  # where the linear axis stands at the start of the first move that is held
         self._off = 0.0  # how far the tool is off the centre line there
 
     @property

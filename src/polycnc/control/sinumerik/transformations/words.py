@@ -69,6 +69,11 @@ class Words(NamedTuple):
         x, y, z = (number(values, places[i]) if i in places else 0.0 for i in range(3))
         return (x, y, z)
 
+    @property
+    def tells_cone(self) -> bool:
+        """Whether the block tells the axis, the opening or the middle of a cone."""
+        return AXIS in self.triples or BETWEEN in self.triples or "NUT" in self.single
+
     def value(self, values: Values, address: str) -> float | None:
         """The value of LEAD, TILT, NUT or THETA; None where it is not programmed."""
         place = self.single.get(address)
@@ -96,12 +101,15 @@ def _real(value: Any, place: int) -> float:
     return float(value)
 
 
-def take(draft: Draft, orientation_axes: frozenset[int], *, virtual: bool = False) -> Words | None:
+def take(
+    draft: Draft, orientation_axes: frozenset[int], *, acts: bool = True, virtual: bool = False
+) -> Words | None:
     """Take the words of orientation out of a block; None where it has none.
 
     Words of a cone stay where the direction goes along none, and so does a retraction: PC0001.
 
-    `virtual`: A, B and C mean what A2, B2 and C2 mean (MD21102 = 1).
+    `acts`: a transformation turns the tool; without one no word has to go with the way of the direction. `virtual`: A,
+    B and C mean what A2, B2 and C2 mean (MD21102 = 1).
 
     Raises:
         AlarmError: 14110, 14111, 14129, 14131 for the end of the direction told in two ways, 14122 for opening and
@@ -111,11 +119,12 @@ def take(draft: Draft, orientation_axes: frozenset[int], *, virtual: bool = Fals
     single: dict[str, int] = {}
     second: dict[str, int] = {}
     polynomials: dict[str, int] = {}
-    theta = ""
+    theta, code = "", draft.mode["orientation_motion"]
     for position, word in draft.open_words():
         address = word.address
         kind = TRIPLES[address][0] if address in TRIPLES else address
-        if draft.mode["orientation_motion"] not in GOES_WITH.get(kind, (draft.mode["orientation_motion"],)):
+        counts = code in GOES_WITH.get(kind, (code,)) or not (acts or address in draft.memory.columns)
+        if not counts:
             continue
         if virtual and address in LETTERS and word.index is None:
             triples.setdefault(ANGLES, {})[LETTERS.index(address)] = position

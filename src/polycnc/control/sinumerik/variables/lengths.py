@@ -29,10 +29,11 @@ _OF_TOOLS = {
     "TC_DP": frozenset((*range(3, 10), *range(12, 19), 21, 22, 23)),
     "TC_CARR": frozenset((*range(1, 7), *range(15, 21), *range(38, 47), *range(55, 61))),
     "TC_TPG": frozenset((3, 4, 5)),
+    "TC_ADPT": frozenset((1, 2, 3)),
 }
 #: Lengths and radii of additive offsets (`$TC_SCPxy`): y.
 _OF_OFFSETS = frozenset(range(3, 10))
-_NUMBERED = regex(r"^\$(TC_DP|TC_CARR|TC_TPG)(\d+)$")
+_NUMBERED = regex(r"^\$(TC_DP|TC_CARR|TC_TPG|TC_ADPT)(\d+)$")
 _ADDITIVE = regex(r"^\$TC_[SE]CP\d(\d)$")
 #: What is a length, or a feed, of the path or of the tool.
 _PLAIN = frozenset(

@@ -41,6 +41,7 @@ from polycnc.control.sinumerik.signals.measuring_actions import ACTIVITY_VARIABL
 from polycnc.control.sinumerik.signals.sections import SECTION_VARIABLES
 from polycnc.control.sinumerik.signals.workpiece import WORKPIECE_VARIABLES
 from polycnc.control.sinumerik.tables import MINUTE
+from polycnc.control.sinumerik.tools.management.adapters import ADAPTER_VARIABLES
 from polycnc.control.sinumerik.tools.management.environments import ENVIRONMENT_VARIABLES
 from polycnc.control.sinumerik.tools.management.lists import LIST_VARIABLES
 from polycnc.control.sinumerik.tools.management.magazines import MAGAZINE_VARIABLES
@@ -479,6 +480,7 @@ VARIABLES: dict[str, SystemVariable] = {
         for name, row in {
             **LIST_VARIABLES,
             **MAGAZINE_VARIABLES,
+            **ADAPTER_VARIABLES,
             **MONITORING_VARIABLES,
             **ENVIRONMENT_VARIABLES,
         }.items()

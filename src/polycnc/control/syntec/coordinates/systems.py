@@ -112,7 +112,7 @@ def preset_system(channel: SyntecChannel, words: Words) -> None:
     for axis, value, _ in words.axes():
         origin[axis] = value
     shift = shift_of_zero(channel, origin, "G92.1")
-    vector = [words.typed(letter) or 0.0 for letter in "IJK"]
+    vector = [words.part(letter) or 0.0 for letter in "IJK"]
     turn_preset_frame(channel, angle, vector if any(vector) else [0.0, 0.0, 1.0], "G92.1")
     _shift_preset(channel, shift)
     refresh_zero(channel)

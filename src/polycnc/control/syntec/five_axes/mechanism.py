@@ -1,9 +1,10 @@
 """The mechanism of five-axis machines: what Pr3001 to Pr3004 and Pr3013 say of it (manual 2.45).
 
-The machine file has the rotary joints, so it is what answers where the setup does not. A setup that says something else
-is refused where a function would act by it: nobody knows then which of the two is the machine. Two add to it: Pr3002,
-along which axis of the machine the tool points with all rotary axes at zero, and Pr3013, how far the nose of a head
-lies from its last rotary axis.
+The machine file has the rotary joints, so it is what answers where the setup does not. Joints that the setup tells
+otherwise (Pr3001; Pr3021 to Pr3046 are offsets of which the manual has no word) are refused where a function would act
+by them: nobody knows then which of the two is the machine. How the tool stands with all rotary axes at zero the setup
+may tell anew: Pr3002 along which axis of the machine, Pr3003 and Pr3004 how it leans from that, Pr3013 how far the nose
+of a head lies from its last rotary axis.
 """
 
 from __future__ import annotations
@@ -12,23 +13,32 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.units import least_unit
 from polycnc.deferred.records import replace
-from polycnc.geometry.vectors import times
-from polycnc.machine.kinematics import Kinematics
+from polycnc.geometry.frames import IDENTITY, Frame
+from polycnc.geometry.vectors import axis_vector, dot, times
+from polycnc.machine.kinematics import Kinematics, unit
+from polycnc.transformation.planes.tilted import by_leaning, square_on
 
 if TYPE_CHECKING:
     from polycnc.control.syntec.family import SyntecChannel
+    from polycnc.control.syntec.parameters import SyntecParameters
     from polycnc.control.word_address.block.words import Words
     from polycnc.geometry.frames import Vector
     from polycnc.machine import Machine
 
 #: Pr3001: no five-axis machine; both rotary axes in the spindle; both in the table; one in each.
 NONE, SPINDLE, TABLE, MIXED = range(4)
-#: Pr3002: no direction set, which is Z; the tool points along X, Y or Z of the machine with all rotary axes at zero.
-NOT_SET, ALONG_Z = 0, 3
-DIRECTIONS: dict[int, Vector] = {1: (1.0, 0.0, 0.0), 2: (0.0, 1.0, 0.0)}
+#: Pr3002: no direction set; the tool points along X, Y or Z of the machine (1 to 3) with all rotary axes at zero.
+NOT_SET = 0
+#: By the axis of the tool how it stands there: Z of the frame is the tool, X and Y are the axes that follow that one,
+#: as in G19, G18 and G17.
+STANDING: tuple[Frame, Frame, Frame] = (
+    Frame(((0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0))),
+    Frame(((0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0))),
+    IDENTITY,
+)
 #: How many rotary axes make a five-axis machine.
 ROTARY_AXES = 2
-TYPE, DIRECTION = 3001, 3002
+TYPE, DIRECTION, HOLDER, OFFSETS = 3001, 3002, 3013, 3021
 
 
 def mechanism_of(machine: Machine) -> int:
@@ -41,25 +51,52 @@ def mechanism_of(machine: Machine) -> int:
     return MIXED if kinematics.tool else TABLE
 
 
-def value_of_machine(machine: Machine, number: int) -> int | None:
+def value_of_machine(machine: Machine, parameters: SyntecParameters, number: int) -> int | None:
     """A parameter that the machine file answers; None for another."""
-    mechanism = mechanism_of(machine)
+    kinematics, mechanism = Kinematics.of(machine), mechanism_of(machine)
     if number == TYPE:
         return mechanism
     if number == DIRECTION:
-        return ALONG_Z if mechanism != NONE else NOT_SET
+        return NOT_SET if mechanism == NONE else 1 + _axis_along(kinematics.along)
+    if number == HOLDER:
+        return round(-dot(kinematics.nose, unit(kinematics.along)) / least_unit(parameters))
     return None
 
 
 def kinematics_of(channel: SyntecChannel) -> Kinematics:
-    """The joints of the machine file, the direction of Pr3002; Pr3013 leads along the tool to the nose of a head."""
+    """The joints of the machine file, with the tool as Pr3002 to Pr3004 stand it, the nose as Pr3013 has it."""
     kinematics, parameters = Kinematics.of(channel.machine), channel.memory.parameters
-    if parameters.tool_direction in DIRECTIONS:
-        kinematics = replace(kinematics, along=DIRECTIONS[parameters.tool_direction])
-    if not kinematics.tool or not parameters.holder_length:
+    if _is_told(parameters):
+        kinematics = replace(kinematics, along=tool_at_zero(channel).direct(0.0, 0.0, 1.0))
+    if not kinematics.tool or parameters.holder_length is None:
         return kinematics
     holder = parameters.holder_length * least_unit(parameters)
-    return replace(kinematics, nose=times(kinematics.along, -holder))
+    return replace(kinematics, nose=times(unit(kinematics.along), -holder))
+
+
+def tool_at_zero(channel: SyntecChannel) -> Frame:
+    """How the tool stands with all rotary axes at zero, machine coordinates: Z of the frame lies along it.
+
+    Which way RA and RB turn it is general knowledge of the control's five-axis manual, and as on FANUC.
+    """
+    parameters, along = channel.memory.parameters, Kinematics.of(channel.machine).along
+    told = parameters.tool_direction or NOT_SET
+    axis = told - 1 if told != NOT_SET else _axis_along(along)
+    if axis < 0:
+        return square_on(unit(along))
+    degrees = least_unit(parameters)
+    lean, about = parameters.tool_lean_a * degrees, parameters.tool_lean_b * degrees
+    return by_leaning(axis, lean, about) @ STANDING[axis]
+
+
+def _is_told(parameters: SyntecParameters) -> bool:
+    """Whether the setup says how the tool stands."""
+    return bool(parameters.tool_direction or parameters.tool_lean_a or parameters.tool_lean_b)
+
+
+def _axis_along(direction: Vector) -> int:
+    """The axis, 0 to 2, that a direction counts up along; -1 for none of them."""
+    return next((axis for axis in range(3) if dot(unit(direction), axis_vector(axis)) > 1.0 - 1e-12), -1)
 
 
 def check(channel: SyntecChannel, words: Words, code: str) -> None:
@@ -73,10 +110,9 @@ def check(channel: SyntecChannel, words: Words, code: str) -> None:
         raise words.fail("tip_machine", code)
     contradicted = (
         ("Pr3001", given is not None and given != own),
-        ("Pr3002", parameters.tool_direction not in (None, NOT_SET, ALONG_Z, *DIRECTIONS)),
-        ("Pr3003", parameters.tool_lean_a % 360_000 != 0),
-        ("Pr3004", parameters.tool_lean_b % 360_000 != 0),
+        ("Pr3002", parameters.tool_direction not in (None, NOT_SET, 1, 2, 3)),
     )
-    for name, is_so in contradicted:
+    offsets = enumerate(parameters.mechanism_offsets, OFFSETS)
+    for name, is_so in (*contradicted, *((f"Pr{n}", value != 0) for n, value in offsets)):
         if is_so:
             raise channel.control.not_yet(f"{code} {name}", code)

@@ -70,7 +70,7 @@ def start(channel: SyntecChannel, words: Words) -> None:
         turns_first,
     )
     channel.flush()
-    channel.path.put(NormalStage(direction))
+    channel.path.put(NormalStage(direction, channel.toolpath))
 
 
 def _rotary_axis(channel: SyntecChannel, words: Words, code: str) -> tuple[int, int, float]:

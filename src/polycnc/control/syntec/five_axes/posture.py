@@ -16,6 +16,7 @@ from polycnc.control.syntec.motion.moves import feed_to
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion.path import reach
 from polycnc.control.word_address.transformations.tilted_plane import turn_to
+from polycnc.geometry.vectors import dot
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.plan import Builder, Plan
 
 STRAIGHT = {"G0": Kind.RAPID, "G1": Kind.FEED}
+#: What the cosine between two directions that are the same may lack of 1.
+SAME_DIRECTION = 1e-12
 
 
 def _plan(builder: Builder, plan: Plan) -> Step | None:
@@ -61,17 +64,28 @@ def _plan(builder: Builder, plan: Plan) -> Step | None:
 
 
 def _wrap(builder: Builder, _plan: Plan, step: Step | None) -> Step | None:
-    """Nothing moves before rotary words have told how the tool stands in the work system."""
+    """Before rotary words have told how the tool stands in the work system, a move needs one that stands in it already.
+
+    Otherwise the rotary axes might have to turn with that move, or not before they are named: the manual does not say.
+    """
     if step is None or builder.mode["length"] != "G43.4":
         return step
 
     def move(channel: SyntecChannel, values: list[float]) -> None:
         before = channel.coordinates.position
         step(channel, values)
-        if channel.coordinates.position != before and not PostureState.of(channel).told:
+        told = PostureState.of(channel).told
+        if channel.coordinates.position != before and not told and not _stands_already(channel):
             raise not_yet("G43.4 Q1: G54.4")
 
     return move
+
+
+def _stands_already(channel: SyntecChannel) -> bool:
+    """Whether the tool points the same way in the work system as it is turned as in the one that is not turned."""
+    here = dict(zip(channel.axes, channel.coordinates.machine, strict=True))
+    tool = channel.control.kinematics(channel).tool_on_work(here)
+    return dot(tool, TurnState.of(channel).work.direct(*tool)) > 1.0 - SAME_DIRECTION
 
 
 def not_yet(code: str) -> AlarmError:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
-from polycnc.compensation.spatial_rules import ARC_FIRST, INTERSECTION, Corners, Rules
+from polycnc.compensation.spatial.rules import ARC_FIRST, INTERSECTION, Corners, Rules
 from polycnc.control.syntec.coordinates.turns import PostureState
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.tools import spatial

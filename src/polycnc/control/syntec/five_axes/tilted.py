@@ -165,13 +165,11 @@ def set_tilt(channel: SyntecChannel, tilt: Frame, code: str) -> None:
 def _across_tool(channel: SyntecChannel, words: Words) -> Frame:
     """How the plane of G68.3 is turned on the work; Z of it is the tool.
 
-    P1: as the rotary axes turn the tool against the work; with a tool along another axis than Z that gives no plane.
+    P1: as the rotary axes turn the tool against the work, from how it stands with them at zero.
     """
     kinematics, back = channel.control.kinematics(channel), ZeroState.of(channel).frame.inverse()
     angles = dict(zip(channel.axes, channel.coordinates.machine, strict=True))
     if words.typed("P") != 1:
         x, y, z = kinematics.tool_on_work(angles)
         return square_on(back.direct(x, y, z)) @ rotation(2, words.angle("R") or 0.0)
-    if kinematics.along[2] < 1.0:
-        raise channel.control.not_yet("G68.3 P1: Pr3002", "G68.3")
-    return back @ by_rotary_axes(kinematics, angles)
+    return back @ by_rotary_axes(kinematics, angles) @ mechanism.tool_at_zero(channel)

@@ -75,8 +75,8 @@ def start(channel: SyntecChannel, words: Words) -> None:
     if TurnState.of(channel).told_by == "G68.3":
         raise words.fail("tip_on_tool_plane", channel.mode["length"])
     renew_work_turn(channel)
-    turns, leads = TurnState.of(channel), TipState.of(channel).is_leading(channel)
-    if PolarState.of(channel).plane is not None or (turns.tilt is not IDENTITY and not leads):
+    turns = TurnState.of(channel)
+    if PolarState.of(channel).plane is not None:
         raise words.fail("tip_mode", channel.mode["length"])
     # I of G43.5 is a part of the tool's direction.
     fastest = (words.typed("I") or 0.0) if channel.mode["length"] == "G43.4" else 0.0

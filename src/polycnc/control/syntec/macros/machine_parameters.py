@@ -44,7 +44,9 @@ def read_long(memory: SyntecMemory, number: int) -> int | None:
     if written is not None:
         return written
     value = long_of(memory.parameters, number)
-    return mechanism.value_of_machine(memory.channel.machine, number) if value is None else value
+    if value is not None:
+        return value
+    return mechanism.value_of_machine(memory.channel.machine, memory.parameters, number)
 
 
 def write_long(memory: SyntecMemory, number: int, value: int) -> None:

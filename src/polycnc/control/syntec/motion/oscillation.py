@@ -16,7 +16,13 @@ from polycnc.control.syntec.axis_groups.names import CODES, axis_of_code
 from polycnc.control.syntec.motion.moves import rapid_as
 from polycnc.control.syntec.units import least_unit
 from polycnc.control.word_address.block.rules import Rule
-from polycnc.control.word_address.motion.oscillation import Fixed, Oscillator, Read, Strokes
+from polycnc.control.word_address.motion.oscillation import (
+    Fixed,
+    Oscillator,
+    Read,
+    Strokes,
+    speed_of_feed,
+)
 from polycnc.control.word_address.transformations.normal_stage import NormalStage
 from polycnc.deferred.records import dataclass
 from polycnc.toolpath import Kind
@@ -76,11 +82,13 @@ def start(channel: SyntecChannel, words: Words) -> None:
         raise words.fail("oscillation_repeated", SIMPLE)
     _refuse_transformations(channel, words, SIMPLE)
     named = words.axes()
-    stroke, home = words.length("Q"), words.length("R")
-    if len(named) != 1 or stroke is None or home is None:
+    if len(named) != 1:
         raise words.fail("argument", SIMPLE)
     axis, upper, _ = named[0]
-    strokes = Strokes((upper, upper + stroke), channel.feed)
+    stroke, home = (words.way(address, rotary=channel.axis_data[axis].rotary) for address in "QR")
+    if stroke is None or home is None:
+        raise words.fail("argument", SIMPLE)
+    strokes = Strokes((upper, upper + stroke), speed_of_feed(channel, axis))
     _begin(channel, Oscillation(axis, Fixed(strokes), upper + home))
 
 
@@ -109,7 +117,7 @@ def start_precise(channel: SyntecChannel, words: Words) -> None:
     running: Oscillation | None = state.running
     if running is not None and not (state.precise and running.axis == axis):
         raise words.fail("oscillation_repeated", PRECISE)
-    told = words.length("R")
+    told = words.way("R", rotary=channel.axis_data[axis].rotary)
     home = (
         told
         if told is not None
@@ -138,8 +146,9 @@ def end_precise(channel: SyntecChannel, words: Words) -> None:
     memory = channel.memory
     if not state.was_precise:
         raise words.fail("oscillation_repeated", OFF)
-    place = words.length("Q")
     running: Oscillation | None = state.running
+    axis = state.precise_axis if running is None else running.axis
+    place = words.way("Q", rotary=channel.axis_data[axis].rotary)
     if running is None or not state.precise:
         if running is not None:
             channel.mode = channel.mode.with_code(OSCILLATION, SIMPLE)

@@ -55,7 +55,7 @@ class PlainBlocks:
             return False
         if channel.coordinates.transformation is not None and not channel.path.is_idle:
             return False
-        if may_refuse_moves(channel):
+        if may_refuse_moves(channel) or channel.coordinates.naming is not None:
             return False
         return channel.coordinates.direct or _keeps_circles(channel)
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.block.numbers import angle_converter, length_converter
 from polycnc.control.word_address.block.whole_numbers import DecimalPoint
+from polycnc.geometry.units import INCH_MM
 from polycnc.language.word_address.functions import round_half_away
 
 if TYPE_CHECKING:
@@ -48,6 +49,18 @@ class Words:
         value = self.values[slot[0]]
         return convert(value) if convert else value
 
+    def part(self, address: str) -> float | None:
+        """A part of a direction, of which only the ratio to the others counts.
+
+        Without a point it counts least increments, as a length does; with one no digit is cut off.
+        """
+        slot = self.plan.slots.get(address)
+        if slot is None:
+            return None
+        value = self.values[slot[0]]
+        convert = length_converter(slot[1], self.plan.rules, inch=self.plan.inch) if slot[1] == "" else None
+        return convert(value) if convert else value * (INCH_MM if self.plan.inch else 1.0)
+
     def angle(self, address: str) -> float | None:
         """An angle in degrees."""
         slot = self.plan.slots.get(address)
@@ -56,6 +69,10 @@ class Words:
         convert = angle_converter(slot[1], self.plan.rules)
         value = self.values[slot[0]]
         return convert(value) if convert else value
+
+    def way(self, address: str, *, rotary: bool) -> float | None:
+        """A way of one axis: millimetres, or degrees of a rotary one."""
+        return self.angle(address) if rotary else self.length(address)
 
     def integer(self, address: str) -> int | None:
         """A whole number; what a decimal point in it does is the control's."""

@@ -39,10 +39,12 @@ class OnTable(State, lifetime=Lifetime.RESET):
         posture: How the tool stands on the work as it should lie: machine positions of the rotary axes by name,
             degrees, as words under G43.4 have told them; where none have, where the axes stood when that began.
         stood: Positions that the rotary axes were led to by that, so that it stands on the work as it lies.
+        turns_tool: The error turns the tool without tip control as well.
     """
 
     fixture: int = 0
     error: int = 0
+    turns_tool: bool = False
     posture: dict[str, float] = field(default_factory=dict)
     stood: dict[str, float] = field(default_factory=dict)
 
@@ -97,7 +99,10 @@ def follow(channel: WordAddressChannel, angles: Angles | None = None) -> None:
             for error, places in _errors(channel, state.error)
         )
         if errors:
-            zero.misplaced = Misplaced(errors, turn)
+            told = (
+                kinematics.work_turn(state.posture) if state.turns_tool and _is_led(channel, here) else None
+            )
+            zero.misplaced = Misplaced(errors, turn, told)
     refresh_zero(channel)
 
 
@@ -107,10 +112,16 @@ def begin_posture(channel: WordAddressChannel, *, told: bool = False) -> None:
     `told`: words of the block in which it begins have led them, as they do without tip control.
     """
     state, here = OnTable.of(channel), dict(zip(channel.axes, channel.coordinates.machine, strict=True))
-    axes = channel.control.kinematics(channel).axes
-    led = bool(state.stood) and all(abs(state.stood[name] - here[name]) < NOT_MOVED_DEG for name in axes)
-    if told or not (state.error and led):
+    if told or not (state.error and _is_led(channel, here)):
+        axes = channel.control.kinematics(channel).axes
         state.posture, state.stood = {name: here[name] for name in axes}, {}
+
+
+def _is_led(channel: WordAddressChannel, here: Angles) -> bool:
+    """Whether the rotary axes stand where words have led them."""
+    stood = OnTable.of(channel).stood
+    axes = channel.control.kinematics(channel).axes
+    return bool(stood) and all(abs(stood[name] - here[name]) < NOT_MOVED_DEG for name in axes)
 
 
 def _errors(channel: WordAddressChannel, number: int) -> list[tuple[Frame, list[float]]]:

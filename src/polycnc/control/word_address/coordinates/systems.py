@@ -11,8 +11,9 @@ from polycnc.control.word_address.auxiliary.interlocks import note_reference_ret
 from polycnc.control.word_address.coordinates import tip
 from polycnc.control.word_address.memory import EXTERNAL
 from polycnc.control.word_address.tools.radius import suspended
-from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.records import dataclass, field, replace
 from polycnc.geometry.frames import IDENTITY, Frame, translation
+from polycnc.geometry.vectors import cross, dot, minus
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
@@ -71,7 +72,7 @@ def refresh_zero(channel: WordAddressChannel, *, travelled: bool = False) -> Non
     if leading.active is not None and leads:
         # Or the way to the machine and back would leave rounding noise.
         if not leading.lies_at(frame, offsets):
-            tip.lead(channel, leading.active, frame, offsets)
+            tip.lead(channel, leading.active, frame, offsets, frame_as_told(channel, offsets))
     else:
         channel.coordinates.set_zero(frame, offsets, travelled=travelled)
     channel.context_changed()
@@ -96,13 +97,23 @@ def work_frame(channel: WordAddressChannel, offsets: list[float]) -> Frame:
 
 def frame_on_table(channel: WordAddressChannel, offsets: list[float]) -> Frame:
     """From the display to axes counted from a work zero with the table at zero: tip control turns it by itself."""
-    zero, begun = ZeroState.of(channel), tip.TipState.of(channel).begun
-    inner = zero.plane
-    if not begun.is_identity:
-        shift = translation(*work_zero(channel, offsets))
-        inner = shift.inverse() @ begun.inverse() @ shift @ inner
-    frame = zero.frame @ lies(channel, offsets) @ inner
+    frame = ZeroState.of(channel).frame @ lies(channel, offsets) @ _begun_on_table(channel, offsets)
     return IDENTITY if frame.is_identity else frame
+
+
+def frame_as_told(channel: WordAddressChannel, offsets: list[float]) -> Frame | None:
+    """The same on a work that lies where it should; None where it does."""
+    zero = ZeroState.of(channel)
+    return None if zero.misplaced is None else zero.frame @ _begun_on_table(channel, offsets)
+
+
+def _begun_on_table(channel: WordAddressChannel, offsets: list[float]) -> Frame:
+    """From a tilted plane to the table at zero, which had turned when tip control began."""
+    plane, begun = ZeroState.of(channel).plane, tip.TipState.of(channel).begun
+    if begun.is_identity:
+        return plane
+    shift = translation(*work_zero(channel, offsets))
+    return shift.inverse() @ begun.inverse() @ shift @ plane
 
 
 def plane_on_table(channel: WordAddressChannel, offsets: list[float]) -> Frame:
@@ -158,6 +169,24 @@ def _directed(channel: WordAddressChannel, frame: Frame, shifts: list[float]) ->
     return directed
 
 
+def on_work(channel: WordAddressChannel) -> Frame:
+    """From the display to the system of the work offset: G52, turns of the work, planes.
+
+    In that system, with the table at zero, a program with several planes is one picture. G92 shifts all work systems.
+    """
+    zero, leading = ZeroState.of(channel), tip.TipState.of(channel)
+    frame, offsets = IDENTITY, channel.coordinates.offsets
+    if leading.active is not None and leading.is_leading(channel):
+        frame = frame_on_table(channel, offsets)
+    elif zero.misplaced is not None or not (zero.frame.is_identity and zero.plane.is_identity):
+        frame = plane_on_table(channel, offsets)
+    if not any(zero.local):
+        return frame
+    shift = _directed(channel, zero.turn, zero.local)
+    moved = translation(*(shift[axis] if axis >= 0 else 0.0 for axis in channel.coordinates.geometry))
+    return moved if frame.is_identity else moved @ frame
+
+
 def select_work_offset(channel: MacroChannel, words: Words) -> None:
     """G54 to G59, G54.1 P1 … (also `G54 P1`): the work coordinate system; no motion by itself."""
     state = ZeroState.of(channel)
@@ -184,7 +213,7 @@ def set_position(channel: WordAddressChannel, words: Words) -> None:
 
     A local system (G52) of these axes ends with it (macro B 10.3).
     """
-    state, position = ZeroState.of(channel), channel.coordinates.position
+    state, position = ZeroState.of(channel), channel.coordinates.named(channel.coordinates.position)
     way = [0.0] * len(channel.axes)
     for axis, value, _ in words.axes():
         way[axis] = position[axis] - value
@@ -202,10 +231,59 @@ def shift_of_zero(channel: WordAddressChannel, way: list[float], code: str) -> l
     Where coordinates are turned within the work system, or a plane in it is tilted, X, Y and Z of the way lie along
     other axes of it. The work zero lies on the table, so what that has turned since does not count.
     """
-    if ZeroState.of(channel).misplaced is not None:
+    zero, offsets = ZeroState.of(channel), channel.coordinates.offsets
+    if zero.misplaced is not None:
+        return _shift_beside_error(channel, way, code)
+    stands = tip.TipState.of(channel).stands
+    seen = IDENTITY if stands else frame_on_table(channel, offsets)
+    return list(_directed(channel, zero.turn.inverse() @ seen, way))
+
+
+def _shift_beside_error(channel: WordAddressChannel, way: list[float], code: str) -> list[float]:
+    """The same where the work lies beside its place: how it lies goes with the zero, which the table may have turned.
+
+    Positions change evenly with the zero, so three trials say how.
+
+    Raises:
+        AlarmError: PC0001 where a zero can be told by no position.
+    """
+    geometry, offsets = channel.coordinates.geometry, channel.coordinates.offsets
+    here, changes = _position_by(channel, offsets), []
+    for axis in geometry:
+        tried = list(offsets)
+        tried[axis] += 1.0
+        changes.append(minus(_position_by(channel, tried), here))
+    x, y, z = changes
+    size = dot(x, cross(y, z))
+    if abs(size) < NO_TELLING or -1 in geometry:
         raise AlarmError("PC0001", hint="hint.not-supported", code=f"G54.4: {code}")
-    frame = ZeroState.of(channel).turn.inverse() @ frame_on_table(channel, channel.coordinates.offsets)
-    return list(_directed(channel, frame, way))
+    wanted = [-way[axis] for axis in geometry]
+    shift = list(way)
+    for axis, pair in zip(geometry, (cross(y, z), cross(z, x), cross(x, y)), strict=True):
+        shift[axis] = dot(wanted, pair) / size
+    return shift
+
+
+#: Trials that change positions by less (mm cubed) tell no zero.
+NO_TELLING = 1e-6
+
+
+def _position_by(channel: WordAddressChannel, offsets: list[float]) -> Vector:
+    """X, Y and Z of the display where the machine stands, with other offsets."""
+    from polycnc.transformation.seated import Seated
+
+    c, leading = channel.coordinates, tip.TipState.of(channel)
+    inner = [value - shift for value, shift in zip(c.machine, offsets, strict=True)]
+    if leading.active is not None and leading.is_leading(channel):
+        active = replace(leading.active, zero=tuple(offsets))
+        inner = Seated(active, frame_on_table(channel, offsets)).to_work(inner)
+        if leading.stands:
+            told = Seated(active, frame_as_told(channel, offsets) or IDENTITY)
+            inner = tip.standing_before(active, told, leading.beside).to_work(inner)
+    else:
+        inner = c.image(work_frame(channel, offsets).inverse(), inner)
+    x, y, z = (inner[axis] for axis in c.geometry)
+    return (x, y, z)
 
 
 def set_position_or_limit(channel: WordAddressChannel, words: Words) -> None:

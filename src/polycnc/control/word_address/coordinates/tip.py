@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.family import WordAddressChannel
     from polycnc.geometry.frames import Vector
     from polycnc.transformation.contract import Transformation
+    from polycnc.transformation.couplings.coupled import Shown
     from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
 
 
@@ -28,11 +29,17 @@ class TipState(State, lifetime=Lifetime.RESET):
         seated: It with that.
         begun: How the table had turned when tip control began, machine coordinates: there the system that it takes
             along is the work system.
+        stands: Words name the tip in the work system, which does not turn; positions of the path lie on the table.
+        told: What would lead the axes if the work lay where it should, by which words are read then.
+        beside: How far words tell each axis beyond where it stands, on a work that lies elsewhere; empty for nowhere.
     """
 
     active: ToolCentrePoint | None = None
     seated: Transformation | None = None
     begun: Frame = IDENTITY
+    stands: bool = False
+    told: Transformation | None = None
+    beside: tuple[float, ...] = ()
 
     def is_leading(self, channel: WordAddressChannel) -> bool:
         """Whether words name the tip now."""
@@ -50,14 +57,39 @@ class TipState(State, lifetime=Lifetime.RESET):
         return self.active is not None and self.active.zero == tuple(offsets) and self.frame == frame
 
 
-def lead(channel: WordAddressChannel, active: ToolCentrePoint, frame: Frame, offsets: list[float]) -> None:
-    """Let words name the tip, in a work system that is turned by a frame and shifted by offsets; the machine stays."""
+def lead(
+    channel: WordAddressChannel,
+    active: ToolCentrePoint,
+    frame: Frame,
+    offsets: list[float],
+    told: Frame | None = None,
+) -> None:
+    """Let words name the tip, in a work system that is turned by a frame and shifted by offsets; the machine stays.
+
+    `told` is that frame on a work that lies where it should; None for the same.
+    """
     from polycnc.transformation.seated import Seated
 
     state = TipState.of(channel)
     state.active = replace(active, zero=tuple(offsets))
     state.seated = state.active if frame.is_identity else Seated(state.active, frame)
-    channel.coordinates.transform(state.seated, None, (IDENTITY, offsets))
+    state.told = state.seated if told is None else Seated(state.active, told)
+    channel.coordinates.transform(state.seated, None, (IDENTITY, offsets), standing(channel))
+
+
+def standing(channel: WordAddressChannel) -> Shown | None:
+    """From the tip in a work system that does not turn to its places on the table; None where words name these."""
+    state = TipState.of(channel)
+    if not state.stands or state.active is None or state.told is None:
+        return None
+    return standing_before(state.active, state.told, state.beside)
+
+
+def standing_before(active: ToolCentrePoint, told: Transformation, beside: tuple[float, ...]) -> Shown:
+    """The same for what leads the axes, and would lead them if the work lay where it should."""
+    from polycnc.transformation.couplings.coupled import Shown
+
+    return Shown(told, replace(active, kinematics=replace(active.kinematics, work=())), beside)
 
 
 def direction(channel: WordAddressChannel, named: Vector) -> Vector:

@@ -8,7 +8,6 @@ from the block that enters the mode until the mode ends.
 
 from __future__ import annotations
 
-from enum import Enum
 from math import nan
 from typing import TYPE_CHECKING
 
@@ -21,6 +20,7 @@ from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.whole_numbers import DecimalPoint
 from polycnc.control.word_address.block.words_as_data import targets_as_data
 from polycnc.control.word_address.coordinates.frames import level_of, scale_of
+from polycnc.control.word_address.cycles.hole_halts import Halts, halts_nowhere, with_halts
 from polycnc.control.word_address.cycles.plunge import STROKES_OF_A_BLOCK, plunges
 from polycnc.control.word_address.cycles.shift import shift_by_center_words, shift_off_axis
 from polycnc.control.word_address.motion.path import FEED_MODES, reach
@@ -157,21 +157,13 @@ def nothing_to_check(_channel: WordAddressChannel, _code: str) -> None:
     """The control has no conditions of its own."""
 
 
-class Halts(Enum):
-    """Where single block halts in a hole, besides its end."""
-
-    NONE = "nowhere"
-    APPROACH = "over the hole and on R"
-    ALL = "behind every stroke"
-
-
 def no_overlap(_channel: WordAddressChannel, _code: str) -> None:
     """Every stroke begins when the axes rest."""
 
 
-def halts_nowhere(_channel: WordAddressChannel, _code: str) -> Halts:
-    """A block that drills is one block."""
-    return Halts.NONE
+def rapid_over(channel: WordAddressChannel, _words: Sequence[AxisWord], end: list[float]) -> None:
+    """Rapid to a programmed point."""
+    channel.straight(Kind.RAPID, channel.coordinates.to_position(end), nan, end)
 
 
 @dataclass(frozen=True, slots=True)
@@ -204,6 +196,7 @@ class Drilling:
         taps_end_at_r: A feed hold within a tap stops it at R; else where the cycle ends.
         overlaps: How far before the place of a hole its first stroke begins, mm, as in `Stroke`, by cycle code; None
             where no strokes overlap.
+        over: The way over the hole that words name, to its programmed point.
     """
 
     cycles: Mapping[str, DrillCycle]
@@ -230,6 +223,7 @@ class Drilling:
     halts: Callable[[Channel, str], Halts] = halts_nowhere
     taps_end_at_r: bool = False
     overlaps: Callable[[Channel, str], float | None] = no_overlap
+    over: Callable[[Channel, Sequence[AxisWord], list[float]], None] = rapid_over
 
     @property
     def words(self) -> tuple[str, ...]:
@@ -446,7 +440,7 @@ class _Words:
             end[self.axis] = c.programmed[self.axis]
         else:
             end = reach(channel, self.positions, values)
-        channel.straight(Kind.RAPID, c.to_position(end), nan, end)
+        self.rules.over(channel, self.positions, end)
 
 
 def drill_here(channel: WordAddressChannel) -> None:
@@ -475,26 +469,6 @@ def hole_of(channel: WordAddressChannel, code: str, data: CycleData) -> Hole:
     )
 
 
-def _with_halts(channel: WordAddressChannel, strokes: Iterator[Stroke], halts: Halts) -> Iterator[Stroke]:
-    """Note where single block halts: behind strokes and dwells; the end of the hole is not counted here.
-
-    A dwell behind an M code (unclamping an axis) belongs to the action that the code ends.
-    """
-    if halts is Halts.NONE or not channel.single_block:
-        yield from strokes
-        return
-    waits, last = False, None
-    for stroke in strokes:
-        if stroke.action not in (Action.OUTPUT, Action.SPINDLE, Action.ORIENT):
-            if waits and not (stroke.action is Action.DWELL and last is Action.OUTPUT):
-                channel.halt_inside()
-            on_r = halts is Halts.APPROACH and stroke.action is Action.RAPID
-            waits = halts is Halts.ALL or on_r
-            halts = Halts.NONE if on_r else halts
-        last = stroke.action
-        yield stroke
-
-
 def _with_holds(channel: WordAddressChannel, strokes: Iterator[Stroke]) -> Iterator[Stroke]:
     """Note where a feed hold waits: from the first cut of a tap on, until it is out of the hole."""
     state = OverrideState.of(channel)
@@ -521,7 +495,7 @@ def _perform(channel: WordAddressChannel, code: str, data: CycleData, halts: Hal
         channel.context_changed()
         strokes = _with_holds(channel, strokes)
     try:
-        _work(channel, _with_halts(channel, strokes, halts), data)
+        _work(channel, with_halts(channel, strokes, halts), data)
     finally:
         if state.tapping:
             state.tapping = state.in_tap = False

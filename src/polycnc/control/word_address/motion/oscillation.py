@@ -16,6 +16,7 @@ from polycnc.channel.waits import PreprocessingStop
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.tolerances import NO_WAY
+from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath.events import Deed
 
 if TYPE_CHECKING:
@@ -30,6 +31,12 @@ class Strokes(NamedTuple):
 
     vertices: tuple[float, float]
     speed: float
+
+
+def speed_of_feed(channel: Channel, column: int) -> float:
+    """The feed as the speed of an axis, mm/s; that of a rotary one, degrees/s, is no length in inches."""
+    inch = channel.control.is_inch(channel.mode) and channel.axis_data[column].rotary
+    return channel.feed / INCH_MM if inch else channel.feed
 
 
 class Source(Protocol):

@@ -51,7 +51,7 @@ def skip_move(channel: WordAddressChannel, words: Words) -> None:
     end = _target(channel, words)
     stopped = signal_position(channel, channel.coordinates.position, end, channel.setup.switches.skip_input)
     move_to_signal(channel, end, stopped)
-    LastSkip.of(channel).position = list(channel.coordinates.position)
+    LastSkip.of(channel).position = list(channel.coordinates.named(channel.coordinates.position))
 
 
 def _target(channel: WordAddressChannel, words: Words) -> list[float]:

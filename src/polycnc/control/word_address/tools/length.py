@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.coordinates import tip
-from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
+from polycnc.control.word_address.coordinates.systems import ZeroState, frame_as_told, refresh_zero
 from polycnc.control.word_address.cycles import drilling
 from polycnc.deferred.records import dataclass, field, replace
 from polycnc.geometry.vectors import times
@@ -20,7 +20,12 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.family import WordAddressChannel
     from polycnc.geometry.frames import Vector
 
-_SIGN = {"G43": 1.0, "G44": -1.0}
+#: The code under which a length counts along the tool as the head turns it (MELDAS).
+ALONG_TOOL = "G43.1"
+_SIGN = {"G43": 1.0, "G44": -1.0, ALONG_TOOL: 1.0}
+_UPRIGHT: Vector = (0.0, 0.0, 1.0)
+#: What rounding leaves of a length (mm) is not travelled.
+NO_WAY = 1e-9
 
 
 @dataclass(slots=True)
@@ -30,12 +35,14 @@ class LengthState(State, lifetime=Lifetime.RESET):
     Attributes:
         number: Its number (H).
         direction: The direction in which it counts where that is not Z.
+        along: The tool as the head turns it, which is that direction under G43.1.
         lost: Axes in which it does not count until the next G43, G44 or H.
         left_at: Machine positions to which axes were sent without regard to it.
     """
 
     number: int = 0
     direction: Vector | None = None
+    along: Vector = _UPRIGHT
     lost: tuple[int, ...] = ()
     left_at: dict[int, float] = field(default_factory=dict)
 
@@ -113,16 +120,14 @@ def _forget(channel: WordAddressChannel, axes: list[int]) -> None:
 def plan_length_number(builder: Builder) -> Step | None:
     """H without G43/G44 in its block: a new number for the active compensation."""
     slot = builder.slots["H"][0]
-    z = builder.channel.coordinates.geometry[2]
-    moved = any(word.axis == z for word in builder.axis_words())
+    named = {word.axis for word in builder.axis_words()}
 
     def change(channel: WordAddressChannel, values: list[float]) -> None:
         LengthState.of(channel).number = int(values[slot])
         _begin_anew(channel)
         if channel.mode["length"] in _SIGN:
             _shift(channel)
-            if not moved:
-                _travel(channel)
+            _travel(channel, named)
         else:
             renew_tip(channel)
 
@@ -145,15 +150,14 @@ def renew_tip(channel: WordAddressChannel) -> None:
         active = replace(state.active, tip=times(state.active.kinematics.along, -value))
         if active != state.active:
             channel.flush()
-            tip.lead(channel, active, state.frame, channel.coordinates.offsets)
+            offsets = channel.coordinates.offsets
+            tip.lead(channel, active, state.frame, offsets, frame_as_told(channel, offsets))
             channel.context_changed()
 
 
 def _apply(channel: WordAddressChannel, words: Words) -> None:
     _shift(channel)
-    z = channel.coordinates.geometry[2]
-    if not any(axis == z for axis, _, _ in words.axes()):
-        _travel(channel)
+    _travel(channel, {axis for axis, _, _ in words.axes()})
 
 
 def active_value(channel: WordAddressChannel) -> float:
@@ -162,20 +166,26 @@ def active_value(channel: WordAddressChannel) -> float:
     return sign * channel.control.length_value(channel, number) if sign and number else 0.0
 
 
-def _shift(channel: WordAddressChannel) -> None:
-    zero_state = ZeroState.of(channel)
-    length_state = LengthState.of(channel)
-    z = channel.coordinates.geometry[2]
-    if z < 0:
+def _shift(channel: WordAddressChannel, *, travelled: bool = True) -> None:
+    state, lengths, geometry = (
+        LengthState.of(channel),
+        ZeroState.of(channel).length,
+        channel.coordinates.geometry,
+    )
+    if geometry[2] < 0:
         raise channel.control.fail("plane")
     value = active_value(channel)
-    if length_state.direction is None:
-        zero_state.length[z] = 0.0 if z in length_state.lost else value
-    else:
-        for axis, part in zip(channel.coordinates.geometry, length_state.direction, strict=True):
-            if axis >= 0:
-                zero_state.length[axis] = 0.0 if axis in length_state.lost else value * part
-    refresh_zero(channel, travelled=True)
+    turned = channel.mode.codes.get("length") == ALONG_TOOL
+    for axis, part in zip(geometry, state.along if turned else state.direction or _UPRIGHT, strict=True):
+        if axis >= 0:
+            lengths[axis] = value * part if part and axis not in state.lost else 0.0
+    refresh_zero(channel, travelled=travelled)
+
+
+def turn_length(channel: WordAddressChannel, along: Vector) -> None:
+    """G43.1: the head stands the tool along this direction at the end of a block, which goes there."""
+    LengthState.of(channel).along = along
+    _shift(channel, travelled=False)
 
 
 def renew_direction(channel: WordAddressChannel) -> None:
@@ -187,16 +197,21 @@ def renew_direction(channel: WordAddressChannel) -> None:
         _shift(channel)
 
 
-def _travel(channel: WordAddressChannel) -> None:
-    """Without a Z word the axis moves by the change at once, as `G91 Z0` would, where the control has it so."""
-    if not channel.control.LENGTH_TRAVELS_ALONE or drilling.is_active(channel):
+def _travel(channel: WordAddressChannel, named: set[int]) -> None:
+    """Without a word the axis moves by the change at once, as `G91 Z0` would, where the control has it so."""
+    c = channel.coordinates
+    owed = [
+        a
+        for a in c.geometry
+        if a >= 0 and a not in named and (a == c.geometry[2] or abs(c.pending[a]) > NO_WAY)
+    ]
+    if not owed or not channel.control.LENGTH_TRAVELS_ALONE or drilling.is_active(channel):
         # In a drilling cycle the way to R brings the new length in (Hartford 3.3.4, note 6).
         return
-    c = channel.coordinates
-    z = c.geometry[2]
     end = c.position[:]
-    end[z] += c.pending[z]
-    c.pending[z] = 0.0
+    for axis in owed:
+        end[axis] += c.pending[axis]
+        c.pending[axis] = 0.0
     rapid = channel.mode["motion"] == "G0"
     if not rapid and not channel.feed > 0.0:
         raise channel.control.fail("no_feed")

@@ -16,8 +16,8 @@ from polycnc.control.word_address.tools import radius
 from polycnc.control.word_address.tools.radius import RadiusState
 
 if TYPE_CHECKING:
-    from polycnc.compensation.spatial import SpatialStage
-    from polycnc.compensation.spatial_rules import Corners, Rules
+    from polycnc.compensation.spatial.rules import Corners, Rules
+    from polycnc.compensation.spatial.stage import SpatialStage
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.block.words import Words
@@ -36,7 +36,7 @@ SHAPES = ("G50", "G50.1", "G51", "G51.1")
 
 def stage_of(channel: WordAddressChannel) -> SpatialStage | None:
     """The stage of the path while the compensation is active."""
-    from polycnc.compensation.spatial import SpatialStage  # where it is used
+    from polycnc.compensation.spatial.stage import SpatialStage  # where it is used
 
     stage = channel.path.find(SpatialStage)
     return stage if stage is not None and stage.active else None
@@ -53,7 +53,7 @@ def engage(channel: WordAddressChannel, words: Words, corners: Corners, rules: R
     if stage is not None:
         stage.change(side, amount)
         return
-    from polycnc.compensation.spatial import SpatialStage
+    from polycnc.compensation.spatial.stage import SpatialStage
 
     channel.flush()
     channel.path.take(SpatialStage)
@@ -72,7 +72,7 @@ def posture_of(channel: WordAddressChannel) -> Posture:
 def _stage(
     channel: WordAddressChannel, amount: float, side: int, corners: Corners, rules: Rules
 ) -> SpatialStage:
-    from polycnc.compensation.spatial import SpatialStage
+    from polycnc.compensation.spatial.stage import SpatialStage
 
     c, kinematics = channel.coordinates, channel.control.kinematics(channel)
     unite = partial(join, channel)
@@ -90,7 +90,7 @@ def end(channel: WordAddressChannel) -> None:
     """G40: the last block ends square on itself, and the next one leads back; unless one is awaited that does so."""
     stage = stage_of(channel)
     if stage is not None and not stage.leaves:
-        from polycnc.compensation.spatial import SpatialStage
+        from polycnc.compensation.spatial.stage import SpatialStage
 
         channel.flush()
         channel.path.take(SpatialStage)

@@ -10,13 +10,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Protocol
 
-from polycnc.compensation.spatial import Directions, SpatialStage
+from polycnc.compensation.spatial.chords import Directions
+from polycnc.compensation.spatial.stage import SpatialStage
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from polycnc.channel.moves.path import Move
-    from polycnc.compensation.spatial_rules import Corners, Rules
+    from polycnc.compensation.spatial.rules import Corners, Rules
     from polycnc.geometry.frames import Vector
 
 

@@ -75,7 +75,7 @@ def start(channel: MacroChannel, words: Words) -> None:
         turn_feed=parameters.normal_turn_feed / 60.0 or None,
         follows=CUTS | {Kind.RAPID},
     )
-    channel.path.put(NormalStage(direction))
+    channel.path.put(NormalStage(direction, channel.toolpath))
 
 
 def cancel(channel: WordAddressChannel, _words: Words) -> None:

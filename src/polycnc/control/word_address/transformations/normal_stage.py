@@ -14,10 +14,12 @@ from polycnc.deferred.records import dataclass, replace
 from polycnc.geometry import arcs
 from polycnc.geometry.angles import nearest_turn
 from polycnc.toolpath.kinds import CCW_KINDS, Kind
+from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
     from polycnc.channel.moves.path import Move, PlacedEvent
     from polycnc.geometry.arcs import Point
+    from polycnc.toolpath import Toolpath
 
 CUTS = frozenset((Kind.FEED, Kind.CW, Kind.CCW, Kind.HELIX_CW, Kind.HELIX_CCW))
 SAME_DEG = 1e-9
@@ -119,8 +121,9 @@ class NormalStage(Stage):
 
     rank = Rank.NORMAL
 
-    def __init__(self, direction: Direction) -> None:
+    def __init__(self, direction: Direction, toolpath: Toolpath) -> None:
         self.direction = direction
+        self._toolpath = toolpath
         self._held: Move | None = None
         self._patience = 0
         #: Where the axis stands behind the last move.
@@ -159,6 +162,14 @@ class NormalStage(Stage):
         center = None if move.center is None else (move.center[first], move.center[second])
         return _Cut(self.direction, move, center)
 
+    def _count_degrees(self, turn: Move, feed: float) -> None:
+        """Give a turn a feed of its own, degrees/s, whatever F counts."""
+        context = self._toolpath.contexts[turn.context]
+        turn.feed = feed * context.degree_mm
+        if context.feed_mode is not FeedMode.PER_MINUTE:
+            per_minute = replace(context, feed_mode=FeedMode.PER_MINUTE)
+            turn.context = self._toolpath.context_number(per_minute)
+
     def _cut(self, way: _Cut) -> None:
         direction, move, length = self.direction, way.move, way.length
         axis = direction.axis
@@ -173,13 +184,11 @@ class NormalStage(Stage):
         if direction.turns_first and first != before:
             turned = list(move.start)
             turned[axis] = first
-            rapid = move.kind == Kind.RAPID
-            kind = Kind.RAPID if rapid else Kind.FEED
-            feed = move.feed if rapid or direction.turn_feed is None else direction.turn_feed
-            start = list(move.start)
-            self.after.move(
-                replace(move, kind=kind, end=turned, center=None, turns=0.0, start=start, feed=feed)
-            )
+            kind = Kind.RAPID if move.kind == Kind.RAPID else Kind.FEED
+            turn = replace(move, kind=kind, end=turned, center=None, turns=0.0, start=list(move.start))
+            if kind == Kind.FEED and direction.turn_feed is not None:
+                self._count_degrees(turn, direction.turn_feed)
+            self.after.move(turn)
             move.start = turned
         elif length > direction.longest_mm and abs(first - before) > SAME_DEG:
             part = direction.longest_mm / length

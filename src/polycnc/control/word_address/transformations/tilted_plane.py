@@ -28,6 +28,7 @@ from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.deferred.records import dataclass, field
 from polycnc.geometry.frames import IDENTITY, Frame, rotation, translation
 from polycnc.geometry.vectors import times
+from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
@@ -49,14 +50,19 @@ SENSES = {NEAREST: 0, 1: 1, 2: -1}
 
 @dataclass(slots=True)
 class TiltState(State, lifetime=Lifetime.RESET):
-    """The tilted plane inside the work system, and what blocks have told of the next one (P2, P3)."""
+    """The tilted plane inside the work system, and what blocks have told of the next one (P2, P3).
+
+    `way` is their P; `placed` is where the origin lies in the plane through three points, and how that turns (P2 Q0).
+    """
 
     plane: Frame | None = None
     told: list[tuple[Vector, Vector]] = field(default_factory=list)
+    way: int = EULER
+    placed: Frame = IDENTITY
 
 
 def tilt_plane(channel: WordAddressChannel, words: Words) -> None:
-    """G68.2 [P0, P1 Q, P4] X Y Z I J K: origin in the work system, and the turn; P2, P3 in several blocks."""
+    """G68.2 [P0, P1 Q, P4] X Y Z I J K: origin in the work system, and the turn; P2 [Q0 R], P3 in several blocks."""
     _check_state(channel, words, "G68.2")
     plane = _told(channel, words)
     if plane is not None:
@@ -127,6 +133,8 @@ def _told(channel: WordAddressChannel, words: Words) -> Frame | None:
     from polycnc.transformation.planes.tilted import by_euler, by_projections
 
     way = words.integer("P") if "P" in words else EULER
+    if "R" in words and (way != POINTS or words.integer("Q") != 0):
+        raise words.fail("tilt_format", "R")
     if way in BLOCKS:
         return _told_in_several(channel, words, way)
     i, j, k = (words.angle(letter) or 0.0 for letter in "IJK")
@@ -150,26 +158,36 @@ def tilt(channel: WordAddressChannel, plane: Frame) -> None:
 
 
 def _told_in_several(channel: WordAddressChannel, words: Words, way: int) -> Frame | None:
-    """One block of P2 (Q1 to Q3: origin, a point of X, a point on the side of Y) or P3 (Q1 origin and X, Q2 Z)."""
+    """One block of P2 (Q1 to Q3: origin, a point of X, a point on the side of Y) or P3 (Q1 origin and X, Q2 Z).
+
+    Q0 in front of them shifts the origin along X, Y, Z of the plane by points, and turns that about Z by R.
+    """
     from polycnc.transformation.planes.tilted import by_directions, by_points
 
     state = TiltState.of(channel)
-    number = words.integer("Q") if "Q" in words else 0
+    number = words.integer("Q") if "Q" in words else None
+    if state.way != way:
+        state.way, state.told, state.placed = way, [], IDENTITY
+    if number == 0 and way == POINTS:
+        place, turn = named_point(channel, words, "tilt_format"), rotation(2, words.angle("R") or 0.0)
+        state.told, state.placed = [], translation(*place) @ turn
+        return None
     told = state.told if number != 1 else []
     if number != len(told) + 1 or number > BLOCKS[way]:
         raise words.fail("tilt_format", "Q")
-    i, j, k = (words.length(letter) or 0.0 for letter in "IJK")
+    # A direction has no unit: it is not cut off at the least increment, as I J K of G43.5 are not.
+    i, j, k = ((words.typed if way == VECTORS else words.length)(letter) or 0.0 for letter in "IJK")
     state.told = [*told, (named_point(channel, words, "tilt_format"), (i, j, k))]
     if number < BLOCKS[way]:
         return None
     (origin, first), (second, upright), *others = state.told
-    state.told = []
+    placed, state.told, state.placed = state.placed, [], IDENTITY
     plane = (
         by_points(origin, second, others[0][0]) if way == POINTS else by_directions(origin, first, upright)
     )
     if plane is None:
         raise words.fail("tilt_format", "Q")
-    return plane
+    return plane @ placed
 
 
 def _roll_pitch_yaw(words: Words, angles: Vector) -> Frame:
@@ -199,7 +217,12 @@ def align_tool(channel: WordAddressChannel, words: Words) -> None:
 
 
 def align_tool_about_tip(channel: WordAddressChannel, words: Words) -> None:
-    """G53.6 [P]: as G53.1, while X, Y and Z go along so that the tip stays where it is on the work."""
+    """G53.6 [P]: as G53.1, while X, Y and Z go along so that the tip stays where it is on the work.
+
+    PC0001 for H where no length acts: whether it switches one on is not known here.
+    """
+    if "H" in words and channel.mode.codes.get("length") == "G49":
+        raise AlarmError("PC0001", hint="hint.not-supported", code="G53.6 H")
     _align(channel, words, "G53.6", holds_tip=True)
 
 

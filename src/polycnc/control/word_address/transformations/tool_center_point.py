@@ -16,7 +16,12 @@ from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.block.words_as_data import targets_as_data
 from polycnc.control.word_address.coordinates import on_table, tip
 from polycnc.control.word_address.coordinates.on_table import OnTable
-from polycnc.control.word_address.coordinates.systems import ZeroState, frame_on_table, refresh_zero
+from polycnc.control.word_address.coordinates.systems import (
+    ZeroState,
+    frame_as_told,
+    frame_on_table,
+    refresh_zero,
+)
 from polycnc.control.word_address.motion.path import reach
 from polycnc.control.word_address.motion.planes import choose_basic_axes
 from polycnc.control.word_address.tools.length import LengthState
@@ -37,6 +42,8 @@ if TYPE_CHECKING:
     from polycnc.geometry.frames import Frame, Vector
 
     Leaning = Callable[[WordAddressChannel, Vector, list[float]], Vector]
+    #: A straight move to a position, at a feed, that is programmed so.
+    Going = Callable[[WordAddressChannel, Kind, list[float], float, list[float]], None]
 
 
 def start_following(channel: WordAddressChannel, words: Words) -> None:
@@ -86,7 +93,8 @@ def follow_table(channel: WordAddressChannel, words: Words, begun: Frame = IDENT
     refresh_zero(channel)
     arm = times(kinematics.along, -value)
     following = ToolCentrePoint(kinematics, channel.axes, c.geometry, tuple(c.offsets), arm)
-    tip.lead(channel, following, frame_on_table(channel, c.offsets), c.offsets)
+    frame, told = frame_on_table(channel, c.offsets), frame_as_told(channel, c.offsets)
+    tip.lead(channel, following, frame, c.offsets, told)
     channel.context_changed()
 
 
@@ -127,10 +135,13 @@ def plan_with_tip(builder: Builder, plan: Plan) -> Step | None:
     return plan_with_direction(builder, plan) if builder.mode["length"] == "G43.5" else None
 
 
-def plan_with_direction(builder: Builder, plan: Plan, leaning: Leaning | None = None) -> Step | None:
+def plan_with_direction(
+    builder: Builder, plan: Plan, leaning: Leaning | None = None, going: Going | None = None
+) -> Step | None:
     """A straight block with I J K for the direction of the tool on the work; None without them.
 
-    `leaning` gives another direction for that, by the end of the block.
+    What turns and mirrors points does so with it (three-dimensional conversion: 15i, B-63324EN, 14.16; SYNTEC 2.29.1).
+    `leaning` gives another direction for that, by the end of the block, to which `going` moves otherwise than the path.
     """
     if builder.mode["motion"] not in ("G0", "G1"):
         return None
@@ -142,6 +153,8 @@ def plan_with_direction(builder: Builder, plan: Plan, leaning: Leaning | None = 
     places = tuple(builder.slot(letter) if letter in letters else None for letter in "IJK")
     absolute = not any(word.incremental for word in plan.axis_words)
     polar = builder.mode.codes.get("polar") == "G16"
+    # Written alike, their ratio is that of the typed numbers.
+    alike = len({builder.slots[letter][1] == "" for letter in letters}) == 1
 
     def move(channel: WordAddressChannel, values: list[float]) -> None:
         words = Words(plan, values)
@@ -153,19 +166,27 @@ def plan_with_direction(builder: Builder, plan: Plan, leaning: Leaning | None = 
             programmed = reach(channel, plan.axis_words, values)
         c = channel.coordinates
         end = c.to_position(programmed)
-        x, y, z = (words.typed(letter) or 0.0 for letter in "IJK")
-        vector = (x, y, z) if leaning is None else leaning(channel, (x, y, z), end)
-        turned = _stood(channel, vector, end) or _turned(channel, vector)
+        x, y, z = ((words.typed(letter) if alike else words.part(letter)) or 0.0 for letter in "IJK")
+        vector, turned = channel.memory.frames.directions.direct(x, y, z), None
+        if leaning is None:
+            turned = _stood(channel, (x, y, z), end)
+        else:
+            vector = leaning(channel, vector, end)
+        turned = turned or _turned(channel, vector)
         if not turned:
             raise words.fail("tip_direction", letters[0])
         for axis, angle in turned.items():
             end[axis] = programmed[axis] = angle
             c.pending[axis] = 0.0
         feed = nan if rapid else channel.control.feed_to(channel, end)
-        channel.straight(Kind.RAPID if rapid else Kind.FEED, end, feed, programmed)
+        kind = Kind.RAPID if rapid else Kind.FEED
+        if going is None:
+            channel.straight(kind, end, feed, programmed)
+        else:
+            going(channel, kind, end, feed, programmed)
 
     told = targets_as_data(plan.axis_words)
-    if told is None or polar or leaning is not None:
+    if told is None or polar or leaning is not None or going is not None or not alike:
         return move
     i, j, k = (-1 if place is None else place for place in places)
     return declare(move, Straight(rapid, told, absolute=absolute, direction=(i, j, k)))
@@ -180,7 +201,8 @@ def record_of(channel: WordAddressChannel) -> Sequence[float]:
 
     state = tip.TipState.of(channel)
     bounded = bool(channel.control.rotary_ranges(channel))
-    return stand_record(None if bounded else state.active, frame=state.frame)
+    frame = state.frame @ channel.memory.frames.directions
+    return stand_record(None if bounded else state.active, frame=frame)
 
 
 def _stood(channel: WordAddressChannel, vector: Vector, end: list[float]) -> dict[int, float]:

@@ -9,20 +9,19 @@ from __future__ import annotations
 from math import nan
 from typing import TYPE_CHECKING
 
+from polycnc.control.word_address.block.codes import Order
 from polycnc.control.word_address.block.rules import Rule
-from polycnc.control.word_address.coordinates import on_table
+from polycnc.control.word_address.coordinates import on_table, tip
 from polycnc.control.word_address.coordinates.on_table import OnTable
-from polycnc.control.word_address.coordinates.systems import plane_on_table
 from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.cycles import drilling
 from polycnc.control.word_address.motion import path
 from polycnc.control.word_address.motion.path import reach
 from polycnc.control.word_address.tools import data_input
-from polycnc.control.word_address.transformations.tilted_plane import (
-    TiltState,
-    check_compensation,
-    turn_to,
-)
+from polycnc.control.word_address.transformations import turned_tool
+from polycnc.control.word_address.transformations.tilted_plane import TiltState, check_compensation
+from polycnc.control.word_address.transformations.tool_center_point import TIP_CODES
+from polycnc.language.bulk import Idle, declare
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
@@ -40,6 +39,8 @@ FIXTURE, ERROR = "fixture", "workpiece_error"
 FIXTURE_DATA = 21
 STRAIGHT = {"G0": Kind.RAPID, "G1": Kind.FEED}
 ARCS = ("G2", "G3")
+#: Codes that go to places of the machine.
+RETURNS = ("G27", "G28", "G29", "G30", "G53")
 
 
 def offset_fixture(channel: MillingChannel, words: Words) -> None:
@@ -63,9 +64,11 @@ def correct_workpiece(channel: MillingChannel, words: Words) -> None:
     number = _number(channel, words, "G54.4", on_table.ERRORS)
     if number and OnTable.of(channel).fixture:
         raise words.fail("improper_g", "G54.4")
-    if number and channel.control.turns_tool_with_work(channel):
-        raise _not_yet("G54.4: 11200#0")
-    OnTable.of(channel).error = number
+    state = OnTable.of(channel)
+    turns = bool(channel.control.kinematics(channel).axes) and channel.control.turns_tool_with_work(channel)
+    state.error, state.turns_tool = number, turns
+    if state.turns_tool:
+        on_table.begin_posture(channel, told=True)
     channel.mode = channel.mode.with_code(ERROR, "G54.4" if number else "")
     on_table.follow(channel)
 
@@ -128,7 +131,7 @@ def _plan(builder: Builder, plan: Plan) -> Step | None:
     if builder.mode["cycle"] != "G80":
         return None
     if motion not in STRAIGHT:
-        raise _not_yet(f"{builder.mode[FIXTURE] or builder.mode[ERROR]}: {motion}")
+        return None  # `_wrap` looks whether the table turns
     kind, names_feed = STRAIGHT[motion], builder.has("F")
     polar = builder.mode.codes.get("polar") == "G16"
 
@@ -165,26 +168,43 @@ def _go(
     channel.straight(kind, c.to_position(goal), feed, goal)
 
 
-def _over_hole(builder: Builder, plan: Plan, step: Step) -> Step:
-    """A block of a drilling cycle with an axis of the table: over the hole it has turned, then the cycle drills."""
-    over = tuple(word for word in plan.axis_words if word.axis != drilling.drilling_axis(builder))
-    counted = any(word.incremental for word in over) or builder.has("K") or builder.has("L")
-    if counted or builder.mode.codes.get("polar") == "G16" or builder.mode["compensation"] != "G40":
-        raise _not_yet(f"{builder.mode[FIXTURE] or builder.mode[ERROR]}: {builder.mode['cycle']}")
-
-    def drill(channel: MillingChannel, values: list[float]) -> None:
-        before = channel.coordinates.programmed
-        _go(channel, (Kind.RAPID, nan), over, before, reach(channel, over, values))
-        step(channel, values)
-
-    return drill
+def go_over_hole(channel: MillingChannel, words: Sequence[AxisWord], end: list[float]) -> None:
+    """Rapid over a hole; where axes of the table turn on the way, as the work zero lies when they have."""
+    if turned_tool.acts(channel) and turned_tool.must_turn(channel, words):
+        turned_tool.go(channel, turned_tool.RAPID, words, channel.coordinates.programmed, end)
+        return
+    named = on_table.table_axes(channel) if OnTable.of(channel).acts else ()
+    if any(channel.axes[word.axis] in named for word in words):
+        _go(channel, (Kind.RAPID, nan), words, channel.coordinates.programmed, end)
+    else:
+        drilling.rapid_over(channel, words, end)
 
 
 def _behind(builder: Builder, plan: Plan) -> Step | None:
     """Behind G28, G53 and their like the work zero is that of where the table has come to."""
     if not _turning(builder, plan):
         return None
-    return lambda channel, _values: on_table.follow(channel)
+
+    def follow(channel: WordAddressChannel, _values: list[float]) -> None:
+        if OnTable.of(channel).turns_tool:
+            on_table.begin_posture(channel)
+        on_table.follow(channel)
+
+    return follow
+
+
+def _refuse_one_shot(builder: Builder, plan: Plan) -> Step | None:
+    """PC0001 for a one-shot code that would move the axes while a workpiece error has to turn the tool."""
+    codes = [row for row in builder.codes if row.axis_words and row.order is Order.MOTION]
+    if not codes or all(row.code in RETURNS for row in codes):
+        return None
+    words = plan.axis_words
+
+    def check(channel: WordAddressChannel, _values: list[float]) -> None:
+        if turned_tool.acts(channel) and turned_tool.must_turn(channel, words):
+            raise turned_tool.not_yet()
+
+    return declare(check, Idle(lambda channel: not turned_tool.acts(channel)))
 
 
 # ---- the tool's direction under tip control ----------------------------------------------------------------
@@ -201,7 +221,7 @@ def _plan_posture(builder: Builder, plan: Plan) -> Step | None:
     if (words or motion in ARCS) and builder.mode.codes.get("polar") == "G16":
         raise _not_yet(f"G16: {builder.mode[ERROR]}")
     if motion in ARCS and any(builder.has(letter) for letter in ("R", *path.CENTER_WORDS)):
-        return path.plan_arc(builder, plan, ccw=motion == "G3", reached=_reach_posed)
+        return path.plan_arc(builder, plan, ccw=motion == "G3", reached=reach_posed)
     if not words:
         return None
     if motion in ARCS:
@@ -210,47 +230,72 @@ def _plan_posture(builder: Builder, plan: Plan) -> Step | None:
 
     def move(channel: WordAddressChannel, values: list[float]) -> None:
         feed = channel.feed if names_feed and kind == Kind.RAPID else _feed(channel, kind)
-        goal = _reach_posed(channel, words, values)
+        goal = reach_posed(channel, words, values)
         channel.straight(kind, channel.coordinates.to_position(goal), feed, goal)
 
     return move
 
 
-def _reach_posed(
-    channel: WordAddressChannel, words: tuple[AxisWord, ...], values: list[float]
-) -> list[float]:
+def reach_posed(channel: WordAddressChannel, words: tuple[AxisWord, ...], values: list[float]) -> list[float]:
     """The programmed end of a block, its rotary axes where they stand the tool on the work as it lies."""
-    c, state = channel.coordinates, OnTable.of(channel)
-    before, rotary = c.programmed, [word for word in words if channel.axes[word.axis] in state.posture]
+    c, before = channel.coordinates, channel.coordinates.programmed
     goal = reach(channel, words, values)
-    for word in rotary:
-        name = channel.axes[word.axis]
-        if word.incremental:
-            state.posture[name] += goal[word.axis] - before[word.axis]
-        else:
-            state.posture[name] = goal[word.axis] + c.offsets[word.axis]
-    if rotary or not state.stood:
-        told = channel.control.kinematics(channel).tool_on_work(state.posture)
-        wanted = plane_on_table(channel, c.offsets).direct(*told)
-        if not turn_to(channel, wanted, state.posture, goal):
-            raise channel.control.fail("tip_direction", address=rotary[0].address if rotary else "G43.4")
-        for name in state.posture:
-            axis = channel.axis_index[name]
-            state.stood[name] = goal[axis] + c.offsets[axis]
+    if turned_tool.must_turn(channel, words):
+        beside = turned_tool.pose(channel, words, before, goal)
+        if c.naming is not None:
+            TipState.of(channel).beside = beside
+            c.naming = tip.standing(channel)
+            channel.context_changed()
     return goal
 
 
 def _wrap(builder: Builder, plan: Plan, step: Step | None) -> Step | None:
-    """A cycle with an axis of the table."""
-    if step is not None and builder.mode["cycle"] != "G80" and _turning(builder, plan):
-        return _over_hole(builder, plan, step)
-    return step
+    """A cycle with an axis of the table tells the scanner nothing; PC0001 for an arc or a thread that turns one."""
+    turning, led = _turning(builder, plan), TipState.of(builder.channel).active is not None
+    if step is not None and plan.axis_words and OnTable.of(builder.channel).turns_tool and not led:
+        return _turned(builder, plan, step)
+    if step is None or not turning or led:
+        return step
+    drills, motion = builder.mode["cycle"] != "G80", builder.mode["motion"]
+    if motion in STRAIGHT and not drills:
+        return step
+
+    def move(channel: MillingChannel, values: list[float]) -> None:
+        before = channel.coordinates.position
+        step(channel, values)
+        after = channel.coordinates.position
+        if not drills and any(abs(after[axis] - before[axis]) > on_table.NOT_MOVED_DEG for axis in turning):
+            raise _not_yet(f"{channel.mode[FIXTURE] or channel.mode[ERROR]}: {motion}")
+
+    return move
+
+
+def _turned(builder: Builder, plan: Plan, step: Step) -> Step:
+    """A block while a workpiece error turns the tool: straight on the table where rotary axes turn in it."""
+    motion, words = builder.mode["motion"], plan.axis_words
+    drills, polar = builder.mode["cycle"] != "G80", builder.mode.codes.get("polar") == "G16"
+    kind, names_feed = STRAIGHT.get(motion), builder.has("F")
+    begins, corner = builder.mode["length"] in TIP_CODES, builder.corner()
+
+    def move(channel: MillingChannel, values: list[float]) -> None:
+        if drills or begins or not (turned_tool.acts(channel) and turned_tool.must_turn(channel, words)):
+            step(channel, values)
+            return
+        if kind is None or corner is not None:
+            raise turned_tool.not_yet()
+        feed = channel.feed if names_feed and kind == Kind.RAPID else _feed(channel, kind)
+        before = channel.coordinates.programmed
+        goal = channel.control.polar_target(channel, plan, values) if polar else reach(channel, words, values)
+        turned_tool.go(channel, (kind, feed), words, before, goal)
+
+    return move
 
 
 #: What turns of the table do to the work zero.
 RULE = Rule(
     "work zero on a rotary table",
     modes={FIXTURE: ("G54.2",), ERROR: ("G54.4",)},
+    before=_refuse_one_shot,
     motion=_plan,
     wrap=_wrap,
     after=_behind,

@@ -1,6 +1,5 @@
-"""From the rows of a run to a path bent within its tolerance.
+"""From the stretches of a programmed path to a path bent within its tolerance.
 
-    programmed  rows become stretches of the programmed path
     stretches   lines, chords and parts of arcs as cubics by the way; lines that are chords of a curve
     rests       where the axes must rest
     turning     how much the path turns, and how far apart knots may be for it
@@ -8,8 +7,10 @@
     controls    the spline by its control points, and by place, q' and q'' at its knots
     levelling   what short lines leave of the tolerance
     within      whether it is kept
+    seams       where parts that are bent by themselves go over into each other
+    seeking     where seams can be
     pieces      row and highest speed of each piece
     bending     all of it in turn
 
-The functions but for `programmed` are kernels: flat arrays, no class of the project, machine code by `../compiled.py`.
+The functions are kernels: flat arrays, no class of the project, machine code by `../compiled.py`.
 """

@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
-from polycnc.kernels.layout import Ints
+from polycnc.kernels.layout import Floats, Ints
 from polycnc.motion.third_order.bends.controls import Spline, lay_controls, shape
 from polycnc.motion.third_order.bends.knots import Samples, even_out, place_knots, take_samples
 from polycnc.motion.third_order.bends.levelling import level
-from polycnc.motion.third_order.bends.pieces import Pieces, bound_pieces
+from polycnc.motion.third_order.bends.pieces import Pieces, bound_pieces, cut_pieces
+from polycnc.motion.third_order.bends.seams import first_piece, pieces_behind
 from polycnc.motion.third_order.bends.stretches import Stretches, curve_lines
 from polycnc.motion.third_order.bends.turning import Turning, sum_turning
 from polycnc.motion.third_order.bends.within import weigh_excess
 
 #: Times that knots are placed anew because the tolerance was exceeded somewhere; the first of them with levelling.
-ROUNDS, LEVELLED = 12, 6
+ROUNDS, LEVELLED = 16, 6
 #: What the kernel gives where there is no room, and where the tolerance is not kept.
 NO_ROOM, NOT_WITHIN = -1, -2
 
 
 def bend_path(
     path: Stretches,
+    seams: Floats,
     smooth: Ints,
     turning: Turning,
     samples: Samples,
@@ -30,6 +32,7 @@ def bend_path(
 
     Args:
         path: It; the tangents of lines that are chords of a curve are set.
+        seams: `Seams`; the path reaches beyond them, and what lies there of the spline is of no use.
         smooth: Room for a number for each end of a stretch.
         turning: Room; `weight` is 1 at first.
         samples: Room.
@@ -44,22 +47,26 @@ def bend_path(
     curve_lines(path, n, smooth)
     for number in range(ROUNDS):
         sum_turning(path, n, turning)
-        count = take_samples(path, turning, path.way[len(path.form)], samples)
+        count = take_samples(path, turning, seams, samples)
         if count < 0:
             return NO_ROOM
         even_out(samples, count)
-        made = place_knots(samples, count, spline.way, spline.room) - 1
+        made = place_knots(samples, count, seams, spline.way, spline.room) - 1
         if made < 0 or (made + 3) * n > len(spline.control):
             return NO_ROOM
         lay_controls(path, n, spline, made)
         shape(spline, n, made)
         if number < LEVELLED:
             level(path, n, spline, made)
-        found = weigh_excess(path, n, spline, made, turning, number)
+        found = weigh_excess(path, n, spline, made, seams, turning, number)
         told[0], told[2] = number, count
         if number == 0:
             told[1] = found
         if found == 0:
+            last = made - pieces_behind(seams)
+            made = cut_pieces(path, n, spline, made, first_piece(seams), last)
+            if made < 0:
+                return NO_ROOM
             bound_pieces(path, n, spline, made, pieces)
             return made
     return NOT_WITHIN

@@ -52,20 +52,25 @@ def lay_controls(path: Stretches, n: int, spline: Spline, pieces: int) -> None:
 def shape(spline: Spline, n: int, pieces: int) -> None:
     """Set place, q' and q'' at the knots from the control points."""
     for k in range(pieces + 1):
-        far, back = knot(spline, pieces, k - 2), knot(spline, pieces, k - 1)
-        here, ahead, beyond = spline.way[k], knot(spline, pieces, k + 1), knot(spline, pieces, k + 2)
-        low = (here - far) / (ahead - far) if ahead > far else 0.0
-        high = (here - back) / (beyond - back) if beyond > back else 0.0
-        middle = (here - back) / (ahead - back)
-        before, behind = 3.0 / (ahead - far), 3.0 / (beyond - back)
-        for i in range(n):
-            a, b, c = (
-                spline.control[k * n + i],
-                spline.control[(k + 1) * n + i],
-                spline.control[(k + 2) * n + i],
-            )
-            leave, arrive = (b - a) * before, (c - b) * behind
-            start, end = a + low * (b - a), b + high * (c - b)
-            spline.place[k * n + i] = start + middle * (end - start)
-            spline.first[k * n + i] = leave + middle * (arrive - leave)
-            spline.second[k * n + i] = 2.0 * (arrive - leave) / (ahead - back)
+        shape_knot(spline, n, pieces, k)
+
+
+def shape_knot(spline: Spline, n: int, pieces: int, k: int) -> None:
+    """Set those of knot k, from its three control points."""
+    far, back = knot(spline, pieces, k - 2), knot(spline, pieces, k - 1)
+    here, ahead, beyond = spline.way[k], knot(spline, pieces, k + 1), knot(spline, pieces, k + 2)
+    low = (here - far) / (ahead - far) if ahead > far else 0.0
+    high = (here - back) / (beyond - back) if beyond > back else 0.0
+    middle = (here - back) / (ahead - back)
+    before, behind = 3.0 / (ahead - far), 3.0 / (beyond - back)
+    for i in range(n):
+        a, b, c = (
+            spline.control[k * n + i],
+            spline.control[(k + 1) * n + i],
+            spline.control[(k + 2) * n + i],
+        )
+        leave, arrive = (b - a) * before, (c - b) * behind
+        start, end = a + low * (b - a), b + high * (c - b)
+        spline.place[k * n + i] = start + middle * (end - start)
+        spline.first[k * n + i] = leave + middle * (arrive - leave)
+        spline.second[k * n + i] = 2.0 * (arrive - leave) / (ahead - back)

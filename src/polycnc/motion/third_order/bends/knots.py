@@ -15,6 +15,15 @@ from math import ceil, exp, log
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.kernels.layout import Floats, Ints
+from polycnc.motion.third_order.bends.seams import (
+    Seams,
+    free_from,
+    free_to,
+    put_head,
+    put_tail,
+    stretch_before,
+    stretch_behind,
+)
 from polycnc.motion.third_order.bends.stretches import Stretches
 from polycnc.motion.third_order.bends.turning import FULL, SHARE, Turning, reach
 
@@ -41,52 +50,54 @@ class Samples(NamedTuple):
     straight: Ints
 
 
-def take_samples(path: Stretches, turning: Turning, most: float, samples: Samples) -> int:
-    """Sample a path; the number of samples, -1 where there is no room for them."""
-    last, count, e = len(path.form), 1, 0
-    put_sample(samples, 0, 0.0, reach(path, turning, 0, 0.0, most, most), 0, 1)
-    lone = 0.0
-    while samples.way[count - 1] < path.way[last]:
+def take_samples(path: Stretches, turning: Turning, seams: Floats, samples: Samples) -> int:
+    """Sample a path between its seams; the number of samples, -1 where there is no room for them."""
+    most, count = path.way[len(path.form)] - path.way[0], 1
+    start, end = free_from(path, seams), free_to(path, seams)
+    e, last = stretch_behind(path, start), stretch_before(path, end) + 1
+    put_sample(samples, 0, start, seams[Seams.HEAD_APART], e, 1)
+    if seams[Seams.HEAD_APART] <= 0.0:
+        samples.apart[0] = reach(path, turning, e, start, most, most)
+    lone = start
+    while samples.way[count - 1] < end:
         if count + 1 >= len(samples.way):
             return -1
         here, apart = samples.way[count - 1], samples.apart[count - 1]
         e, straight = samples.stretch[count - 1], True
         goal, k, fixed, still = here + APART * apart, e + 1, False, here
         while k < last:
-            straight = (
-                straight
-                and turning.before[k] <= turning.behind[e]
-                and turning.before[e + 1] <= turning.behind[e]
-            )
+            straight = straight and is_straight(turning, e, k)
             if turning.before[k] > turning.behind[k - 1]:
                 still = path.way[k]
             if not straight and path.way[k] > goal:
                 break
             if is_corner(path, turning, k, apart, still):
                 h = reach(path, turning, k, path.way[k], apart, most)
-                if is_fixed(path, turning, k, h, still, lone):
+                if is_fixed(path, turning, k, h, still, lone, end):
                     fixed = True
                     break
             k += 1
         if k == last:
-            straight = (
-                straight
-                and turning.before[k] <= turning.behind[e]
-                and turning.before[e + 1] <= turning.behind[e]
-            )
+            straight = straight and is_straight(turning, e, k)
         samples.straight[count - 1] = 1 if straight else 0
         if fixed:
             put_sample(samples, count, path.way[k], reach(path, turning, k, path.way[k], apart, most), k, 1)
             lone = path.way[k]
-        elif straight or goal >= path.way[last] - LITTLE * apart:
-            put_sample(samples, count, path.way[last], most, last - 1, 1)
-            samples.apart[count] = reach(path, turning, last - 1, path.way[last], apart, most)
+        elif straight or goal >= end - LITTLE * apart:
+            put_sample(samples, count, end, seams[Seams.TAIL_APART], last - 1, 1)
+            if seams[Seams.TAIL_APART] <= 0.0:
+                samples.apart[count] = reach(path, turning, last - 1, end, apart, most)
         else:
             while path.way[e + 1] <= goal:
                 e += 1
             put_sample(samples, count, goal, reach(path, turning, e, goal, apart, most), e, 0)
         count += 1
     return count
+
+
+def is_straight(turning: Turning, e: int, k: int) -> bool:
+    """Whether a path does not turn from stretch e up to end k."""
+    return turning.before[k] <= turning.behind[e] and turning.before[e + 1] <= turning.behind[e]
 
 
 def put_sample(samples: Samples, k: int, way: float, apart: float, e: int, fixed: int) -> None:
@@ -108,9 +119,14 @@ def is_corner(path: Stretches, turning: Turning, k: int, apart: float, still: fl
     return (before and length > LONE * LONE * apart) or (ahead and behind > LONE * LONE * apart)
 
 
-def is_fixed(path: Stretches, turning: Turning, k: int, h: float, still: float, lone: float) -> bool:
-    """Whether a knot must lie at end k, around which knots may be h apart; `lone` is the way of the last fixed one."""
-    if path.way[k] - lone < CLOSE * h or path.way[len(path.form)] - path.way[k] < LITTLE * h:
+def is_fixed(
+    path: Stretches, turning: Turning, k: int, h: float, still: float, lone: float, end: float
+) -> bool:
+    """Whether a knot must lie at end k, around which knots may be h apart.
+
+    `lone` is the way of the last fixed one, `end` that of the last one of all.
+    """
+    if path.way[k] - lone < CLOSE * h or end - path.way[k] < LITTLE * h:
         return False
     turn = turning.behind[k] - turning.before[k]
     length, behind = path.way[k] - min(still, path.way[k - 1]), path.way[k + 1] - path.way[k]
@@ -137,13 +153,14 @@ def limit(samples: Samples, k: int, other: int, first: int) -> None:
     samples.apart[k] = min(samples.apart[k], most)
 
 
-def place_knots(samples: Samples, count: int, knots: Floats, room: Floats) -> int:
+def place_knots(samples: Samples, count: int, seams: Floats, knots: Floats, room: Floats) -> int:
     """Write the ways of the knots, in order, and how far apart corners between lines allow them to be, else 0.
 
     Returns:
         Their number, -1 where there is no room.
     """
-    knots[0], room[0], made, first, on_line = samples.way[0], 0.0, 1, 0, False
+    made, first, on_line = put_head(seams, knots, room) + 1, 0, False
+    knots[made - 1], room[made - 1] = samples.way[0], 0.0
     while first < count - 1:
         last = first + 1
         while samples.fixed[last] == 0:
@@ -153,7 +170,7 @@ def place_knots(samples: Samples, count: int, knots: Floats, room: Floats) -> in
         if on_line:
             if made + 4 > len(knots):
                 return -1
-            made = knots_on_line(samples, first, count, knots, made)
+            made = knots_on_line(samples, first, count, seams, knots, made)
         else:
             made = knots_on_curve(samples, first, last, knots, made)
             if made < 0:
@@ -162,17 +179,18 @@ def place_knots(samples: Samples, count: int, knots: Floats, room: Floats) -> in
         for k in range(before + 1, made + 1):
             room[k] = 0.0
         made, first = made + 1, last
-    return made
+    return put_tail(seams, knots, room, made)
 
 
-def knots_on_line(samples: Samples, k: int, count: int, knots: Floats, made: int) -> int:
+def knots_on_line(samples: Samples, k: int, count: int, seams: Floats, knots: Floats, made: int) -> int:
     """Write the knots between two fixed samples with a straight line between them."""
     start, end, h, g = samples.way[k], samples.way[k + 1], samples.apart[k], samples.apart[k + 1]
     length = end - start
-    if k == 0 or k + 2 == count:  # where the axes rest nothing turns
-        h, g = (0.0, g) if k == 0 else (h, 0.0)
-        if h + g < (1.0 - SPARE) * length and count > 2:
-            knots[made] = start + h if k > 0 else end - g
+    rests = k == 0 and seams[Seams.HEAD_APART] <= 0.0
+    stops = k + 2 == count and seams[Seams.TAIL_APART] <= 0.0
+    if rests or stops:  # there nothing turns
+        if rests != stops and (g if rests else h) < (1.0 - SPARE) * length:
+            knots[made] = end - g if rests else start + h
             return made + 1
         return made
     if min(h, g) >= (1.0 - SPARE) * length:

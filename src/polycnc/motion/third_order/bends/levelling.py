@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from math import sqrt
 
-from polycnc.motion.third_order.bends.controls import Spline, knot, shape
+from polycnc.motion.third_order.bends.controls import Spline, knot, shape_knot
 from polycnc.motion.third_order.bends.stretches import Stretches, tolerance_of, turn_tolerance_of
 from polycnc.motion.third_order.bends.within import off
 
@@ -30,7 +30,9 @@ def level(path: Stretches, n: int, spline: Spline, pieces: int) -> None:
                 while e < last and path.way[e + 1] <= spline.way[k]:
                     e += 1
                 move_on(path, n, spline, pieces, e, k)
-        shape(spline, n, pieces)
+        for k in range(pieces + 1):
+            if max(spline.room[max(k - 1, 0)], spline.room[k], spline.room[min(k + 1, pieces)]) > 0.0:
+                shape_knot(spline, n, pieces, k)
 
 
 def mark(spline: Spline, pieces: int) -> int:

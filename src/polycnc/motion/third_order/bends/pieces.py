@@ -9,27 +9,111 @@ from polycnc.kernels.layout import Floats, Ints
 from polycnc.motion.third_order.bends.controls import Spline
 from polycnc.motion.third_order.bends.stretches import Stretches
 
+#: Stretches whose x differ by no more than this share one piece; nearer to its ends than so many mm it is not cut.
+ALIKE, SLIVER = 1.1, 1e-8
+
 
 class Pieces(NamedTuple):
-    """Of each piece the largest square of the speed, and the number of its row: of several the first."""
+    """Of each piece the largest square of the speed, the part of acceleration and jerk, and of its rows the first."""
 
     cap2: Floats
+    ease: Floats
     row: Ints
 
 
+def cut_pieces(path: Stretches, n: int, spline: Spline, count: int, first: int, last: int) -> int:
+    """Cut pieces where the programmed speed, or the part of the limits, changes: a slow row slows no other one.
+
+    Args:
+        path: The programmed path.
+        n: Number of axes.
+        spline: It gets more knots; it stays the same curve. `moved` is of no use behind this.
+        count: Its pieces.
+        first: The first of them to cut.
+        last: The one behind the last of them.
+
+    Returns:
+        How many pieces it has then, -1 where there is no room.
+    """
+    cuts = find_cuts(path, spline, first, last)
+    made = count + cuts
+    if cuts < 0 or made >= len(spline.way):
+        return -1
+    k, to = count, made
+    while to > k:  # from behind, to where nothing is cut any more
+        cut = spline.moved[to - k - 1]
+        if spline.way[k] > cut:
+            spline.way[to] = spline.way[k]
+            for i in range(n):
+                spline.place[to * n + i] = spline.place[k * n + i]
+                spline.first[to * n + i] = spline.first[k * n + i]
+                spline.second[to * n + i] = spline.second[k * n + i]
+            k -= 1
+        else:
+            put_knot(spline, n, k, to, cut)
+        to -= 1
+    return made
+
+
+def find_cuts(path: Stretches, spline: Spline, first: int, last: int) -> int:
+    """Write the ways at which pieces are cut into `moved`; their number, -1 where there is no room."""
+    e, end, cuts = 0, len(path.form) - 1, 0
+    for k in range(first, last):
+        while e < end and path.way[e + 1] <= spline.way[k]:
+            e += 1
+        low, high, ease, other = path.cap2[e], path.cap2[e], path.ease[e], e
+        while other < end and path.way[other + 1] < spline.way[k + 1]:
+            way, other = path.way[other + 1], other + 1
+            low, high = min(low, path.cap2[other]), max(high, path.cap2[other])
+            if high > ALIKE * low or path.ease[other] != ease:
+                low, high, ease = path.cap2[other], path.cap2[other], path.ease[other]
+                if spline.way[k] + SLIVER < way < spline.way[k + 1] - SLIVER:
+                    if cuts >= len(spline.moved):
+                        return -1
+                    spline.moved[cuts] = way
+                    cuts += 1
+    return cuts
+
+
+def put_knot(spline: Spline, n: int, k: int, to: int, way: float) -> None:
+    """Write knot `to` at a way between knot k and the one behind `to`, on the cubic between them."""
+    t, length = way - spline.way[k], spline.way[to + 1] - spline.way[k]
+    spline.way[to] = way
+    for i in range(n):
+        first, second = spline.first[k * n + i], spline.second[k * n + i]
+        third = (spline.second[(to + 1) * n + i] - second) / length
+        spline.place[to * n + i] = spline.place[k * n + i] + t * (
+            first + t * (0.5 * second + t * third / 6.0)
+        )
+        spline.first[to * n + i] = first + t * (second + 0.5 * t * third)
+        spline.second[to * n + i] = second + t * third
+
+
 def bound_pieces(path: Stretches, n: int, spline: Spline, count: int, pieces: Pieces) -> None:
-    """Set cap and row of every piece."""
+    """Set cap, ease and row of every piece."""
     e, last = 0, len(path.form) - 1
     for k in range(count):
         start, end = spline.way[k], spline.way[k + 1]
         while e < last and path.way[e + 1] <= start:
             e += 1
         pieces.row[k] = path.row[e]
-        cap2, other = path.cap2[e], e
+        cap2, ease, other = path.cap2[e], path.ease[e], e
         while other < last and path.way[other + 1] < end:
             other += 1
-            cap2 = min(cap2, path.cap2[other])
+            cap2, ease = min(cap2, path.cap2[other]), min(ease, path.ease[other])
+        pieces.ease[k] = ease
         pieces.cap2[k] = axes_cap2(path, n, spline, k, cap2)
+
+
+def end_rows(path: Stretches, start: float, end: float, rows: Ints, ways: Floats) -> int:
+    """Write the rows that end behind one way and up to another, and the ways at which they do; their number."""
+    found, last = 0, len(path.form) - 1
+    for e in range(last + 1):
+        way = path.way[e + 1]
+        if start < way <= end and (e == last or path.row[e] != path.row[e + 1]):
+            rows[found], ways[found] = path.row[e], way
+            found += 1
+    return found
 
 
 def axes_cap2(path: Stretches, n: int, spline: Spline, k: int, cap2: float) -> float:

@@ -37,6 +37,7 @@ class Stretches(NamedTuple):
         tolerance: How far the linear axes may leave it, mm, m.
         turn_tolerance: How far the rotary axes may, degrees, m.
         cap2: Largest square of the speed, m.
+        ease: Part of acceleration and jerk that the program lets the axes use, m.
         row: Numbers of their rows, m.
         rotary: 1 for a rotary axis, n.
         top: Highest speed of each axis, n.
@@ -50,6 +51,7 @@ class Stretches(NamedTuple):
     tolerance: Floats
     turn_tolerance: Floats
     cap2: Floats
+    ease: Floats
     row: Ints
     rotary: Floats
     top: Floats

@@ -49,7 +49,7 @@ def sum_turning(path: Stretches, n: int, turning: Turning) -> None:
 
 def turned_to(path: Stretches, turning: Turning, e: int, way: float) -> float:
     """Sum of the turning up to a way on stretch e, or beyond the path's ends."""
-    if way <= 0.0:
+    if way <= path.way[0]:
         return 0.0
     if way >= path.way[e + 1]:
         total: float = turning.before[e + 1]
@@ -61,7 +61,7 @@ def turned_to(path: Stretches, turning: Turning, e: int, way: float) -> float:
 
 def area_to(path: Stretches, turning: Turning, e: int, way: float) -> float:
     """Integral of the sum of the turning up to a way on stretch e, or beyond the path's ends."""
-    if way <= 0.0:
+    if way <= path.way[0]:
         return 0.0
     t, length = way - path.way[e], path.way[e + 1] - path.way[e]
     if t >= length:

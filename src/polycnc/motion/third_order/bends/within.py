@@ -7,25 +7,32 @@ from __future__ import annotations
 
 from math import sqrt
 
+from polycnc.kernels.layout import Floats
 from polycnc.motion.third_order.bends.controls import Spline
+from polycnc.motion.third_order.bends.seams import first_piece, pieces_behind
 from polycnc.motion.third_order.bends.stretches import LINE, Stretches, tolerance_of, turn_tolerance_of
 from polycnc.motion.third_order.bends.turning import Turning
 
-#: Where the tolerance is exceeded turning counts more by this and so many times the excess, in every round more.
-MORE, RATE, MOST = 1.015, 1.2, 4.0
+#: Where the tolerance is exceeded turning counts more by this and so many times the excess, in every round more; and
+#: more by this times the square of the round, for a little excess may be stubborn.
+MORE, RATE, MOST, STUBBORN = 1.03, 1.2, 4.0, 0.03
 #: Turning never counts more than this: what is not met then is not met because of the numbers' own steps.
-HEAVIEST = 50.0
+HEAVIEST = 1e4
 
 
-def weigh_excess(path: Stretches, n: int, spline: Spline, pieces: int, turning: Turning, number: int) -> int:
+def weigh_excess(
+    path: Stretches, n: int, spline: Spline, pieces: int, seams: Floats, turning: Turning, number: int
+) -> int:
     """Let the turning count more around places where the path is left by more than its tolerance; their number.
 
-    `number` is that of the round, from 0 on.
+    Only between the seams. `number` is that of the round, from 0 on.
     """
-    e, k, last, found = 0, 0, len(path.form) - 1, 0
-    raised = -1
-    start = 0.0
-    while k < pieces:
+    e, k, last, found = 0, first_piece(seams), len(path.form) - 1, 0
+    raised, behind = -1, pieces - pieces_behind(seams)
+    start = spline.way[k]
+    while path.way[e + 1] <= start:
+        e += 1
+    while k < behind:
         end = min(path.way[e + 1], spline.way[k + 1])
         if e == last and k == pieces - 1:
             end = path.way[e + 1]
@@ -33,7 +40,8 @@ def weigh_excess(path: Stretches, n: int, spline: Spline, pieces: int, turning: 
             used = part_used(path, n, spline, e, k, start, end)
             if used > 1.0:
                 found += 1
-                factor = min(MORE + RATE * (number + 1.0) * (used - 1.0), MOST)
+                factor = MORE + STUBBORN * number * number + RATE * (number + 1.0) * (used - 1.0)
+                factor = min(factor, MOST)
                 raised = raise_weights(path, spline, pieces, turning, e, k, factor, raised)
         start = end
         if e < last and path.way[e + 1] <= end:
@@ -43,6 +51,20 @@ def weigh_excess(path: Stretches, n: int, spline: Spline, pieces: int, turning: 
         else:
             break
     return found
+
+
+def most_used(path: Stretches, n: int, spline: Spline, first: int, end: int) -> float:
+    """The largest part of the tolerance that is used from one piece to before another."""
+    e, most = 0, 0.0
+    for k in range(first, end):
+        start = spline.way[k]
+        while start < spline.way[k + 1]:
+            while path.way[e + 1] <= start:
+                e += 1
+            to = min(path.way[e + 1], spline.way[k + 1])
+            most = max(most, part_used(path, n, spline, e, k, start, to))
+            start = to
+    return most
 
 
 def part_used(path: Stretches, n: int, spline: Spline, e: int, k: int, start: float, end: float) -> float:

@@ -2,6 +2,8 @@
 
 the data    courses (paths, axes, nodes, phases as flat arrays)
 the passes  grid (estimate of second order, nodes), barrier (Newton's method with barriers), phases (of constant jerk;
-            proof), search (all of it, and repairs)
+            proof), search (all of it, and repairs), joining (laws cut into parts), records (pieces and times of
+            rows, by the phases)
+quickest    all of them in turn, without numpy
 compiled    the kernels as machine code
 """

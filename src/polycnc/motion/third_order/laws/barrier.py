@@ -185,6 +185,23 @@ def _force(slack: float, soft: float) -> tuple[float, float]:
     return (2.0 - slack * inverse) * inverse, inverse * inverse
 
 
+def _forces(top: float, sum_: float, soft: float) -> tuple[float, float, float, float]:
+    """Those of the barriers above and below a sum, whose slacks are `top` less and more it.
+
+    Returns:
+        The difference of the slopes (above less below), their sum, that of the bends (below less above), their sum.
+    """
+    above, below = top - sum_, top + sum_
+    if above > soft and below > soft:
+        inverse = 1.0 / (above * below)
+        plus, minus = below * inverse, above * inverse
+        plus2, minus2 = plus * plus, minus * minus
+    else:
+        plus, plus2 = _force(above, soft)
+        minus, minus2 = _force(below, soft)
+    return plus - minus, plus + minus, minus2 - plus2, plus2 + minus2
+
+
 def _barriers(nodes: Nodes, axes: Axes, k: int, first: int, last: int, weight: float, bands: Floats) -> None:
     """Add slopes and bends of the barriers of a node, in x, x' and x'' there, and then in x at three nodes."""
     x, slope, bend = value(nodes, k)
@@ -195,10 +212,11 @@ def _barriers(nodes: Nodes, axes: Axes, k: int, first: int, last: int, weight: f
     room = nodes.room[k]
     gx = gs = gb = hxx = hxs = hxb = hss = hsb = hbb = 0.0
     n = len(axes.jerk)
-    cap, soft = nodes.cap2[k], SOFT * weight
+    cap, soft = nodes.cap2[k], SOFT * weight * room
     rises = behind - nodes.way[k] if slope > 0.0 else nodes.way[k] - before
     wide = room / sqrt(x + 0.25 * rises * abs(slope))  # in the quicker half of the cell
-    slope_of, bend_of = _force(cap - x, LEVEL * soft * cap)
+    half, soft_jolt = 0.5 * wide / x, soft / root
+    slope_of, bend_of = _force(cap - x, LEVEL * SOFT * weight * cap)
     gx -= LEVEL * slope_of
     hxx += LEVEL * bend_of
     for i in range(n):
@@ -207,11 +225,9 @@ def _barriers(nodes: Nodes, axes: Axes, k: int, first: int, last: int, weight: f
         turn, second = 0.5 * nodes.shape[at + Shape.FIRST], nodes.shape[at + Shape.SECOND]
         extra = nodes.shape[at + Shape.SECOND_RANGE]
         sum_, top = turn * slope + second * x, room - extra * x
-        plus, plus2 = _force(top - sum_, soft)
-        minus, minus2 = _force(top + sum_, soft)
-        both, odd, even = plus - minus, minus2 - plus2, plus2 + minus2
+        both, all_, odd, even = _forces(top, sum_, soft)
         # the slack top ∓ sum has the slope -extra ∓ second by x, ∓ turn by x'
-        gx += -second * both - extra * (plus + minus)
+        gx += -second * both - extra * all_
         gs -= turn * both
         hxx += even * (extra * extra + second * second) - 2.0 * odd * extra * second
         hxs += turn * (even * second - odd * extra)
@@ -220,11 +236,9 @@ def _barriers(nodes: Nodes, axes: Axes, k: int, first: int, last: int, weight: f
         turn, second = ratio * turn, 1.5 * ratio * second
         sum_ = turn * bend + second * slope + third * x
         top = wide - extra * x - 1.5 * ratio * nodes.shape[at + Shape.SECOND_RANGE] * abs(slope)
-        falls = 0.5 * wide / x + extra
-        plus, plus2 = _force(top - sum_, soft / root)
-        minus, minus2 = _force(top + sum_, soft / root)
-        both, odd, even = plus - minus, minus2 - plus2, plus2 + minus2
-        gx += -third * both - falls * (plus + minus)
+        falls = half + extra
+        both, all_, odd, even = _forces(top, sum_, soft_jolt)
+        gx += -third * both - falls * all_
         gs -= second * both
         gb -= turn * both
         hxx += even * (falls * falls + third * third) - 2.0 * odd * falls * third
@@ -276,6 +290,9 @@ def _solve(bands: Floats, first: int, last: int) -> None:
     for k in range(first, last + 1):
         at = BANDS * k
         own = bands[at]
+        if own <= 0.0:  # rounding has left nothing: the node keeps its x
+            own = bands[at] = 1.0
+            bands[at + 1] = bands[at + 2] = bands[at + 3] = 0.0
         if k + 1 <= last:
             near = bands[at + 1] / own
             bands[at + BANDS] -= near * bands[at + 1]
@@ -306,7 +323,6 @@ def begin(
             at += 1
         part = (way - places[at]) / (places[at + 1] - places[at])
         nodes.x[k] = share * (squares[at] + part * (squares[at + 1] - squares[at]))
-        nodes.room[k] = 1.0
     # the control values at both ends, from which the spline has the speed and the acceleration there
     nodes.x[0] = ends[Ends.START_SPEED] ** 2 + 0.5 * ends[Ends.START_PULL] * (nodes.way[1] - nodes.way[0])
     nodes.x[last] = ends[Ends.END_SPEED] ** 2 - 0.5 * ends[Ends.END_PULL] * (
@@ -327,7 +343,7 @@ def _from_rest(nodes: Nodes, axes: Axes, k: int, beside: int, way: float, share:
         most = max(
             most, abs(nodes.shape[(k * n + i) * Shape.SIZE + Shape.FIRST]) * axes.pull[i] / axes.jerk[i]
         )
-    top = (4.5 / most * way * way) ** (2.0 / 3.0)
+    top = (4.5 * nodes.room[k] / most * way * way) ** (2.0 / 3.0)
     nodes.x[k] = min(nodes.x[k], share * top)
     if k == beside:
         nodes.cap2[k] = min(nodes.cap2[k], 0.95 * top)

@@ -14,6 +14,7 @@ class Course(NamedTuple):
         first: q' there, (m + 1) · n.
         second: q'' there, (m + 1) · n.
         cap2: Largest square of the speed on each piece, (mm/s)² (m).
+        ease: The part of acceleration and jerk of all axes that may be used there (m).
         low2: The same, and low enough for q'' and q''' alone: an estimate (m).
         x: Square of the speed at the knots by the estimate of second order (m + 1).
     """
@@ -22,6 +23,7 @@ class Course(NamedTuple):
     first: Floats
     second: Floats
     cap2: Floats
+    ease: Floats
     low2: Floats
     x: Floats
 
@@ -74,6 +76,15 @@ class Nodes(NamedTuple):
     room: Floats
     shape: Floats
     stencil: Floats
+
+
+class Known(NamedTuple):
+    """Nodes of a law with which another one goes on; the fields are those of `Nodes`."""
+
+    way: Floats
+    x: Floats
+    cap2: Floats
+    room: Floats
 
 
 class Stencil(Places):

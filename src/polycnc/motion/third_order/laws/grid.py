@@ -17,19 +17,21 @@ CLOSE = 0.08
 #: What the distance grows by with time; the part of the acceleration whose change wants the closest nodes; what q' may
 #: change by from node to node.
 GROWTH, CHANGE, TURN = 0.06, 0.15, 0.06
+#: Behind nodes that are known the first other one is apart by this part of the last distance at least.
+APART = 0.7
 #: Nodes at least.
 FEWEST = 16
-#: Parts of a stretch of a piece, mm, of no account.
-SLIVER = 1e-9
+#: Parts of a piece of no account, in parts of the ways on which the speed changes: nanometres at a slow feed.
+LITTLE = 1e-3
 #: Pull along the path that is taken to be left at least, as a part of the smallest acceleration.
 LEFT = 0.02
 
 
 def estimate(course: Course, axes: Axes, ends: Floats) -> None:
     """Caps of all pieces, and the estimate of second order at the knots."""
-    n, m = len(axes.jerk), len(course.cap2)
+    m = len(course.cap2)
     for k in range(m):
-        course.low2[k] = _cap(course, axes, k, n)
+        course.low2[k] = own_cap(course, axes, k)
     course.x[0] = ends[Ends.START_SPEED] ** 2
     course.x[m] = ends[Ends.END_SPEED] ** 2
     for k in range(1, m):
@@ -44,9 +46,9 @@ def estimate(course: Course, axes: Axes, ends: Floats) -> None:
         course.x[k] = min(course.x[k], most)
 
 
-def _cap(course: Course, axes: Axes, k: int, n: int) -> float:
+def own_cap(course: Course, axes: Axes, k: int) -> float:
     """Bound a piece by the highest speeds of its axes; gives what q'' and q''' bound it by, too."""
-    step = course.way[k + 1] - course.way[k]
+    n, step = len(axes.jerk), course.way[k + 1] - course.way[k]
     speed = bend = twist = 0.0
     for i in range(n):
         here, there = course.second[k * n + i], course.second[k * n + n + i]
@@ -55,8 +57,8 @@ def _cap(course: Course, axes: Axes, k: int, n: int) -> float:
             max(abs(course.first[k * n + i]), abs(course.first[k * n + n + i])) + 0.125 * third * step * step
         )
         speed = max(speed, first / axes.speed[i])
-        bend = max(bend, max(abs(here), abs(there)) / axes.pull[i])
-        twist = max(twist, third / axes.jerk[i])
+        bend = max(bend, max(abs(here), abs(there)) / (course.ease[k] * axes.pull[i]))
+        twist = max(twist, third / (course.ease[k] * axes.jerk[i]))
     cap = course.cap2[k]
     if cap * speed * speed > 1.0:
         cap = course.cap2[k] = 1.0 / (speed * speed)
@@ -69,15 +71,15 @@ def _cap(course: Course, axes: Axes, k: int, n: int) -> float:
 
 def pull_at(course: Course, axes: Axes, k: int, sign: float) -> float:
     """Acceleration along the path in one direction that the axes have left at a knot, at the speed there."""
-    n, x = len(axes.pull), course.x[k]
-    left, least = inf, inf
+    n, x, last = len(axes.pull), course.x[k], len(course.ease) - 1
+    left, least, ease = inf, inf, min(course.ease[max(k - 1, 0)], course.ease[min(k, last)])
     for i in range(n):
         first, used = sign * course.first[k * n + i], course.second[k * n + i] * x
         if first < 0.0:
             first, used = -first, -used
         if first > 1e-9:
-            left = min(left, (axes.pull[i] - used) / first)
-            least = min(least, axes.pull[i] / first)
+            left = min(left, (ease * axes.pull[i] - used) / first)
+            least = min(least, ease * axes.pull[i] / first)
     return max(left, LEFT * least)
 
 
@@ -99,18 +101,17 @@ def cut(course: Course, axes: Axes, places: Floats, squares: Floats, gaps: Float
         for i in range(n):
             bend = max(bend, abs(course.second[k * n + i]), abs(course.second[k * n + n + i]))
         here, there, cap = course.x[k], course.x[k + 1], course.low2[k]
-        if cap > max(here, there):
+        if cap > min(here, there):
             up, down = 2.0 * pull_at(course, axes, k, 1.0), 2.0 * pull_at(course, axes, k + 1, -1.0)
             rise, fall = (cap - here) / up, (cap - there) / down
             if rise + fall > end - begin:  # it gets not so fast
                 rise = max(0.0, (there - here + down * (end - begin)) / (up + down))
                 fall = end - begin - rise
                 cap = here + up * rise
-            if rise > 1e-3 * (end - begin) and fall > 1e-3 * (end - begin):
-                places[count], squares[count], gaps[count] = begin + rise, cap, TURN / bend / sqrt(cap)
-                count += 1
-                if end - fall > begin + rise + SLIVER:
-                    places[count], squares[count], gaps[count] = end - fall, cap, TURN / bend / sqrt(cap)
+            least = LITTLE * (rise + fall)
+            for place in (begin + rise, end - fall):
+                if places[count - 1] + least < place < end - least:
+                    places[count], squares[count], gaps[count] = place, cap, TURN / bend / sqrt(cap)
                     count += 1
         places[count], squares[count], gaps[count] = end, there, TURN / bend / max(sqrt(there), 1e-9)
         count += 1
@@ -174,6 +175,21 @@ def _walk(count: int, places: Floats, squares: Floats, gaps: Floats, nodes: Floa
     return number + 1
 
 
+def merge(known: Floats, spread_: Floats, count: int, nodes: Floats) -> int:
+    """Put nodes that are known before those of a path that lie behind them; gives their number."""
+    number = len(known)
+    for k in range(number):
+        nodes[k] = known[k]
+    k, last = 0, known[number - 1]
+    gap = APART * (last - known[number - 2])
+    while k < count - 1 and spread_[k] < last + gap:
+        k += 1
+    for j in range(k, count):
+        nodes[number] = spread_[j]
+        number += 1
+    return number
+
+
 def _seconds(places: Floats, squares: Floats, k: int) -> float:
     """Time from one place to the next under constant acceleration."""
     return 2.0 * (places[k + 1] - places[k]) / max(sqrt(squares[k]) + sqrt(squares[k + 1]), 1e-6)
@@ -192,13 +208,13 @@ def gather(course: Course, axes: Axes, nodes: Nodes) -> None:
         at = max(at, low)
         while at < m - 1 and course.way[at + 1] <= way:
             at += 1
-        high, cap = low, inf
+        high, cap, room = low, inf, 1.0
         while True:
-            cap = min(cap, course.cap2[high])
+            cap, room = min(cap, course.cap2[high]), min(room, course.ease[high])
             if high >= m - 1 or course.way[high + 1] >= end:
                 break
             high += 1
-        nodes.cap2[k] = cap
+        nodes.cap2[k], nodes.room[k] = cap, room
         for i in range(n):
             _gather_axis(course, axes, nodes, k, i, n, low, high, at, begin, end)
 

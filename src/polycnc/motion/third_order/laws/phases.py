@@ -1,8 +1,9 @@
 """From the speed at nodes to phases of constant jerk, and the sure proof that every axis keeps its limits on them.
 
 Between two nodes lie two phases of equal time t. They bring the way Δs, the change of speed Δv and the change of
-acceleration Δu exactly: `Δu/3·t² - (v + v')·t + Δs = 0`. Beside rest one phase is enough: the way grows with the third
-power of time.
+acceleration Δu exactly: `Δu/3·t² - (v + v')·t + Δs = 0`. There is such a t if Δu is at most `3/4·(v + v')²/Δs`:
+so no node may have more than half of it. Where a law begins or ends in motion, the acceleration is given, and there
+may be none. Beside rest one phase is enough: the way grows with the third power of time.
 
 On a phase and a piece acceleration and jerk of an axis are polynomials in time. Linear between both ends they are wrong
 by at most an eighth of their largest second derivative by time times the square of the time between; where this is
@@ -19,6 +20,8 @@ from polycnc.motion.third_order.laws.courses import Axes, Course, Nodes, Phase
 
 #: Phases between two nodes.
 PAIR = 2
+#: How much acceleration a node may have, see above; part of the way to a node by which phases may miss it: rounding.
+MEETS, APART = 0.375, 1e-6
 #: How often the time is halved at most; what counts as kept without looking closer; how far above the values at both
 #: ends a bound may be.
 HALVINGS, KEPT, CLOSE_BY = 6, 1.0 + 1e-7, 0.002
@@ -26,16 +29,46 @@ HALVINGS, KEPT, CLOSE_BY = 6, 1.0 + 1e-7, 0.002
 
 def lay_phases(nodes: Nodes, phases: Floats, first: int, last: int) -> None:
     """Phases between two nodes, `PAIR` from each one to the next; one of them may last no time."""
-    speed = pull = 0.0
-    for k in range(first, last + 1):
-        if nodes.x[k] > 0.0:
-            x, slope, _ = value(nodes, k)
-            there, new = sqrt(max(x, 1e-18)), 0.5 * slope
-        else:
-            there = new = 0.0
-        if k > first:
-            _pair(nodes, k - 1, speed, pull, there, new, phases)
+    speed, pull = _speed(nodes, first), 0.0
+    if speed > 0.0:
+        pull = _pull(nodes, first, speed)
+    for k in range(first + 1, last + 1):
+        there, new = _speed(nodes, k), 0.0
+        if there > 0.0:
+            new = _pull(nodes, k, there)
+        _pair(nodes, k - 1, speed, pull, there, new, phases)
         speed, pull = there, new
+
+
+def leads_on(nodes: Nodes, phases: Floats, k: int) -> bool:
+    """Whether the phases behind a node lead to the next one: from a motion beside a rest there may be none that do."""
+    way = nodes.way[k]
+    for at in range(PAIR * k * Phase.SIZE, PAIR * (k + 1) * Phase.SIZE, Phase.SIZE):
+        way += gone(phases, at, phases[at + Phase.TIME])
+    return abs(way - nodes.way[k + 1]) <= APART * (nodes.way[k + 1] - nodes.way[k])
+
+
+def _speed(nodes: Nodes, k: int) -> float:
+    """Speed at a node."""
+    if nodes.x[k] <= 0.0:
+        return 0.0
+    x, _, _ = value(nodes, k)
+    return sqrt(max(x, 1e-18))
+
+
+def _pull(nodes: Nodes, k: int, speed: float) -> float:
+    """Acceleration at a node; no more than with which phases lead from the node before to this one and to the next."""
+    _, slope, _ = value(nodes, k)
+    pull = 0.5 * slope
+    last = len(nodes.x) - 1
+    if k == 0 or k == last:
+        return pull
+    before, behind = _speed(nodes, k - 1), _speed(nodes, k + 1)
+    if before > 0.0:
+        pull = min(pull, MEETS * (before + speed) ** 2 / (nodes.way[k] - nodes.way[k - 1]))
+    if behind > 0.0:
+        pull = max(pull, -MEETS * (speed + behind) ** 2 / (nodes.way[k + 1] - nodes.way[k]))
+    return pull
 
 
 def _pair(nodes: Nodes, k: int, speed: float, pull: float, there: float, new: float, phases: Floats) -> None:
@@ -94,7 +127,7 @@ def examine(course: Course, axes: Axes, phases: Floats, most: Floats, begin: int
         time = phases[at + Phase.TIME]
         if time <= 0.0:
             continue
-        there, now = phases[at + Phase.WAY] + _gone(phases, at, time), 0.0
+        there, now = phases[at + Phase.WAY] + gone(phases, at, time), 0.0
         while p < m - 1 and course.way[p + 1] <= phases[at + Phase.WAY]:
             p += 1
         pull, jerk = phases[at + Phase.PULL], phases[at + Phase.JERK]
@@ -104,8 +137,8 @@ def examine(course: Course, axes: Axes, phases: Floats, most: Floats, begin: int
             last = p >= m - 1 or course.way[p + 1] >= there
             if not _roughly(course, axes, p, fast, hard, abs(jerk), most, 3 * k):
                 if course.way[p] > phases[at + Phase.WAY]:
-                    now = _reached(phases, at, now, course.way[p])
-                until = time if last else _reached(phases, at, now, course.way[p + 1])
+                    now = reached(phases, at, now, course.way[p])
+                until = time if last else reached(phases, at, now, course.way[p + 1])
                 _piece(course, axes, phases, at, p, now, until, most, 3 * k)
             if last:
                 break
@@ -117,7 +150,7 @@ def _roughly(
 ) -> bool:
     """Whether a piece keeps all limits even if the highest speed, acceleration and jerk of a phase come together."""
     n, step = len(axes.jerk), course.way[p + 1] - course.way[p]
-    square = fast * fast
+    square, ease = fast * fast, course.ease[p]
     high, high_a, high_j = square / course.cap2[p], 0.0, 0.0
     for i in range(n):
         here, there = course.second[p * n + i], course.second[p * n + n + i]
@@ -125,8 +158,10 @@ def _roughly(
         turn = (
             max(abs(course.first[p * n + i]), abs(course.first[p * n + n + i])) + 0.125 * third * step * step
         )
-        high_a = max(high_a, (turn * hard + bend * square) / axes.pull[i])
-        high_j = max(high_j, (turn * jerk + fast * (3.0 * bend * hard + third * square)) / axes.jerk[i])
+        high_a = max(high_a, (turn * hard + bend * square) / (ease * axes.pull[i]))
+        high_j = max(
+            high_j, (turn * jerk + fast * (3.0 * bend * hard + third * square)) / (ease * axes.jerk[i])
+        )
     if high > 1.0 or high_a > 1.0 or high_j > 1.0:
         return False
     most[to], most[to + 1] = max(most[to], high), max(most[to + 1], high_a)
@@ -134,14 +169,15 @@ def _roughly(
     return True
 
 
-def _gone(phases: Floats, at: int, time: float) -> float:
+def gone(phases: Floats, at: int, time: float) -> float:
+    """The way gone in a phase after a time."""
     return time * (
         phases[at + Phase.SPEED]
         + time * (0.5 * phases[at + Phase.PULL] + time * phases[at + Phase.JERK] / 6.0)
     )
 
 
-def _reached(phases: Floats, at: int, now: float, way: float) -> float:
+def reached(phases: Floats, at: int, now: float, way: float) -> float:
     """The time in a phase, after `now`, at which a place is reached."""
     low, high = now, phases[at + Phase.TIME]
     goal = way - phases[at + Phase.WAY]
@@ -202,14 +238,15 @@ def _used(
     jerk = phases[at + Phase.JERK]
     pull = phases[at + Phase.PULL] + begin * jerk
     speed = phases[at + Phase.SPEED] + begin * (phases[at + Phase.PULL] + 0.5 * begin * jerk)
-    way = phases[at + Phase.WAY] + _gone(phases, at, begin) - course.way[p]
+    way = phases[at + Phase.WAY] + gone(phases, at, begin) - course.way[p]
     pull2, speed2 = pull + time * jerk, speed + time * (pull + 0.5 * time * jerk)
     way2 = way + time * (speed + time * (0.5 * pull + time * jerk / 6.0))
     hard = abs(jerk)
     most_pull, eighth = max(abs(pull), abs(pull2)), 0.125 * time * time
     fast = max(speed, speed2) + eighth * hard
     high, high_a = max(speed, speed2) ** 2 * top, 0.0
-    length, high_j, bound_a, bound_j = course.way[p + 1] - course.way[p], 0.0, 0.0, 0.0
+    length, ease = course.way[p + 1] - course.way[p], course.ease[p]
+    high_j = bound_a = bound_j = 0.0
     for i in range(n):
         first, second = course.first[p * n + i], course.second[p * n + i]
         third = (course.second[p * n + n + i] - second) / length
@@ -220,7 +257,8 @@ def _used(
         more = eighth * (
             4.0 * bent * fast * hard + 3.0 * bent * most_pull**2 + 6.0 * twist * fast**2 * most_pull
         )
-        high_a, bound_a = max(high_a, used / axes.pull[i]), max(bound_a, (used + more) / axes.pull[i])
+        part = 1.0 / (ease * axes.pull[i])
+        high_a, bound_a = max(high_a, used * part), max(bound_a, (used + more) * part)
         used = max(
             abs(turn * jerk + speed * (3.0 * bend * pull + third * speed * speed)),
             abs(turn2 * jerk + speed2 * (3.0 * bend2 * pull2 + third * speed2 * speed2)),
@@ -228,5 +266,6 @@ def _used(
         more = eighth * (
             twist * fast * (10.0 * fast * hard + 15.0 * most_pull**2) + 10.0 * bent * most_pull * hard
         )
-        high_j, bound_j = max(high_j, used / axes.jerk[i]), max(bound_j, (used + more) / axes.jerk[i])
+        part = 1.0 / (ease * axes.jerk[i])
+        high_j, bound_j = max(high_j, used * part), max(bound_j, (used + more) * part)
     return fast * fast * top, bound_a, bound_j, high, high_a, high_j

@@ -6,16 +6,19 @@ from math import sqrt
 
 from polycnc.kernels.layout import Floats
 from polycnc.motion.third_order.laws.barrier import begin, improve, lay_stencils
-from polycnc.motion.third_order.laws.courses import Axes, Course, Ends, Nodes, Phase
+from polycnc.motion.third_order.laws.courses import Axes, Course, Ends, Known, Nodes, Phase
 from polycnc.motion.third_order.laws.grid import cut, estimate, gather, spread
-from polycnc.motion.third_order.laws.phases import PAIR, examine, lay_phases
+from polycnc.motion.third_order.laws.phases import PAIR, examine, lay_phases, leads_on
 
 #: Weights of the barriers in each pass; the last one is for the passes of repairs, too.
 WEIGHTS = (0.05, 0.05, 0.03, 0.03, 0.02, 0.02)
 #: The part of the estimate that the first pass begins with.
 SHARE = 0.7
-#: Rounds of repairs at most, passes in each, and nodes around a place that go along.
-ROUNDS, PASSES, AROUND = 10, 2, 15
+#: Rounds of repairs at most, passes in each, and nodes around a place that go along; so many rounds later one pass more
+#: and once more as many nodes.
+ROUNDS, PASSES, AROUND, LATER = 30, 2, 10, 3
+#: By what part the excess counts more in every round.
+RISING = 0.001
 #: What counts as kept; beyond this much a first round may help by itself; how much more room is taken away, and how
 #: much at most.
 KEPT, FAR, MORE, MOST = 1.0 + 4e-7, 1.2, 0.003, 1.5
@@ -48,6 +51,7 @@ def find_law(
     places: Floats,
     squares: Floats,
     nodes: Nodes,
+    known: Known,
     bands: Floats,
     phases: Floats,
     most: Floats,
@@ -55,7 +59,8 @@ def find_law(
     """Find the quickest law at nodes, as phases of constant jerk; gives the rounds of repairs that it took.
 
     Where after all rounds a limit is exceeded still, a law from rest to rest is stretched in time as a whole, which
-    keeps it for sure; from or to a motion there is none, and -1 is given.
+    keeps it for sure; from or to a motion there is none, and -1 is given. So it is where no phases lead from that
+    motion to the node behind it, or to the other one from the node before it.
 
     Args:
         course: The path, as `place_nodes` left it.
@@ -64,6 +69,7 @@ def find_law(
         places: As there.
         squares: As there.
         nodes: k nodes with their ways.
+        known: The first of them, where another law leads so far, or none.
         bands: For `BANDS` numbers a node.
         phases: The law: `PAIR` phases between two nodes.
         most: For three numbers a phase, see `examine`.
@@ -71,6 +77,8 @@ def find_law(
     last = len(nodes.way) - 1
     gather(course, axes, nodes)
     begin(places, squares, int(places[len(places) - 1]), nodes, axes, ends, SHARE)
+    for k in range(1, len(known.way)):
+        nodes.x[k], nodes.cap2[k], nodes.room[k] = known.x[k], known.cap2[k], known.room[k]
     lay_stencils(nodes, ends)
     for weight in WEIGHTS:
         improve(nodes, axes, weight, bands, 0, last)
@@ -83,6 +91,8 @@ def find_law(
         if ends[Ends.START_SPEED] > 0.0 or ends[Ends.END_SPEED] > 0.0:
             return -1
         _stretch(phases, most)
+    if not (leads_on(nodes, phases, 0) and leads_on(nodes, phases, last - 1)):
+        return -1
     return rounds
 
 
@@ -107,23 +117,25 @@ def _repair(
 ) -> bool:
     """Take room away around every place where a limit is exceeded, look for x anew there; says whether one was."""
     last, k, any_ = len(nodes.way) - 1, 0, False
+    around = AROUND * (1 + rounds // LATER)
     while k < last:
         over = _over(most, k)
         if over <= KEPT:
             k += 1
             continue
-        any_, first, end = True, max(k - AROUND, 0), k
-        while k < min(end + 2 * AROUND, last):
+        any_, first, end = True, max(k - around, 0), k
+        while k < min(end + 2 * around, last):
             over = _over(most, k)
             if over > KEPT:
                 end = k
                 if rounds > 0 or over < FAR:
-                    _lower(nodes, most, k, over)
+                    _lower(nodes, most, k, over * (1.0 + RISING * rounds))
             k += 1
-        k = end = min(end + 1 + AROUND, last)
-        for _ in range(PASSES):
+        k = end = min(end + 1 + around, last)
+        for _ in range(PASSES + rounds // LATER):
             improve(nodes, axes, WEIGHTS[len(WEIGHTS) - 1], bands, first, end)
-        first, end = max(first - 1, 0), min(end + 1, last)
+        # the acceleration of a node depends on two on either side
+        first, end = max(first - 2, 0), min(end + 2, last)
         lay_phases(nodes, phases, first, end)
         examine(course, axes, phases, most, PAIR * first, PAIR * end)
     return any_

@@ -41,7 +41,7 @@ def rotate(channel: LatheChannel, words: Words) -> None:
         raise words.fail("in_rotation", "G68.1")
     if frames.conversions == DEEPEST:
         raise words.fail("conversion_nesting", "G68.1")
-    x, y, z = (words.typed(letter) or 0.0 for letter in "IJK")
+    x, y, z = (words.part(letter) or 0.0 for letter in "IJK")
     angle = words.angle("R")
     if angle is None or not (x or y or z):
         raise words.fail("conversion_format", "R" if angle is None else "I")

@@ -11,7 +11,8 @@ from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.word_address.auxiliary.overrides import OverrideState
 from polycnc.control.word_address.block.codes import MCode
 from polycnc.control.word_address.cycles import drilling as base
-from polycnc.control.word_address.cycles.drilling import CycleState, DrillCycle, Drilling, Halts
+from polycnc.control.word_address.cycles.drilling import CycleState, DrillCycle, Drilling
+from polycnc.control.word_address.cycles.hole_halts import Halts
 from polycnc.cycles.drilling import holes, lathe
 from polycnc.cycles.drilling.lathe import Joint
 from polycnc.deferred.records import dataclass, replace

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.block.rules import Rule
-from polycnc.control.word_address.motion.oscillation import Fixed, Oscillator, Strokes
+from polycnc.control.word_address.motion.oscillation import Fixed, Oscillator, Strokes, speed_of_feed
 from polycnc.control.word_address.motion.spindle_led import Lead, SpindleLed
 from polycnc.deferred.records import dataclass
 from polycnc.messages import AlarmError
@@ -215,13 +215,15 @@ def _identified(channel: LatheChannel, words: Words, address: str) -> int:
 def start_oscillation(channel: LatheChannel, words: Words) -> None:
     """G81.1 Z Q R F: to R at rapid, then between the upper dead point and the lower one, Q from it, until G80."""
     named = words.axes()
-    stroke, home = words.length("Q"), words.length("R")
-    if BesideState.of(channel).oscillating >= 0 or len(named) != 1 or not stroke or home is None:
+    if BesideState.of(channel).oscillating >= 0 or len(named) != 1:
+        raise words.fail("oscillation_command", "G81.1")
+    axis, upper, _ = named[0]
+    stroke, home = (words.way(address, rotary=channel.axis_data[axis].rotary) for address in "QR")
+    if not stroke or home is None:
         raise words.fail("oscillation_command", "G81.1")
     if not channel.feed > 0.0:
         raise words.fail("no_feed")
     channel.on_clock()
-    axis, upper, _ = named[0]
     c = channel.coordinates
     place = list(c.programmed)
     place[axis] = upper
@@ -230,7 +232,7 @@ def start_oscillation(channel: LatheChannel, words: Words) -> None:
     machine[axis] = top + home
     channel.flush()
     channel.straight(Kind.RAPID, c.from_machine(machine), nan)
-    strokes = Strokes((top, top + stroke), channel.feed)
+    strokes = Strokes((top, top + stroke), speed_of_feed(channel, axis))
     Oscillator.of(channel).begin(axis, Fixed(strokes), top + home)
     _took(channel, oscillating=axis)
 

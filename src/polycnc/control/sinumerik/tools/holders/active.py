@@ -14,6 +14,8 @@ from typing import TYPE_CHECKING
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.data.machine_data import MachineData
 from polycnc.control.sinumerik.tools.holders.stored import Carrier, CarrierData
+from polycnc.control.sinumerik.tools.lengths import direction_of
+from polycnc.control.sinumerik.tools.selection import rules_of
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.angles import TURN_DEG
 from polycnc.geometry.frames import IDENTITY
@@ -170,24 +172,22 @@ def _from_frame(channel: SinumerikChannel, carrier: Carrier, axis: int) -> Posit
 
 def _solutions(channel: SinumerikChannel, carrier: Carrier, axis: int) -> list[Positions]:
     """All positions that stand the tool along an axis of the frame, on all turns that come into question."""
-    tool = PLANES[channel.mode["plane"]][2]
-    # The orientation of joints knows tools along Z: the axes change places in a circle until the tool lies there.
-    places = tuple((tool + 1 + i) % 3 for i in range(3))
+    edge, plane = channel.memory.tools.edge, channel.mode["plane"]
+    own = None if edge is None else direction_of(edge, channel.memory.tools.rules or rules_of(channel), plane)
+    tool = own or axis_vector(PLANES[plane][2])
     wanted = _direction(channel, axis)
     chains = [
         tuple(
-            Joint(str(i), True, "tool", _moved(direction, places), (0.0, 0.0, 0.0))
+            Joint(str(i), True, "tool", direction, (0.0, 0.0, 0.0))
             for i in chain
             if (direction := carrier.axes[i]) is not None
         )
         for chain in carrier.chains
     ]
-    kinematics = Kinematics(chains[0], chains[1])
     if not any(chains):
-        same = dot(_moved(wanted, places), (0.0, 0.0, 1.0)) > 1.0 - SAME_DIRECTION
-        return [carrier.zeros_deg] if same else []
+        return [carrier.zeros_deg] if dot(wanted, tool) > 1.0 - SAME_DIRECTION else []
     near = {str(i): carrier.stored_deg[i] - carrier.zeros_deg[i] for i in range(2)}
-    turned = solutions_for(kinematics, _moved(wanted, places), near)
+    turned = solutions_for(Kinematics(chains[0], chains[1], tool), wanted, near)
     first, second = carrier.zeros_deg
     return [
         (first + angles.get("0", near["0"]) + a, second + angles.get("1", near["1"]) + b)
@@ -202,11 +202,6 @@ def _direction(channel: SinumerikChannel, axis: int) -> Vector:
     total = state.total().frame
     turned = state.system["$P_PARTFRAME"].frame.inverse().direct(*total.direct(*axis_vector(axis)))
     return unit(turned)
-
-
-def _moved(direction: Vector, places: tuple[int, ...]) -> Vector:
-    x, y, z = (direction[i] for i in places)
-    return (x, y, z)
 
 
 def _is_reached(carrier: Carrier, positions: Positions) -> bool:

@@ -7,5 +7,6 @@ environments  TOOLENV, DELTOOLENV, GETTENV, and LENTOAX
 components  GETTCOR
 corrections  SETTCOR
 systems     MCS, BCS, WCS, KCS, TCS: how each sees lengths of the tool
+adapters    $TC_ADPT
 magazines   $TC_MAP, $TC_MPP, GETFREELOC, MVTOOL, POSM, TCI, CHKDM
 """

@@ -23,9 +23,10 @@ from polycnc.control.sinumerik.tools.edges import (
 )
 from polycnc.control.sinumerik.tools.lengths import AGAINST_TOOL, OF_MACHINE, Rules, along_axes
 from polycnc.control.sinumerik.tools.management.environments import ORDER, Environments, field_of
-from polycnc.control.sinumerik.tools.management.systems import BASIC, MACHINE, SYSTEMS, seen_from
+from polycnc.control.sinumerik.tools.management.systems import BASIC, MACHINE, SYSTEMS, has_offsets, seen_from
 from polycnc.control.sinumerik.tools.selection import rules_of
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.records import replace
 from polycnc.geometry.frames import IDENTITY
 
 if TYPE_CHECKING:
@@ -73,7 +74,7 @@ def length_of(channel: SinumerikChannel, args: Arguments) -> int:
     and -9 for environment, parts, T, D, DL, system that are none; then the field stays.
 
     Raises:
-        AlarmError: PC0001 for the part of a transformation, and what `seen_from` finds.
+        AlarmError: PC0001 for the part of a transformation whose head has offsets, and what `seen_from` finds.
     """
     field_of("GETTCOR", args[0], (FIELD,))
     given = [*args[1:], *[None] * 5][:5]
@@ -83,7 +84,7 @@ def length_of(channel: SinumerikChannel, args: Arguments) -> int:
         return WRONG_COMPONENTS
     if system not in SYSTEMS:
         return WRONG_SYSTEM
-    if KINEMATIC in parts:
+    if (KINEMATIC in parts or not parts) and has_offsets(channel):
         raise not_supported("GETTCOR: K")
     asked = asked_of(channel, given[1:])
     if isinstance(asked, int):
@@ -149,7 +150,7 @@ def made_of(edge: Edge, parts: frozenset[str]) -> Edge:
     values = [value if n in numbers else 0.0 for n, value in enumerate(edge.values)]
     sums = {kind for kind, part in ((FINE, SUM), (COARSE, SETUP)) if part in parts}
     additive = {key: value for key, value in edge.additive.items() if key[0] in sums}
-    return Edge(values, edge.teeth, edge.cutting_edge, edge.is_valid, additive)
+    return replace(edge, values=values, additive=additive)
 
 
 def length_along(

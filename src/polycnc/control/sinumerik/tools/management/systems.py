@@ -52,6 +52,15 @@ def seen_from(channel: SinumerikChannel, system: str, name: str) -> Frame:
     return machine if system == MACHINE else basic
 
 
+def has_offsets(channel: SinumerikChannel) -> bool:
+    """Whether an orientation transformation acts whose head has offsets beside the tool."""
+    point = seat.centre_point(channel)
+    if point is None:
+        return False
+    parts = (point.kinematics.nose, *(joint.offset for joint in point.kinematics.tool))
+    return any(any(part) for part in parts)
+
+
 def _of_transformation(channel: SinumerikChannel, name: str) -> tuple[Frame, Frame]:
     """From the head to the machine, and to the basic system, as the axes stand."""
     state = seat.Transformations.of(channel)

@@ -1,12 +1,12 @@
-"""Rows of a run become stretches of the programmed path."""
+"""A programmed path, written row by row: what `laying/rows.py` must make of rows, worked out apart from it."""
 
 from __future__ import annotations
 
 from array import array
+from dataclasses import dataclass
 from math import ceil, cos, inf, pi, sin, sqrt
 from typing import TYPE_CHECKING
 
-from polycnc.deferred.records import dataclass
 from polycnc.geometry.vectors import cross, dot
 from polycnc.motion.third_order.bends.stretches import ARC, CHORD, LINE, Stretches
 
@@ -27,11 +27,13 @@ class Bounds:
         tolerance: How far the linear axes may leave it, mm.
         speed: Highest speed along it, mm/s.
         turn_tolerance: How far the rotary axes may leave it, degrees; as many as the tolerance has mm if left out.
+        ease: Part of acceleration and jerk that the axes may use.
     """
 
     tolerance: float
     speed: float = inf
     turn_tolerance: float | None = None
+    ease: float = 1.0
 
 
 class ProgrammedPath:
@@ -55,7 +57,7 @@ class ProgrammedPath:
     ) -> None:
         self._n, self._plane = len(start), plane
         turns = array("d", [1.0 if turn else 0.0 for turn in rotary] or [0.0] * self._n)
-        empty = (array("d") for _ in range(5))
+        empty = (array("d") for _ in range(6))
         self.path = Stretches(
             way=array("d", (0.0,)),
             place=array("d", start),
@@ -65,6 +67,7 @@ class ProgrammedPath:
             tolerance=next(empty),
             turn_tolerance=next(empty),
             cap2=next(empty),
+            ease=next(empty),
             row=array("q"),
             rotary=turns,
             top=array("d", tops),
@@ -169,6 +172,7 @@ class ProgrammedPath:
         turns = bounds.turn_tolerance
         path.turn_tolerance.append(bounds.tolerance if turns is None else turns)
         path.cap2.append(bounds.speed * bounds.speed)
+        path.ease.append(bounds.ease)
         path.row.append(row)
 
 

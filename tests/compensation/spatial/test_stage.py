@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from polycnc.channel.moves.path import Move, Recorder
-from polycnc.compensation.spatial import SpatialStage
-from polycnc.compensation.spatial_rules import (
+from polycnc.compensation.spatial.rules import (
     ARC_FIRST,
     INTERSECTION_FIRST,
     TURNS_ALONG,
@@ -18,6 +17,7 @@ from polycnc.compensation.spatial_rules import (
     Corners,
     Rules,
 )
+from polycnc.compensation.spatial.stage import SpatialStage
 from polycnc.messages import AlarmError
 from polycnc.toolpath.kinds import Kind
 

@@ -2,7 +2,7 @@
 
 With the tool along v and the path along t the tool stands to the left by v × t. At a corner both blocks see the
 same tool v, so their offset lines, looked at along v, meet at `r (n1 + n2) / (1 + n1 · n2)` from the corner. An arc
-whose plane is square on the tool has a parallel arc (`spatial_arcs`), any other one becomes chords. Where the control
+whose plane is square on the tool has a parallel arc (`arcs`), any other one becomes chords. Where the control
 turns the tool at a corner (`Rules.turns`), it does that before the arc about it or along with it.
 """
 
@@ -10,13 +10,14 @@ from __future__ import annotations
 
 from functools import partial
 from itertools import pairwise
-from math import acos, ceil, degrees, dist, sqrt
-from typing import TYPE_CHECKING, Protocol
+from math import acos, ceil, degrees, sqrt
+from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move, PlacedEvent, Rank, Stage
-from polycnc.compensation.spatial_arcs import Rest, between, crossing, is_across, meeting, turns_left
-from polycnc.compensation.spatial_rules import TURNS_ALONG, TURNS_BEFORE, TURNS_NOT
+from polycnc.compensation.spatial.arcs import Rest, between, crossing, is_across, meeting, turns_left
+from polycnc.compensation.spatial.chords import CHORD_ERROR_MM, bends, doubled, strays
+from polycnc.compensation.spatial.rules import TURNS_ALONG, TURNS_BEFORE, TURNS_NOT
 from polycnc.deferred.records import dataclass, replace
 from polycnc.geometry.arcs import parts_for_chord_error
 from polycnc.geometry.vectors import cross, dot, minus, times
@@ -26,22 +27,12 @@ from polycnc.toolpath.kinds import Kind
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from polycnc.compensation.spatial_rules import Corners, Rules
+    from polycnc.compensation.spatial.chords import Directions
+    from polycnc.compensation.spatial.rules import Corners, Rules
     from polycnc.geometry.frames import Vector
 
 PARALLEL = 1e-6
 NOWHERE: Vector = (0.0, 0.0, 0.0)
-#: Chords of an arc along which the tool turns may be this far off it, mm.
-CHORD_ERROR_MM = 0.001
-#: A block is not cut into more chords near a pole.
-MOST_CHORDS = 1024
-
-
-class Directions(Protocol):
-    """What says how the tool stands."""
-
-    def tool_at(self, position: Sequence[float]) -> Vector:
-        """Direction along the tool at a position of the path, of length 1."""
 
 
 @dataclass(slots=True)
@@ -154,11 +145,13 @@ class SpatialStage(Stage):
 
     def _in_chords(self, move: Move) -> None:
         """An arc that has no parallel arc, in chords; between them the parallels meet."""
-        path = MovePath(move, self._geometry)
+        path = MovePath(move, self._geometry, in_chords=True)
         error = CHORD_ERROR_MM * path.radius / (path.radius + abs(self.radius))
+        count = parts_for_chord_error(path.radius, path.sweep, error)
+        count = doubled(count, partial(strays, path, self.posture))
         chords = [
             replace(move, kind=Kind.SPLINE, start=start, end=end, center=None, turns=0.0, turning=None)
-            for start, end in pairwise((move.start, *path.chords(error)))
+            for start, end in pairwise(path.at(k / count) for k in range(count + 1))
         ]
         self._unite(chords)
         for k, chord in enumerate(chords, 1):
@@ -411,7 +404,7 @@ class SpatialStage(Stage):
         """
         if self.rules.reverses and self._at is not None and not move.is_arc:
             self._check_sense(move, shift)
-        before, path = self._shift, MovePath(move, self._geometry)
+        before, path = self._shift, MovePath(move, self._geometry, in_chords=True)
         tools = self.posture.tool_at(move.start), self.posture.tool_at(move.end)
         first, last = (self._normal(tool, tangent) for tool in tools)
         straight = self._at is None or move.is_arc or not self.rules.follows_turns
@@ -432,8 +425,8 @@ class SpatialStage(Stage):
             return (x, y, z)
 
         count = self._chords(path, tangent, *rests)
-        while move.turning is not None and count < MOST_CHORDS and bends(beside, count):
-            count *= 2  # near a pole the tool turns along a bent way
+        if move.turning is not None:  # near a pole the tool turns along a bent way
+            count = doubled(count, lambda n: bends(beside, n) or strays(path, self.posture, n))
         if count == 1:
             self._emit(move, shift)
             return
@@ -552,15 +545,6 @@ class SpatialStage(Stage):
 def _unit(v: Vector) -> Vector | None:
     size = sqrt(dot(v, v))
     return None if size < PARALLEL else (v[0] / size, v[1] / size, v[2] / size)
-
-
-def bends(beside: Callable[[float], Vector], count: int) -> bool:
-    """Whether a vector along a block leaves so many chords of it by more than they may."""
-    places = [beside(0.5 * k / count) for k in range(2 * count + 1)]
-    return any(
-        dist(middle, [0.5 * (a + b) for a, b in zip(first, last, strict=True)]) > CHORD_ERROR_MM
-        for first, middle, last in zip(places[::2], places[1::2], places[2::2], strict=False)
-    )
 
 
 def _turned(directions: Sequence[Vector]) -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from polycnc.channel.moves.path import Move
-from polycnc.compensation.spatial_arcs import is_across, meeting, turns_left
+from polycnc.compensation.spatial.arcs import is_across, meeting, turns_left
 from polycnc.geometry.vectors import dot
 from polycnc.toolpath.kinds import Kind
 

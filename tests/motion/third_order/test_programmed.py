@@ -8,8 +8,8 @@ from math import pi
 import numpy as np
 import pytest
 
-from polycnc.motion.third_order.bends.programmed import Bounds, ProgrammedPath
 from polycnc.motion.third_order.bends.stretches import put_place
+from tests.motion.third_order.programmed import Bounds, ProgrammedPath
 
 
 def test_a_spiral_with_rise_and_a_rotary_axis() -> None:

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from polycnc.compensation.limiting_surface import Mill, across, infeed
+from polycnc.compensation.spatial.limiting_surface import Mill, across, infeed
 from polycnc.geometry.frames import Vector
 from polycnc.geometry.vectors import cross, dot
 from polycnc.machine.kinematics import unit

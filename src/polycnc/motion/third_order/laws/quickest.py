@@ -1,0 +1,90 @@
+"""The law of a course as phases, without numpy: room for the kernels, and their turn."""
+
+from __future__ import annotations
+
+from array import array
+from typing import TYPE_CHECKING
+
+from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.motion.third_order.laws.barrier import BANDS
+from polycnc.motion.third_order.laws.compiled import kernels
+from polycnc.motion.third_order.laws.courses import Course, Ends, Known, Nodes, Phase, Shape, Stencil
+from polycnc.motion.third_order.laws.phases import PAIR
+
+if TYPE_CHECKING:
+    from polycnc.kernels.layout import Floats
+    from polycnc.motion.third_order.laws.courses import Axes
+
+#: Room for nodes at first, by the places of the estimate and besides.
+PER_PLACE, BESIDES = 1, 256
+#: Where a law begins by itself.
+NONE = Known(array("d"), array("d"), array("d"), array("d"))
+
+
+class NoLawError(ValueError):
+    """From the given state the end cannot be reached within the limits."""
+
+
+def course_of(way: Floats, first: Floats, second: Floats, cap2: Floats, ease: Floats) -> Course:
+    """A bent path with room for its estimate."""
+    return Course(way, first, second, cap2, ease, numbers(len(cap2)), numbers(len(cap2) + 1))
+
+
+class Found(NamedTuple):
+    """A law: its phases, see `Phase`, some of which last no time, `PAIR` from each node to the next; and its nodes."""
+
+    phases: array[float]
+    nodes: Known
+
+
+def quickest(course: Course, axes: Axes, ends: array[float], known: Known = NONE) -> Found | None:
+    """The quickest law along a path.
+
+    Args:
+        course: The path; the caps of its speed become those of the axes, too.
+        axes: Limits.
+        ends: Speed and acceleration at both ends, see `Ends`.
+        known: The first nodes, where the law goes on with another one; the first of them lies at the start.
+
+    Returns:
+        None where there is none within the limits from a motion, or to one.
+    """
+    room = 3 * len(course.cap2) + 2
+    places, squares, gaps = numbers(room), numbers(room), numbers(room)
+    way = numbers(PER_PLACE * room + BESIDES)
+    count = kernels().place_nodes(course, axes, ends, places, squares, gaps, way)
+    if count > len(way):
+        way = numbers(count)
+        count = kernels().place_nodes(course, axes, ends, places, squares, gaps, way)
+    if _rests_at_once(ends[Ends.START_SPEED], ends[Ends.START_PULL], way[1] - way[0]) or _rests_at_once(
+        ends[Ends.END_SPEED], -ends[Ends.END_PULL], way[count - 1] - way[count - 2]
+    ):
+        return None
+    if known.way:
+        merged = numbers(len(known.way) + count)
+        count, way = kernels().merge(known.way, way, count, merged), merged
+    nodes = Nodes(
+        way[:count],
+        numbers(count),
+        numbers(count),
+        numbers(count),
+        numbers(count * len(axes.jerk) * Shape.SIZE),
+        numbers(count * Stencil.SIZE),
+    )
+    phases, most = numbers(PAIR * (count - 1) * Phase.SIZE), numbers(3 * PAIR * (count - 1))
+    rounds = kernels().find_law(
+        course, axes, ends, places, squares, nodes, known, numbers(BANDS * count), phases, most
+    )
+    if rounds < 0:
+        return None
+    return Found(phases, Known(nodes.way, nodes.x, nodes.cap2, nodes.room))
+
+
+def _rests_at_once(speed: float, pull: float, way: float) -> bool:
+    """Whether a motion is at rest before the middle of the way to the next node: there is no law between the two."""
+    return speed > 0.0 and speed * speed + 0.5 * pull * way <= 0.0
+
+
+def numbers(count: int) -> array[float]:
+    """Room for so many numbers."""
+    return array("d", (0.0,)) * count

@@ -1,0 +1,6 @@
+"""From rows of a toolpath to runs with limited jerk: stretches of a path, from one standstill to the next.
+
+rows        the kernel: rows become stretches of a run, or pieces where no law leads
+room        room for the stretches of a run, until they are taken over
+leading     runs as the planner leads them: windows with their path, their law and their rows
+"""

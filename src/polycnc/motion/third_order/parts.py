@@ -1,0 +1,168 @@
+"""A part of a programmed path, bent: flat arrays, without numpy."""
+
+from __future__ import annotations
+
+from array import array
+from bisect import bisect_left, bisect_right
+from typing import TYPE_CHECKING
+
+from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.motion.third_order.bends.bending import NO_ROOM, NOT_WITHIN
+from polycnc.motion.third_order.bends.controls import Spline
+from polycnc.motion.third_order.bends.knots import Samples
+from polycnc.motion.third_order.bends.pieces import Pieces
+from polycnc.motion.third_order.bends.seams import BESIDES, KNOWN, SIDE, first_piece, pieces_behind
+from polycnc.motion.third_order.bends.turning import Turning
+from polycnc.motion.third_order.compiled import kernels
+
+if TYPE_CHECKING:
+    from polycnc.kernels.layout import Floats, Ints
+    from polycnc.motion.third_order.bends.stretches import Stretches
+
+#: Room for knots: a stretch has so many at first, and the path so many besides; fourfold where that is too little.
+PER_STRETCH, OTHERS = 3, 64
+
+
+class Seam(NamedTuple):
+    """A place at which a path is bent in parts: its way, and the distance of the knots around it."""
+
+    way: float
+    apart: float
+
+
+class Part(NamedTuple):
+    """A cubic spline of m pieces by the way, from a seam or a rest to the next: what `BentPath` has, flat.
+
+    Attributes:
+        way: At the knots, mm, m + 1 numbers from 0 on.
+        place: Positions of the n axes there, (m + 1)·n.
+        first: q' there.
+        second: q'' there.
+        cap2: Largest square of the speed on each piece, m.
+        ease: The part of acceleration and jerk that may be used there, m.
+        row: Number of the row of each piece, m; of several the first.
+        rows: Numbers of the rows that end in the part, r.
+        row_way: The ways at which they do, r.
+    """
+
+    way: Floats
+    place: Floats
+    first: Floats
+    second: Floats
+    cap2: Floats
+    ease: Floats
+    row: Ints
+    rows: Ints
+    row_way: Floats
+
+
+def cut_out(path: Stretches, first: int, end: int, origin: float) -> Stretches:
+    """The stretches from one to before another; their ways are counted from `origin`."""
+    n, way = len(path.rotary), numbers(end - first + 1)
+    kernels().shift_ways(path.way, first, end - first + 1, origin, way, 0)
+    return path._replace(
+        way=way,
+        place=path.place[first * n : (end + 1) * n],
+        leave=path.leave[first * n : end * n],
+        arrive=path.arrive[first * n : end * n],
+        form=path.form[first:end],
+        tolerance=path.tolerance[first:end],
+        turn_tolerance=path.turn_tolerance[first:end],
+        cap2=path.cap2[first:end],
+        ease=path.ease[first:end],
+        row=path.row[first:end],
+    )
+
+
+def known_from(path: Stretches, seam: Seam) -> int:
+    """The first stretch that a part which begins at a seam must know."""
+    return max(bisect_right(path.way, seam.way - KNOWN * seam.apart) - 1 - BESIDES, 0)
+
+
+def known_to(path: Stretches, seam: Seam) -> int:
+    """The stretch behind the last one that a part which ends at a seam must know."""
+    return min(bisect_left(path.way, seam.way + KNOWN * seam.apart) + BESIDES, len(path.form))
+
+
+def bend_between(path: Stretches, head: Seam | None, tail: Seam | None) -> Part:
+    """Bend a path between two seams, or from rest, or to rest.
+
+    Args:
+        path: The path, no further than it must be known beyond the seams; from rest it begins there.
+        head: The seam at which it begins; none from rest.
+        tail: The seam at which it ends; none to rest.
+
+    Raises:
+        ValueError: The tolerance is not kept: it is too small for the numbers of the path. Or the seams overlap.
+    """
+    if head is not None and tail is not None and tail.way - head.way <= SIDE * (head.apart + tail.apart):
+        msg = f"a seam at {tail.way} mm lies too near to that at {head.way} mm"
+        raise ValueError(msg)
+    first = 0 if head is None else known_from(path, head)
+    end = len(path.form) if tail is None else known_to(path, tail)
+    origin = path.way[0] if head is None else head.way
+    seams = array("d", (0.0, 0.0, 0.0, 0.0))
+    if head is not None:
+        seams[0:2] = array("d", (0.0, head.apart))
+    if tail is not None:
+        seams[2:4] = array("d", (tail.way - origin, tail.apart))
+    return bent_part(cut_out(path, first, end, origin), seams)
+
+
+def bent_part(path: Stretches, seams: array[float]) -> Part:
+    """Bend a path between its `Seams`; its tangents are set, its ways count from the start of the part.
+
+    Raises:
+        ValueError: The tolerance is not kept.
+    """
+    count, n = len(path.form), len(path.rotary)
+    room = PER_STRETCH * count + OTHERS
+    smooth, told = whole(count + 1), whole(3)
+    while True:
+        turning = turning_for(count)
+        samples = Samples(numbers(room), numbers(room), *(whole(room) for _ in range(3)))
+        spline = spline_for(room, n)
+        pieces = Pieces(numbers(room), numbers(room), whole(room))
+        found = kernels().bend_path(path, seams, smooth, turning, samples, spline, pieces, told)
+        if found != NO_ROOM:
+            break
+        room *= 4
+    if found == NOT_WITHIN:
+        msg = f"rows {path.row[0]} to {path.row[-1]} cannot be bent within their tolerance"
+        raise ValueError(msg)
+    low, high = first_piece(seams), found - pieces_behind(seams)
+    of_knots = slice(low * n, (high + 1) * n)
+    rows, ways = whole(count), numbers(count)
+    ended = kernels().end_rows(path, spline.way[low], spline.way[high], rows, ways)
+    return Part(
+        spline.way[low : high + 1],
+        spline.place[of_knots],
+        spline.first[of_knots],
+        spline.second[of_knots],
+        pieces.cap2[low:high],
+        pieces.ease[low:high],
+        pieces.row[low:high],
+        rows[:ended],
+        ways[:ended],
+    )
+
+
+def turning_for(count: int) -> Turning:
+    """Room for the turning of so many stretches."""
+    before, behind, area = (numbers(count + 1) for _ in range(3))
+    return Turning(before, behind, area, array("d", (1.0,)) * count)
+
+
+def spline_for(room: int, n: int) -> Spline:
+    """Room for a spline of so many knots."""
+    return Spline(*(numbers(room) for _ in range(3)), *(numbers((room + 3) * n) for _ in range(4)))
+
+
+def numbers(count: int) -> array[float]:
+    """Room for so many numbers."""
+    return array("d", (0.0,)) * count
+
+
+def whole(count: int) -> array[int]:
+    """Room for so many whole numbers."""
+    return array("q", (0,)) * count

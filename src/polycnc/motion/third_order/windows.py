@@ -1,0 +1,229 @@
+"""The laws of windows of a run, one behind the other: each from the motion in which the one before is left."""
+
+from __future__ import annotations
+
+from array import array
+from bisect import bisect_left, bisect_right
+from collections import deque
+from math import ceil, inf
+from typing import TYPE_CHECKING
+
+from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.motion.third_order.compiled import kernels as bending
+from polycnc.motion.third_order.laws.compiled import kernels
+from polycnc.motion.third_order.laws.courses import Known, Phase
+from polycnc.motion.third_order.laws.phases import PAIR
+from polycnc.motion.third_order.laws.quickest import NONE, NoLawError, course_of, numbers, quickest
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from polycnc.motion.third_order.laws.courses import Axes, Course
+    from polycnc.motion.third_order.laws.quickest import Found
+    from polycnc.motion.third_order.parts import Part
+
+#: How far a law looks beyond its window: so many times the time in which an axis builds its acceleration up, and that
+#: in which it comes to rest.
+BUILDS, STOPS = 10.0, 2.0
+#: Nodes behind the first one at which the next law is tried to begin where it cannot there; then the rest.
+LATER = (0, 8, 24, 56, 120)
+#: So little of a piece is none.
+SLIVER = 1e-9
+#: Part of the nodes beyond a window that the next law takes over.
+TAKEN = 0.5
+
+
+class Window(NamedTuple):
+    """A window of a run.
+
+    Attributes:
+        part: Its path.
+        phases: Its law, `Phase` by `Phase`, ways counted from its start as those of the path.
+        stops: Whether the axes rest at its end.
+    """
+
+    part: Part
+    phases: array[float]
+    stops: bool
+
+
+class _Law(NamedTuple):
+    """A law as found: the way at which the window to come begins, its length, whether it ends with the leg."""
+
+    found: Found
+    origin: float
+    length: float
+    final: bool
+
+    def beyond(self) -> int:
+        """The first node behind the origin."""
+        return bisect_left(self.found.nodes.way, self.origin)
+
+
+class _Start(NamedTuple):
+    """Where and how a law can begin: the way in the window, speed and acceleration, phases up to there, nodes."""
+
+    way: float
+    state: tuple[float, float]
+    begun: array[float]
+    known: Known
+
+
+class Windows:
+    """Parts of a path become windows; a leg is what lies between two rests.
+
+    Args:
+        axes: Limits.
+        take: Gets the windows.
+        speed: Of the motion in which the first leg begins.
+    """
+
+    def __init__(self, axes: Axes, take: Callable[[Window], object], speed: float = 0.0) -> None:
+        self._axes, self._take = axes, take
+        self._parts: deque[Part] = deque()
+        self._first = (speed, 0.0)
+        self._law: _Law | None = None
+        self._end: float | None = None
+        build = max(pull / jerk for pull, jerk in zip(axes.pull, axes.jerk, strict=True))
+        stop = max(speed / pull for speed, pull in zip(axes.speed, axes.pull, strict=True))
+        self._ahead = BUILDS * build + STOPS * stop
+        self.detours = 0
+
+    def add(self, part: Part, end: float | None = None) -> None:
+        """The next part of the leg; the last one with the steady speed at its end, 0 at rest.
+
+        Raises:
+            NoLawError: From the motion in which the leg begins, or to that in which it ends, there is no law.
+        """
+        self._parts.append(part)
+        self._end = end
+        while self._parts:
+            if self._law is not None and self._law.final:
+                self._keep_on(self._law)
+            elif (ahead := self._look_ahead()) is not None:
+                self._find(*ahead)
+            else:
+                break
+        if end is not None:
+            self._end, self._law, self._first = None, None, (0.0, 0.0)
+
+    def _look_ahead(self) -> tuple[_Joined, bool] | None:
+        """The path of the law to come, and whether it ends with the leg; nothing as long as it is not known."""
+        left, told, reached = self._ahead, numbers(1), [self._parts[0]]
+        for part in list(self._parts)[1:]:
+            reached.append(part)
+            course = course_of(part.way, part.first, part.second, part.cap2, part.ease)
+            count = kernels().look_ahead(course, self._axes, numbers(4), left, told)
+            if count > 0 and (count < len(part.cap2) or self._end is None):
+                return _Joined(reached, count), False
+            left = told[0]
+        return None if self._end is None else (_Joined(reached, len(reached[-1].cap2)), True)
+
+    def _find(self, path: _Joined, final: bool) -> None:
+        """Find the law of the first part, and give its window."""
+        for number, start in enumerate(self._starts()):
+            if start.way >= self._parts[0].way[-1]:
+                break
+            self.detours += number == 1
+            for reach in dict.fromkeys((path.pieces, path.most)):
+                if self._begin(path, start, reach, final):
+                    return
+        law = self._law
+        if law is None or law.length - law.origin < self._parts[0].way[-1]:
+            msg = "no law within the limits from or to this motion"
+            raise NoLawError(msg)
+        self._keep_on(law)
+
+    def _starts(self) -> Iterator[_Start]:
+        """Where the next law can begin: at nodes of the one before, and where that rests."""
+        law = self._law
+        if law is None:
+            yield _Start(0.0, self._first, array("d"), NONE)
+            return
+        (phases, nodes), beyond = law.found, law.beyond()
+        count = len(nodes.way)
+        taken = beyond + ceil(TAKEN * (count - beyond))
+        for later in LATER:
+            k = beyond + later
+            if k + 2 < taken:
+                way, at = nodes.way[k], PAIR * k * Phase.SIZE
+                known = Known(*(values[k:taken] for values in nodes))
+                bending().shift_ways(nodes.way, k, taken - k, way, known.way, 0)
+                state = phases[at + Phase.SPEED], phases[at + Phase.PULL]
+                yield _Start(way - law.origin, state, _cut(phases, law.origin, way, law.origin), known)
+        begun = _cut(phases, law.origin, inf, law.origin)
+        yield _Start(law.length - law.origin, (0.0, 0.0), begun, NONE)
+
+    def _begin(self, path: _Joined, start: _Start, reach: int, final: bool) -> bool:
+        """Find a law from a place on; gives whether there is one."""
+        end = self._end if final and self._end is not None else 0.0
+        course = path.course(start.way, reach)
+        found = quickest(course, self._axes, array("d", (*start.state, end, 0.0)), start.known)
+        if found is None:
+            return False
+        length, last = self._parts[0].way[-1] - start.way, final and len(self._parts) == 1
+        kept = _cut(found.phases, 0.0, inf if last else length, -start.way)
+        self._law = _Law(found, length, course.way[-1], final)
+        self._give(start.begun + kept, last)
+        return True
+
+    def _keep_on(self, law: _Law) -> None:
+        """Give the window of the first part by a law that leads beyond it."""
+        end, last = law.origin + self._parts[0].way[-1], law.final and len(self._parts) == 1
+        kept = _cut(law.found.phases, law.origin, inf if last else end, law.origin)
+        self._law = law._replace(origin=end)
+        self._give(kept, last)
+
+    def _give(self, phases: array[float], last: bool) -> None:
+        part = self._parts.popleft()
+        self._take(Window(part, phases, last and self._end == 0.0))
+
+
+class _Joined:
+    """The path of some parts behind one another, up to a piece of the last one.
+
+    Attributes:
+        way: At its knots, from the start of the first part on, up to the end of the last one.
+        pieces: Up to where the law shall lead.
+        most: Pieces of all of them.
+    """
+
+    def __init__(self, parts: list[Part], last: int) -> None:
+        n = len(parts[0].first) // len(parts[0].way)
+        self.way, self._n = array("d", parts[0].way), n
+        self._first, self._second = array("d", parts[0].first), array("d", parts[0].second)
+        self._cap2, self._ease = array("d", parts[0].cap2), array("d", parts[0].ease)
+        for part in parts[1:]:
+            count, at = len(part.cap2), len(self.way)
+            offset = self.way[-1]
+            self.way.extend(numbers(count))
+            bending().shift_ways(part.way, 1, count, -offset, self.way, at)
+            self._first.extend(part.first[n:])
+            self._second.extend(part.second[n:])
+            self._cap2.extend(part.cap2)
+            self._ease.extend(part.ease)
+        self.most = len(self._cap2)
+        self.pieces = self.most - len(parts[-1].cap2) + last
+
+    def course(self, start: float, end: int) -> Course:
+        """The path from a way on up to before a piece, its ways counted from there."""
+        p, n = bisect_right(self.way, start) - 1, self._n
+        if self.way[p + 1] - start < SLIVER * (self.way[p + 1] - self.way[p]):
+            p, start = p + 1, self.way[p + 1]
+        count = end - p
+        way, t, step = numbers(count + 1), start - self.way[p], self.way[p + 1] - self.way[p]
+        bending().shift_ways(self.way, p, count + 1, start, way, 0)
+        first, second = self._first[p * n : (end + 1) * n], self._second[p * n : (end + 1) * n]
+        way[0] = 0.0
+        for i in range(n if t > 0.0 else 0):
+            third = (second[n + i] - second[i]) / step
+            first[i] += t * (second[i] + 0.5 * t * third)
+            second[i] += t * third
+        return course_of(way, first, second, self._cap2[p:end], self._ease[p:end])
+
+
+def _cut(phases: array[float], begin: float, end: float, origin: float) -> array[float]:
+    """The phases between two ways, counted from `origin`."""
+    out = numbers(len(phases))
+    count = kernels().cut_law(phases, begin, end, origin, out)
+    return out[: count * Phase.SIZE]
