@@ -61,8 +61,8 @@ def plot(
 
 
 def _path(session: Session, view: ViewName | None, title: str) -> tuple[Result, str]:
-    with WaitingForRun(session) as waiting:
-        result = session.run(waiting)
+    with WaitingForRun(session):
+        result = session.run()
     return result, _drawing(result, view, title)
 
 
@@ -74,10 +74,10 @@ def _profile(session: Session, title: str) -> tuple[Result, str]:
     rotary = {i for i, axis in enumerate(machine.channel(1).axes) if machine.axis[axis].rotary}
     profile = Profile(axes, rotary)
     sampler = session.sample(machine.interpolation_cycle_s, profile.take)
-    with WaitingForRun(session) as waiting:
-        result = session.run(waiting)
-    result.plan  # noqa: B018 - planning to the end gives the last samples
-    sampler.close()
+    with WaitingForRun(session, sampler):
+        result = session.run()
+        result.plan  # noqa: B018 - planning to the end gives the last samples
+        sampler.close()
     return result, profile.svg(title)
 
 
