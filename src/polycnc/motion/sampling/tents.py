@@ -132,8 +132,10 @@ class _Integrals:
         k = np.clip(np.searchsorted(self._start, times, "right") - 1, 0, len(self._start) - 1)
         half, terms = self._half[k], self._terms[k]
         u = np.clip((times - self._start[k]) / half - 1.0, -1.0, 1.0)
-        powers = u[:, None] ** np.arange(terms.shape[1])
         along = (half * u)[:, None]
+        powers = np.ones((len(u), terms.shape[1]))
+        for order in range(1, terms.shape[1]):
+            powers[:, order] = powers[:, order - 1] * u
         place = np.einsum("kcn,kc->kn", terms, powers)
         once = self._first[k] + along * np.einsum("kcn,kc->kn", terms, powers * self._once)
         twice = self._second[k] + along * self._first[k]
