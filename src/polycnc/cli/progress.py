@@ -28,8 +28,8 @@ PATIENCE_S, LOOK_S = 1.0, 0.2
 #: A program that has come to no further line for this part of the time so far is in a loop or a subprogram; but not
 #: sooner and not later than so many seconds.
 STANDS_PART, STANDS_S, STANDS_MOST_S = 0.25, 0.5, 5.0
-#: Time left is told where so many seconds have been seen of the work at its present rate.
-SEEN_S = 0.5
+#: A rate is told where so many seconds have been seen of it, and no longer than so many seconds without a change.
+SEEN_S, STILL_S = 0.5, 1.0
 
 
 class Reached(NamedTuple):
@@ -123,8 +123,9 @@ class Watch:
             self._bar = _bar()
         bar, task = self._bar
         share = reached.share if reached is not None else None
-        total = 1.0 if share is not None else None
-        bar.update(task, description=work.what, completed=share or 0.0, total=total, told=told)
+        total = None if share is None else 1.0
+        percent = "" if share is None else f"{100.0 * share:3.0f}%  "
+        bar.update(task, description=work.what, completed=share or 0.0, total=total, told=percent + told)
         bar.refresh()
 
 
@@ -132,32 +133,35 @@ class _Pace:
     """Rate and time left of one work, by what was seen since its rate was last another one."""
 
     def __init__(self, started: float) -> None:
-        self._started = started
-        self._from: tuple[float, float, float] | None = None
+        self._started = self._since = self._changed = started
+        self._first, self._last = Reached("", 0.0, 0.0), 0.0
 
     def told(self, reached: Reached | None, now: float) -> str:
-        """Rate, and time left; or how much is done, and since when, where that is not known."""
+        """Rate and time left; without a share what is done; how long it has lasted where there is no rate."""
         lasted = _minutes(now - self._started)
         if reached is None:
             return lasted
         unit, count, share = reached
-        if self._from is None or (self._from[2] < 0.0) != (share is None):
+        if count != self._last:
+            self._last, self._changed = count, now
+        first = self._first
+        if first.unit != unit or (first.share is None) != (share is None):
             # From the beginning on where that is all that has been seen.
-            known = 0.0 if share is not None else -1.0
-            first = self._from is None
-            self._from = (
-                (self._started, 0.0, known) if first else (now, count, known if share is None else share)
-            )
-        since, before, share_before = self._from
-        seconds = max(now - since, 1e-9)
-        rate = (count - before) / seconds
-        said = text(f"progress.{unit}.rate", rate=_short(rate))
-        if share is None:
+            is_new = not first.unit and share is not None
+            self._first = first = Reached(unit, 0.0, 0.0) if is_new else reached
+            self._since = self._started if is_new else now
+        seconds = now - self._since
+        rate = (count - first.count) / max(seconds, 1e-9)
+        is_steady = seconds >= SEEN_S and rate > 0.0 and now - self._changed < STILL_S + 0.1 * seconds
+        said = text(f"progress.{unit}.rate", rate=_short(rate)) if is_steady else ""
+        if share is None or first.share is None:
             done = _minutes(count) if unit == "seconds" else f"{count:,.0f}"
-            return f"{lasted}  {text(f'progress.{unit}', count=done)}  {said}"
-        if seconds < SEEN_S or share <= share_before:
+            return "  ".join(filter(None, (lasted, text(f"progress.{unit}", count=done), said)))
+        if not is_steady:
+            return lasted
+        if share <= first.share:
             return said
-        left = (1.0 - share) * seconds / (share - share_before)
+        left = (1.0 - share) * seconds / (share - first.share)
         return text("progress.left", rate=said, left=_minutes(left))
 
 
@@ -173,9 +177,9 @@ def _short(rate: float) -> str:
 
 def _bar() -> tuple[Progress, TaskID]:
     from rich.console import Console
-    from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn
+    from rich.progress import BarColumn, Progress, TextColumn
 
-    columns = TextColumn("{task.description}", markup=False), BarColumn(), TaskProgressColumn()
+    columns = TextColumn("{task.description}", markup=False), BarColumn()
     told = TextColumn("{task.fields[told]}", markup=False)
     # What is written meanwhile goes where it belongs: `away` makes room for it.
     bar = Progress(
@@ -268,7 +272,7 @@ class WaitingForRun(Waiting):
         super().__init__(program.name, None, "blocks")
         self._session, self._sampler = session, sampler
         self._first, self._lines = program.first_line, max(len(program.lines), 1)
-        self._began = self._came = monotonic()
+        self._began = self._came = self._counted_at = monotonic()
         self._farthest = self._count = -1.0
 
     def reached(self, now: float) -> Reached | None:
@@ -276,9 +280,10 @@ class WaitingForRun(Waiting):
         line, (unit, count) = self._line(), self._counted()
         if line > self._farthest:
             self._farthest, self._came = line, now
-        elif count == self._count:  # it works at one thing that is counted as a whole, such as planning
+        if count != self._count:
+            self._count, self._counted_at = count, now
+        elif now - self._counted_at > STILL_S:  # it works at what is counted as a whole, such as planning
             self._came += min(LOOK_S, now - self._came)
-        self._count = count
         patience = min(max(STANDS_PART * (now - self._began), STANDS_S), STANDS_MOST_S)
         is_known = self._farthest >= 0.0 and now - self._came < patience
         return Reached(unit, count, min(self._farthest / self._lines, 1.0) if is_known else None)

@@ -86,8 +86,9 @@ def run(
         account = session.explain_time() if explain_time else None
         with WaitingForRun(session, sampler):
             result = session.run()
+            if result.timed:
+                result.plan  # noqa: B018 - planning to the end gives the last samples, and takes its time
             if sampler is not None:
-                result.plan  # noqa: B018 - planning to the end gives the last samples
                 sampler.close()
         if traced:
             traced(result)
