@@ -10,19 +10,20 @@ import _thread  # a fraction of what `threading` costs at every start
 import sys
 from contextlib import contextmanager
 from time import monotonic
-from typing import TYPE_CHECKING, ClassVar, Protocol, Self
+from typing import TYPE_CHECKING, ClassVar, Protocol, Self, TypeVar
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.messages import text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from rich.progress import Progress, TaskID
 
     from polycnc.motion.sampling.samples import Sampler
     from polycnc.session import Session
 
+Part = TypeVar("Part")
 #: A command that takes longer than this shows how far it is; how often somebody looks at it; seconds.
 PATIENCE_S, LOOK_S = 1.0, 0.2
 #: A program that has come to no further line for this part of the time so far is in a loop or a subprogram; but not
@@ -36,7 +37,7 @@ class Reached(NamedTuple):
     """How far a work is.
 
     Attributes:
-        unit: What is counted: `blocks`, `files`, `cases`, `samples` or `seconds` (of machining).
+        unit: What is counted: `blocks`, `files`, `cases`, `rows`, `samples` or `seconds` (of machining).
         count: How many are done.
         share: The part of the work that is done, 0 to 1; None where nobody can know.
     """
@@ -254,6 +255,12 @@ class Waiting:
         self._done = done
         if self._total is not None:
             self._share = min(done / max(self._total, 1), 1.0) if share is None else share
+
+    def each(self, parts: Iterable[Part]) -> Iterator[Part]:
+        """The parts, which are counted."""
+        for done, part in enumerate(parts):
+            self.reach(done)
+            yield part
 
     def reached(self, now: float) -> Reached | None:  # noqa: ARG002 - of `Work`
         """How far it is."""

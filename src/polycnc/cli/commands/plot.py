@@ -11,7 +11,7 @@ from polycnc.cli import options
 from polycnc.cli.console import fail, note
 from polycnc.cli.declaration import Argument, Commands, Option
 from polycnc.cli.diagnostics import diagnostics_of
-from polycnc.cli.progress import WaitingForRun
+from polycnc.cli.progress import Waiting, WaitingForRun
 from polycnc.messages import text
 
 if TYPE_CHECKING:
@@ -94,7 +94,10 @@ def _drawing(result: Result, view: ViewName | None, title: str) -> str:
         for i in geometry
     ]
     views = VIEWS[view or ("zx" if is_lathe else "three")]
-    return svg(list(strokes(result.toolpath, geometry)), views, title, labels)
+    with Waiting(title, len(result.toolpath), "rows") as waiting:
+        rows = waiting.each(result.toolpath.rows())
+        drawn = list(strokes(result.toolpath, geometry, rows=rows))
+    return svg(drawn, views, title, labels)
 
 
 def _write_png(output: Path, drawing: str) -> None:
