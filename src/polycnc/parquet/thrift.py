@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 #: The type of a value, and its bytes.
 Value: TypeAlias = "tuple[int, bytes]"
-_TRUE, _I16, _I32, _I64, _BINARY, _LIST, _STRUCT = 1, 4, 5, 6, 8, 9, 12
+_TRUE, _I32, _I64, _BINARY, _LIST, _STRUCT = 1, 5, 6, 8, 9, 12
 #: A list of no more items, and a field no farther from the last one, is told in four bits.
 _FOUR_BITS = 15
 
@@ -34,11 +34,6 @@ def _zigzag(number: int) -> bytes:
 def true() -> Value:
     """The truth; a field has it in its type."""
     return _TRUE, b""
-
-
-def i16(number: int) -> Value:
-    """A whole number of 16 bits."""
-    return _I16, _zigzag(number)
 
 
 def i32(number: int) -> Value:

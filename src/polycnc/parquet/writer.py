@@ -143,7 +143,6 @@ class Writer:
             3: thrift.i64(self._rows),
             5: thrift.i64(self._at - size),
             6: thrift.i64(size),
-            7: thrift.i16(len(self._groups) & 0x7FFF),
         }
         self._groups.append(thrift.struct(group))
         self._all_rows += self._rows
