@@ -232,8 +232,12 @@ def _batch(numbers: Numbers, chunk: Chunk, schema: pa.Schema) -> pa.RecordBatch:
         if field.type == pa.float64():
             return pa.array(values.copy(), from_pandas=True)
         is_null = np.isnan(values)
-        indices = pa.array(np.where(is_null, 0.0, values).astype(np.int32), mask=is_null)
-        named = pa.DictionaryArray.from_arrays(indices, pa.array(numbers.texts(field.name), pa.string()))
-        return named.dictionary_decode() if field.name in TEXTS else named
+        if is_null.all():
+            return pa.nulls(height, field.type)
+        texts = numbers.texts(field.name)
+        indices = np.where(is_null, len(texts), values).astype(np.int32)
+        if field.name in TEXTS:  # Arrow's own way back from numbers takes a library of functions
+            return pa.array(np.array([*texts, None], object)[indices], field.type)
+        return pa.DictionaryArray.from_arrays(pa.array(indices, mask=is_null), pa.array(texts, pa.string()))
 
     return pa.record_batch([column(field) for field in schema], schema=schema)
