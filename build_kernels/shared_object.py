@@ -17,6 +17,8 @@ MODULES = (
     "polycnc.motion.compiled",
     "polycnc.motion.third_order.compiled",
     "polycnc.motion.third_order.laws.compiled",
+    "polycnc.parquet.compiled",
+    "polycnc.toolpath.columns.compiled",
     "polycnc.toolpath.compiled",
 )
 

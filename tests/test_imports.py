@@ -21,6 +21,7 @@ SOURCE = Path(polycnc.__file__).parent
 LAYERS = (
     "deferred",
     "kernels",
+    "parquet",
     "messages",
     "geometry",
     "machine",
