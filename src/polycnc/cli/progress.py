@@ -38,12 +38,12 @@ class Reached(NamedTuple):
 
     Attributes:
         unit: What is counted: `blocks`, `files`, `cases`, `rows`, `samples` or `seconds` (of machining).
-        count: How many are done.
+        done: How many are done.
         share: The part of the work that is done, 0 to 1; None where nobody can know.
     """
 
     unit: str
-    count: float
+    done: float
     share: float | None
 
 
@@ -152,7 +152,7 @@ class _Pace:
             self._first = first = Reached(unit, 0.0, 0.0) if is_new else reached
             self._since = self._started if is_new else now
         seconds = now - self._since
-        rate = (count - first.count) / max(seconds, 1e-9)
+        rate = (count - first.done) / max(seconds, 1e-9)
         is_steady = seconds >= SEEN_S and rate > 0.0 and now - self._changed < STILL_S + 0.1 * seconds
         said = text(f"progress.{unit}.rate", rate=_short(rate)) if is_steady else ""
         if share is None or first.share is None:

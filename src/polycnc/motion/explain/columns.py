@@ -88,7 +88,8 @@ class Columns:
             self._first = chunk.first
             self._notes = notes
         else:
-            self._notes = RowNotes(*(np.concatenate(pair) for pair in zip(self._notes, notes, strict=True)))
+            asked, rapid, behind, known = zip(self._notes, notes, strict=True)
+            self._notes = RowNotes(*map(np.concatenate, (asked, rapid, behind, known)))
         left = ~notes.known & ~np.isin(rows.kind, tuple(_STANDING))
         return np.flatnonzero(left).tolist()
 

@@ -40,8 +40,9 @@ class Facts:
 
         self._toolpath, self._planner = toolpath, planner
         self._first = 0
-        self._kind, self._program, self._line, self._context = (np.zeros(0, np.int64) for _ in range(4))
-        self._rpm = np.zeros(0)
+        nothing: Places = np.zeros(0, np.int64)
+        self._kind = self._program = self._line = self._context = nothing
+        self._rpm: Numbers = np.zeros(0)
         self._threads: dict[int, tuple[float, float]] = {}
 
     @property
@@ -56,15 +57,10 @@ class Facts:
         columns = chunk.numpy()
         if not len(self._kind):
             self._first = chunk.first
-        self._kind, self._program, self._line, self._context = (
-            np.concatenate((known, more))
-            for known, more in (
-                (self._kind, columns.kind),
-                (self._program, columns.program),
-                (self._line, columns.line),
-                (self._context, columns.context),
-            )
-        )
+        self._kind = np.concatenate([self._kind, columns.kind])
+        self._program = np.concatenate([self._program, columns.program])
+        self._line = np.concatenate([self._line, columns.line])
+        self._context = np.concatenate([self._context, columns.context])
         self._rpm = np.concatenate((self._rpm, self._speeds(chunk)))
         threads = np.isin(columns.kind, (Kind.THREAD, Kind.TAP)) & (columns.curve >= 0)
         for row in np.flatnonzero(threads).tolist():
@@ -109,9 +105,9 @@ class Facts:
         k = before - self._first
         if k <= 0:
             return
-        self._kind, self._program, self._line, self._context, self._rpm = (
-            column[k:].copy() for column in (self._kind, self._program, self._line, self._context, self._rpm)
-        )
+        self._kind, self._program = self._kind[k:].copy(), self._program[k:].copy()
+        self._line, self._context = self._line[k:].copy(), self._context[k:].copy()
+        self._rpm = self._rpm[k:].copy()
         self._first = before
         for row in [row for row in self._threads if row < before]:
             del self._threads[row]
