@@ -26,18 +26,25 @@ class Terminal(io.StringIO):
         return True
 
 
-@pytest.fixture
-def seen(monkeypatch: pytest.MonkeyPatch) -> Iterator[Terminal]:
-    terminal = Terminal()
-    monkeypatch.setattr(sys, "stderr", terminal)
+@pytest.fixture(autouse=True)
+def _nobody_looks_on() -> Iterator[None]:
+    yield
+    Watch.of_command = None
+    set_language("en")
+
+
+def terminal(monkeypatch: pytest.MonkeyPatch) -> Terminal:
+    """Within the test: between its phases pytest takes standard error back."""
+    seen = Terminal()
+    monkeypatch.setattr(sys, "stderr", seen)
     monkeypatch.setenv("TERM", "xterm")
     monkeypatch.setenv("COLUMNS", "120")
     monkeypatch.setattr(progress, "monotonic", lambda: 0.0)
-    yield terminal
-    Watch.of_command = None
+    return seen
 
 
-def test_long_work_tells_rate_and_time_left(seen: Terminal) -> None:
+def test_long_work_tells_rate_and_time_left(monkeypatch: pytest.MonkeyPatch) -> None:
+    seen = terminal(monkeypatch)
     watch, waiting = Watch("polycnc check"), Waiting("part.nc", 1000, "files")
     waiting.reach(50)
     watch.look(waiting, 2.0)
@@ -48,7 +55,8 @@ def test_long_work_tells_rate_and_time_left(seen: Terminal) -> None:
     assert "10%  25 files/s, 0:36 left" in seen.getvalue()
 
 
-def test_the_rate_is_told_in_the_language_of_the_user(seen: Terminal) -> None:
+def test_the_rate_is_told_in_the_language_of_the_user(monkeypatch: pytest.MonkeyPatch) -> None:
+    seen = terminal(monkeypatch)
     watch, waiting = Watch("polycnc check"), Waiting("part.nc", 1000, "files")
     waiting.reach(100)
     set_language("zh-TW")
@@ -57,7 +65,8 @@ def test_the_rate_is_told_in_the_language_of_the_user(seen: Terminal) -> None:
     assert "每秒 25 個檔案，剩餘 0:36" in seen.getvalue()
 
 
-def test_what_is_done_within_a_second_shows_no_bar(seen: Terminal) -> None:
+def test_what_is_done_within_a_second_shows_no_bar(monkeypatch: pytest.MonkeyPatch) -> None:
+    seen = terminal(monkeypatch)
     watch, waiting = Watch("polycnc check"), Waiting("part.nc", 1000, "files")
     waiting.reach(999)
     watch.look(waiting, 0.9)
@@ -65,7 +74,8 @@ def test_what_is_done_within_a_second_shows_no_bar(seen: Terminal) -> None:
     assert seen.getvalue() == ""
 
 
-def test_a_command_that_tells_nothing_shows_how_long_it_has_lasted(seen: Terminal) -> None:
+def test_a_command_that_tells_nothing_shows_how_long_it_has_lasted(monkeypatch: pytest.MonkeyPatch) -> None:
+    seen = terminal(monkeypatch)
     watch = Watch("polycnc data")
     watch.look(watch.works[-1], 72.0)
     watch.end()
@@ -73,7 +83,8 @@ def test_a_command_that_tells_nothing_shows_how_long_it_has_lasted(seen: Termina
     assert "1:12" in seen.getvalue()
 
 
-def test_a_rate_that_nobody_sees_any_more_is_not_told(seen: Terminal) -> None:
+def test_a_rate_that_nobody_sees_any_more_is_not_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    seen = terminal(monkeypatch)
     watch, waiting = Watch("polycnc check"), Waiting("part.nc", 1000, "files")
     waiting.reach(100)
     watch.look(waiting, 4.0)
@@ -94,8 +105,9 @@ def test_a_pipe_gets_no_bar_and_no_thread(monkeypatch: pytest.MonkeyPatch) -> No
 
 
 def test_a_result_is_written_where_it_belongs_and_the_bar_makes_room(
-    seen: Terminal, capsys: pytest.CaptureFixture[str]
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    seen = terminal(monkeypatch)
     watch = Watch.of_command = Watch("polycnc test")
     watch.look(Waiting("polycnc test", 10, "cases"), 2.0)
     say("FAILED")
@@ -104,7 +116,8 @@ def test_a_result_is_written_where_it_belongs_and_the_bar_makes_room(
     watch.end()
 
 
-def test_the_work_that_was_begun_last_is_shown(seen: Terminal) -> None:
+def test_the_work_that_was_begun_last_is_shown(monkeypatch: pytest.MonkeyPatch) -> None:
+    seen = terminal(monkeypatch)
     assert seen.getvalue() == ""
     watch = Watch.of_command = Watch("polycnc run")
     with Waiting("part.nc", 10, "rows") as waiting:
@@ -144,13 +157,13 @@ def test_a_run_is_as_far_as_its_main_program() -> None:
     waiting, session = run_of(1000)
     for second in range(1, 9):
         session.channel.stack[0].current = session.channel.blocks = 100 * second
-        assert waiting.reached(float(second)) == Reached("blocks", 100 * second, 0.1 * second)
+        assert waiting.reached(float(second)) == Reached("blocks", 100 * second, second / 10)
 
 
 @pytest.mark.usefixtures("_at_zero")
 def test_in_a_loop_nobody_knows_the_time_left_until_lines_come_that_are_new() -> None:
     waiting, session = run_of(1000)
-    main = session.channel.stack[0]
+    main, reached = session.channel.stack[0], None
     for tenth in range(100):  # lines 100 to 109, again and again
         main.current, session.channel.blocks = 100 + tenth % 10, 1000 * tenth
         reached = waiting.reached(0.1 * tenth)
@@ -171,7 +184,7 @@ def test_work_that_counts_as_a_whole_is_no_loop() -> None:
 @pytest.mark.usefixtures("_at_zero")
 def test_a_run_by_the_clock_tells_seconds_of_machining() -> None:
     waiting, session = run_of(10)
-    session.main_run = SimpleNamespace(seconds=90.0)
+    session.main_run, reached = SimpleNamespace(seconds=90.0), None
     for tenth in range(100):
         session.main_run.seconds = 30.0 * tenth
         reached = waiting.reached(0.1 * tenth)
@@ -186,5 +199,5 @@ def test_a_sampled_run_is_as_far_as_its_samples() -> None:
     result = session.run()
     result.plan  # noqa: B018 - gives the samples
     sampler.close()
-    assert sampler.line == 103
-    assert waiting.reached(0.0) == Reached("samples", sampler.count, 102 / 103)
+    assert sampler.line == 102
+    assert waiting.reached(0.0) == Reached("samples", sampler.count, 101 / 103)

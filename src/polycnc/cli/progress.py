@@ -300,7 +300,8 @@ class WaitingForRun(Waiting):
         if self._sampler is not None:
             return self._sampler.line - self._first
         for main in self._session.channel.stack[:1]:
-            return main.code.line(main.current) - self._first
+            line: int = main.code.line(main.current)
+            return line - self._first
         return self._farthest
 
     def _counted(self) -> tuple[str, float]:

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from polycnc.toolpath import Context, Toolpath
     from polycnc.toolpath.table import Chunk
 
-#: Of a kind of rows under one context: whether these arrays know it, what bounds its speed, and how it is averaged.
+#: Rows in which nothing moves.
 _STANDING = frozenset((Kind.EVENT, Kind.DWELL))
 
 
@@ -45,6 +45,24 @@ class RowNotes(NamedTuple):
     rapid: NDArray[np.bool_]
     behind_s: NDArray[np.float64]
     known: NDArray[np.bool_]
+
+    def with_more(self, more: RowNotes) -> RowNotes:
+        """These rows and further ones behind them."""
+        return RowNotes(
+            np.concatenate([self.asked, more.asked]),
+            np.concatenate([self.rapid, more.rapid]),
+            np.concatenate([self.behind_s, more.behind_s]),
+            np.concatenate([self.known, more.known]),
+        )
+
+    def without(self, first: int) -> RowNotes:
+        """These rows without so many of the first."""
+        return RowNotes(
+            self.asked[first:].copy(),
+            self.rapid[first:].copy(),
+            self.behind_s[first:].copy(),
+            self.known[first:].copy(),
+        )
 
 
 class Columns:
@@ -88,8 +106,7 @@ class Columns:
             self._first = chunk.first
             self._notes = notes
         else:
-            asked, rapid, behind, known = zip(self._notes, notes, strict=True)
-            self._notes = RowNotes(*map(np.concatenate, (asked, rapid, behind, known)))
+            self._notes = self._notes.with_more(notes)
         left = ~notes.known & ~np.isin(rows.kind, tuple(_STANDING))
         return np.flatnonzero(left).tolist()
 
@@ -119,7 +136,7 @@ class Columns:
     def forget(self, before: int) -> None:
         """No piece comes of a row before this one."""
         if (done := before - self._first) > 0:
-            self._notes = RowNotes(*(column[done:].copy() for column in self._notes))
+            self._notes = self._notes.without(done)
             self._first = before
 
     def known(self, pieces: NDArray[np.float64]) -> NDArray[np.bool_]:
