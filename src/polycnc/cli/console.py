@@ -31,7 +31,7 @@ def note(line: str) -> None:
 
 def standard_input() -> bytes:
     """What comes in: nobody is told how long that takes while it is typed."""
-    with away() if sys.stdin.isatty() else nullcontext():
+    with away() if sys.stdin.buffer.isatty() else nullcontext():
         return sys.stdin.buffer.read()
 
 
