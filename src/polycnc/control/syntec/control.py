@@ -15,7 +15,7 @@ from polycnc.control.syntec.builder import SyntecBuilder
 from polycnc.control.syntec.codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
 from polycnc.control.syntec.coordinates import systems
 from polycnc.control.syntec.coordinates.turns import TurnState
-from polycnc.control.syntec.five_axes import mechanism, normal_direction, posture, tilted, tip_control
+from polycnc.control.syntec.five_axes import mechanism, posture, tilted, tip_control
 from polycnc.control.syntec.five_axes import spatial as spatial_radius
 from polycnc.control.syntec.macros import calls, interrupts, single_block
 from polycnc.control.syntec.macros.variables import USER, SpaceState, locals_of
@@ -89,7 +89,6 @@ class SyntecMill(WordAddressControl):
     parameter_files: ClassVar[tuple[str, ...]] = ("syntec/parameters.toml",)
     parameter_class: ClassVar = SyntecParameters
     alarm_series: ClassVar[Mapping[str, str] | None] = {"MAR": "MACRO"}
-    NORMAL_LINE_RULES: ClassVar[normal_line.NormalLineRules] = normal_direction.RULES
     alarm_files: ClassVar[tuple[str, ...]] = ("syntec/alarms.toml", "syntec/alarms_special.toml")
     g_codes: ClassVar[Mapping[str, GCode]] = G_CODES
     m_codes: ClassVar[Mapping[int, MCode]] = M_CODES
@@ -114,7 +113,7 @@ class SyntecMill(WordAddressControl):
     LENGTH_TRAVELS_ALONE: ClassVar[bool] = False
     mdi_intervenes: ClassVar[bool] = False
     last_bit: ClassVar[int] = 31
-    only_context: ClassVar[frozenset[Handler]] = WordAddressControl.only_context | {systems.cutting_mode}
+    only_context: ClassVar[tuple[Handler, ...]] = (*WordAddressControl.only_context, systems.cutting_mode)
     repeated_codes: ClassVar[Mapping[str, Condition]] = moves.REPEATED
     #: A motion code cancels the cycle of its block, in whatever order they are typed (2.47.3, note 9).
     ENDED_ANYWHERE: ClassVar[frozenset[str]] = frozenset(G_CODES)

@@ -24,7 +24,7 @@ from polycnc.control.word_address.auxiliary import functions
 from polycnc.control.word_address.block.codes import GCode, MCode, Order, m_table
 from polycnc.control.word_address.coordinates import frames
 from polycnc.control.word_address.coordinates import systems as coordinates
-from polycnc.control.word_address.macro_b import macro_calls, parameter_input, subprograms
+from polycnc.control.word_address.macro_b import code_calls, macro_calls, parameter_input, subprograms
 from polycnc.control.word_address.motion import path, path_modes
 from polycnc.control.word_address.transformations import (
     cylinder,
@@ -318,7 +318,7 @@ POWER_ON = {
     "wcs": "G54",
     "path": "G64",
     "macro": "G67",
-    "calls": macro_calls.ALL_CALLS,
+    "calls": code_calls.ALL_CALLS,
     "turret_mirror": "G69",
     "rotation": "G69.1",
     RIGID: RIGID_OFF,

@@ -44,11 +44,10 @@ from polycnc.control.word_address.coordinates.frames import ROTATION_RULE
 from polycnc.control.word_address.macro_b import code_calls, interruption, macro_calls
 from polycnc.control.word_address.macro_b.custom_macro import CustomMacroControl
 from polycnc.control.word_address.motion import path
+from polycnc.control.word_address.states import PolarState
 from polycnc.control.word_address.tools import look_ahead
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations import cylinder, normal_line, polar_interpolation
-from polycnc.control.word_address.transformations.normal_line import NormalLineRules
-from polycnc.control.word_address.transformations.polar_interpolation import PolarState
 from polycnc.deferred.records import replace
 from polycnc.toolpath.modes import FeedMode
 
@@ -110,7 +109,7 @@ class FanucTurning(CustomMacroControl):
         threads.locked,
         drilling.in_cycle,
     )
-    only_context: ClassVar[frozenset[Handler]] = CustomMacroControl.only_context | {auxiliary.surface_speed}
+    only_context: ClassVar[tuple[Handler, ...]] = (*CustomMacroControl.only_context, auxiliary.surface_speed)
     repeated_codes: ClassVar[Mapping[str, Condition]] = systems.REPEATED
     addresses: ClassVar[Mapping[str, Planner]] = ADDRESSES
     power_on: ClassVar[Mapping[str, str]] = POWER_ON
@@ -128,7 +127,6 @@ class FanucTurning(CustomMacroControl):
     MODES_WITHOUT_JUMPS: ClassVar[frozenset[str]] = MODES_WITHOUT_JUMPS
     DIAMETER_PROGRAMMING: ClassVar[bool] = True
     POINT_IN_WHOLE_NUMBERS: ClassVar[DecimalPoint] = DecimalPoint.REFUSED
-    NORMAL_LINE_RULES: ClassVar[NormalLineRules] = NormalLineRules(preset="G50")
     INCREMENTAL_ADDRESSES: ClassVar[Mapping[str, str]] = {"U": "X", "V": "Y", "W": "Z", "H": "C"}
     LATER_AXIS_WORD_COUNTS: ClassVar[bool] = True
     #: A motion code in the block of a tap cancels the tap, wherever it stands (II.4.5.1, "cancel").

@@ -13,7 +13,7 @@ from polycnc.control.syntec.parameters import SyntecParameters
 from polycnc.control.word_address.coordinates.systems import ZeroState
 from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.motion.planes import choose_basic_axes
-from polycnc.control.word_address.tools.length import LengthState
+from polycnc.control.word_address.states import LengthState
 from polycnc.control.word_address.tools.radius import active_compensation
 from polycnc.deferred.records import dataclass, field
 from polycnc.geometry.frames import IDENTITY, Frame

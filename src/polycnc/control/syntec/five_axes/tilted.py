@@ -21,7 +21,7 @@ from polycnc.control.word_address.coordinates import frames as base_frames
 from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
 from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.motion.planes import choose_basic_axes
-from polycnc.control.word_address.tools.length import LengthState
+from polycnc.control.word_address.states import LengthState
 from polycnc.control.word_address.transformations.tilted_plane import (
     check_compensation,
     named_point,

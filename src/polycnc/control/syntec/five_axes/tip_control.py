@@ -18,11 +18,9 @@ from polycnc.control.syntec.five_axes import alignment, mechanism
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.coordinates.systems import refresh_zero
-from polycnc.control.word_address.coordinates.tip import TipState
-from polycnc.control.word_address.tools.length import LengthState
+from polycnc.control.word_address.coordinates.tip import TIP_CODES, TipState
+from polycnc.control.word_address.states import LengthState, PolarState
 from polycnc.control.word_address.transformations import normal_line, tool_center_point
-from polycnc.control.word_address.transformations.polar_interpolation import PolarState
-from polycnc.control.word_address.transformations.tool_center_point import TIP_CODES
 from polycnc.deferred.records import dataclass, replace
 from polycnc.geometry.frames import IDENTITY
 from polycnc.language.bulk import declare, declared

@@ -10,10 +10,10 @@ from polycnc.channel.states.state import Lifetime, State, lasting
 from polycnc.control.syntec.coordinates.systems import ScaleState
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words_as_data import targets_as_data, word_as_data
+from polycnc.control.word_address.coordinates.tip import TIP_CODES
 from polycnc.control.word_address.motion import path
 from polycnc.control.word_address.motion.arcs import emit_arc
 from polycnc.control.word_address.motion.path import CENTER_WORDS
-from polycnc.control.word_address.transformations.tool_center_point import TIP_CODES
 from polycnc.deferred.records import dataclass
 from polycnc.geometry import arcs
 from polycnc.geometry.planes import PLANES

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.motion.polar import plane_code
-from polycnc.control.word_address.motion.planes import PlaneAxes, choose_axes
-from polycnc.control.word_address.transformations.polar_interpolation import PolarState
+from polycnc.control.word_address.motion.planes import choose_axes
+from polycnc.control.word_address.states import PlaneAxes, PolarState
 from polycnc.geometry.planes import PLANES
 
 if TYPE_CHECKING:

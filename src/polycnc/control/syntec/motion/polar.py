@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.syntec.coordinates.diameters import DiameterState
 from polycnc.control.word_address.block.rules import Rule
+from polycnc.control.word_address.states import PolarState
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.polar_interpolation import (
     GROUP,
     PLANE_OF_LINEAR,
-    PolarState,
     enter_polar,
     leave_polar,
     length_word,

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.knots import write_chords
 from polycnc.channel.states.state import Lifetime, State
-from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion import path
 from polycnc.deferred.records import dataclass, field
 from polycnc.toolpath import Kind
@@ -126,9 +125,6 @@ def _cut(channel: WordAddressChannel, curve: Curve) -> None:
     write_chords(channel, map(list, points), channel.feed, partial(channel.straight, Kind.SPLINE))
 
 
-def _behind(builder: Builder, _plan: Plan, step: Step | None) -> Step | None:
+def close_curve(builder: Builder, _plan: Plan, step: Step | None) -> Step | None:
+    """A block of another motion code behind a curve."""
     return then(step) if builder.before["motion"] == "G6.2" != builder.mode["motion"] else step
-
-
-#: A curve is complete when another motion code comes.
-RULE = Rule("NURBS curves", modes={"motion": ("G6.2",)}, wrap=_behind)
