@@ -9,8 +9,8 @@ table names are imported by ordinary statements within `loaded_when_called`:
     ROWS = table(GCode("G31", handler=skip.skip_or_torque_move), ...)
 
 There `skip.skip_or_torque_move` is a `Deferred`: it loads `skip` when it is called, compared, or asked what a function
-knows of itself, and then stands for the function. Constants and classes are not to be had of such a module: they are
-those of a module that is loaded.
+knows of itself, and then stands for the function. So a class can be called, which `isinstance` does not take. Constants
+are not to be had of such a module: they are those of a module that is loaded.
 """
 
 from __future__ import annotations
@@ -82,12 +82,14 @@ class _DeferredModule:
         self._module = module
 
     def __getattr__(self, name: str) -> Deferred:
-        if not name.islower():
+        if name.isupper():
             raise AttributeError(f"{self._module} is loaded when a function is called: {name} is none")
         found = self.__dict__[name] = Deferred(self._module, name)
         return found
 
 
+#: What stands for modules, by their names: a function has one that stands for it, whoever names it.
+_MODULES: dict[str, _DeferredModule] = {}
 #: Held while statements of a module import what is loaded later: only one may have put its `__import__` in place.
 _LOCK = RLock()
 
@@ -119,4 +121,8 @@ class loaded_when_called:  # noqa: N801 - it reads as what holds within the stat
             return self._before(name, names, local, wanted or (), level)
         if level or not wanted:
             raise ImportError("what is loaded when called is told by `from package import module`")
-        return SimpleNamespace(**{each: _DeferredModule(f"{name}.{each}") for each in wanted})
+        modules = (f"{name}.{each}" for each in wanted)
+        found = (
+            _MODULES.get(module) or _MODULES.setdefault(module, _DeferredModule(module)) for module in modules
+        )
+        return SimpleNamespace(**dict(zip(wanted, found, strict=True)))

@@ -33,8 +33,13 @@ from polycnc.toolpath.modes import AccelerationMode, FeedMode
 from polycnc.toolpath.motion_settings import MotionSettings
 
 with loaded_when_called():
+    from polycnc.compensation import corner, policy
     from polycnc.control import alarm_text
     from polycnc.control.word_address import reset
+    from polycnc.control.word_address.block import plain
+    from polycnc.control.word_address.transformations import normal_line
+    from polycnc.machine import kinematics
+    from polycnc.transformation.planes import tilted
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -67,8 +72,6 @@ if TYPE_CHECKING:
     from polycnc.machine.kinematics import Kinematics
     from polycnc.program import Program
 
-#: Codes that stop a program, or end it.
-STOPS = frozenset({0, 1, 2, 30})
 #: Largest number of a tool offset (H, D).
 LAST_OFFSET = 999
 
@@ -221,9 +224,7 @@ class WordAddressControl:
 
     def plain_blocks(self, _channel: Channel) -> PlainBlocks | None:
         """What a scanner must know of plain blocks."""
-        from polycnc.control.word_address.block.plain import PlainBlocks  # for long programs only
-
-        return PlainBlocks(Spelling(self.grammar.max_digits, round_comments=True, open_comments=True))
+        return plain.PlainBlocks(Spelling(self.grammar.max_digits, round_comments=True, open_comments=True))
 
     def make_memory(self, channel: Channel) -> Memory:
         """The control's memory as the setup fills it."""
@@ -237,9 +238,8 @@ class WordAddressControl:
         channel.mode = channel.modes.mode(self.start_codes(channel))
         channel.boundary = None
         channel.skip_levels = channel.setup.switches.block_skip_mask(plain=1)
-        channel.memory.tool.number = channel.memory.tool.next = int(
-            channel.setup.tool_at_start(channel.number)
-        )
+        tool = channel.memory.tool
+        tool.number = tool.next = int(channel.setup.tool_at_start(channel.number))
         if self.FEED_AT_START is not None:
             channel.feed = self.FEED_AT_START
         systems.refresh_zero(channel)
@@ -255,8 +255,8 @@ class WordAddressControl:
     def name_parameters(self, channel: Channel) -> None:
         """Let parameters of the setup be attributes by their names, where the control has a list of them."""
         if self.parameter_class is not None:
-            setup = channel.setup
-            channel.setup = replace(setup, parameters=self.parameter_class.naming(setup.parameters))
+            named = self.parameter_class.naming(channel.setup.parameters)
+            channel.setup = replace(channel.setup, parameters=named)
 
     def begin(self, channel: Channel) -> None:
         """A main program begins in the state that the channel is in."""
@@ -353,8 +353,7 @@ class WordAddressControl:
     def plan(self, channel: Channel, signature: tuple[str, ...]) -> Plan:
         """The plan of a shape in the present modal state, made and kept."""
         plan = self.builder(channel, self, signature).build()
-        channel_mode: Mode = channel.mode
-        channel_mode.plans[signature] = plan
+        channel.mode.plans[signature] = plan
         return plan
 
     def modal_changes(self, rows: list[GCode]) -> Iterator[tuple[str, str]]:
@@ -410,8 +409,7 @@ class WordAddressControl:
     def _offset(self, channel: Channel, number: int, address: str) -> ToolOffset:
         if not 0 <= number <= LAST_OFFSET:
             raise self.fail("offset_number", address=address)
-        memory: Memory = channel.memory
-        return memory.offset_number(number)
+        return channel.memory.offset_number(number)
 
     def arc_tolerance(self, _channel: Channel) -> float:
         """Allowed difference between the radii at start and end of an arc, mm."""
@@ -459,9 +457,7 @@ class WordAddressControl:
 
     def kinematics(self, channel: Channel) -> Kinematics:
         """The rotary joints of the machine, with what parameters add to them."""
-        from polycnc.machine.kinematics import Kinematics
-
-        return Kinematics.of(channel.machine)
+        return kinematics.Kinematics.of(channel.machine)
 
     def mechanism(self, channel: Channel, _context: Context) -> Kinematics:
         """A working plane turns no tool."""
@@ -477,9 +473,7 @@ class WordAddressControl:
 
     def plane_across(self, _channel: Channel, tool: Vector) -> Frame:
         """G68.3: the plane across a tool (a unit vector of the machine)."""
-        from polycnc.transformation.planes.tilted import square_on
-
-        return square_on(tool)
+        return tilted.square_on(tool)
 
     def reference_point(self, channel: Channel, axis: int, number: int) -> float:
         """Machine position of a reference point of an axis, from 1."""
@@ -497,25 +491,19 @@ class WordAddressControl:
 
     def compensation_policy(self, _channel: Channel) -> Policy:
         """Rules of radius compensation."""
-        from polycnc.compensation.policy import Policy
-
-        return Policy()
+        return policy.Policy()
 
     def corner_policy(self) -> CornerPolicy:
         """What may stand between the two moves of a chamfer or rounding."""
-        from polycnc.compensation.corner import CornerPolicy
-
-        return CornerPolicy(threads_follow=False)
+        return corner.CornerPolicy(threads_follow=False)
 
     def normal_line_rules(self) -> NormalLineRules:
         """What G41.1 and G42.1 refuse."""
-        from polycnc.control.word_address.transformations.normal_line import NormalLineRules
-
-        return NormalLineRules()
+        return normal_line.NormalLineRules()
 
     def stops_reading(self, _channel: Channel, code: int) -> bool:
-        """Whether nothing is read behind an M code before it has run."""
-        return code in STOPS
+        """Whether nothing is read behind an M code before it has run: those that stop a program, or end it."""
+        return code in (0, 1, 2, 30)
 
     def nose_tip(self, _channel: Channel) -> tuple[float, float]:
         """Way from the centre of the tool to its programmed point, in the plane, in units of its radius."""
@@ -548,8 +536,8 @@ class WordAddressControl:
         channel = builder.channel
         if channel.axis_data[axis].rotary:
             return angle_converter(form, builder.rules)
-        diameter = builder.footing.diameters[axis]
-        return length_converter(form, builder.rules, inch=builder.inch, diameter=diameter)
+        diameters = builder.footing.diameters
+        return length_converter(form, builder.rules, inch=builder.inch, diameter=diameters[axis])
 
     def axis_of_address(self, channel: Channel, address: str, builder: Builder) -> tuple[int, bool] | None:
         """The axis that an address names and whether the word is an increment; None for another address."""
@@ -606,8 +594,7 @@ class WordAddressControl:
 
     def variable_names(self, channel: Channel) -> list[str]:
         """Names of all variables that hold something."""
-        names: list[str] = channel.memory.variable_names()
-        return names
+        return channel.memory.variable_names()
 
     def write_variable(self, channel: Channel, name: str, value: object) -> None:
         """Set a variable as a user names it."""

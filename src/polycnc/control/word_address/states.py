@@ -12,6 +12,7 @@ from polycnc.deferred.records import dataclass, field
 from polycnc.geometry.frames import IDENTITY
 
 if TYPE_CHECKING:
+    from polycnc.channel.channel import Channel
     from polycnc.geometry.frames import Frame, Vector
     from polycnc.program import Program
     from polycnc.transformation.kinematic.cylinder import Cylinder
@@ -106,3 +107,37 @@ class ModalCallState(State, lifetime=Lifetime.RESET):
 
     calls: list[ModalCall] = field(default_factory=list)
     due: ModalCall | None = None
+
+
+@dataclass(slots=True)
+class Curve:
+    """A curve that blocks are still telling."""
+
+    order: int
+    knots: list[float] = field(default_factory=list)
+    poles: list[tuple[float, ...]] = field(default_factory=list)
+    weights: list[float] = field(default_factory=list)
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether every knot is there."""
+        return len(self.knots) == len(self.poles) + self.order
+
+
+@dataclass(slots=True)
+class CurveState(State, lifetime=Lifetime.RESET):
+    """The curve that blocks of G06.2 are telling; None for none."""
+
+    curve: Curve | None = None
+
+
+@dataclass(slots=True)
+class LastSkip(State, lifetime=Lifetime.POWER):
+    """Where the last skip move has ended (absolute display); None where there was none."""
+
+    position: list[float] | None = None
+
+    @classmethod
+    def here(cls, channel: Channel) -> list[float]:
+        """That position, else where the channel is."""
+        return cls.of(channel).position or channel.coordinates.position

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.compensation.spatial.rules import ARC_FIRST, INTERSECTION, Corners, Rules
 from polycnc.control.syntec.coordinates.turns import PostureState
-from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.coordinates.tip import TIP_CODES
 from polycnc.control.word_address.states import LengthState, PolarState
 from polycnc.control.word_address.tools import radius, spatial
@@ -83,7 +82,7 @@ def choose_corners(channel: SyntecChannel, words: Words) -> None:
     SpatialState.of(channel).corner_way = int(way)
 
 
-def _check_block(builder: Builder) -> None:
+def check_block(builder: Builder) -> None:
     """Refuse what the compensation does not allow."""
     before, after = builder.before["compensation"], builder.mode["compensation"]
     fail = builder.control.fail
@@ -106,7 +105,3 @@ def _check_block(builder: Builder) -> None:
 
 def _not_yet(address: str, code: str) -> AlarmError:
     return AlarmError("PC0001", hint="hint.not-supported", address=address, code=f"{code} {address}")
-
-
-#: What must not come during spatial radius compensation.
-RULE = Rule("spatial radius compensation", modes={"compensation": radius.SIDES}, check=_check_block)

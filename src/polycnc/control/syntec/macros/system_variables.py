@@ -27,7 +27,7 @@ from polycnc.control.syntec.motion.polar import block_start
 from polycnc.control.syntec.motion.quiet import is_quiet, switch_quiet
 from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
 from polycnc.control.word_address.memory import EXTERNAL, ToolOffsets
-from polycnc.control.word_address.motion.skip import LastSkip
+from polycnc.control.word_address.states import LastSkip
 from polycnc.control.word_address.tools.length import renew_length
 from polycnc.control.word_address.tools.radius import active_compensation
 from polycnc.geometry.units import INCH_MM

@@ -77,6 +77,11 @@ def start(channel: MacroChannel, words: Words) -> None:
     channel.path.put(NormalStage(direction, channel.toolpath))
 
 
+def acts(channel: WordAddressChannel) -> bool:
+    """Whether the axis follows the path."""
+    return channel.path.find(NormalStage) is not None
+
+
 def cancel(channel: WordAddressChannel, _words: Words) -> None:
     """G40.1: the axis stays where it is."""
     end(channel)
