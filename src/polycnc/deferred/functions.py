@@ -103,7 +103,7 @@ class loaded_when_called:  # noqa: N801 - it reads as what holds within the stat
         _LOCK.acquire()
         self._names = sys._getframe(1).f_globals  # noqa: SLF001 - the module whose statement this is
         self._before = builtins.__import__
-        builtins.__import__ = self._import
+        builtins.__import__ = self._import  # type: ignore[assignment]  # it gives what stands for a module
 
     def __exit__(self, *_raised: object) -> None:
         builtins.__import__ = self._before

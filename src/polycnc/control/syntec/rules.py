@@ -19,6 +19,7 @@ from polycnc.deferred.functions import loaded_when_called
 with loaded_when_called():
     from polycnc.control.syntec.five_axes import posture, spatial, tip_control
     from polycnc.control.syntec.motion import oscillation, polar
+    from polycnc.control.word_address.transformations import polar_interpolation
 
 RULES = (
     rotary_ways.RULE,
@@ -26,7 +27,7 @@ RULES = (
         "polar interpolation",
         unless={"polar_interpolation": "G13.1"},
         check=polar.check_block,
-        convert=polar.length_word,
+        convert=polar_interpolation.length_word,
     ),
     frames.ROTATION_RULE,
     rules.NORMAL_LINE,

@@ -409,7 +409,8 @@ class WordAddressControl:
     def _offset(self, channel: Channel, number: int, address: str) -> ToolOffset:
         if not 0 <= number <= LAST_OFFSET:
             raise self.fail("offset_number", address=address)
-        return channel.memory.offset_number(number)
+        offset: ToolOffset = channel.memory.offset_number(number)
+        return offset
 
     def arc_tolerance(self, _channel: Channel) -> float:
         """Allowed difference between the radii at start and end of an arc, mm."""
@@ -594,7 +595,7 @@ class WordAddressControl:
 
     def variable_names(self, channel: Channel) -> list[str]:
         """Names of all variables that hold something."""
-        return channel.memory.variable_names()
+        return [*channel.memory.variable_names()]
 
     def write_variable(self, channel: Channel, name: str, value: object) -> None:
         """Set a variable as a user names it."""

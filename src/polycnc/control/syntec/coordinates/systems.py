@@ -35,6 +35,7 @@ with loaded_when_called():
     from polycnc.control.syntec.macros import registers
     from polycnc.control.syntec.motion import polar
     from polycnc.control.word_address.tools import data_input
+    from polycnc.control.word_address.tools import length as tool_length
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -300,7 +301,7 @@ def input_data(channel: SyntecChannel, words: Words) -> None:
     if channel.mode["distance"] == "G91":
         length += getattr(tool, field)
     setattr(tool, field, length)
-    length.renew_length(channel)
+    tool_length.renew_length(channel)
 
 
 def _input_work_offset(channel: SyntecChannel, words: Words) -> None:
