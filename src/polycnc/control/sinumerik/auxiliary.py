@@ -9,7 +9,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.machine_words import refuse
-from polycnc.control.sinumerik.axes import spindles as spindle_axes
 from polycnc.control.sinumerik.couplings import masters, synchronous
 from polycnc.control.sinumerik.couplings.spindle_pairs import turns
 from polycnc.control.sinumerik.errors import not_supported
@@ -26,15 +25,20 @@ from polycnc.control.sinumerik.m_functions import (
     STOP,
 )
 from polycnc.control.sinumerik.replaced import program_of
-from polycnc.control.sinumerik.tools import master_holder, selection, stages
-from polycnc.control.sinumerik.tools.holders import active as carriers
+from polycnc.control.sinumerik.tools import selection, stages
 from polycnc.control.sinumerik.tools.management import adapters
 from polycnc.control.sinumerik.tools.sides import FACES
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.variables import part_counts
 from polycnc.control.tool_change import follow, way_to_change
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import Auxiliary
+
+with loaded_when_called():
+    from polycnc.control.sinumerik.axes import spindles as spindle_axes
+    from polycnc.control.sinumerik.tools import master_holder
+    from polycnc.control.sinumerik.tools.holders import active as carriers
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping

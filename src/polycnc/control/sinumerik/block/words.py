@@ -13,39 +13,39 @@ from typing import TYPE_CHECKING
 from polycnc.compensation.corner import Shape
 from polycnc.control.machine_words import asking, plc_of
 from polycnc.control.sinumerik import auxiliary, replaced, tables
-from polycnc.control.sinumerik.axes import spindles as spindle_axes
-from polycnc.control.sinumerik.block import offset_words, outside_feeds, plain
+from polycnc.control.sinumerik.block import outside_feeds, plain
 from polycnc.control.sinumerik.block.draft import axis_column
 from polycnc.control.sinumerik.block.positions import ModuloRange, number, whole
 from polycnc.control.sinumerik.couplings import synchronous
 from polycnc.control.sinumerik.couplings.spindle_pairs import turns
 from polycnc.control.sinumerik.errors import not_supported
-from polycnc.control.sinumerik.feed import (
-    axis_settings,
-    spindle_speed,
-    thread_ramps,
-    tolerances,
-    tooth_feed,
-    wheels,
-)
+from polycnc.control.sinumerik.feed import spindle_speed, thread_ramps, tolerances, tooth_feed, wheels
 from polycnc.control.sinumerik.feed.pace import Overrides
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.feed.profiles import ProgrammedFeed
 from polycnc.control.sinumerik.motion import moves
 from polycnc.control.sinumerik.oscillation import words as oscillation
 from polycnc.control.sinumerik.punching import block as punching
-from polycnc.control.sinumerik.signals import fixed_stop, retraction
+from polycnc.control.sinumerik.signals import fixed_stop
 from polycnc.control.sinumerik.tables import length_factor
-from polycnc.control.sinumerik.tools import master_holder, stages
-from polycnc.control.sinumerik.tools.management import lists
+from polycnc.control.sinumerik.tools import stages
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.transformations.posture import Orienting
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.language.bulk import Note, declare
 from polycnc.language.sinumerik.names.spindles import spindle_number as named_spindle
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import HFunction, SpindleSpeed, ToolSelection
+
+with loaded_when_called():
+    from polycnc.control.sinumerik.axes import spindles as spindle_axes
+    from polycnc.control.sinumerik.block import offset_words
+    from polycnc.control.sinumerik.feed import axis_settings
+    from polycnc.control.sinumerik.signals import retraction
+    from polycnc.control.sinumerik.tools import master_holder
+    from polycnc.control.sinumerik.tools.management import lists
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.block.draft import Draft, Step, Values

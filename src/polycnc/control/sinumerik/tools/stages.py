@@ -20,7 +20,7 @@ from polycnc.compensation.policy import Approach, Policy, Violation
 from polycnc.compensation.tips import tip_direction
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.motion.spline_stage import SplineStage
-from polycnc.control.sinumerik.tools import faces, spatial
+from polycnc.control.sinumerik.tools import spatial
 from polycnc.control.sinumerik.tools.cutting_data import in_space
 from polycnc.control.sinumerik.tools.edges import DP_LARGEST_ANGLE, DP_LEAST_ANGLE, DP_TIP
 from polycnc.control.sinumerik.tools.lengths import Rules, along_axes
@@ -29,6 +29,7 @@ from polycnc.control.sinumerik.tools.smooth_stage import SmoothApproach
 from polycnc.control.sinumerik.tools.tool_plane import lead, tool_plane
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.transformations.walls import WallStage
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import replace
 from polycnc.geometry.arcs import EVEN
 from polycnc.geometry.frames import IDENTITY, Frame
@@ -37,6 +38,9 @@ from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.geometry.vectors import minus, times
 from polycnc.messages import AlarmError
+
+with loaded_when_called():
+    from polycnc.control.sinumerik.tools import faces
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.family import SinumerikChannel
