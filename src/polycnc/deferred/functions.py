@@ -9,8 +9,9 @@ table names are imported by ordinary statements within `loaded_when_called`:
     ROWS = table(GCode("G31", handler=skip.skip_or_torque_move), ...)
 
 There `skip.skip_or_torque_move` is a `Deferred`: it loads `skip` when it is called, compared, or asked what a function
-knows of itself, and then stands for the function. So a class can be called, which `isinstance` does not take. Constants
-are not to be had of such a module: they are those of a module that is loaded.
+knows of itself, and then stands for the function. A class can be imported so too, to make an object or to call a method
+of the class: it is none for `isinstance`, nor a key by which stages and states are found (a test looks). Constants are
+not to be had: they stand in a module that is loaded.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ __all__ = ["Deferred", "loaded_when_called"]
 
 
 class Deferred:
-    """Stands for a function of a module, by its name; loads the module when the function is needed."""
+    """Stands for a function or a class of a module, by its name; loads the module when that is needed."""
 
     __slots__ = ("_module", "_name", "function")
     function: Any
@@ -83,7 +84,9 @@ class _DeferredModule:
 
     def __getattr__(self, name: str) -> Deferred:
         if name.isupper():
-            raise AttributeError(f"{self._module} is loaded when a function is called: {name} is none")
+            raise AttributeError(
+                f"{self._module} is loaded when it is called: {name} is no function and no class"
+            )
         found = self.__dict__[name] = Deferred(self._module, name)
         return found
 
@@ -95,7 +98,7 @@ _LOCK = RLock()
 
 
 class loaded_when_called:  # noqa: N801 - it reads as what holds within the statement
-    """Within it `from … import …` of the module that says so gives modules that are loaded when they are called."""
+    """Within it `from … import …` of the module that says so gives what is loaded when it is called."""
 
     __slots__ = ("_before", "_names")
 
@@ -120,9 +123,13 @@ class loaded_when_called:  # noqa: N801 - it reads as what holds within the stat
         if names is not self._names:  # another module that another thread loads
             return self._before(name, names, local, wanted or (), level)
         if level or not wanted:
-            raise ImportError("what is loaded when called is told by `from package import module`")
-        modules = (f"{name}.{each}" for each in wanted)
-        found = (
-            _MODULES.get(module) or _MODULES.setdefault(module, _DeferredModule(module)) for module in modules
-        )
-        return SimpleNamespace(**dict(zip(wanted, found, strict=True)))
+            raise ImportError("what is loaded when called is told by `from … import …`")
+        return SimpleNamespace(**{each: _found(name, each) for each in wanted})
+
+
+def _found(place: str, name: str) -> Any:
+    """What stands for a module of a package, or for a class of a module: classes alone have capitals."""
+    if not name.islower():
+        return getattr(_found(*place.rsplit(".", 1)), name)
+    module = f"{place}.{name}"
+    return _MODULES.get(module) or _MODULES.setdefault(module, _DeferredModule(module))

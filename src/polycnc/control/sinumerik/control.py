@@ -36,7 +36,7 @@ from polycnc.control.sinumerik.punching import block as punching
 from polycnc.control.sinumerik.reset import reset, start_codes
 from polycnc.control.sinumerik.signals import interrupts, measuring, sections
 from polycnc.control.sinumerik.states import PointToPoint
-from polycnc.control.sinumerik.tools import sides, stages
+from polycnc.control.sinumerik.tools import sides
 from polycnc.control.sinumerik.tools.memory import Tools
 from polycnc.control.sinumerik.transformations import seat, smoothing
 from polycnc.control.sinumerik.variables import part_counts, run_times
@@ -63,6 +63,7 @@ with loaded_when_called():
     from polycnc.control.sinumerik.block import procedures, single_block
     from polycnc.control.sinumerik.cycles import calls as cycle_calls
     from polycnc.control.sinumerik.frames import tool_frames
+    from polycnc.control.sinumerik.tools import stages
     from polycnc.control.sinumerik.transformations import orientation
     from polycnc.control.sinumerik.variables import by_name, functions, lengths, registry
     from polycnc.language.sinumerik import errors

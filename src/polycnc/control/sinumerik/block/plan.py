@@ -30,7 +30,7 @@ from polycnc.control.sinumerik.limits import working_area
 from polycnc.control.sinumerik.motion import circles, moves
 from polycnc.control.sinumerik.punching import block as punching
 from polycnc.control.sinumerik.signals import measuring, sections
-from polycnc.control.sinumerik.tools import selection, stages
+from polycnc.control.sinumerik.tools import selection
 from polycnc.control.sinumerik.transformations import seat, smoothing
 from polycnc.control.sinumerik.transformations.words import SECOND, SINGLE, TRIPLES
 from polycnc.deferred.functions import loaded_when_called
@@ -45,7 +45,7 @@ with loaded_when_called():
     from polycnc.control.sinumerik.motion import involutes, repositioning, splines
     from polycnc.control.sinumerik.oscillation import words as oscillation
     from polycnc.control.sinumerik.tangential import definitions as tangential
-    from polycnc.control.sinumerik.tools import online, smooth_approach
+    from polycnc.control.sinumerik.tools import online, smooth_approach, stages
     from polycnc.control.sinumerik.tools.holders import active as carriers
     from polycnc.control.sinumerik.transformations import history, oblique, orientation, point_to_point
 
@@ -444,7 +444,8 @@ def _zero_offset(channel: SinumerikChannel, values: Values) -> None:  # noqa: AR
 
 def _plane(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
     """G17, G18, G19: tool lengths change their axes."""
-    stages.change_plane(channel)
+    if channel.path.head is not None:
+        stages.change_plane(channel)
     auxiliary.tool_changed(channel)
 
 
@@ -513,7 +514,7 @@ def _feed_is_in_force(channel: SinumerikChannel) -> bool:
 
 def _contour_is_in_force(channel: SinumerikChannel) -> bool:
     """No compensation is active."""
-    return stages.active_cutter(channel) is None
+    return channel.path.head is None or stages.active_cutter(channel) is None
 
 
 #: When functions of a group that are in force already change nothing.

@@ -14,13 +14,13 @@ from polycnc.control.sinumerik.couplings import spindle_pairs
 from polycnc.control.sinumerik.couplings.spindle_pairs import Pair, SpindlePairs, turns
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tables import TURN
-from polycnc.control.sinumerik.variables.clock import Clock
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import SpindleWait
 
 with loaded_when_called():
     from polycnc.control.sinumerik.block import arguments
+    from polycnc.control.sinumerik.variables.clock import Clock
 
 if TYPE_CHECKING:
     from collections.abc import Collection

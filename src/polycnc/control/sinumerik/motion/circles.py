@@ -9,7 +9,6 @@ from functools import partial
 from math import cos, hypot, pi, radians, sin
 from typing import TYPE_CHECKING
 
-from polycnc.channel.moves.chord_path import ChordPath
 from polycnc.channel.moves.knots import write_chords
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move
@@ -35,6 +34,7 @@ from polycnc.toolpath import Kind
 from polycnc.toolpath.kinds import CCW_KINDS, arc_kind
 
 with loaded_when_called():
+    from polycnc.channel.moves.chord_path import ChordPath
     from polycnc.control.sinumerik.motion import contour_reading
 
 if TYPE_CHECKING:

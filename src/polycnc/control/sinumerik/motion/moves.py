@@ -22,7 +22,6 @@ from polycnc.control.sinumerik.motion.polar import Polar
 from polycnc.control.sinumerik.signals import measuring
 from polycnc.control.sinumerik.tables import length_factor
 from polycnc.control.sinumerik.transformations import seat
-from polycnc.control.sinumerik.variables.clock import Clock
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field
 from polycnc.geometry.planes import PLANES
@@ -38,6 +37,7 @@ from polycnc.toolpath.modes import FeedMode
 with loaded_when_called():
     from polycnc.control.sinumerik.actions import axes as action_axes
     from polycnc.control.sinumerik.transformations import point_to_point
+    from polycnc.control.sinumerik.variables.clock import Clock
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.block.draft import Draft, Goal, Step, Values

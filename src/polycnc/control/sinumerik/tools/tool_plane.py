@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING
 from polycnc.channel.moves.knots import join
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move, Rank, Stage
-from polycnc.compensation.cutter import CutterCompensation
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.deferred.named_tuples import NamedTuple
@@ -27,6 +26,7 @@ from polycnc.geometry.vectors import axis_vector, cross, dot, minus, times
 from polycnc.toolpath.kinds import Kind
 
 if TYPE_CHECKING:
+    from polycnc.compensation.cutter import CutterCompensation
     from polycnc.control.sinumerik.family import SinumerikChannel
 
 #: Chords of an arc that the program sees as an ellipse may be this far off it, mm.
@@ -50,6 +50,8 @@ def bends_arcs(channel: SinumerikChannel, normal: Vector) -> bool:
     zero = channel.coordinates.zero
     if is_even(zero) or circle_image(zero, normal) is not None:
         return False
+    from polycnc.compensation.cutter import CutterCompensation
+
     cutter = channel.path.find(CutterCompensation)
     return cutter is None or not cutter.active
 

@@ -16,7 +16,6 @@ from polycnc.control.sinumerik.couplings import links
 from polycnc.control.sinumerik.data.machine_data import MachineData
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tools.lengths import OF_MACHINE
-from polycnc.control.sinumerik.transformations.data_sets import Build
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, replace
 from polycnc.geometry.frames import IDENTITY
@@ -38,6 +37,7 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.family import SinumerikChannel
+    from polycnc.control.sinumerik.transformations.data_sets import Build
     from polycnc.geometry.frames import Frame, Vector
     from polycnc.language.sinumerik.names.frame import NcFrame
     from polycnc.transformation.contract import Geometry
