@@ -9,9 +9,9 @@ table names are imported by ordinary statements within `loaded_when_called`:
     ROWS = table(GCode("G31", handler=skip.skip_or_torque_move), ...)
 
 There `skip.skip_or_torque_move` is a `Deferred`: it loads `skip` when it is called, compared, or asked what a function
-knows of itself, and then stands for the function. A class can be imported so too, to make an object or to call a method
-of the class: it is none for `isinstance`, nor a key by which stages and states are found (a test looks). Constants are
-not to be had: they stand in a module that is loaded.
+knows of itself, and then stands for the function. A class can be imported so too, to make objects or to call a method
+of the class. Constants are not to be had: they stand in a module that is loaded. What else is not to be done with
+these names, a test finds.
 """
 
 from __future__ import annotations
@@ -33,7 +33,6 @@ class Deferred:
     """Stands for a function or a class of a module, by its name; loads the module when that is needed."""
 
     __slots__ = ("_module", "_name", "function")
-    function: Any
 
     def __init__(self, module: str, name: str) -> None:
         self._module, self._name = module, name
@@ -50,6 +49,9 @@ class Deferred:
 
     def __get__(self, thing: object, _owner: type | None = None) -> Any:
         return self if thing is None else MethodType(self, thing)
+
+    def __instancecheck__(self, thing: object) -> bool:
+        return isinstance(thing, self.function)
 
     def __eq__(self, other: object) -> bool:
         return bool(self.function == (other.function if isinstance(other, Deferred) else other))

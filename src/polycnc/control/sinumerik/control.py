@@ -67,7 +67,7 @@ with loaded_when_called():
     from polycnc.control.sinumerik.transformations import orientation
     from polycnc.control.sinumerik.variables import by_name, functions, lengths, registry
     from polycnc.language.sinumerik import errors
-    from polycnc.language.sinumerik.statements import calls
+    from polycnc.language.sinumerik.statements import calls as call_statements
     from polycnc.language.sinumerik.statements import sections as section_statements
 
 if TYPE_CHECKING:
@@ -578,7 +578,7 @@ def _limit(memory: Memory, spindle: Spindle | None, feed: str) -> float:
 def _modal_in_front(channel: SinumerikChannel) -> bool:
     """Run what MCALL has set behind the motion of a block that ends its program; the program ends behind that."""
     level = channel.level
-    calls.call_modal(channel)
+    call_statements.call_modal(channel)
     if channel.level is level:
         return False
     level.index = len(level.code.whole)

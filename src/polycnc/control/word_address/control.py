@@ -409,8 +409,7 @@ class WordAddressControl:
     def _offset(self, channel: Channel, number: int, address: str) -> ToolOffset:
         if not 0 <= number <= LAST_OFFSET:
             raise self.fail("offset_number", address=address)
-        offset: ToolOffset = channel.memory.offset_number(number)
-        return offset
+        return channel.memory.offset_number(number)  # type: ignore[no-any-return]
 
     def arc_tolerance(self, _channel: Channel) -> float:
         """Allowed difference between the radii at start and end of an arc, mm."""
@@ -561,7 +560,6 @@ class WordAddressControl:
         mode, memory, c = channel.mode, channel.memory, channel.coordinates
         diameters = sum(1 << i for i in range(len(channel.axes)) if self.is_diameter(channel, i))
         polar, unrolled = PolarState.of(channel), CylinderState.of(channel).active
-        leading = c.transformation or PlaneAxes.of(channel).parallel
         return Context(
             plane=mode["plane"],
             inch=self.is_inch(mode),
@@ -578,7 +576,9 @@ class WordAddressControl:
             wcs=ZeroState.of(channel).system,
             part=systems.on_work(channel),
             # A path that leads the axes leaves nothing to transform.
-            transformation=None if channel.path.leads_axes else leading,
+            transformation=None
+            if channel.path.leads_axes
+            else c.transformation or PlaneAxes.of(channel).parallel,
             machine_diameters=diameters | polar.diameter << polar.plane.linear if polar.plane else None,
             unrolled=(unrolled.axis, 1.0 / unrolled.mm_per_degree) if unrolled else None,
         )
