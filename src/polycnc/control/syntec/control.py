@@ -17,10 +17,9 @@ from polycnc.control.syntec.coordinates.turns import OVER_POWER_OFF, TurnState, 
 from polycnc.control.syntec.macros import calls, interrupts, single_block
 from polycnc.control.syntec.macros.variables import USER, SpaceState, locals_of
 from polycnc.control.syntec.memory import SyntecMemory
-from polycnc.control.syntec.motion import arcs, conditions, dwell, moves, quiet, smoothing
+from polycnc.control.syntec.motion import arcs, conditions, dwell, moves, smoothing
 from polycnc.control.syntec.motion.moves import FeedState
 from polycnc.control.syntec.parameters import SyntecParameters
-from polycnc.control.syntec.plain import SyntecPlainBlocks
 from polycnc.control.syntec.rules import RULES
 from polycnc.control.syntec.units import decimals, least_unit
 from polycnc.control.word_address.auxiliary.overrides import in_tapping_mode
@@ -40,7 +39,8 @@ from polycnc.toolpath.motion_settings import Ramp
 with loaded_when_called():
     from polycnc.compensation import policy
     from polycnc.control.syntec.five_axes import mechanism, normal_direction, tilted
-    from polycnc.control.syntec.motion import polar
+    from polycnc.control.syntec.motion import polar, quiet
+    from polycnc.control.syntec.plain import SyntecPlainBlocks
     from polycnc.control.word_address.motion import nurbs
     from polycnc.control.word_address.tools import spatial
     from polycnc.control.word_address.transformations import normal_line

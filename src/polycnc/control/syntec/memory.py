@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.coordinates.diameters import DiameterState
 from polycnc.control.syntec.macros import functions
-from polycnc.control.syntec.macros.registers import check_register
 from polycnc.control.syntec.macros.system_variables import SYSTEM_VARIABLES
 from polycnc.control.syntec.macros.variables import (
     USER,
@@ -21,9 +20,13 @@ from polycnc.control.syntec.macros.variables import (
 )
 from polycnc.control.syntec.units import decimals, least_unit
 from polycnc.control.word_address.memory import Memory
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.language.syntec.expressions import NO_SUCH_VARIABLE
 from polycnc.language.syntec.values import VACANT, Text, Vacant, Value, whole
 from polycnc.messages import AlarmError
+
+with loaded_when_called():
+    from polycnc.control.syntec.macros import registers
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -152,7 +155,7 @@ class SyntecMemory(Memory):
         if isinstance(value, int | float):
             typed = int(value) if isinstance(value, bool) else value
         if family == "R":
-            check_register(self.channel, int(index), int(float(str(value))))
+            registers.check_register(self.channel, int(index), int(float(str(value))))
             self.globals.registers[int(index)] = int(float(str(value)))
         elif family == "#":
             self.set_variable(int(index), typed)

@@ -19,9 +19,12 @@ from polycnc.control.word_address.transformations.polar_interpolation import (
     enter_polar,
     leave_polar,
 )
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.planes import PLANES
-from polycnc.transformation.kinematic.polar import PolarPlane
+
+with loaded_when_called():
+    from polycnc.transformation.kinematic.polar import PolarPlane
 
 if TYPE_CHECKING:
     from polycnc.control.syntec.family import SyntecChannel
