@@ -9,7 +9,6 @@ from __future__ import annotations
 from functools import cache
 from typing import TYPE_CHECKING
 
-from polycnc.control.fanuc.lathe import auxiliary as turning_auxiliary
 from polycnc.control.fanuc.lathe import balance as turning_balance
 from polycnc.control.fanuc.lathe.coordinates import limits, systems
 from polycnc.control.fanuc.lathe.cycles.drilling import NORMAL_CYCLES, SERIES_15_CYCLES
@@ -27,6 +26,7 @@ from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, replace
 
 with loaded_when_called():
+    from polycnc.control.fanuc.lathe import auxiliary as turning_auxiliary
     from polycnc.control.fanuc.lathe import spindle_indexing
     from polycnc.control.fanuc.lathe.coordinates import tilted
     from polycnc.control.fanuc.lathe.cycles import grinding as turning_grinding

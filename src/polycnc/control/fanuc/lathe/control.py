@@ -9,7 +9,7 @@ from polycnc.channel.stack import LevelKind
 from polycnc.control.fanuc.acceleration import accelerated
 from polycnc.control.fanuc.alarm_codes import ALARMS, HINTED_WORDS
 from polycnc.control.fanuc.code_calls import registered_codes
-from polycnc.control.fanuc.lathe import auxiliary, balance
+from polycnc.control.fanuc.lathe import balance
 from polycnc.control.fanuc.lathe.codes import (
     ADDRESSES,
     M_CODES,
@@ -39,6 +39,7 @@ from polycnc.toolpath.modes import FeedMode
 
 with loaded_when_called():
     from polycnc.control.fanuc import tool_plane
+    from polycnc.control.fanuc.lathe import auxiliary
     from polycnc.control.fanuc.lathe import reset as turning_reset
     from polycnc.control.fanuc.lathe.cycles import repetitive
     from polycnc.control.fanuc.lathe.motion import drawing
