@@ -9,7 +9,6 @@ from functools import partial
 from math import cos, hypot, pi, radians, sin
 from typing import TYPE_CHECKING
 
-from polycnc.channel.moves.knots import write_chords
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move
 from polycnc.control.sinumerik import tables
@@ -34,6 +33,7 @@ from polycnc.toolpath import Kind
 from polycnc.toolpath.kinds import CCW_KINDS, arc_kind
 
 with loaded_when_called():
+    from polycnc.channel.moves import knots
     from polycnc.channel.moves.chord_path import ChordPath
     from polycnc.control.sinumerik.motion import contour_reading
 
@@ -298,7 +298,7 @@ def _follow(channel: SinumerikChannel, move: Move, feed: float) -> None:
     points = list(path.chords(CHORD_ERROR_MM / largest))
     parts = [(k / len(points), point) for k, point in enumerate(points, 1)]
     way = ChordPath(move.start, parts, path.direction, c.geometry)
-    write_chords(channel, way.led(channel), feed, partial(channel.curve, Kind.SPLINE))
+    knots.write_chords(channel, way.led(channel), feed, partial(channel.curve, Kind.SPLINE))
 
 
 # ---- CIP

@@ -12,11 +12,11 @@ from itertools import pairwise
 from math import hypot
 from typing import TYPE_CHECKING
 
-from polycnc.channel.moves.knots import join
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move, Rank, Stage
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.transformations import seat
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import replace
 from polycnc.geometry.arcs import EVEN, circle_image, is_even
@@ -24,6 +24,9 @@ from polycnc.geometry.frames import IDENTITY, Frame, Vector
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.vectors import axis_vector, cross, dot, minus, times
 from polycnc.toolpath.kinds import Kind
+
+with loaded_when_called():
+    from polycnc.channel.moves import knots
 
 if TYPE_CHECKING:
     from polycnc.compensation.cutter import CutterCompensation
@@ -191,7 +194,7 @@ class OutOfToolPlane(_Led):
             replace(move, kind=Kind.SPLINE, start=start, end=end, center=None, turns=0.0)
             for start, end in pairwise((move.start, *ends))
         ]
-        join(self._channel, chords, shows=True)
+        knots.join(self._channel, chords, shows=True)
         for chord in chords:
             super().move(chord)
 
