@@ -33,6 +33,8 @@ class Deferred:
     """Stands for a function or a class of a module, by its name; loads the module when that is needed."""
 
     __slots__ = ("_module", "_name", "function")
+    if TYPE_CHECKING:
+        function: Any  # no annotation of the class at run time: `inspect` would take it for the function's own
 
     def __init__(self, module: str, name: str) -> None:
         self._module, self._name = module, name

@@ -72,9 +72,6 @@ if TYPE_CHECKING:
     from polycnc.machine.kinematics import Kinematics
     from polycnc.program import Program
 
-#: Largest number of a tool offset (H, D).
-LAST_OFFSET = 999
-
 
 @unchanging
 class WordAddressControl:
@@ -407,7 +404,8 @@ class WordAddressControl:
         return self._offset(channel, number, "D").total_radius if number else 0.0
 
     def _offset(self, channel: Channel, number: int, address: str) -> ToolOffset:
-        if not 0 <= number <= LAST_OFFSET:
+        """The tool offset of a number (H, D) up to 999."""
+        if not 0 <= number <= 999:
             raise self.fail("offset_number", address=address)
         return channel.memory.offset_number(number)  # type: ignore[no-any-return]
 
@@ -560,6 +558,7 @@ class WordAddressControl:
         mode, memory, c = channel.mode, channel.memory, channel.coordinates
         diameters = sum(1 << i for i in range(len(channel.axes)) if self.is_diameter(channel, i))
         polar, unrolled = PolarState.of(channel), CylinderState.of(channel).active
+        leading = c.transformation or PlaneAxes.of(channel).parallel
         return Context(
             plane=mode["plane"],
             inch=self.is_inch(mode),
@@ -576,9 +575,7 @@ class WordAddressControl:
             wcs=ZeroState.of(channel).system,
             part=systems.on_work(channel),
             # A path that leads the axes leaves nothing to transform.
-            transformation=None
-            if channel.path.leads_axes
-            else c.transformation or PlaneAxes.of(channel).parallel,
+            transformation=None if channel.path.leads_axes else leading,
             machine_diameters=diameters | polar.diameter << polar.plane.linear if polar.plane else None,
             unrolled=(unrolled.axis, 1.0 / unrolled.mm_per_degree) if unrolled else None,
         )
