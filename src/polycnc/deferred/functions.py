@@ -33,8 +33,6 @@ class Deferred:
     """Stands for a function or a class of a module, by its name; loads the module when that is needed."""
 
     __slots__ = ("_module", "_name", "function")
-    if TYPE_CHECKING:
-        function: Any  # no annotation of the class at run time: `inspect` would take it for the function's own
 
     def __init__(self, module: str, name: str) -> None:
         self._module, self._name = module, name
@@ -46,7 +44,8 @@ class Deferred:
     def __getattr__(self, name: str) -> Any:
         if name != "function":
             return getattr(self.function, name)
-        self.function = found = _function(self._module, self._name)
+        found = _function(self._module, self._name)
+        self.function: Any = found
         return found
 
     def __get__(self, thing: object, _owner: type | None = None) -> Any:
