@@ -234,3 +234,34 @@ def is_annotation(node: ast.AST, parents: dict[ast.AST, ast.AST]) -> bool:
             return True
         node = parent
     return False
+
+
+# ---- retained memory ------------------------------------------------------------------------------------------------
+
+#: Which modules belong to a control, by the beginnings of their names.
+FAMILIES = {
+    "sinumerik-840d": ("control.sinumerik", "language.sinumerik"),
+    "fanuc-0i-tf": ("control.fanuc.lathe", "control.word_address"),
+    "fanuc-m": ("control.fanuc.milling", "control.word_address"),
+    "meldas-m": ("control.meldas", "control.word_address"),
+    "syntec-mill": ("control.syntec", "control.word_address"),
+}
+
+
+@pytest.mark.parametrize("control_id", FAMILIES)
+def test_a_control_loads_all_classes_that_files_of_its_memory_name(control_id: str) -> None:
+    encoding = {
+        ".".join(path.relative_to(SOURCE.parent).with_suffix("").parts)
+        for path in SOURCE.rglob("*.py")
+        if "import encoded" in path.read_text(encoding="utf-8")
+    }
+    own = {
+        name
+        for name in encoding
+        if name.startswith(tuple(f"polycnc.{each}" for each in FAMILIES[control_id]))
+    }
+    probe = f"import sys\nfrom polycnc.control.registry import control\ncontrol({control_id!r})\nprint(*sys.modules)"
+    done = subprocess.run(
+        [sys.executable, "-c", probe], check=True, capture_output=True, text=True, timeout=60
+    )
+    assert own <= set(done.stdout.split())

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.coordinates.diameters import DiameterState
-from polycnc.control.syntec.macros import functions
-from polycnc.control.syntec.macros.system_variables import SYSTEM_VARIABLES
 from polycnc.control.syntec.macros.variables import (
     USER,
     GlobalState,
@@ -26,7 +25,7 @@ from polycnc.language.syntec.values import VACANT, Text, Vacant, Value, whole
 from polycnc.messages import AlarmError
 
 with loaded_when_called():
-    from polycnc.control.syntec.macros import registers
+    from polycnc.control.syntec.macros import functions, registers, system_variables
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -42,7 +41,6 @@ class SyntecMemory(Memory):
         channel: The channel.
         locals: #1 to #400 of the running level.
         globals: `@` variables and R registers.
-        functions: The functions of the macro language, by name.
     """
 
     parameters: SyntecParameters
@@ -56,7 +54,11 @@ class SyntecMemory(Memory):
             self.globals.forget()
         user = SpaceState.of(channel).user
         self._was_kept = bool(self.globals.values or self.globals.registers or user)
-        self.functions: dict[str, Callable[..., Value]] = functions.bound(self)
+
+    @cached_property
+    def functions(self) -> dict[str, Callable[..., Value]]:
+        """The functions of the macro language, by name."""
+        return functions.bound(self)
 
     def forget_locals(self) -> None:
         """The local variables are those of the main program, as they begin."""
@@ -71,7 +73,7 @@ class SyntecMemory(Memory):
             return VACANT
         if is_local(at):
             return self.locals.get(at, VACANT)
-        space = SYSTEM_VARIABLES.find(at)
+        space = system_variables.found(at)
         return space.read(self, at - space.first)
 
     def set_variable(self, index: Value, value: Value) -> None:
@@ -80,7 +82,7 @@ class SyntecMemory(Memory):
         if is_local(at):
             put(self.locals, at, value)
             return
-        space = SYSTEM_VARIABLES.find(at)
+        space = system_variables.found(at)
         if space.write is None:
             raise AlarmError(NO_SUCH_VARIABLE, variable=f"#{at}", hint="hint.syntec.read-only")
         space.write(self, at - space.first, value)

@@ -370,3 +370,8 @@ SYSTEM_VARIABLES = Registry(
         Space(20001, 20658, _read_work_offset, _write_work_offset),
     ]
 )
+
+
+def found(index: int) -> Space:
+    """The space of a system variable; COR-016 for none."""
+    return SYSTEM_VARIABLES.find(index)
