@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 from enum import IntEnum
 from typing import TYPE_CHECKING, Any
 
-from polycnc.deferred.records import dataclass
+from polycnc.deferred.records import dataclass, field
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -63,6 +63,7 @@ class GCode:
         only_changes: Acts only where another code of its group was in force.
         not_yet: Known to the control, not executed by polycnc.
         open: The words of its block that nothing else takes go to the machine with it.
+        addresses: The addresses of `takes`.
     """
 
     code: str
@@ -79,11 +80,10 @@ class GCode:
     only_changes: bool = False
     not_yet: bool = False
     open: bool = False
+    addresses: tuple[str, ...] = field(init=False, repr=False, compare=False)
 
-    @property
-    def addresses(self) -> list[str]:
-        """The addresses of `takes`."""
-        return self.takes.split()
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "addresses", tuple(self.takes.split()))
 
 
 @dataclass(frozen=True, slots=True)
