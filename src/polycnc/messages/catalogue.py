@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import re
-import tomllib
 from collections import ChainMap
 from collections.abc import Mapping
 from functools import cache, cached_property
@@ -12,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.toml import loads
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -98,7 +98,7 @@ class _File(Mapping[str, dict[str, str]]):
     def __init__(self, content: str) -> None:
         headings = list(_HEADING.finditer(content))
         ends = [*(heading.start() for heading in headings), len(content)]
-        self._read: dict[str, dict[str, str]] = tomllib.loads(content[: ends[0]])
+        self._read: dict[str, dict[str, str]] = loads(content[: ends[0]])
         self._tables = dict.fromkeys(self._read, "") | {
             heading[1] or heading[2]: content[heading.start() : end]
             for heading, end in zip(headings, ends[1:], strict=True)
@@ -106,7 +106,7 @@ class _File(Mapping[str, dict[str, str]]):
 
     def __getitem__(self, key: str) -> dict[str, str]:
         if key not in self._read:
-            self._read |= tomllib.loads(self._tables[key])
+            self._read |= loads(self._tables[key])
         return self._read[key]
 
     def __iter__(self) -> Iterator[str]:
