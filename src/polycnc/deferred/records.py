@@ -20,6 +20,9 @@ from typing import TYPE_CHECKING, Any, ClassVar, get_origin
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
     from dataclasses import MISSING, dataclass, field, fields, is_dataclass, replace
+    from typing import TypeAlias
+
+    _Steps: TypeAlias = tuple[list[tuple[str, bool, object, Any]], Callable[[Any, str, object], None], bool]
 else:
 
     def dataclass(cls=None, /, *, frozen=False, slots=False, eq=True):
@@ -67,6 +70,8 @@ _FEW = 32
 _LATER = object()
 #: Where a class keeps its own annotated names with what was assigned to them; where its fields, when asked for.
 _NOTED, _FIELDS = "__noted_fields__", "__described_fields__"
+#: Where a class keeps what `_put_values` does for its objects.
+_STEPS = "__steps_of_init__"
 #: Where the library keeps its fields.
 _OF_LIBRARY = "__dataclass_fields__"
 
@@ -221,17 +226,22 @@ def _described(cls: type) -> dict[str, Field]:
     """The fields that a class itself adds."""
     found: dict[str, Field] = {}
     for name, value in cls.__dict__[_NOTED].items():
-        if isinstance(value, Field):
-            each = value
-        else:
-            each = Field(default=MISSING if isinstance(value, MemberDescriptorType) else value)
-        if type(each.default).__hash__ is None:
-            raise ValueError(
-                f"mutable default {type(each.default)} for field {name} is not allowed: use default_factory"
-            )
+        each = value if isinstance(value, Field) else Field(default=value)
+        each.default = _checked(name, each.default)
         each.name, each.type = name, cls.__annotations__[name]
         found[name] = each
     return found
+
+
+def _checked(name: str, default: object) -> object:
+    """The default of a field; none is the slot of one that has none."""
+    if isinstance(default, MemberDescriptorType):
+        return MISSING
+    if type(default).__hash__ is None:
+        raise ValueError(
+            f"mutable default {type(default)} for field {name} is not allowed: use default_factory"
+        )
+    return default
 
 
 class _Described:
@@ -326,34 +336,50 @@ def _first_init(made: Callable[[], type]) -> Callable[..., None]:
 
 def _put_values(cls: type, thing: object, args: tuple[object, ...], named: dict[str, object]) -> bool:
     """Do what the written `__init__` does, field by field; False where it would refuse these arguments."""
-    values: dict[str, object] = {}
+    steps, put, goes_on = cls.__dict__.get(_STEPS) or _steps_of(cls)
+    values: list[tuple[str, object]] = []
     given = iter(args)
-    taken, slots = 0, "__slots__" in cls.__dict__
-    for each in _fields_of(cls):
-        name = each.name
-        value = next(given, MISSING) if each.init else MISSING
+    taken = 0
+    for name, is_taken, default, factory in steps:
+        value = next(given, MISSING) if is_taken else MISSING
         if name in named:
-            if value is not MISSING or not each.init:
+            if value is not MISSING or not is_taken:
                 return False
             value = named[name]
             taken += 1
-        elif value is MISSING and each.default_factory is not MISSING:
-            value = each.default_factory()
         elif value is MISSING:
-            value = each.default
-            if value is MISSING and each.init:
+            value = default if factory is MISSING else factory()
+            if value is MISSING:
                 return False
-            if value is MISSING or not (each.init or slots):  # without slots the class itself has the default
-                continue
-        values[name] = value
+        values.append((name, value))
     if taken < len(named) or next(given, MISSING) is not MISSING:
         return False
-    put = object.__setattr__ if is_frozen(cls) else setattr
-    for name, value in values.items():
+    for name, value in values:
         put(thing, name, value)
-    if hasattr(cls, "__post_init__"):
+    if goes_on:
         thing.__post_init__()  # type: ignore[attr-defined]
     return True
+
+
+def _steps_of(cls: type) -> _Steps:
+    """What is to be done for an object: its fields (name, whether an argument gives it, default, factory) in order.
+
+    Left out are those that nobody gives and that have no default, or one that the class itself has. With them, how a
+    value is put in, and whether `__post_init__` follows.
+    """
+    slots = "__slots__" in cls.__dict__
+    steps: dict[str, tuple[str, bool, object, Any]] = {}
+    for base in reversed(cls.__mro__):
+        for name, value in base.__dict__.get(_NOTED, {}).items():
+            if not isinstance(value, Field):
+                steps[name] = name, True, _checked(name, value), MISSING
+            elif (
+                value.init or value.default_factory is not MISSING or (slots and value.default is not MISSING)
+            ):
+                steps[name] = name, value.init, _checked(name, value.default), value.default_factory
+    made = [*steps.values()], object.__setattr__ if is_frozen(cls) else setattr, hasattr(cls, "__post_init__")
+    setattr(cls, _STEPS, made)
+    return made
 
 
 def _init(cls: type) -> Callable[..., Any]:
