@@ -12,6 +12,7 @@ What nothing here uses is left out: `InitVar`, `kw_only`, `order` and `unsafe_ha
 
 from __future__ import annotations
 
+from functools import cached_property
 from operator import attrgetter
 from reprlib import recursive_repr
 from types import FunctionType, MappingProxyType, MemberDescriptorType
@@ -72,6 +73,15 @@ _LATER = object()
 _NOTED, _FIELDS = "__noted_fields__", "__described_fields__"
 #: Where a class keeps what `_put_values` does for its objects.
 _STEPS = "__steps_of_init__"
+#: What most defaults are; none is a field of the library.
+_OURS = frozenset((type, str, int, float, bool, tuple, type(None)))
+#: Where members of a class that are no functions have theirs.
+_BEHIND: dict[type, str] = {
+    classmethod: "__func__",
+    staticmethod: "__func__",
+    property: "fget",
+    cached_property: "func",
+}
 #: Where the library keeps its fields.
 _OF_LIBRARY = "__dataclass_fields__"
 
@@ -119,22 +129,23 @@ class Field:
 
 def _dataclass(cls: Any, *, frozen: bool, slots: bool, eq: bool) -> type:
     body = cls.__dict__
-    annotations = body.get("__annotations__", {})
-    noted = {
-        name: _told(body.get(name, MISSING)) for name, hint in annotations.items() if not _is_of_class(hint)
-    }
+    noted: dict[str, object] = {}
+    for name, hint in body.get("__annotations__", {}).items():
+        if not _is_of_class(hint):
+            value = body.get(name, MISSING)
+            noted[name] = value if type(value) in _OURS else _told(value)
     added = _methods(lambda: cls, body, frozen=frozen, eq=eq)
-    added |= {_NOTED: noted, _OF_LIBRARY: _Described(), "__frozen__": frozen}
+    added |= {_NOTED: noted, _OF_LIBRARY: _DESCRIBED, "__frozen__": frozen}
     # Else the library would write down its signature.
     added["__doc__"] = body.get("__doc__") or cls.__name__
     if "__match_args__" not in body:
-        added["__match_args__"] = _positional(cls, noted)
+        added["__match_args__"] = _POSITIONAL
     if slots:
         if frozen:  # what pickle would otherwise set by `setattr`
             added.setdefault("__getstate__", body.get("__getstate__", _state))
             added.setdefault("__setstate__", body.get("__setstate__", _put_state))
         cls = _with_slots(cls, noted, added)
-        _lead_super(cls)
+        _lead_super(cls, body)
         return cls  # type: ignore[no-any-return]
     for name, value in noted.items():
         if isinstance(value, Field):
@@ -166,19 +177,6 @@ def _is_of_class(hint: object) -> bool:
     return hint is ClassVar or get_origin(hint) is ClassVar
 
 
-def _positional(cls: type, noted: Mapping[str, object]) -> tuple[str, ...]:
-    """The fields that `__init__` takes, in order."""
-    names: dict[str, bool] = {}
-    for each in reversed(cls.__mro__[1:]):
-        names |= _taken(each.__dict__.get(_NOTED, {}))
-    names |= _taken(noted)
-    return tuple(name for name, is_taken in names.items() if is_taken)
-
-
-def _taken(noted: Mapping[str, object]) -> dict[str, bool]:
-    return {name: not isinstance(value, Field) or value.init for name, value in noted.items()}
-
-
 def _with_slots(cls: type, noted: Mapping[str, object], added: Mapping[str, object]) -> type:
     """The class once more, with a slot for every field that no base has one for."""
     inherited: set[str] = set()
@@ -194,16 +192,16 @@ def _with_slots(cls: type, noted: Mapping[str, object], added: Mapping[str, obje
     return type(cls)(cls.__name__, cls.__bases__, body)
 
 
-def _lead_super(cls: type) -> None:
-    """Let `super()` in the methods mean the class that has slots, not the one whose body was read."""
-    for member in cls.__dict__.values():
-        function = getattr(
-            member, "__func__", getattr(member, "fget", member)
-        )  # of a classmethod, a property
-        free = function.__code__.co_freevars if isinstance(function, FunctionType) else ()
-        if "__class__" in free:  # a cell that all methods share
-            function.__closure__[free.index("__class__")].cell_contents = cls
-            return
+def _lead_super(cls: type, body: Mapping[str, object]) -> None:
+    """Let `super()` in the methods of `body` mean the class that has slots, not the one whose body was read."""
+    for member in body.values():
+        behind = _BEHIND.get(type(member))
+        function = getattr(member, behind) if behind else member
+        if type(function) is FunctionType and function.__closure__ is not None:
+            free = function.__code__.co_freevars
+            if "__class__" in free:  # a cell that all methods share
+                function.__closure__[free.index("__class__")].cell_contents = cls
+                return
 
 
 # ---- fields ----------------------------------------------------------------------------------------------------
@@ -260,6 +258,19 @@ class _Described:
         cls.__dataclass_params__ = described.__dataclass_params__
         cls.__dataclass_fields__ = described.__dataclass_fields__
         return cls.__dataclass_fields__
+
+
+class _Positional:
+    """Stands for the fields that `__init__` takes, in order, until a pattern asks for them."""
+
+    def __get__(self, instance: object, owner: type) -> tuple[str, ...]:
+        cls = next(each for each in owner.__mro__ if each.__dict__.get("__match_args__") is self)
+        names = tuple(each.name for each in _fields_of(cls) if each.init)
+        type.__setattr__(cls, "__match_args__", names)
+        return names
+
+
+_DESCRIBED, _POSITIONAL = _Described(), _Positional()
 
 
 # ---- methods that are written ----------------------------------------------------------------------------------
