@@ -69,9 +69,10 @@ def form_of(lines: Sequence[str], headings: Iterable[int], default: Form) -> For
     if macro_header(lines) is not None:
         return Form.MACRO
     top = lines[:_HEADER_LINES]
-    if any(_COMMENT_HEADER.match(line) or _PATH_HEADER.match(line) for line in top):
+    comments = [line for line in top if line.lstrip().startswith(";")]
+    if any(_COMMENT_HEADER.match(line) or _PATH_HEADER.match(line) for line in comments):
         return Form.SINUMERIK
-    if any(_ARCHIVE_HEADER.match(lines[index]) for index in headings):
+    if any("_" in lines[index] and _ARCHIVE_HEADER.match(lines[index]) for index in headings):
         return Form.SINUMERIK
     return default
 
