@@ -42,11 +42,11 @@ LAYERS = (
     "cases",
     "cli",
 )
-#: Parts of polycnc that only some programs need.
+#: What only some programs need.
 NOT_AT_START = {
     "polycnc.compensation.cutter", "polycnc.language.bulk.scanner",
     "polycnc.transformation.couplings.coupled", "polycnc.transformation.planes.tilted",
-    "typer",
+    "ast", "datetime", "tomllib", "typer",
 }  # fmt: skip
 HEAVY = {"numpy", "numba", "pyarrow", "pydantic", "rich", "asyncua", "pygls", "nicegui"}
 MODULES = sorted(SOURCE.rglob("*.py"))
