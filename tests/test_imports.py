@@ -43,11 +43,11 @@ LAYERS = (
     "cases",
     "cli",
 )
-#: Parts of polycnc that only some programs need.
+#: What only some programs need.
 NOT_AT_START = {
     "polycnc.compensation.cutter", "polycnc.language.bulk.scanner",
     "polycnc.transformation.couplings.coupled", "polycnc.transformation.planes.tilted",
-    "typer",
+    "ast", "datetime", "tomllib", "typer",
 }  # fmt: skip
 #: Functions of each control that a program of a few moves does not use.
 NOT_USED = {

@@ -8,7 +8,7 @@ from __future__ import annotations
 import ctypes
 from functools import cached_property, partial
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar, cast
+from typing import TYPE_CHECKING, cast
 from zlib import crc32
 
 from polycnc.kernels import native
@@ -17,8 +17,9 @@ from polycnc.kernels.layout import Argument, Kind, Places, arguments, flat
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from types import ModuleType
+    from typing import TypeVar
 
-_F = TypeVar("_F", bound="Callable[..., object]")
+    _F = TypeVar("_F", bound=Callable[..., object])
 _DIGEST_BYTES = 4
 
 

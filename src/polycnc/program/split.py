@@ -20,6 +20,7 @@ from polycnc.program.program import Form, Program
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
+_BEGUN_AS_HEADING = regex(f"\n[{''.join(sorted(HEADING_STARTS))}]")
 _TAPE_MARK = regex(r"\s*%")
 _NUMBER = regex(r"\s*(?:%\s*)?(?:[oO]|:)[ \t]*(\d{1,9})(?![\d.])")
 _NAME = regex(r"\s*(?:%\s*)?<([A-Za-z0-9+\-_.]{1,32})>")
@@ -68,9 +69,10 @@ def form_of(lines: Sequence[str], headings: Iterable[int], default: Form) -> For
     if macro_header(lines) is not None:
         return Form.MACRO
     top = lines[:_HEADER_LINES]
-    if any(_COMMENT_HEADER.match(line) or _PATH_HEADER.match(line) for line in top):
+    comments = [line for line in top if line.lstrip().startswith(";")]
+    if any(_COMMENT_HEADER.match(line) or _PATH_HEADER.match(line) for line in comments):
         return Form.SINUMERIK
-    if any(_ARCHIVE_HEADER.match(lines[index]) for index in headings):
+    if any("_" in lines[index] and _ARCHIVE_HEADER.match(lines[index]) for index in headings):
         return Form.SINUMERIK
     return default
 
@@ -111,7 +113,17 @@ def split_channels(program: Program) -> dict[int, Program]:
 def _possible_headings(lines: Sequence[str]) -> Iterable[int]:
     if isinstance(lines, LongText):
         return lines.headings()
-    return [index for index, line in enumerate(lines) if line[:1] in HEADING_STARTS]
+    return _begun_as_headings("\n".join(("", *lines)))
+
+
+def _begun_as_headings(text: str) -> Iterator[int]:
+    """The lines that begin with a sign of headings; every line of `text` has a line feed in front."""
+    index, last = 0, 0
+    for found in _BEGUN_AS_HEADING.finditer(text):
+        at = found.start()
+        index += text.count("\n", last, at)
+        last = at
+        yield index
 
 
 def _program(source: Source, form: Form, lines: Sequence[str], first: int, end: int) -> Program:
