@@ -14,6 +14,7 @@ from contextlib import contextmanager
 from types import FunctionType, ModuleType
 from typing import TYPE_CHECKING, cast, get_type_hints
 
+from build_kernels.axes import give_usual_axes
 from polycnc.deferred.named_tuples import written
 from polycnc.kernels.layout import Argument, Kind, Places, arguments, flat
 
@@ -45,8 +46,10 @@ def object_code(library: Library) -> bytes:
         ImportError: Numba is not installed.
         TypeError: A kernel can raise.
     """
-    # Read when Numba is imported: it would make use of what only this processor has.
+    # Read when Numba is imported: it would make use of what only this processor has, and vectors of loops over axes,
+    # which are so few that this takes longer.
     os.environ["NUMBA_CPU_NAME"], os.environ["NUMBA_CPU_FEATURES"] = _processor(), ""
+    os.environ["NUMBA_LOOP_VECTORIZE"] = "0"
     from llvmlite import binding
     from numba import cfunc
 
@@ -59,6 +62,7 @@ def object_code(library: Library) -> bytes:
         part = binding.parse_assembly(source)
         part.get_function(made.native_name).name = kernel.__name__
         whole.link_in(part)
+    give_usual_axes(whole, library.kernels)
     return _optimised(whole, {library.digest_name, *(kernel.__name__ for kernel in library.kernels)})
 
 
