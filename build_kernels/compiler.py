@@ -46,13 +46,13 @@ def object_code(library: Library) -> bytes:
         ImportError: Numba is not installed.
         TypeError: A kernel can raise.
     """
-    # Read when Numba is imported: it would make use of what only this processor has, and vectors of loops over axes,
-    # which are so few that this takes longer.
+    # Read when Numba is imported: it would make use of what only this processor has.
     os.environ["NUMBA_CPU_NAME"], os.environ["NUMBA_CPU_FEATURES"] = _processor(), ""
-    os.environ["NUMBA_LOOP_VECTORIZE"] = "0"
     from llvmlite import binding
-    from numba import cfunc
+    from numba import cfunc, config
 
+    # Loops over axes are too short for vectors; those over characters, in libraries of one piece, are not.
+    config.LOOP_VECTORIZE = 1 if library.inline else 0
     functions = _compiled(library.modules, inline=library.inline)
     whole = binding.parse_assembly(_digest(library))
     for kernel in library.kernels:
@@ -62,7 +62,8 @@ def object_code(library: Library) -> bytes:
         part = binding.parse_assembly(source)
         part.get_function(made.native_name).name = kernel.__name__
         whole.link_in(part)
-    give_usual_axes(whole, library.kernels)
+    if not library.inline:
+        give_usual_axes(whole, library.kernels)
     return _optimised(whole, {library.digest_name, *(kernel.__name__ for kernel in library.kernels)})
 
 
