@@ -14,6 +14,7 @@ from contextlib import contextmanager
 from types import FunctionType, ModuleType
 from typing import TYPE_CHECKING, cast, get_type_hints
 
+from build_kernels.axes import give_usual_axes
 from polycnc.deferred.named_tuples import written
 from polycnc.kernels.layout import Argument, Kind, Places, arguments, flat
 
@@ -48,8 +49,10 @@ def object_code(library: Library) -> bytes:
     # Read when Numba is imported: it would make use of what only this processor has.
     os.environ["NUMBA_CPU_NAME"], os.environ["NUMBA_CPU_FEATURES"] = _processor(), ""
     from llvmlite import binding
-    from numba import cfunc
+    from numba import cfunc, config
 
+    # Loops over axes are too short for vectors; those over characters, in libraries of one piece, are not.
+    config.LOOP_VECTORIZE = 1 if library.inline else 0
     functions = _compiled(library.modules, inline=library.inline)
     whole = binding.parse_assembly(_digest(library))
     for kernel in library.kernels:
@@ -59,6 +62,8 @@ def object_code(library: Library) -> bytes:
         part = binding.parse_assembly(source)
         part.get_function(made.native_name).name = kernel.__name__
         whole.link_in(part)
+    if not library.inline:
+        give_usual_axes(whole, library.kernels)
     return _optimised(whole, {library.digest_name, *(kernel.__name__ for kernel in library.kernels)})
 
 

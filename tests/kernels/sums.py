@@ -54,6 +54,14 @@ def put(values: Floats, last: bool) -> None:
     values[Room.LAST if last else Room.FIRST] = 7.0
 
 
+def go(position: Floats, way: Floats, times: int) -> int:
+    """Move all axes; gives their number."""
+    n = len(position)
+    for i in range(n):
+        position[i] += times * way[i] / n
+    return n
+
+
 def refuse(values: Floats) -> int:
     """Does what machine code cannot."""
     if values[0] < 0.0:

@@ -38,7 +38,7 @@ def wanted(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def library(file: Path) -> Library:
-    return Library("sums", (sums,), (sums.add, sums.put), file=file)
+    return Library("sums", (sums,), (sums.add, sums.put, sums.go), file=file)
 
 
 def given() -> tuple[sums.Columns, sums.Total]:
@@ -61,6 +61,26 @@ def test_a_kernel_that_gives_nothing_can_be_called(file: Path) -> None:
     assert compiled is not None
     compiled(values, True)
     assert list(values) == [0.0, 7.0, 0.0]
+
+
+@pytest.mark.parametrize("axes", [1, 2, 3, 4, 6])
+def test_a_kernel_gives_the_same_for_the_usual_number_of_axes_and_any_other(file: Path, axes: int) -> None:
+    compiled = library(file).compiled(sums.go)
+    assert compiled is not None
+    here, there, way = (
+        array("d", range(axes)),
+        array("d", range(axes)),
+        array("d", [0.1 * i for i in range(8)]),
+    )
+    assert compiled(here, way, 7) == sums.go(there, way, 7) == axes
+    assert here == there
+
+
+def test_only_kernels_that_are_told_how_many_axes_there_are_have_code_for_the_usual_number() -> None:
+    pytest.importorskip("llvmlite")
+    from build_kernels.axes import counts_of_axes
+
+    assert [counts_of_axes(kernel) for kernel in (sums.add, sums.put, sums.go)] == [[], [], [1]]
 
 
 def test_nothing_but_kernels_and_their_digest_can_be_seen_from_outside(file: Path) -> None:
