@@ -65,8 +65,8 @@ class Library:
         return [import_module(name) for name in self.module_names]
 
     @cached_property
-    def lack(self) -> native.Lack | None:
-        """Why there is no machine code; None where there is."""
+    def lack(self) -> str | None:
+        """Why there is no machine code (`native.Lack`); None where there is."""
         if native.load(self._file) is None:
             return native.Lack.MISSING if native.is_wanted() else native.Lack.CHOSEN
         described = self._described
