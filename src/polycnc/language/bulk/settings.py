@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 #: Rows that one call of the kernel may give.
 ROOMS = 16_384
 #: Programs shorter than this are left to the interpreter.
-FEWEST_LINES = 1_000
+FEWEST_LINES = 500
 
 
 @unchanging
