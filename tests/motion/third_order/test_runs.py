@@ -149,6 +149,7 @@ def test_memory_is_that_of_windows() -> None:
         tracemalloc.stop()
         return most
 
+    peak(2400)  # calls of compiled kernels are written out once they are many
     assert peak(2400) < 1.1 * peak(800)
 
 

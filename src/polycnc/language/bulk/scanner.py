@@ -5,7 +5,7 @@ from __future__ import annotations
 from array import array
 from functools import cached_property
 from math import inf
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Protocol
 
 from polycnc.channel.states.unchanging import unchanging
 from polycnc.deferred.named_tuples import NamedTuple
@@ -19,15 +19,15 @@ from polycnc.toolpath.kinds import CURVE_WIDTH
 from polycnc.toolpath.table import CHUNK_ROWS
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Hashable, Iterable
+    from collections.abc import Callable, Hashable, Iterable, Sequence
 
     from polycnc.channel.channel import Channel
     from polycnc.geometry.frames import Frame
     from polycnc.kernels.layout import Floats
     from polycnc.language.bulk.guard import Guard
-    from polycnc.language.bulk.recipe import Drilled
-    from polycnc.language.bulk.routines.running import RunningRoutines
-    from polycnc.language.bulk.scannable import Dialect, ScannedChannel
+    from polycnc.language.bulk.recipe import Drilled, Recipe, Spelling
+    from polycnc.language.bulk.routines.running import RoutineDialect, RunningRoutines
+    from polycnc.language.bulk.scannable import ScannedChannel
 
 #: A run of so many blocks is worth its beginning.
 WORTHWHILE = 16
@@ -41,6 +41,68 @@ ROWS_PER_NOTE = 4
 #: Blocks that are scanned for stages at a time, twice as many behind each run that had no end among them: what is
 #: scanned behind the end of a run is scanned again.
 FEWEST_AHEAD = 128
+
+
+class Dialect(Protocol):
+    """What a control tells of its plain blocks; its `plain_blocks(channel)` gives one, or None.
+
+    Attributes:
+        spelling: How its text looks.
+    """
+
+    spelling: Spelling
+
+    @property
+    def routines(self) -> RoutineDialect | None:
+        """What it tells of programs that are called and of loops; None where these are the interpreter's.
+
+        A program that has none of them does not ask.
+        """
+
+    def ready(self, channel: Channel) -> bool:
+        """Whether plain blocks may be scanned now: nothing watches single blocks or holds moves back."""
+
+    def generation(self, channel: Channel) -> Hashable:
+        """Something that changes when recipes given before no longer hold."""
+
+    def state(self, channel: Channel) -> Hashable:
+        """The modal state that holds."""
+
+    def enter(self, channel: Channel, state: Any) -> None:
+        """Bring the modal state about that blocks have left."""
+
+    def recipe(self, channel: Channel, keys: Sequence[int], line: str) -> Recipe | None:
+        """What a block of a shape does in the channel's modal state; None for one that is not plain."""
+
+    def owes(self, channel: Channel) -> bool:
+        """Whether incremental words are still owed something."""
+
+    def limits(self, channel: Channel) -> Sequence[tuple[float, float]]:
+        """Machine positions of every axis beyond which the interpreter decides; nothing where none has a limit."""
+
+    def tolerance(self, channel: Channel) -> float:
+        """Allowed difference between the radii at an arc's start and end, mm."""
+
+    def recipe_of_step(self, channel: Channel, code: Any, step: int, keys: Sequence[int]) -> Recipe | None:
+        """As `recipe`, for a block of a routine."""
+
+    def numbered(self, channel: Channel) -> int:
+        """Variables below this number may be named by their numbers in text."""
+
+    def put_variables(self, channel: Channel, variables: Floats) -> None:
+        """Give the kernel the variables that formulas may read, by number; not a number for a vacant one."""
+
+    def tool(self, channel: Channel) -> Sequence[float]:
+        """What must be known to stand the tool along a direction; nothing where no block names one."""
+
+    def drilled(self, channel: Channel) -> Drilled | None:
+        """The strokes of the next hole; None where the interpreter drills."""
+
+    def turned(self, channel: Channel, start: list[float], end: list[float]) -> None:
+        """Blocks have stood the tool along directions, the last one between two positions."""
+
+    def moved(self, channel: Channel, last: LastMoves) -> None:
+        """Blocks have moved the channel; for controls that remember how."""
 
 
 class LastMoves(NamedTuple):

@@ -12,8 +12,7 @@ if TYPE_CHECKING:
 
     from polycnc.channel.channel import Channel
     from polycnc.language.bulk.layout import Columns, State, Tables
-    from polycnc.language.bulk.scannable import Dialect
-    from polycnc.language.bulk.scanner import Scanner
+    from polycnc.language.bulk.scanner import Dialect, Scanner
 
 #: Rows that one call of the kernel may give.
 ROOMS = 16_384
