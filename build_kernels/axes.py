@@ -8,7 +8,7 @@ from __future__ import annotations
 from inspect import signature
 from typing import TYPE_CHECKING
 
-from polycnc.kernels.layout import Argument, Kind, arguments, flat
+from build_kernels.arguments import Argument, Kind, arguments, flat
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sequence

@@ -6,8 +6,7 @@ from ctypes import Structure
 from typing import Annotated, NamedTuple
 
 from polycnc.kernels.layout import Floats, Ints32, Places, place, record
-
-HALF = 0.5
+from tests.kernels.halves import HALF
 
 
 class Room(Places):

@@ -19,9 +19,8 @@ from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.motion.kernels.columns import PLACES, UNEVEN_FORMS, Form, PieceRecord, piece_width
 from polycnc.motion.time_constants import Use
 from polycnc.toolpath import Kind
-from polycnc.toolpath.kinds import HELIX_KINDS, RAPID_KINDS
+from polycnc.toolpath.kinds import CURVE_WIDTH, HELIX_KINDS, RAPID_KINDS
 from polycnc.toolpath.modes import FeedMode
-from polycnc.toolpath.table import CURVE_WIDTH
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

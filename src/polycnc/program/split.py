@@ -8,7 +8,8 @@ blocks costs little more than its list of lines.
 from __future__ import annotations
 
 import re
-from itertools import pairwise
+from itertools import compress, count, pairwise
+from operator import itemgetter
 from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass, replace
@@ -20,7 +21,7 @@ from polycnc.program.program import Form, Program
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
-_BEGUN_AS_HEADING = regex(f"\n[{''.join(sorted(HEADING_STARTS))}]")
+_FIRST_SIGN = itemgetter(slice(1))
 _TAPE_MARK = regex(r"\s*%")
 _NUMBER = regex(r"\s*(?:%\s*)?(?:[oO]|:)[ \t]*(\d{1,9})(?![\d.])")
 _NAME = regex(r"\s*(?:%\s*)?<([A-Za-z0-9+\-_.]{1,32})>")
@@ -113,17 +114,7 @@ def split_channels(program: Program) -> dict[int, Program]:
 def _possible_headings(lines: Sequence[str]) -> Iterable[int]:
     if isinstance(lines, LongText):
         return lines.headings()
-    return _begun_as_headings("\n".join(("", *lines)))
-
-
-def _begun_as_headings(text: str) -> Iterator[int]:
-    """The lines that begin with a sign of headings; every line of `text` has a line feed in front."""
-    index, last = 0, 0
-    for found in _BEGUN_AS_HEADING.finditer(text):
-        at = found.start()
-        index += text.count("\n", last, at)
-        last = at
-        yield index
+    return list(compress(count(), map(HEADING_STARTS.__contains__, map(_FIRST_SIGN, lines))))
 
 
 def _program(source: Source, form: Form, lines: Sequence[str], first: int, end: int) -> Program:

@@ -17,8 +17,8 @@ from polycnc.language.bulk import (
 )
 from polycnc.language.bulk.formulas.postfix import OtherError
 from polycnc.language.bulk.formulas.typed_postfix import TypedPostfix
-from polycnc.language.bulk.kernels import ASSIGNED
 from polycnc.language.bulk.layout import (
+    ASSIGNED,
     CR_FORM,
     CR_FORMULA,
     DIRECTION_FORM,

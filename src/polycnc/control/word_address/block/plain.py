@@ -41,14 +41,16 @@ class PlainBlocks:
 
     Attributes:
         spelling: How the control's text looks.
-        routines: What the scanner asks of programs that are called; None where the interpreter calls them.
     """
-
-    routines: RoutineDialect | None = None
 
     def __init__(self, spelling: Spelling) -> None:
         self.spelling = spelling
         self._conditions = Conditions()
+
+    @property
+    def routines(self) -> RoutineDialect | None:
+        """What the scanner asks of programs that are called; None where the interpreter calls them."""
+        return None
 
     def ready(self, channel: WordAddressChannel) -> bool:
         """Single blocks are watched; forbidden zones, unrolled surfaces and most held moves are not."""
