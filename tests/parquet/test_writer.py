@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from pyarrow import parquet
 
 from polycnc.parquet import pages
-from polycnc.parquet.compiled import LIBRARY, PLAIN
+from polycnc.parquet.compiled import LIBRARY, Kernels
 from polycnc.parquet.schema import Content, Field
 from polycnc.parquet.writer import Writer
 from tests.kernels.strict import strict
@@ -153,7 +153,7 @@ def test_what_slots_hold_from_before_does_not_matter() -> None:
 @pytest.mark.skipif(LIBRARY.lack is not None, reason="kernels are not compiled")
 def test_compiled_kernels_find_and_write_the_same() -> None:
     random = Random(2)
-    compact, index, pack, steps = (cast("Any", LIBRARY.compiled(each)) for each in PLAIN)
+    compact, index, pack, steps = (cast("Any", LIBRARY.compiled(each)) for each in Kernels._fields)
     for width in (1, 7, 13):
         places = array("i", (random.randrange(1 << width) for _ in range(1003)))
         values = [place / 3 - 5 for place in places]

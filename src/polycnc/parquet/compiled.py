@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.kernels.library import Library
-from polycnc.parquet import pages
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -24,16 +23,13 @@ class Kernels(NamedTuple):
 
 LIBRARY = Library(
     "parquet",
-    (pages,),
-    (pages.drop_nulls, pages.index_values, pages.pack_places, pages.put_steps),
+    ("polycnc.parquet.pages",),
+    tuple(f"polycnc.parquet.pages.{name}" for name in Kernels._fields),
     inline=True,
 )
-PLAIN = Kernels._make(LIBRARY.kernels)
 
 
 @cache
 def kernels() -> Kernels:
     """The compiled kernels; the plain ones where there are none."""
-    if LIBRARY.lack is not None:
-        return PLAIN
-    return Kernels._make(map(LIBRARY.compiled, PLAIN))
+    return Kernels._make(map(LIBRARY.kernel, Kernels._fields))

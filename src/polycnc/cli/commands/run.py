@@ -123,7 +123,7 @@ def _say_if_slow(*, planned: bool) -> None:
 
         lack = PLANNING.lack
     if lack in (Lack.MISSING, Lack.STALE):
-        note(f"polycnc: {text(f'run.kernels.{lack.name.lower()}')}")
+        note(f"polycnc: {text(f'run.kernels.{lack}')}")
 
 
 def _usage_of(session: Session) -> Usage:

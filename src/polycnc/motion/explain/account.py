@@ -19,8 +19,7 @@ from polycnc.motion.explain.causes import EVEN, SAME, Cause, Part, asked_speed, 
 from polycnc.motion.kernels.columns import PLACES, UNEVEN_FORMS, Form, PieceRecord, piece_width
 from polycnc.motion.time_constants import Use
 from polycnc.toolpath import Kind
-from polycnc.toolpath.kinds import ARC_KINDS, RAPID_KINDS
-from polycnc.toolpath.table import CURVE_WIDTH
+from polycnc.toolpath.kinds import ARC_KINDS, CURVE_WIDTH, RAPID_KINDS
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.toolpath import Context, Kind
-from polycnc.toolpath.table import CURVE_WIDTH
+from polycnc.toolpath.kinds import CURVE_WIDTH
 
 if TYPE_CHECKING:
     from polycnc.motion.planner import Planner

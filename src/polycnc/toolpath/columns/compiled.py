@@ -6,15 +6,16 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 from polycnc.kernels.library import Library
-from polycnc.toolpath.columns import shown
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-LIBRARY = Library("columns", (shown,), (shown.show,), inline=True)
+LIBRARY = Library(
+    "columns", ("polycnc.toolpath.columns.shown",), ("polycnc.toolpath.columns.shown.show",), inline=True
+)
 
 
 @cache
 def show() -> Callable[..., int]:
     """The compiled kernel; the plain one where there is none."""
-    return LIBRARY.compiled(shown.show) or shown.show
+    return LIBRARY.kernel("show")

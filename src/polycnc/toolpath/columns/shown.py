@@ -10,8 +10,7 @@ from math import nan
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.kernels.layout import Bytes, Floats, Ints, Ints32, Words16
 from polycnc.toolpath.digits import STEPS
-from polycnc.toolpath.kinds import Kind
-from polycnc.toolpath.table import CURVE_WIDTH
+from polycnc.toolpath.kinds import CURVE_WIDTH, Kind
 
 #: Columns of what is shown. Positions by axis follow: work display, machine display, centres.
 TYPE, PROGRAM, UNIT, TOOL, FEED, TURNS, PLACES = 0, 1, 2, 3, 4, 5, 6
