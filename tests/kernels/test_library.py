@@ -144,7 +144,7 @@ def test_machine_code_holds_its_sources(file: Path) -> None:
     described = library(file)._described
     assert described is not None
     assert [name for name, _ in described._sources] == list(SOURCES)
-    assert described.signatures == {"add": "(di)*.", "put": "d#"}
+    assert described.signatures == {"add": "(di)*.", "put": "d#", "go": "dd#"}
 
 
 def test_machine_code_of_the_same_sources_is_run(file: Path, copied: Path) -> None:
@@ -179,7 +179,9 @@ def test_a_library_that_is_newer_than_the_machine_code_has_none(file: Path) -> N
 
 def test_where_there_is_machine_code_the_sources_are_not_imported(file: Path, tmp_path: Path) -> None:
     described = library(file)
-    unknown = Library("sums", ("no.such",), ("no.such.add", "no.such.put"), file=file, root=str(ROOT))
+    unknown = Library(
+        "sums", ("no.such",), ("no.such.add", "no.such.put", "no.such.go"), file=file, root=str(ROOT)
+    )
     assert described.compiled("put") is not None
     assert unknown.compiled("put") is not None
 
