@@ -7,7 +7,7 @@ CONTROLS := syntec-mill fanuc-m meldas-m sinumerik-840d fanuc-0i-tf
 
 # What machine code is made of.
 KERNELS := $(wildcard build_kernels/*.py src/polycnc/kernels/*.py src/polycnc/motion/kernels/*.py \
-  src/polycnc/language/bulk/*.py src/polycnc/toolpath/*.py)
+  src/polycnc/language/bulk/*.py src/polycnc/toolpath/*.py src/polycnc/toolpath/columns/*.py src/polycnc/parquet/*.py)
 
 .PHONY: help demo panel test kernels check fuzz bench features clean
 

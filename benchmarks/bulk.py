@@ -43,14 +43,13 @@ def scanner() -> Iterator[Figure]:
     from polycnc.channel.channel import Channel
     from polycnc.control.registry import control
     from polycnc.language.bulk.compiled import LIBRARY
-    from polycnc.language.bulk.kernels import scan
     from polycnc.language.bulk.settings import Bulk
     from polycnc.machine import load_machine
     from polycnc.machine.setup.values import Setup
     from polycnc.program import ProgramStore
     from polycnc.toolpath import Toolpath
 
-    if LIBRARY.compiled(scan) is None:
+    if LIBRARY.compiled("scan") is None:
         yield skipped("scanner", "this installation has no compiled kernels")
         return
     machine = load_machine("mill3")

@@ -17,12 +17,14 @@ FILES, FILES_LIMIT_S = 2_000, 2.0
 SHORT, LONG = 10_000, 100_000
 
 
-def _command(*arguments: str | Path) -> list[str]:
-    return [sys.executable, "-m", "polycnc", *map(str, arguments), "--control", "fanuc-m"]
+def _command(*arguments: str | Path, control: str = "fanuc-m") -> list[str]:
+    return [sys.executable, "-m", "polycnc", *map(str, arguments), "--control", control]
 
 
-def _write(path: Path, work: Work) -> Path:
-    path.write_text("\n".join(["%", "O0001", *work.ours, "%", ""]), encoding="ascii")
+def _write(path: Path, blocks: list[str]) -> Path:
+    """A program file; one of SINUMERIK, by its ending, is no tape."""
+    tape = (["%", "O0001"], ["%"]) if path.suffix == ".nc" else ([], [])
+    path.write_text("\n".join([*tape[0], *blocks, *tape[1], ""]), encoding="ascii")
     return path
 
 
@@ -35,30 +37,34 @@ def against_rs274() -> Iterator[Figure]:
 
 
 def _figures(work: Work, folder: Path, rs274: str | None) -> Iterator[Figure]:
-    ours, peer, setup = _write(folder / "ours.nc", work), folder / "peer.ngc", folder / "setup.yaml"
+    ours, peer, setup = _write(folder / "ours.nc", work.ours), folder / "peer.ngc", folder / "setup.yaml"
     peer.write_text("\n".join([*work.peer, ""]), encoding="ascii")
     setup.write_text(work.setup, encoding="ascii")
     with_setup = ("--setup", setup) if work.setup else ()
-    runs = {
-        options: _command("run", ours, *with_setup, *(str(folder / o) if "." in o else o for o in options))
-        for options in work.goals
-    }
+    first_goal = next(iter(work.goals.values()))
+    runs, goals = {}, {}
+    for options, goal in work.goals.items():
+        given = (str(folder / o) if "." in o else o for o in options)
+        name = f"{work.name}, {_said(options)}"
+        runs[name], goals[name] = _command("run", ours, *with_setup, *given), goal
+    for control, blocks in work.others.items():
+        ending = ".mpf" if control.startswith("sinumerik") else ".nc"
+        program = _write(folder / f"{control}{ending}", blocks)
+        name = f"{work.name} on {control}, {_said(NO_TIME)}"
+        runs[name], goals[name] = _command("run", program, *NO_TIME, control=control), first_goal
     used = dict.fromkeys(runs, float("inf"))
     theirs = float("inf")
     for _ in range(TURNS):
-        for options, run in runs.items():
-            used[options] = min(used[options], process_time(run, 1))
+        for name, run in runs.items():
+            used[name] = min(used[name], process_time(run, 1))
         if rs274 is not None:
             theirs = min(theirs, process_time([rs274, "-g", str(peer)], 1))
-    for options, goal in work.goals.items():
-        name = f"{work.name}, {_said(options)}"
+    for name, goal in goals.items():
         if rs274 is None:
-            yield skipped(
-                name, f"rs274 is not installed (Debian: linuxcnc-uspace); ours {used[options]:.2f} s"
-            )
+            yield skipped(name, f"rs274 is not installed (Debian: linuxcnc-uspace); ours {used[name]:.2f} s")
             continue
-        times = theirs / used[options]
-        said = f"{used[options]:.2f} s, rs274 {theirs:.2f} s: {times:.2f} times as fast, asked {goal:g}"
+        times = theirs / used[name]
+        said = f"{used[name]:.2f} s, rs274 {theirs:.2f} s: {times:.2f} times as fast, asked {goal:g}"
         yield Figure(name, said, times / goal, times)
 
 
@@ -74,8 +80,8 @@ def short_programs() -> Iterator[Figure]:
     used: dict[int, float] = {}
     with tempfile.TemporaryDirectory() as name:
         for count in (SHORT, LONG, 1):
-            part = Work(work.name, [*work.ours[: count + 4], "M30"], [], {})
-            used[count] = process_time(_command("run", _write(Path(name, f"{count}.nc"), part)), TURNS)
+            part = _write(Path(name, f"{count}.nc"), [*work.ours[: count + 4], "M30"])
+            used[count] = process_time(_command("run", part), TURNS)
     short, long = ((used[count] - used[1]) / count * 1e6 for count in (SHORT, LONG))
     said = f"{short:.2f} µs a block of {SHORT:,}, {long:.2f} of {LONG:,}"
     yield Figure("short programs with cycle time", said, long / max(short, 1e-9))

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+import re
+from dataclasses import dataclass, field, replace
 
 HEAD = ["G21 G17 G90 G94", "G54 G0 X0 Y0 Z10.", "M3 S8000", "G1 Z-1. F1000."]
 FOOT = ["M5", "M30"]
@@ -20,6 +21,7 @@ class Work:
         peer: Blocks for rs274.
         goals: For each list of options how many times as fast as the peer; the options of `polycnc run`.
         setup: Setup file.
+        others: Blocks for other controls, which run without cycle time and shall reach the first goal as well.
     """
 
     name: str
@@ -27,6 +29,7 @@ class Work:
     peer: list[str]
     goals: dict[tuple[str, ...], float]
     setup: str = ""
+    others: dict[str, list[str]] = field(default_factory=dict)
 
 
 def both(name: str, blocks: list[str], goals: dict[tuple[str, ...], float]) -> Work:
@@ -57,7 +60,20 @@ def lines(count: int = 1_000_000) -> Work:
         (*trace, "out.csv"): 3.0,
         (*trace, "out.jsonl"): 3.0,
     }
-    return both(f"{count:,} G1", cut(count), goals)
+    blocks = cut(count)
+    return replace(both(f"{count:,} G1", blocks, goals), others=_on_others(blocks))
+
+
+def _on_others(blocks: list[str]) -> dict[str, list[str]]:
+    """The same blocks for other controls; a lathe cuts them in its plane."""
+    in_plane = [re.sub(" Z[-.0-9]+", "", block).replace("Y", "Z") for block in blocks]
+    metric = ["G71 G17 G90 G94", *HEAD[1:]]
+    return {
+        "meldas-m": [*HEAD, *blocks, *FOOT],
+        "syntec-mill": [*metric, *blocks, *FOOT],
+        "sinumerik-840d": [*metric, *blocks, *FOOT],
+        "fanuc-0i-tf": ["G21 G18 G98", "G54 G0 X0 Z10.", "M3 S800", "G1 F1000.", *in_plane, *FOOT],
+    }
 
 
 def arcs() -> Work:

@@ -2,6 +2,6 @@
 
 - `hook`: what the build calls; what it needs, and the tag of the wheel.
 - `shared_object`: all libraries into one file; `python -m build_kernels` makes it in the source tree.
-- `compiler`: kernels to object code, by Numba.
+- `compiler`: kernels to object code, by Numba; `arguments` is what they take, `sources` what they are made of.
 - `linker`: object code to a shared object, by a C compiler.
 """

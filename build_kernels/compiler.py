@@ -14,8 +14,12 @@ from contextlib import contextmanager
 from types import FunctionType, ModuleType
 from typing import TYPE_CHECKING, cast, get_type_hints
 
+from build_kernels.arguments import Argument, Kind, arguments, flat, signature
+from build_kernels.axes import give_usual_axes
+from build_kernels.sources import contents
 from polycnc.deferred.named_tuples import written
-from polycnc.kernels.layout import Argument, Kind, Places, arguments, flat
+from polycnc.kernels.description import description
+from polycnc.kernels.layout import Places
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -38,8 +42,22 @@ _HELPERS = re.compile(
 _PYTHON = ("Py", "numba_", "NRT_")
 
 
-def object_code(library: Library) -> bytes:
+def described(library: Library) -> bytes:
+    """What the object says of a library.
+
+    Raises:
+        TypeError: A kernel takes what machine code cannot have.
+    """
+    signatures = {name: signature(arguments(library.plain(name))) for name in library.names}
+    return description(signatures, contents(library))
+
+
+def object_code(library: Library, about: bytes) -> bytes:
     """Compile the kernels of a library, for every processor of this machine's kind.
+
+    Args:
+        library: The library.
+        about: Its description.
 
     Raises:
         ImportError: Numba is not installed.
@@ -48,18 +66,23 @@ def object_code(library: Library) -> bytes:
     # Read when Numba is imported: it would make use of what only this processor has.
     os.environ["NUMBA_CPU_NAME"], os.environ["NUMBA_CPU_FEATURES"] = _processor(), ""
     from llvmlite import binding
-    from numba import cfunc
+    from numba import cfunc, config
 
+    # Loops over axes are too short for vectors; those over characters, in libraries of one piece, are not.
+    config.LOOP_VECTORIZE = 1 if library.inline else 0
     functions = _compiled(library.modules, inline=library.inline)
-    whole = binding.parse_assembly(_digest(library))
-    for kernel in library.kernels:
+    whole = binding.parse_assembly(_data(library.symbol, about))
+    for name in library.names:
+        kernel = library.plain(name)
         with _indices_from_the_start():
-            made = cfunc(_signature(kernel), error_model="numpy")(_entry(functions[kernel.__name__], kernel))
+            made = cfunc(_signature(kernel), error_model="numpy")(_entry(functions[name], kernel))
         source = _HELPERS.sub(r"define internal void @\1\2 { ret void }", made.inspect_llvm())
         part = binding.parse_assembly(source)
-        part.get_function(made.native_name).name = kernel.__name__
+        part.get_function(made.native_name).name = name
         whole.link_in(part)
-    return _optimised(whole, {library.digest_name, *(kernel.__name__ for kernel in library.kernels)})
+    if not library.inline:
+        give_usual_axes(whole, [library.plain(name) for name in library.names])
+    return _optimised(whole, {library.symbol, *library.names})
 
 
 @contextmanager
@@ -78,10 +101,10 @@ def _indices_from_the_start() -> Iterator[None]:
         slicing.fix_index = kept
 
 
-def _digest(library: Library) -> str:
-    """The digest of the sources as data of the object, in the words of LLVM."""
-    text = "".join(f"\\{byte:02x}" for byte in library.digest)
-    return f'@{library.digest_name} = constant [{len(library.digest)} x i8] c"{text}"\n'
+def _data(symbol: str, content: bytes) -> str:
+    """Data of the object, in the words of LLVM."""
+    text = "".join(f"\\{byte:02x}" for byte in content)
+    return f'@{symbol} = constant [{len(content)} x i8] c"{text}"\n'
 
 
 def _processor() -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from importlib import import_module
 from pathlib import Path
 
-from build_kernels.compiler import object_code
+from build_kernels.compiler import described, object_code
 from build_kernels.linker import link
 from polycnc.kernels import native
 from polycnc.kernels.library import Library
@@ -17,6 +17,8 @@ MODULES = (
     "polycnc.motion.compiled",
     "polycnc.motion.third_order.compiled",
     "polycnc.motion.third_order.laws.compiled",
+    "polycnc.parquet.compiled",
+    "polycnc.toolpath.columns.compiled",
     "polycnc.toolpath.compiled",
 )
 
@@ -43,4 +45,5 @@ def make() -> None:
         OSError: No linker, or no place to write to.
         subprocess.CalledProcessError: The linker refuses.
     """
-    link([object_code(library) for library in libraries()], native.FILE)
+    about = [(library, described(library)) for library in libraries()]  # before minutes pass
+    link([object_code(library, text) for library, text in about], native.FILE)

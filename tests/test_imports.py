@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING
 import pytest
 
 import polycnc
+from polycnc.language.bulk.compiled import LIBRARY as BULK
+from polycnc.motion.compiled import LIBRARY as PLANNING
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -21,6 +23,7 @@ SOURCE = Path(polycnc.__file__).parent
 LAYERS = (
     "deferred",
     "kernels",
+    "parquet",
     "messages",
     "geometry",
     "machine",
@@ -42,12 +45,36 @@ LAYERS = (
     "cases",
     "cli",
 )
-#: Parts of polycnc that only some programs need.
+#: What only some programs need.
 NOT_AT_START = {
     "polycnc.compensation.cutter", "polycnc.language.bulk.scanner",
     "polycnc.transformation.couplings.coupled", "polycnc.transformation.planes.tilted",
-    "typer",
+    "ast", "datetime", "tomllib", "typer",
 }  # fmt: skip
+#: Functions of each control that a program of a few moves does not use.
+NOT_USED = {
+    "fanuc-m": (
+        "word_address.transformations.tilted_plane",
+        "word_address.macro_b.macro_calls",
+        "fanuc.milling.five_axes",
+    ),
+    "meldas-m": (
+        "word_address.transformations.tilted_plane",
+        "word_address.motion.nurbs",
+        "meldas.tool_axis_length",
+    ),
+    "syntec-mill": ("syntec.five_axes.tip_control", "syntec.macros.functions", "word_address.motion.nurbs"),
+    "fanuc-0i-tf": (
+        "fanuc.lathe.cycles.repetitive",
+        "fanuc.lathe.cycles.shape",
+        "fanuc.lathe.tools.nose_radius",
+    ),
+    "sinumerik-840d": (
+        "sinumerik.variables.registry",
+        "sinumerik.block.procedures",
+        "sinumerik.tools.stages",
+    ),
+}
 HEAVY = {"numpy", "numba", "pyarrow", "pydantic", "rich", "asyncua", "pygls", "nicegui"}
 MODULES = sorted(SOURCE.rglob("*.py"))
 FOLDERS = [path.parent for path in MODULES if path.name == "__init__.py" and path.parent != SOURCE]
@@ -175,3 +202,37 @@ def test_a_small_run_loads_no_heavy_library(tmp_path: Path, command: str) -> Non
         f"from polycnc.cli import main\ntry: main({words!r})\nexcept SystemExit as left: assert not left.code"
     )
     assert loaded_by(probe, tmp_path) & (HEAVY | NOT_AT_START) == set()
+
+
+@pytest.mark.parametrize("control_id", NOT_USED)
+def test_a_control_loads_no_function_that_a_program_does_not_use(tmp_path: Path, control_id: str) -> None:
+    (tmp_path / "part.nc").write_text("G90 G0 X1.\nZ5.\nG1 X2. F100.\nM30\n", encoding="utf-8")
+    words = ["run", "part.nc", "--control", control_id]
+    probe = (
+        f"from polycnc.cli import main\ntry: main({words!r})\nexcept SystemExit as left: assert not left.code"
+    )
+    unused = {f"polycnc.control.{name}" for name in NOT_USED[control_id]} | {"polycnc.compensation.corner"}
+    assert loaded_by(probe, tmp_path) & (HEAVY | unused) == set()
+
+
+#: Modules with nothing but kernels.
+KERNELS = (
+    "language.bulk.kernels", "language.bulk.moves", "language.bulk.numerals", "language.bulk.formulas.reading",
+    "language.bulk.routines.flow", "language.bulk.reach", "motion.kernels.lay", "motion.kernels.speeds",
+    "motion.kernels.chords", "motion.kernels.arcs", "motion.third_order.laying.rows",
+)  # fmt: skip
+#: What a program of straight moves does not use of the scanner.
+UNUSED = ("language.bulk.guard", "language.bulk.staged", "language.bulk.routines.running")
+
+
+@pytest.mark.skipif(BULK.lack is not None or PLANNING.lack is not None, reason="needs compiled kernels")
+def test_where_kernels_are_compiled_their_modules_are_not_loaded(tmp_path: Path) -> None:
+    moves = "".join(f"X{i}. Y{i % 7}.\n" for i in range(600))
+    (tmp_path / "part.nc").write_text(f"O1\nG90 G1 F500.\n{moves}M30\n", encoding="utf-8")
+    words = ["run", "part.nc", "--control", "fanuc-m"]
+    probe = (
+        f"from polycnc.cli import main\ntry: main({words!r})\nexcept SystemExit as left: assert not left.code"
+    )
+    loaded = loaded_by(probe, tmp_path)
+    assert {"polycnc.language.bulk.scanner", "polycnc.motion.planner"} <= loaded
+    assert [name for name in (*KERNELS, *UNUSED) if f"polycnc.{name}" in loaded] == []

@@ -4,14 +4,19 @@ from __future__ import annotations
 
 import io
 import sys
-from typing import TYPE_CHECKING
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any
+
+import pytest
 
 from polycnc.cli import progress
-from polycnc.cli.progress import Waiting, WaitingForRun
+from polycnc.cli.console import say
+from polycnc.cli.progress import Reached, Waiting, WaitingForRun, Watch, watched
+from polycnc.messages.catalogue import set_language
 from polycnc.session import open_session
 
 if TYPE_CHECKING:
-    import pytest
+    from collections.abc import Iterator
 
 
 class Terminal(io.StringIO):
@@ -21,51 +26,178 @@ class Terminal(io.StringIO):
         return True
 
 
+@pytest.fixture(autouse=True)
+def _nobody_looks_on() -> Iterator[None]:
+    yield
+    Watch.of_command = None
+    set_language("en")
+
+
 def terminal(monkeypatch: pytest.MonkeyPatch) -> Terminal:
+    """Within the test: between its phases pytest takes standard error back."""
     seen = Terminal()
     monkeypatch.setattr(sys, "stderr", seen)
     monkeypatch.setenv("TERM", "xterm")
     monkeypatch.setenv("COLUMNS", "120")
+    monkeypatch.setattr(progress, "monotonic", lambda: 0.0)
     return seen
 
 
 def test_long_work_tells_rate_and_time_left(monkeypatch: pytest.MonkeyPatch) -> None:
     seen = terminal(monkeypatch)
-    times = iter((0.0, 2.0, 4.0))
-    monkeypatch.setattr(progress, "monotonic", lambda: next(times))
-    with Waiting("part.nc", 1000, "lines") as waiting:
-        waiting.reach(100)
-        waiting.reach(100)
-        assert waiting._bar is not None
-        waiting._bar[0].refresh()
+    watch, waiting = Watch("polycnc check"), Waiting("part.nc", 1000, "files")
+    waiting.reach(50)
+    watch.look(waiting, 2.0)
+    waiting.reach(100)
+    watch.look(waiting, 4.0)
+    watch.end()
     assert "part.nc" in seen.getvalue()
-    assert "25 lines/s, 0:36 left" in seen.getvalue()
+    assert "10%  25 files/s, 0:36 left" in seen.getvalue()
+
+
+def test_the_rate_is_told_in_the_language_of_the_user(monkeypatch: pytest.MonkeyPatch) -> None:
+    seen = terminal(monkeypatch)
+    watch, waiting = Watch("polycnc check"), Waiting("part.nc", 1000, "files")
+    waiting.reach(100)
+    set_language("zh-TW")
+    watch.look(waiting, 4.0)
+    watch.end()
+    assert "每秒 25 個檔案，剩餘 0:36" in seen.getvalue()
 
 
 def test_what_is_done_within_a_second_shows_no_bar(monkeypatch: pytest.MonkeyPatch) -> None:
     seen = terminal(monkeypatch)
-    with Waiting("part.nc", 1000, "lines") as waiting:
-        waiting.reach(999)
+    watch, waiting = Watch("polycnc check"), Waiting("part.nc", 1000, "files")
+    waiting.reach(999)
+    watch.look(waiting, 0.9)
+    watch.end()
     assert seen.getvalue() == ""
 
 
-def test_a_pipe_gets_no_bar(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_command_that_tells_nothing_shows_how_long_it_has_lasted(monkeypatch: pytest.MonkeyPatch) -> None:
+    seen = terminal(monkeypatch)
+    watch = Watch("polycnc data")
+    watch.look(watch.works[-1], 72.0)
+    watch.end()
+    assert "polycnc data" in seen.getvalue()
+    assert "1:12" in seen.getvalue()
+
+
+def test_a_rate_that_nobody_sees_any_more_is_not_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    seen = terminal(monkeypatch)
+    watch, waiting = Watch("polycnc check"), Waiting("part.nc", 1000, "files")
+    waiting.reach(100)
+    watch.look(waiting, 4.0)
+    watch.look(waiting, 64.0)
+    watch.end()
+    assert seen.getvalue().split("10%")[-1].startswith("  1:04")
+
+
+def test_a_pipe_gets_no_bar_and_no_thread(monkeypatch: pytest.MonkeyPatch) -> None:
     pipe = io.StringIO()
     monkeypatch.setattr(sys, "stderr", pipe)
     monkeypatch.setattr(progress, "PATIENCE_S", 0.0)
-    with Waiting("part.nc", 1000, "lines") as waiting:
+    monkeypatch.setattr(Watch, "begin", lambda _: pytest.fail("somebody looks"))
+    with watched("polycnc check"), Waiting("part.nc", 1000, "files") as waiting:
+        assert Watch.of_command is None
         waiting.reach(999)
     assert pipe.getvalue() == ""
 
 
-def test_a_run_is_as_far_as_its_main_program(monkeypatch: pytest.MonkeyPatch) -> None:
-    terminal(monkeypatch)
-    monkeypatch.setattr(progress, "PATIENCE_S", 0.0)
-    text = "O1\nG91 G1 F100.\n" + "X1.\n" * 70_000 + "M30\n"
-    session = open_session(text, control="fanuc-m", keep=False)
-    with WaitingForRun(session) as waiting:
-        assert session.run(waiting).ok
-        assert waiting._bar is not None
-        (task,) = waiting._bar[0].tasks
-    assert task.total == 70_003
-    assert 60_000 < task.completed < 70_003
+def test_a_result_is_written_where_it_belongs_and_the_bar_makes_room(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    seen = terminal(monkeypatch)
+    watch = Watch.of_command = Watch("polycnc test")
+    watch.look(Waiting("polycnc test", 10, "cases"), 2.0)
+    say("FAILED")
+    assert capsys.readouterr().out == "FAILED\n"
+    assert seen.getvalue().endswith("\x1b[2K")
+    watch.end()
+
+
+def test_the_work_that_was_begun_last_is_shown(monkeypatch: pytest.MonkeyPatch) -> None:
+    seen = terminal(monkeypatch)
+    assert seen.getvalue() == ""
+    watch = Watch.of_command = Watch("polycnc run")
+    with Waiting("part.nc", 10, "rows") as waiting:
+        assert watch.works[-1] is waiting
+    assert watch.works[-1].what == "polycnc run"
+    progress.end()
+    assert watch.works == []
+
+
+def test_parts_are_counted_as_they_are_taken() -> None:
+    waiting = Waiting("part.nc", 4, "rows")
+    for part in waiting.each("abcd"):
+        assert waiting.reached(0.0) == Reached("rows", "abcd".index(part), "abcd".index(part) / 4)
+
+
+# ---- a run -----------------------------------------------------------------------------------------------------------
+
+
+def run_of(lines: int) -> tuple[WaitingForRun, Any]:
+    """What is told of a run of a program with so many lines, and its session: at line `at`, after `blocks`."""
+    main = SimpleNamespace(code=SimpleNamespace(line=lambda index: index + 1), current=0)
+    session: Any = SimpleNamespace(
+        result=SimpleNamespace(program=SimpleNamespace(name="O1", first_line=1, lines=[""] * lines)),
+        channel=SimpleNamespace(stack=[main], blocks=0),
+        main_run=None,
+    )
+    return WaitingForRun(session), session
+
+
+@pytest.fixture
+def _at_zero(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(progress, "monotonic", lambda: 0.0)
+
+
+@pytest.mark.usefixtures("_at_zero")
+def test_a_run_is_as_far_as_its_main_program() -> None:
+    waiting, session = run_of(1000)
+    for second in range(1, 9):
+        session.channel.stack[0].current = session.channel.blocks = 100 * second
+        assert waiting.reached(float(second)) == Reached("blocks", 100 * second, second / 10)
+
+
+@pytest.mark.usefixtures("_at_zero")
+def test_in_a_loop_nobody_knows_the_time_left_until_lines_come_that_are_new() -> None:
+    waiting, session = run_of(1000)
+    main, reached = session.channel.stack[0], None
+    for tenth in range(100):  # lines 100 to 109, again and again
+        main.current, session.channel.blocks = 100 + tenth % 10, 1000 * tenth
+        reached = waiting.reached(0.1 * tenth)
+    assert reached == Reached("blocks", 99_000, None)
+    main.current = 300
+    assert waiting.reached(10.0) == Reached("blocks", 99_000, 0.3)
+
+
+@pytest.mark.usefixtures("_at_zero")
+def test_work_that_counts_as_a_whole_is_no_loop() -> None:
+    """The planner takes a chunk: neither blocks nor lines go on meanwhile."""
+    waiting, session = run_of(1000)
+    session.channel.stack[0].current = session.channel.blocks = 500
+    reached = [waiting.reached(0.2 * k) for k in range(5, 500)]
+    assert reached[-1] == Reached("blocks", 500, 0.5)
+
+
+@pytest.mark.usefixtures("_at_zero")
+def test_a_run_by_the_clock_tells_seconds_of_machining() -> None:
+    waiting, session = run_of(10)
+    session.main_run, reached = SimpleNamespace(seconds=90.0), None
+    for tenth in range(100):
+        session.main_run.seconds = 30.0 * tenth
+        reached = waiting.reached(0.1 * tenth)
+    assert reached == Reached("seconds", 2970.0, None)
+
+
+@pytest.mark.usefixtures("_at_zero")
+def test_a_sampled_run_is_as_far_as_its_samples() -> None:
+    session = open_session("O1\nG91 G1 F6000.\n" + "X1.\n" * 100 + "M30\n", control="fanuc-m", keep=False)
+    sampler = session.sample(0.001, lambda _: None)
+    waiting = WaitingForRun(session, sampler)
+    result = session.run()
+    result.plan  # noqa: B018 - gives the samples
+    sampler.close()
+    assert sampler.line == 102
+    assert waiting.reached(0.0) == Reached("samples", sampler.count, 101 / 103)

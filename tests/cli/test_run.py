@@ -140,13 +140,23 @@ def test_the_trace_is_parquet_by_its_suffix(console: Console) -> None:
     assert "cw" in table.column("type").to_pylist()
 
 
+def test_parquet_needs_no_library(console: Console, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("numpy", "pyarrow", "pyarrow.parquet"):
+        monkeypatch.setitem(sys.modules, name, None)
+    console.file("good.nc", GOOD)
+    assert console("run", "good.nc", "--control", "fanuc-m", "--trace", "out.parquet").status == 0
+    content = (console.folder / "out.parquet").read_bytes()
+    assert (content[:4], content[-4:]) == (b"PAR1", b"PAR1")
+
+
 def test_a_trace_without_its_library_says_what_to_install_and_leaves_no_file(
     console: Console, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    for name in ("pyarrow", "pyarrow.parquet"):
-        monkeypatch.setitem(sys.modules, name, None)
-    console.file("good.nc", GOOD)
-    said = console("run", "good.nc", "--control", "fanuc-m", "--trace", "out.parquet")
+    monkeypatch.setitem(sys.modules, "numpy", None)
+    console.file("polar.nc", "%\nO1\nG94 G90 G01 X20. C0 F100\nG12.1\nG01 C20.\nG13.1\nM30\n%\n")
+    said = console(
+        "run", "polar.nc", "--control", "fanuc-m", "--machine", "mill4-xyzc", "--trace", "out.parquet"
+    )
     assert said.status == 2
     assert "polycnc[tables]" in said.err
     assert not (console.folder / "out.parquet").exists()

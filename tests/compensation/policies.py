@@ -9,10 +9,12 @@ from polycnc.compensation.policy import Approach, Policy
 from polycnc.control.fanuc.lathe.tools.nose_radius import TYPE_A as FANUC_A
 from polycnc.control.sinumerik.tools.stages import CORNERS as SINUMERIK_CORNERS
 from polycnc.control.sinumerik.tools.stages import POLICIES
-from polycnc.control.word_address.machining_centre import HARTFORD
+from polycnc.control.word_address.machining_centre import hartford
 
-__all__ = ["FANUC_A", "HARTFORD", "SINUMERIK_CORNERS"]
+__all__ = ["FANUC_A", "SINUMERIK_CORNERS"]
 
+#: Hartford machining centres, FANUC and MELDAS.
+HARTFORD = hartford()
 FANUC_B = replace(FANUC_A, approach=Approach.CORNER)
 FANUC_C = replace(FANUC_A, shifts_without_motion=True)
 FANUC_CORNERS = CornerPolicy()

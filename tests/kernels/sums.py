@@ -6,8 +6,7 @@ from ctypes import Structure
 from typing import Annotated, NamedTuple
 
 from polycnc.kernels.layout import Floats, Ints32, Places, place, record
-
-HALF = 0.5
+from tests.kernels.halves import HALF
 
 
 class Room(Places):
@@ -52,6 +51,14 @@ def weigh(columns: Columns, total: Total, i: int) -> None:
 def put(values: Floats, last: bool) -> None:
     """Mark a place."""
     values[Room.LAST if last else Room.FIRST] = 7.0
+
+
+def go(position: Floats, way: Floats, times: int) -> int:
+    """Move all axes; gives their number."""
+    n = len(position)
+    for i in range(n):
+        position[i] += times * way[i] / n
+    return n
 
 
 def refuse(values: Floats) -> int:

@@ -1,33 +1,46 @@
-"""Kernels as machine code: how they are called, and when there are none."""
+"""Kernels as machine code: how they are called, when there are none, and what machine code says of itself."""
 
 from __future__ import annotations
 
 from array import array
 from ctypes import Structure
 from pathlib import Path
-from typing import Annotated, NamedTuple
+from typing import Annotated
 
 import pytest
 
-from polycnc.kernels import native
-from polycnc.kernels.layout import Bytes, Floats, Ints32, Kind, Places, arguments, place, record
+from polycnc.kernels import call, native
+from polycnc.kernels.layout import Floats, Places, place, record
 from polycnc.kernels.library import Library
 from polycnc.kernels.native import Lack
 from tests.kernels import sums
+
+ROOT = Path(__file__).resolve().parents[2]
+#: What the machine code of `sums` is made of.
+SOURCES = ("src/polycnc/kernels/layout.py", "tests/kernels/halves.py", "tests/kernels/sums.py")
 
 
 @pytest.fixture(scope="module")
 def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A shared object with the kernels of `sums`."""
     pytest.importorskip("numba")
-    from build_kernels.compiler import object_code
+    from build_kernels.compiler import described, object_code
     from build_kernels.linker import link, system_linker
 
     if system_linker() is None:
         pytest.skip("no linker")
     made = tmp_path_factory.mktemp("kernels") / native.FILE.name
-    link([object_code(library(made))], made)
+    link([object_code(library(made), described(library(made)))], made)
     return made
+
+
+@pytest.fixture
+def copied(tmp_path: Path) -> Path:
+    """A tree with the same sources."""
+    for name in SOURCES:
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_bytes((ROOT / name).read_bytes())
+    return tmp_path
 
 
 @pytest.fixture(autouse=True)
@@ -37,8 +50,9 @@ def wanted(monkeypatch: pytest.MonkeyPatch) -> None:
     native.load.cache_clear()
 
 
-def library(file: Path) -> Library:
-    return Library("sums", (sums,), (sums.add, sums.put), file=file)
+def library(file: Path, root: Path = ROOT) -> Library:
+    kernels = ("tests.kernels.sums.add", "tests.kernels.sums.put", "tests.kernels.sums.go")
+    return Library("sums", ("tests.kernels.sums",), kernels, file=file, root=str(root))
 
 
 def given() -> tuple[sums.Columns, sums.Total]:
@@ -46,7 +60,7 @@ def given() -> tuple[sums.Columns, sums.Total]:
 
 
 def test_a_kernel_gives_the_same_compiled_and_plain(file: Path) -> None:
-    compiled = library(file).compiled(sums.add)
+    compiled = library(file).compiled("add")
     assert compiled is not None
     (columns, total), (others, other) = given(), given()
     assert compiled(columns, total, 0.5) == sums.add(others, other, 0.5) == 2
@@ -56,29 +70,65 @@ def test_a_kernel_gives_the_same_compiled_and_plain(file: Path) -> None:
 
 
 def test_a_kernel_that_gives_nothing_can_be_called(file: Path) -> None:
-    compiled = library(file).compiled(sums.put)
+    compiled = library(file).compiled("put")
     values = array("d", [0.0, 0.0, 0.0])
     assert compiled is not None
     compiled(values, True)
     assert list(values) == [0.0, 7.0, 0.0]
 
 
-def test_nothing_but_kernels_and_their_digest_can_be_seen_from_outside(file: Path) -> None:
+@pytest.mark.parametrize("axes", [1, 2, 3, 4, 6])
+def test_a_kernel_gives_the_same_for_the_usual_number_of_axes_and_any_other(file: Path, axes: int) -> None:
+    compiled = library(file).compiled("go")
+    assert compiled is not None
+    here, there, way = (
+        array("d", range(axes)),
+        array("d", range(axes)),
+        array("d", [0.1 * i for i in range(8)]),
+    )
+    assert compiled(here, way, 7) == sums.go(there, way, 7) == axes
+    assert here == there
+
+
+def test_only_kernels_that_are_told_how_many_axes_there_are_have_code_for_the_usual_number() -> None:
+    pytest.importorskip("llvmlite")
+    from build_kernels.axes import counts_of_axes
+
+    assert [counts_of_axes(kernel) for kernel in (sums.add, sums.put, sums.go)] == [[], [], [1]]
+
+
+def test_all_calls_of_a_kernel_give_the_same(file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The first ones take their arguments apart, those behind them are written out."""
+    monkeypatch.setattr(call, "_FEW", 1)
+    compiled = library(file).compiled("add")
+    assert compiled is not None
+    (columns, total), (others, other) = given(), given()
+    for _ in range(3):
+        assert compiled(columns, total, 0.5) == sums.add(others, other, 0.5) == 2
+        assert columns == others
+        assert bytes(total) == bytes(other)
+
+
+def test_arguments_of_groups_within_groups_are_found() -> None:
+    assert call._names("d(B(dq)*)#") == ["a0", "a1[0]", "a1[1][0]", "a1[1][1]", "a1[2]", "a2"]
+
+
+def test_nothing_but_kernels_and_what_they_are_can_be_seen_from_outside(file: Path) -> None:
     """Two objects with the same helper of Numba would not link."""
     seen = file.read_bytes()
-    assert b"digest_of_sums" in seen
+    assert b"about_sums" in seen
     assert b"NumbaEnv" not in seen
 
 
 def test_the_environment_chooses_plain_kernels(file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv(native.CHOICE, "python")
     native.load.cache_clear()
-    assert library(file).compiled(sums.add) is None
+    assert library(file).compiled("add") is None
     assert library(file).lack is Lack.CHOSEN
 
 
 def test_an_installation_without_machine_code_has_plain_kernels(tmp_path: Path) -> None:
-    assert library(tmp_path / "none.so").compiled(sums.add) is None
+    assert library(tmp_path / "none.so").compiled("add") is None
     assert library(tmp_path / "none.so").lack is Lack.MISSING
 
 
@@ -89,27 +139,55 @@ def test_a_file_that_cannot_be_loaded_is_none(tmp_path: Path) -> None:
     assert library(damaged).lack is Lack.MISSING
 
 
-def test_machine_code_of_other_sources_is_not_run(file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert library(file).lack is None
-    monkeypatch.setattr(sums, "HALF", 0.25)
-    assert library(file).lack is Lack.STALE
-    assert library(file).compiled(sums.add) is None
+def test_machine_code_holds_its_sources(file: Path) -> None:
+    """Those of modules that it takes numbers and records from, too."""
+    described = library(file)._described
+    assert described is not None
+    assert [name for name, _ in described._sources] == list(SOURCES)
+    assert described.signatures == {"add": "(di)*.", "put": "d#"}
+
+
+def test_machine_code_of_the_same_sources_is_run(file: Path, copied: Path) -> None:
+    assert library(file, copied).lack is None
+
+
+@pytest.mark.parametrize("changed", SOURCES)
+def test_machine_code_of_other_sources_is_not_run(file: Path, copied: Path, changed: str) -> None:
+    """Not even where they are as long, and as old."""
+    source = copied / changed
+    source.write_bytes(source.read_bytes().replace(b".", b",", 1))
+    assert library(file, copied).lack is Lack.STALE
+    assert library(file, copied).compiled("add") is None
+
+
+def test_a_longer_source_is_another_one(file: Path, copied: Path) -> None:
+    with (copied / SOURCES[0]).open("ab") as source:
+        source.write(b"# more\n")
+    assert library(file, copied).lack is Lack.STALE
+
+
+def test_machine_code_whose_sources_are_missing_is_not_run(file: Path, copied: Path) -> None:
+    (copied / SOURCES[1]).unlink()
+    assert library(file, copied).lack is Lack.STALE
 
 
 def test_a_library_that_is_newer_than_the_machine_code_has_none(file: Path) -> None:
-    assert Library("others", (sums,), (sums.add,), file=file).lack is Lack.STALE
+    kernels = ("tests.kernels.sums.add",)
+    assert Library("others", ("tests.kernels.sums",), kernels, file=file).lack is Lack.STALE
+    assert Library("sums", ("tests.kernels.sums",), kernels, file=file, root=str(ROOT)).lack is Lack.STALE
 
 
-def test_a_number_of_the_sources_changes_their_digest(monkeypatch: pytest.MonkeyPatch) -> None:
-    digests = {library(native.FILE).digest}
-    monkeypatch.setattr(sums, "HALF", 0.25)
-    digests.add(library(native.FILE).digest)
-    monkeypatch.setattr(sums.Room, "LAST", 2)
-    assert len({*digests, library(native.FILE).digest}) == 3
+def test_where_there_is_machine_code_the_sources_are_not_imported(file: Path, tmp_path: Path) -> None:
+    described = library(file)
+    unknown = Library("sums", ("no.such",), ("no.such.add", "no.such.put"), file=file, root=str(ROOT))
+    assert described.compiled("put") is not None
+    assert unknown.compiled("put") is not None
 
 
-def test_an_array_of_other_items_is_refused(file: Path) -> None:
-    compiled = library(file).compiled(sums.put)
+@pytest.mark.parametrize("few", [0, 1])
+def test_an_array_of_other_items_is_refused(file: Path, few: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(call, "_FEW", few)
+    compiled = library(file).compiled("put")
     assert compiled is not None
     with pytest.raises(TypeError, match="arrays of f, not of d"):
         compiled(array("f", [0.0, 0.0]), False)
@@ -119,8 +197,9 @@ def test_a_kernel_that_can_raise_is_not_compiled() -> None:
     pytest.importorskip("numba")
     from build_kernels.compiler import object_code
 
+    raising = Library("sums", ("tests.kernels.sums",), ("tests.kernels.sums.refuse",))
     with pytest.raises(TypeError, match="can raise"):
-        object_code(Library("sums", (sums,), (sums.refuse,)))
+        object_code(raising, b"")
 
 
 def test_places_are_numbered_in_their_order() -> None:
@@ -145,29 +224,3 @@ def test_a_record_has_its_fields_by_name_and_in_order() -> None:
         bytes(point)
         == array("d", [1.0]).tobytes() + array("q", [2]).tobytes() + array("d", [0.0, 3.0]).tobytes()
     )
-
-
-def test_a_kernel_says_with_its_annotations_what_it_takes() -> None:
-    group, total, number = arguments(sums.add)
-    assert (group.kind, group.type, [part.code for part in group.parts]) == (
-        Kind.GROUP,
-        sums.Columns,
-        ["d", "i"],
-    )
-    assert (total.kind, total.type, number.kind) == (Kind.RECORD, sums.Total, Kind.NUMBER)
-
-
-def test_what_machine_code_cannot_have_is_refused() -> None:
-    def kernel(_name: str, _text: Bytes, _numbers: Ints32) -> int:
-        return 0
-
-    class Strange(NamedTuple):
-        names: dict[str, int]
-
-    def other(_strange: Strange) -> int:
-        return 0
-
-    other.__annotations__["_strange"] = Strange
-    for refused in (kernel, other):
-        with pytest.raises(TypeError, match="cannot take"):
-            arguments(refused)

@@ -14,9 +14,9 @@ from polycnc.motion.averaging import (
     average,
     tent_acceleration,
     under_tent,
-    under_tents,
     way_after,
 )
+from polycnc.motion.sampling.tents import under_tents
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -56,7 +56,7 @@ def test_one_moment_and_many_have_the_same_average(edges: list[float], blend: fl
         return np.stack([times**3 + sum(np.maximum(times - edge, 0.0) for edge in edges), times**9], axis=1)
 
     times = np.linspace(0.1, 0.9, 9)
-    many, speed = under_tents(place, times, blend, np.array(edges))
+    many, speed, _ = under_tents(place, times, blend, np.array(edges))
     for k, time in enumerate(times.tolist()):
         within = [edge for edge in edges if abs(edge - time) < blend]
         one = under_tent(lambda moment: place(np.array([moment]))[0].tolist(), time, blend, within)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import sys
+
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from polycnc.motion import Settings
-from polycnc.motion.explain import Cause, TimeAccount
+from polycnc.motion.explain import Cause, TimeAccount, account
 from polycnc.motion.planner import Planner
 from polycnc.toolpath import Context
 from polycnc.toolpath.modes import AccelerationMode, CornerMode
@@ -44,6 +46,28 @@ def test_the_parts_add_up_to_time_and_way(
     assert sum(part.seconds for part in account.parts.values()) == pytest.approx(total, rel=1e-9)
     assert sum(part.way for part in account.parts.values()) == pytest.approx(way, rel=1e-9)
     assert all(part.seconds >= 0.0 for part in account.parts.values())
+
+
+@settings(max_examples=examples(30), deadline=None)
+@given(st.lists(st.one_of(line, arc, spiral, spline), min_size=1, max_size=5), MODES, st.booleans())
+def test_many_pieces_at_once_are_bounded_by_what_each_is(
+    steps: list[tuple[str, float, float, float, float]], mode: AccelerationMode, by_axis: bool
+) -> None:
+    context = Context(corner_mode=CornerMode.ROUNDED, tolerance_mm=0.02)
+    found = []
+    for many in (1, 1_000_000):
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(account, "MANY", many)
+            rows = build(steps, context).rapid(3.0, 40.0, 5.0)
+            found.append(account_of(rows, Settings(acceleration=mode, rapid_by_axis=by_axis))[2].parts)
+    for cause in Cause:
+        assert found[0][cause] == pytest.approx(found[1][cause], rel=1e-9, abs=1e-12)
+
+
+def test_few_rows_load_no_library(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delitem(sys.modules, "polycnc.motion.explain.columns", raising=False)
+    assert seconds(Build().feed(100.0, 0.0, 0.0, feed=10.0), Cause.FEED) > 0.0
+    assert "polycnc.motion.explain.columns" not in sys.modules
 
 
 def test_a_long_slow_line_runs_at_its_feed() -> None:

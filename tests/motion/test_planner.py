@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 
 from polycnc.motion import Plan, Settings
 from polycnc.motion import planner as planner_module
-from polycnc.motion.compiled import LIBRARY, PLAIN, Kernels
+from polycnc.motion.compiled import LIBRARY, Kernels, plain
 from polycnc.motion.planner import Planner
 from polycnc.toolpath import Context, Kind, Toolpath
 from polycnc.toolpath.events import Auxiliary
@@ -123,9 +123,7 @@ def test_no_index_counts_from_the_end(
     """Compiled kernels would read what lies in front of the array."""
     lead = Settings(acceleration=acceleration)
     whole = varied(400).plan(MILL, settings=lead, compiled=False)
-    monkeypatch.setattr(
-        planner_module, "PLAIN", Kernels(strict(PLAIN.lay), strict(PLAIN.backward), strict(PLAIN.forward))
-    )
+    monkeypatch.setattr(planner_module, "plain", lambda: Kernels._make(map(strict, plain())))
     assert bits(varied(400).plan(MILL, settings=lead, compiled=False)) == bits(whole)
 
 

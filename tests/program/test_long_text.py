@@ -117,4 +117,4 @@ def test_lines_are_found_page_by_page(tmp_path: Path, lines: list[str], data: st
         read = list(part)
         assert list(part.holding("$")) == [i for i, line in enumerate(read) if "$" in line]
         blocks = [i for i, line in enumerate(read) if line[:1] not in " ;\t" or is_meant(line)]
-        assert [i for page in part.not_beginning(" ;\t", is_meant) for i in page] == blocks
+        assert [i for run in part.not_beginning(" ;\t", is_meant) for i in run] == blocks

@@ -11,8 +11,9 @@ from hypothesis import strategies as st
 from polycnc.geometry.frames import rotation
 from polycnc.machine.layout import AxisLayout
 from polycnc.toolpath import Context, Kind
+from polycnc.toolpath.columns.names import flattened
 from polycnc.toolpath.events import Auxiliary, Message, ToolSelection
-from polycnc.toolpath.export import WRITERS, Csv, JsonLines, Parquet, arrow_table, flattened
+from polycnc.toolpath.export import WRITERS, Csv, JsonLines, Parquet, arrow_table
 from polycnc.toolpath.modes import FeedMode
 from tests.toolpath.paths import Z_UP, Draft
 

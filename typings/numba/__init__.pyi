@@ -1,6 +1,7 @@
 from collections.abc import Callable
 
 import numpy as np
+from numba import config as config
 from numba import types as types
 
 class CFunc:

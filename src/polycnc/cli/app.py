@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NoReturn
 
 from polycnc.cli import plain
 from polycnc.cli.console import fail, note
+from polycnc.cli.progress import watched
 from polycnc.cli.usage import help_in_language, language_of, translated
 from polycnc.messages import text
 from polycnc.messages.catalogue import set_language
@@ -72,7 +73,9 @@ def _run(words: list[str]) -> int:
     try:
         set_language(language_of(words))
         asked = plain.read(words)
-        status = asked() if asked is not None else _run_by_typer(words)
+        with watched(" ".join(["polycnc", *words[:1]])):
+            status = asked() if asked is not None else _run_by_typer(words)
+            sys.stdout.flush()
     except Exception as error:  # noqa: BLE001 - `_told` says what it was
         return fail(_told(error), BAD_USE)
     return status if isinstance(status, int) else 0

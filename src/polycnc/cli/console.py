@@ -4,23 +4,35 @@ from __future__ import annotations
 
 import os
 import sys
+from contextlib import nullcontext
+
+from polycnc.cli.progress import away
 
 _COLOURS = {"red": 31, "green": 32, "yellow": 33, "bold": 1}
 
 
 def say(line: str = "") -> None:
     """A line of the result."""
-    sys.stdout.write(_encodable(line, sys.stdout.encoding) + "\n")
+    with away():
+        sys.stdout.write(_encodable(line, sys.stdout.encoding) + "\n")
 
 
 def show(content: str) -> None:
     """A text of several lines, each with its line end, as part of the result."""
-    sys.stdout.write(_encodable(content, sys.stdout.encoding))
+    with away():
+        sys.stdout.write(_encodable(content, sys.stdout.encoding))
 
 
 def note(line: str) -> None:
     """A line beside the result."""
-    sys.stderr.write(_encodable(line, sys.stderr.encoding) + "\n")
+    with away():
+        sys.stderr.write(_encodable(line, sys.stderr.encoding) + "\n")
+
+
+def standard_input() -> bytes:
+    """What comes in: nobody is told how long that takes while it is typed."""
+    with away() if sys.stdin.buffer.isatty() else nullcontext():
+        return sys.stdin.buffer.read()
 
 
 def fail(line: str, status: int) -> int:

@@ -10,10 +10,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.states.state import Lifetime, State
-from polycnc.control.tool_change import stands_at_reference, z_stands_at_change_point
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import InterlockQuery
+
+with loaded_when_called():
+    from polycnc.control import tool_change
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
@@ -30,13 +33,13 @@ FIFTH_AXIS = "MOVE_FIFTH_AXIS"
 
 def _z_is_referenced(channel: Channel) -> bool:
     z = channel.coordinates.geometry[2]
-    return z < 0 or stands_at_reference(channel, z)
+    return z < 0 or tool_change.stands_at_reference(channel, z)
 
 
 #: Signals that follow from the state of the program.
 STATES: Mapping[str, Callable[[Channel], bool]] = {
     "Z_AT_REFERENCE": _z_is_referenced,
-    "Z_AT_CHANGE_POINT": z_stands_at_change_point,
+    "Z_AT_CHANGE_POINT": tool_change.z_stands_at_change_point,
     "AUTO": lambda channel: channel.setup.switches.mode.lower() != "mdi",
     "MDI": lambda channel: channel.setup.switches.mode.lower() == "mdi",
 }

@@ -82,7 +82,7 @@ def module_text(file: str, prefix: str, base: str = "", *, shared: bool = False)
         prefix=prefix,
         base=base,
         base_class=base_class,
-        axis="A_co" if shared else f'"{prefix}AxisParameters"',
+        axis="A_co" if shared else f"{prefix}AxisParameters",
         axis_class="" if shared else _AXIS_CLASS.format(prefix=prefix),
         of_axis=_lines(parameter for parameter in known if parameter.by_axis),
         of_control=_lines(parameter for parameter in known if not parameter.by_axis),

@@ -9,12 +9,12 @@ one name in the lists of all; `word_address/parameters.py` says which these are.
 
 from __future__ import annotations
 
-import tomllib
 from functools import cache, cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Generic, Literal, TypeAlias, TypeVar, overload
 
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.toml import loads
 from polycnc.machine.setup.values import ParameterKey, Parameters, parameter_key
 
 if TYPE_CHECKING:
@@ -127,7 +127,7 @@ def load_parameters(*names: str) -> tuple[KnownParameter, ...]:
     found = {}
     for name in names:
         content = (Path(__file__).parent / name).read_text(encoding="utf-8")
-        for number, entry in tomllib.loads(content).items():
+        for number, entry in loads(content).items():
             delivered, unit = entry.get("delivered", 0), entry.get("unit", "")
             found[number] = KnownParameter(
                 number,

@@ -12,6 +12,7 @@ What nothing here uses is left out: `InitVar`, `kw_only`, `order` and `unsafe_ha
 
 from __future__ import annotations
 
+from functools import cached_property
 from operator import attrgetter
 from reprlib import recursive_repr
 from types import FunctionType, MappingProxyType, MemberDescriptorType
@@ -20,6 +21,9 @@ from typing import TYPE_CHECKING, Any, ClassVar, get_origin
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
     from dataclasses import MISSING, dataclass, field, fields, is_dataclass, replace
+    from typing import TypeAlias
+
+    _Steps: TypeAlias = tuple[list[tuple[str, bool, object, Any]], Callable[[Any, str, object], None], bool]
 else:
 
     def dataclass(cls=None, /, *, frozen=False, slots=False, eq=True):
@@ -67,6 +71,17 @@ _FEW = 32
 _LATER = object()
 #: Where a class keeps its own annotated names with what was assigned to them; where its fields, when asked for.
 _NOTED, _FIELDS = "__noted_fields__", "__described_fields__"
+#: Where a class keeps what `_put_values` does for its objects.
+_STEPS = "__steps_of_init__"
+#: What most defaults are; none is a field of the library.
+_OURS = frozenset((type, str, int, float, bool, tuple, type(None)))
+#: Where members of a class that are no functions have theirs.
+_BEHIND: dict[type, str] = {
+    classmethod: "__func__",
+    staticmethod: "__func__",
+    property: "fget",
+    cached_property: "func",
+}
 #: Where the library keeps its fields.
 _OF_LIBRARY = "__dataclass_fields__"
 
@@ -114,22 +129,23 @@ class Field:
 
 def _dataclass(cls: Any, *, frozen: bool, slots: bool, eq: bool) -> type:
     body = cls.__dict__
-    annotations = body.get("__annotations__", {})
-    noted = {
-        name: _told(body.get(name, MISSING)) for name, hint in annotations.items() if not _is_of_class(hint)
-    }
+    noted: dict[str, object] = {}
+    for name, hint in body.get("__annotations__", {}).items():
+        if not _is_of_class(hint):
+            value = body.get(name, MISSING)
+            noted[name] = value if type(value) in _OURS else _told(value)
     added = _methods(lambda: cls, body, frozen=frozen, eq=eq)
-    added |= {_NOTED: noted, _OF_LIBRARY: _Described(), "__frozen__": frozen}
+    added |= {_NOTED: noted, _OF_LIBRARY: _DESCRIBED, "__frozen__": frozen}
     # Else the library would write down its signature.
     added["__doc__"] = body.get("__doc__") or cls.__name__
     if "__match_args__" not in body:
-        added["__match_args__"] = _positional(cls, noted)
+        added["__match_args__"] = _POSITIONAL
     if slots:
         if frozen:  # what pickle would otherwise set by `setattr`
             added.setdefault("__getstate__", body.get("__getstate__", _state))
             added.setdefault("__setstate__", body.get("__setstate__", _put_state))
         cls = _with_slots(cls, noted, added)
-        _lead_super(cls)
+        _lead_super(cls, body)
         return cls  # type: ignore[no-any-return]
     for name, value in noted.items():
         if isinstance(value, Field):
@@ -161,19 +177,6 @@ def _is_of_class(hint: object) -> bool:
     return hint is ClassVar or get_origin(hint) is ClassVar
 
 
-def _positional(cls: type, noted: Mapping[str, object]) -> tuple[str, ...]:
-    """The fields that `__init__` takes, in order."""
-    names: dict[str, bool] = {}
-    for each in reversed(cls.__mro__[1:]):
-        names |= _taken(each.__dict__.get(_NOTED, {}))
-    names |= _taken(noted)
-    return tuple(name for name, is_taken in names.items() if is_taken)
-
-
-def _taken(noted: Mapping[str, object]) -> dict[str, bool]:
-    return {name: not isinstance(value, Field) or value.init for name, value in noted.items()}
-
-
 def _with_slots(cls: type, noted: Mapping[str, object], added: Mapping[str, object]) -> type:
     """The class once more, with a slot for every field that no base has one for."""
     inherited: set[str] = set()
@@ -189,16 +192,16 @@ def _with_slots(cls: type, noted: Mapping[str, object], added: Mapping[str, obje
     return type(cls)(cls.__name__, cls.__bases__, body)
 
 
-def _lead_super(cls: type) -> None:
-    """Let `super()` in the methods mean the class that has slots, not the one whose body was read."""
-    for member in cls.__dict__.values():
-        function = getattr(
-            member, "__func__", getattr(member, "fget", member)
-        )  # of a classmethod, a property
-        free = function.__code__.co_freevars if isinstance(function, FunctionType) else ()
-        if "__class__" in free:  # a cell that all methods share
-            function.__closure__[free.index("__class__")].cell_contents = cls
-            return
+def _lead_super(cls: type, body: Mapping[str, object]) -> None:
+    """Let `super()` in the methods of `body` mean the class that has slots, not the one whose body was read."""
+    for member in body.values():
+        behind = _BEHIND.get(type(member))
+        function = getattr(member, behind) if behind else member
+        if type(function) is FunctionType and function.__closure__ is not None:
+            free = function.__code__.co_freevars
+            if "__class__" in free:  # a cell that all methods share
+                function.__closure__[free.index("__class__")].cell_contents = cls
+                return
 
 
 # ---- fields ----------------------------------------------------------------------------------------------------
@@ -221,17 +224,22 @@ def _described(cls: type) -> dict[str, Field]:
     """The fields that a class itself adds."""
     found: dict[str, Field] = {}
     for name, value in cls.__dict__[_NOTED].items():
-        if isinstance(value, Field):
-            each = value
-        else:
-            each = Field(default=MISSING if isinstance(value, MemberDescriptorType) else value)
-        if type(each.default).__hash__ is None:
-            raise ValueError(
-                f"mutable default {type(each.default)} for field {name} is not allowed: use default_factory"
-            )
+        each = value if isinstance(value, Field) else Field(default=value)
+        each.default = _checked(name, each.default)
         each.name, each.type = name, cls.__annotations__[name]
         found[name] = each
     return found
+
+
+def _checked(name: str, default: object) -> object:
+    """The default of a field; none is the slot of one that has none."""
+    if isinstance(default, MemberDescriptorType):
+        return MISSING
+    if type(default).__hash__ is None:
+        raise ValueError(
+            f"mutable default {type(default)} for field {name} is not allowed: use default_factory"
+        )
+    return default
 
 
 class _Described:
@@ -250,6 +258,19 @@ class _Described:
         cls.__dataclass_params__ = described.__dataclass_params__
         cls.__dataclass_fields__ = described.__dataclass_fields__
         return cls.__dataclass_fields__
+
+
+class _Positional:
+    """Stands for the fields that `__init__` takes, in order, until a pattern asks for them."""
+
+    def __get__(self, instance: object, owner: type) -> tuple[str, ...]:
+        cls = next(each for each in owner.__mro__ if each.__dict__.get("__match_args__") is self)
+        names = tuple(each.name for each in _fields_of(cls) if each.init)
+        type.__setattr__(cls, "__match_args__", names)
+        return names
+
+
+_DESCRIBED, _POSITIONAL = _Described(), _Positional()
 
 
 # ---- methods that are written ----------------------------------------------------------------------------------
@@ -326,34 +347,50 @@ def _first_init(made: Callable[[], type]) -> Callable[..., None]:
 
 def _put_values(cls: type, thing: object, args: tuple[object, ...], named: dict[str, object]) -> bool:
     """Do what the written `__init__` does, field by field; False where it would refuse these arguments."""
-    values: dict[str, object] = {}
+    steps, put, goes_on = cls.__dict__.get(_STEPS) or _steps_of(cls)
+    values: list[tuple[str, object]] = []
     given = iter(args)
-    taken, slots = 0, "__slots__" in cls.__dict__
-    for each in _fields_of(cls):
-        name = each.name
-        value = next(given, MISSING) if each.init else MISSING
+    taken = 0
+    for name, is_taken, default, factory in steps:
+        value = next(given, MISSING) if is_taken else MISSING
         if name in named:
-            if value is not MISSING or not each.init:
+            if value is not MISSING or not is_taken:
                 return False
             value = named[name]
             taken += 1
-        elif value is MISSING and each.default_factory is not MISSING:
-            value = each.default_factory()
         elif value is MISSING:
-            value = each.default
-            if value is MISSING and each.init:
+            value = default if factory is MISSING else factory()
+            if value is MISSING:
                 return False
-            if value is MISSING or not (each.init or slots):  # without slots the class itself has the default
-                continue
-        values[name] = value
+        values.append((name, value))
     if taken < len(named) or next(given, MISSING) is not MISSING:
         return False
-    put = object.__setattr__ if is_frozen(cls) else setattr
-    for name, value in values.items():
+    for name, value in values:
         put(thing, name, value)
-    if hasattr(cls, "__post_init__"):
+    if goes_on:
         thing.__post_init__()  # type: ignore[attr-defined]
     return True
+
+
+def _steps_of(cls: type) -> _Steps:
+    """What is to be done for an object: its fields (name, whether an argument gives it, default, factory) in order.
+
+    Left out are those that nobody gives and that have no default, or one that the class itself has. With them, how a
+    value is put in, and whether `__post_init__` follows.
+    """
+    slots = "__slots__" in cls.__dict__
+    steps: dict[str, tuple[str, bool, object, Any]] = {}
+    for base in reversed(cls.__mro__):
+        for name, value in base.__dict__.get(_NOTED, {}).items():
+            if not isinstance(value, Field):
+                steps[name] = name, True, _checked(name, value), MISSING
+            elif (
+                value.init or value.default_factory is not MISSING or (slots and value.default is not MISSING)
+            ):
+                steps[name] = name, value.init, _checked(name, value.default), value.default_factory
+    made = [*steps.values()], object.__setattr__ if is_frozen(cls) else setattr, hasattr(cls, "__post_init__")
+    setattr(cls, _STEPS, made)
+    return made
 
 
 def _init(cls: type) -> Callable[..., Any]:

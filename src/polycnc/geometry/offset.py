@@ -16,13 +16,11 @@ from typing import TYPE_CHECKING
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass
 from polycnc.geometry import arcs
-from polycnc.geometry.tolerances import NO_WAY, ROUNDED_MM
+from polycnc.geometry.tolerances import NO_WAY, ROUNDED_MM, SMOOTH_MM
 
 if TYPE_CHECKING:
     from polycnc.geometry.arcs import Point
 
-#: A turn that moves the offset point by less than this (mm) is no corner: far below any control's increment.
-SMOOTH_MM = 1e-6
 #: A way shorter than this (mm) against the direction of travel is rounding: that of the points at its two ends.
 BACKWARDS_MM = 2.0 * ROUNDED_MM
 #: What is left of it where a way round leads past it without harm: driven back, it cuts the corner by as much.

@@ -1,6 +1,6 @@
 """How the data of kernels is declared: kinds of arrays, records with named fields, places in flat arrays.
 
-A kernel's annotations are its declaration: `arguments` reads them for the compiler and for the call.
+A kernel's annotations are its declaration. The build reads them (`meaning`), and tells the call what it must know.
 """
 
 from __future__ import annotations
@@ -8,14 +8,11 @@ from __future__ import annotations
 import ctypes
 import sys
 from collections.abc import MutableSequence
-from enum import Enum, auto
-from functools import cache, partial
+from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any, ForwardRef, TypeVar, cast, get_args
 
-from polycnc.deferred.named_tuples import NamedTuple
-
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable
 
 # Arrays by the type of their items, as for `array.array`. A kernel reads and writes them in place.
 Bytes = Annotated[MutableSequence[int], "B"]
@@ -35,7 +32,7 @@ def record(cls: type[_R]) -> type[_R]:
     The same memory is an object with named fields in Python and a structure in machine code.
     """
     types: dict[object, type[Any]] = {float: ctypes.c_double, int: ctypes.c_int64}
-    cls._fields_ = [(name, types.get(hint) or _numbers(hint)) for name, hint in _hints(cls).items()]
+    cls._fields_ = [(name, types.get(hint) or _numbers(hint)) for name, hint in meaning(cls).items()]
     cls.memento = _memento  # type: ignore[attr-defined]
     return cls
 
@@ -55,8 +52,8 @@ def put_back(instance: ctypes.Structure, contents: bytes) -> None:
     ctypes.memmove(ctypes.addressof(instance), contents, len(contents))
 
 
-def _hints(of: type | Callable[..., object]) -> dict[str, Any]:
-    """What annotations mean."""
+def meaning(of: type | Callable[..., object]) -> dict[str, Any]:
+    """What the annotations of a record, a group or a kernel mean, by name."""
     scope = vars(sys.modules[of.__module__])
     return {name: _meant(hint, scope) for name, hint in of.__annotations__.items()}
 
@@ -88,82 +85,13 @@ class Places:
         for name, value in list(vars(cls).items()):
             if isinstance(value, _Place):
                 setattr(cls, name, cls.SIZE)
-                cls.SIZE += value.width
+                cls.SIZE += int(value)
 
 
-class _Place(NamedTuple):
-    width: int
+class _Place(int):
+    """A field that has no number yet; it is its width."""
 
 
 def place(width: int = 1) -> int:
     """A field of `Places`."""
     return cast("int", _Place(width))
-
-
-class Kind(Enum):
-    """What an argument of a kernel is."""
-
-    ARRAY = auto()
-    RECORD = auto()
-    GROUP = auto()
-    INTEGER = auto()
-    NUMBER = auto()
-
-
-class Argument(NamedTuple):
-    """An argument of a kernel.
-
-    Attributes:
-        kind: What it is.
-        code: Type of the items of an array, as for `array.array`.
-        type: Class of a record, or of a group: a named tuple of arrays and records.
-        parts: The fields of a group.
-    """
-
-    kind: Kind
-    code: str = ""
-    type: type | None = None
-    parts: tuple[Argument, ...] = ()
-
-
-def arguments(kernel: Callable[..., object]) -> tuple[Argument, ...]:
-    """What a kernel takes, by its annotations.
-
-    Raises:
-        TypeError: An annotation is none that machine code can have.
-    """
-    hints = _hints(kernel)
-    hints.pop("return", None)
-    return tuple(_argument(hint) for hint in hints.values())
-
-
-def _argument(hint: object) -> Argument:
-    if hint in (int, bool):
-        return Argument(Kind.INTEGER)
-    if hint is float:
-        return Argument(Kind.NUMBER)
-    if isinstance(hint, type) and issubclass(hint, ctypes.Structure):
-        return Argument(Kind.RECORD, type=hint)
-    if isinstance(hint, type) and issubclass(hint, tuple):
-        return _group(hint)
-    code = get_args(hint)[-1] if get_args(hint) else None
-    if not isinstance(code, str):
-        msg = f"a kernel cannot take {hint}"
-        raise TypeError(msg)
-    return Argument(Kind.ARRAY, code=code)
-
-
-@cache
-def _group(hint: type) -> Argument:
-    """A named tuple; many kernels take the same one."""
-    parts = _hints(hint).values()
-    return Argument(Kind.GROUP, type=hint, parts=tuple(_argument(part) for part in parts))
-
-
-def flat(parts: tuple[Argument, ...]) -> Iterator[Argument]:
-    """Arguments with groups taken apart."""
-    for part in parts:
-        if part.kind is Kind.GROUP:
-            yield from flat(part.parts)
-        else:
-            yield part

@@ -9,7 +9,6 @@ from __future__ import annotations
 import ctypes
 import os
 import sys
-from enum import Enum, auto
 from functools import cache
 from pathlib import Path
 
@@ -19,12 +18,12 @@ _SUFFIX = {"win32": ".dll", "darwin": ".dylib"}.get(sys.platform, ".so")
 FILE = Path(__file__).with_name(f"compiled{_SUFFIX}")
 
 
-class Lack(Enum):
-    """Why kernels run as they are written."""
+class Lack:
+    """Why kernels run as they are written, as texts for users name it."""
 
-    CHOSEN = auto()  # by the environment
-    MISSING = auto()  # polycnc was built without
-    STALE = auto()  # the sources have changed since
+    CHOSEN = "chosen"  # by the environment
+    MISSING = "missing"  # polycnc was built without
+    STALE = "stale"  # the sources have changed since
 
 
 @cache

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.deferred.records import dataclass
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.toml import plain
 from polycnc.machine.places import toml_error_place, yaml_loader
 
 if TYPE_CHECKING:
@@ -116,6 +117,9 @@ def toml_values(text: str) -> dict[str, object]:
     Raises:
         DocumentError: It is no TOML, or more than can be read.
     """
+    found = plain(text)
+    if found is not None:
+        return found
     import tomllib
 
     try:

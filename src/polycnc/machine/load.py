@@ -6,13 +6,13 @@ that a short program does not wait for it.
 
 from __future__ import annotations
 
-import tomllib
 from functools import cache
 from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, TypeVar, cast
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.toml import loads
 from polycnc.machine.builder import BUILDERS, Builder, builder_names
 from polycnc.machine.documents import DocumentError, toml_values
 from polycnc.machine.errors import MachineFileError
@@ -152,7 +152,7 @@ def _read(path: Path) -> str:
 @cache
 def _builtin_data(path: Path) -> Mapping[str, object]:
     """The data of a built-in machine, read once; machines are made of them anew."""
-    data: dict[str, object] = tomllib.loads(path.read_text(encoding="utf-8"))
+    data: dict[str, object] = loads(path.read_text(encoding="utf-8"))
     base = data.pop("base", None)
     return _built_on(_builtin_data(BUILTIN / f"{base}.toml"), data) if base else data
 

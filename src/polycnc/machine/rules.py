@@ -19,7 +19,8 @@ if TYPE_CHECKING:
     Condition = Callable[[Values], bool]
 
 Latch = Literal["", "on", "off", "toggle"]
-_TOKEN = regex(r"\s*(?:(?P<name>[A-Za-z_$][\w$.\[\]]*)|(?P<sign>[&|!()]))")
+_SIGNS = "&|!()"
+_TOKEN = regex(rf"\s*(?:(?P<name>[A-Za-z_$][\w$.\[\]]*)|(?P<sign>[{_SIGNS}]))")
 #: How deeply brackets and `!` may be nested.
 _DEEPEST = 50
 
@@ -30,6 +31,8 @@ _ZEROS = regex(r"((?:FIN_)?[MG])0+(?=\d+(?:\.\d+)?$)")
 
 def signal_name(written: str) -> str:
     """The name of a signal as a file writes it: M08 is M8, as in programs."""
+    if written.removeprefix("FIN_")[1:2] != "0":
+        return written
     match = _ZEROS.match(written)
     return match[1] + written[match.end() :] if match else written
 
@@ -54,6 +57,11 @@ def condition_of(text: str) -> Condition:
 
 def signals_in(text: str) -> frozenset[str]:
     """The signals that a condition names."""
+    plain = text
+    for sign in _SIGNS:
+        plain = plain.replace(sign, " ")
+    if plain.isascii() and all(name.isidentifier() for name in plain.split()):
+        return frozenset(map(signal_name, plain.split()))
     return frozenset(signal_name(match["name"]) for match in _TOKEN.finditer(text) if match["name"])
 
 

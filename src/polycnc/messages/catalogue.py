@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import re
-import tomllib
 from collections import ChainMap
 from collections.abc import Mapping
 from functools import cache, cached_property
@@ -12,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.toml import loads
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 LANGUAGES = ("en", "zh-TW")
 _active = "en"
 #: The heading of a table.
-_HEADING = regex(r'^\[(?:"([^"\n]+)"|([\w-]+))\][ \t]*$', re.MULTILINE)
+_HEADING = regex(r'^\[(?:"([^"\n]+)"|([\w-]+))\]$', re.MULTILINE)
 
 
 def language() -> str:
@@ -91,29 +91,43 @@ class _File(Mapping[str, dict[str, str]]):
     """The texts of a file by their ids. Of some hundred tables a run wants few, so each is read for itself.
 
     Args:
-        content: The file. Tables have their headings on lines of their own; what stands above the first heading
-            is read at once.
+        content: The file. Tables have their headings on lines of their own, and no other line begins with a bracket;
+            what stands above the first heading is read at once.
     """
 
     def __init__(self, content: str) -> None:
-        headings = list(_HEADING.finditer(content))
-        ends = [*(heading.start() for heading in headings), len(content)]
-        self._read: dict[str, dict[str, str]] = tomllib.loads(content[: ends[0]])
-        self._tables = dict.fromkeys(self._read, "") | {
-            heading[1] or heading[2]: content[heading.start() : end]
-            for heading, end in zip(headings, ends[1:], strict=True)
-        }
+        self._content = f"\n{content}\n"
+        self._read: dict[str, dict[str, str]] = loads(self._content[: self._end_of(0)])
+        self._above = tuple(self._read)
+
+    def _end_of(self, start: int) -> int:
+        """Where the table ends that `start` lies in."""
+        end = self._content.find("\n[", start)
+        return len(self._content) if end < 0 else end
 
     def __getitem__(self, key: str) -> dict[str, str]:
         if key not in self._read:
-            self._read |= tomllib.loads(self._tables[key])
+            start = self._place_of(key)
+            self._read |= loads(self._content[start : self._end_of(start + 1)])
         return self._read[key]
 
+    def _place_of(self, key: str) -> int:
+        for heading in (f'\n["{key}"]\n', f"\n[{key}]\n"):
+            if (start := self._content.find(heading)) >= 0:
+                return start
+        raise KeyError(key)
+
+    @cached_property
+    def _ids(self) -> dict[str, None]:
+        return dict.fromkeys(
+            (*self._above, *(one or other for one, other in _HEADING.findall(self._content)))
+        )
+
     def __iter__(self) -> Iterator[str]:
-        return iter(self._tables)
+        return iter(self._ids)
 
     def __len__(self) -> int:
-        return len(self._tables)
+        return len(self._ids)
 
 
 @cache

@@ -6,7 +6,7 @@ twice more, which is once under a tent; the second derivative of that is a plain
 
 Between the edges, where a phase or a piece of the path begins, positions are polynomials in time, whose average under
 the tent Gauss' rule gives exactly: so positions are the integral of the velocity, and that of the acceleration. What
-takes a number also takes an array: the main run follows moment by moment, sampling asks for many at once.
+takes a number also takes an array: the main run follows moment by moment, sampling asks for many at once (`tents.py`).
 """
 
 from __future__ import annotations
@@ -71,42 +71,3 @@ def under_tent(
             here = place(time)
             total = [a + share * b for a, b in zip(total or [0.0] * len(here), here, strict=True)]
     return total
-
-
-def under_tents(
-    place: Callable[[NDArray[np.float64]], NDArray[np.float64]],
-    middle: NDArray[np.float64],
-    blend: float,
-    edges: NDArray[np.float64],
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The same around many times, (k, n), and its derivative; `edges` are all of the motion, in order."""
-    import numpy as np
-
-    low = np.searchsorted(edges, middle - blend, "right")
-    count = np.maximum(np.searchsorted(edges, middle + blend, "left") - low, 0)
-    own = np.arange(len(middle))
-    inside = np.repeat(own, count)
-    step = np.arange(len(inside)) - np.repeat(np.cumsum(count) - count, count)
-    mark = np.concatenate([middle - blend, middle, middle + blend, edges[low[inside] + step]])
-    owner = np.concatenate([own, own, own, inside])
-    order = np.lexsort((mark, owner))
-    mark, owner = mark[order], owner[order]
-    within = np.flatnonzero(owner[1:] == owner[:-1])
-    owner, half = owner[within], 0.5 * (mark[within + 1] - mark[within])
-    centre = 0.5 * (mark[within + 1] + mark[within])
-    begins = np.flatnonzero(np.diff(owner, prepend=-1))
-    position, velocity = None, None
-    around = place(middle)
-    for knot, weight in GAUSS:
-        time = centre + half * knot
-        here, off = place(time) - around[owner], time - middle[owner]
-        share = half * weight / (blend * blend)
-        sums = [
-            np.add.reduceat(here * (share * factor)[:, None], begins, axis=0)
-            for factor in (blend - np.abs(off), np.sign(off))
-        ]
-        position = sums[0] if position is None else position + sums[0]
-        velocity = sums[1] if velocity is None else velocity + sums[1]
-    assert position is not None
-    assert velocity is not None
-    return around + position, velocity

@@ -7,80 +7,72 @@ from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.kernels.library import Library
-from polycnc.motion.kernels import (
-    alone,
-    arcs,
-    chords,
-    columns,
-    corners,
-    demands,
-    feeds,
-    hold,
-    jerk,
-    lay,
-    led,
-    rounding,
-    speeds,
-)
-from polycnc.motion.third_order.bends import rests
-from polycnc.motion.third_order.laying import rows
-from polycnc.transformation.orientation import linkage
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from polycnc.kernels.layout import Floats
-from polycnc.motion.kernels.columns import Limits, Rows, State
+    from polycnc.motion.kernels.columns import Limits, Rows, State
 
+_KERNELS, _THIRD_ORDER = "polycnc.motion.kernels", "polycnc.motion.third_order"
 LIBRARY = Library(
     "motion",
     (
-        linkage,
-        alone,
-        arcs,
-        chords,
-        columns,
-        corners,
-        demands,
-        feeds,
-        hold,
-        jerk,
-        lay,
-        led,
-        rounding,
-        speeds,
-        rests,
-        rows,
+        "polycnc.transformation.orientation.linkage",
+        f"{_KERNELS}.alone",
+        f"{_KERNELS}.arcs",
+        f"{_KERNELS}.chords",
+        f"{_KERNELS}.columns",
+        f"{_KERNELS}.corners",
+        f"{_KERNELS}.demands",
+        f"{_KERNELS}.feeds",
+        f"{_KERNELS}.hold",
+        f"{_KERNELS}.jerk",
+        f"{_KERNELS}.lay",
+        f"{_KERNELS}.led",
+        f"{_KERNELS}.rounding",
+        f"{_KERNELS}.speeds",
+        f"{_THIRD_ORDER}.bends.rests",
+        f"{_THIRD_ORDER}.laying.rows",
     ),
-    (lay.lay, speeds.backward, speeds.forward, demands.share_rows, rows.lay_runs),
+    (
+        f"{_KERNELS}.lay.lay",
+        f"{_KERNELS}.speeds.backward",
+        f"{_KERNELS}.speeds.forward",
+        f"{_KERNELS}.chords.settle",
+        f"{_KERNELS}.demands.share_rows",
+        f"{_THIRD_ORDER}.laying.rows.lay_runs",
+    ),
 )
 
 
 class Kernels(NamedTuple):
-    """The three kernels that the planner calls; see `kernels/lay.py` and `kernels/speeds.py`."""
+    """The kernels that the planner calls; see `kernels/lay.py`, `kernels/speeds.py` and `kernels/chords.py`."""
 
     lay: Callable[[Rows, int, Floats, int, Floats, Limits, Floats, State], int]
     backward: Callable[[Floats, int, int, Limits], int]
     forward: Callable[[Floats, int, int, Limits, float, Floats, Floats, int], None]
-
-
-PLAIN = Kernels(lay.lay, speeds.backward, speeds.forward)
+    settle: Callable[[Floats, int, Limits, State], None]
 
 
 @cache
 def share_rows() -> Callable[..., None]:
     """The kernel that bounds rows of a tool's tip, compiled; the plain one where there is none."""
-    return LIBRARY.compiled(demands.share_rows) or demands.share_rows
+    return LIBRARY.kernel("share_rows")
 
 
 def run_kernel(*, compiled: bool = True) -> Callable[..., int]:
     """The kernel that lays runs out of which some are led by a law (`third_order/laying/rows.py`)."""
-    return (LIBRARY.compiled(rows.lay_runs) if compiled else None) or rows.lay_runs
+    return LIBRARY.kernel("lay_runs") if compiled else LIBRARY.plain("lay_runs")
 
 
 @cache
 def kernels() -> Kernels:
     """The compiled kernels; the plain ones where there are none."""
-    laid = LIBRARY.compiled(PLAIN.lay)
-    backward, forward = LIBRARY.compiled(PLAIN.backward), LIBRARY.compiled(PLAIN.forward)
-    return PLAIN if laid is None or backward is None or forward is None else Kernels(laid, backward, forward)
+    return Kernels._make(map(LIBRARY.kernel, Kernels._fields))
+
+
+@cache
+def plain() -> Kernels:
+    """The kernels as they are written."""
+    return Kernels._make(map(LIBRARY.plain, Kernels._fields))

@@ -69,23 +69,45 @@ class Law:
         And by their first acceleration and their jerk: where these are left out, by the constant acceleration that
         leads over the way.
         """
+        law = cls()
+        law.extend(seconds, ways, speed, pull, jerk)
+        return law
+
+    def extend(
+        self,
+        seconds: Numbers,
+        ways: Numbers,
+        speed: Numbers,
+        pull: Numbers | None = None,
+        jerk: Numbers | None = None,
+    ) -> None:
+        """Go on behind the last phase with many phases, as `of` says."""
         import numpy as np
 
-        law, keep = cls(), seconds > 0.0
+        keep = seconds > 0.0
         seconds, ways, speed = seconds[keep], ways[keep], speed[keep]
         pull = 2.0 * (ways - speed * seconds) / (seconds * seconds) if pull is None else pull[keep]
         jerk = np.zeros(len(seconds)) if jerk is None else jerk[keep]
-        places = np.concatenate([[0.0], np.cumsum(ways)])
-        areas = area_after(seconds, places[:-1], speed, pull, jerk)
+        is_begun = len(self._start) > 1  # before the first phase it rests
+        time, place, _, _, _, area, fine = (
+            column.pop() if is_begun else column[-1] for column in self._columns
+        )
+        places = _sums(place, ways)
+        areas = area_after(seconds, places[:-1] - self._origin, speed, pull, jerk)
         coarse = np.round(areas / GRID) * GRID
-        law._start.extend(np.concatenate([[0.0], np.cumsum(seconds)]).tolist())
-        law._place.extend(places.tolist())
-        law._speed.extend([*speed.tolist(), 0.0])
-        law._pull.extend([*pull.tolist(), 0.0])
-        law._jerk.extend([*jerk.tolist(), 0.0])
-        law._area.extend(np.concatenate([[0.0], np.cumsum(coarse)]).tolist())
-        law._fine.extend(np.concatenate([[0.0], np.cumsum(areas - coarse)]).tolist())
-        return law
+        more = (
+            _sums(time, seconds),
+            places,
+            speed,
+            pull,
+            jerk,
+            _sums(area, coarse),
+            _sums(fine, areas - coarse),
+        )
+        for column, values in zip(self._columns, more, strict=True):
+            column.frombytes(np.ascontiguousarray(values, np.float64).tobytes())
+        for rest in (self._speed, self._pull, self._jerk):
+            rest.append(0.0)
 
     def run(self, time: float, place: float, phases: Iterable[Phase]) -> None:
         """What happens from a time on, in place of what was said before."""
@@ -163,6 +185,19 @@ class Law:
             return self.pull(time)
         return average(self.speed(time - window), self.speed(time), window)
 
+    def motion(self, time: Numbers, window: float) -> tuple[Numbers, Numbers, Numbers]:
+        """The averages of place, speed and acceleration over the time `window` before many times, (k,) each."""
+        seconds, place, speed, pull, jerk = self._phase(time)
+        here = place + way_after(seconds, speed, pull, jerk)
+        fast = speed + seconds * (pull + 0.5 * seconds * jerk)
+        if window <= 0.0:
+            return here, fast, pull + seconds * jerk
+        mean = self.mean(time, window)
+        seconds, place, speed, pull, jerk = self._phase(time - window)
+        before = place + way_after(seconds, speed, pull, jerk)
+        slow = speed + seconds * (pull + 0.5 * seconds * jerk)
+        return mean, average(before, here, window), average(slow, fast, window)
+
     def edges(self, first: float, last: float, window: float) -> list[float]:
         """Times between two at which the average over the time `window` before begins to follow another rule."""
         found: list[float] = []
@@ -179,6 +214,21 @@ class Law:
             return self._start[k] + self._time_over(k, left)
         fast = sqrt(max(speed * speed + 2.0 * pull * left, 0.0)) + speed
         return self._start[k] + (2.0 * left / fast if fast > 0.0 else 0.0)
+
+    def when_at(self, places: Numbers) -> Numbers:
+        """The same for many places, (k,)."""
+        import numpy as np
+
+        k = np.maximum(np.searchsorted(np.asarray(self._place), places, "right") - 1, 0)
+        start, place, speed, pull, jerk = (np.asarray(column)[k] for column in self._columns[:5])
+        left = np.maximum(places - place, 0.0)
+        fast = np.sqrt(np.maximum(speed * speed + 2.0 * pull * left, 0.0)) + speed
+        moves = fast > 0.0
+        seconds = np.where(moves, 2.0 * left / np.where(moves, fast, 1.0), 0.0)
+        for i in np.flatnonzero(jerk != 0.0).tolist():
+            seconds[i] = self._time_over(int(k[i]), float(left[i])) if left[i] > 0.0 else 0.0
+        times: Numbers = start + seconds
+        return times
 
     def when_mean(self, place: float, window: float) -> float:
         """The time at which its average over the time `window` before comes to a place."""
@@ -243,3 +293,11 @@ class Law:
 
         at = np.maximum(np.searchsorted(np.asarray(self._start), time, "right") - 1, 0)
         return np.asarray(self._area)[at], np.asarray(self._fine)[at] + more
+
+
+def _sums(first: float, values: Numbers) -> Numbers:
+    """A number, and the sums of it and of the first, the first two and so on of many."""
+    import numpy as np
+
+    sums: Numbers = np.cumsum(np.concatenate([[first], values]))
+    return sums

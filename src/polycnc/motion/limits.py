@@ -7,9 +7,7 @@ from math import inf
 from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
-from polycnc.motion.kernels.alone import alone_pull, alone_top, best_ramp
 from polycnc.motion.kernels.columns import Limits, PathLimits
-from polycnc.motion.kernels.jerk import DEVIATION_CORNER, JERK_CORNER
 from polycnc.motion.settings import Settings
 from polycnc.motion.time_constants import (
     ANY_MM,
@@ -216,6 +214,8 @@ def averages(context: Context, machine: Machine, settings: Settings) -> tuple[fl
 
 def _blend(tolerance: float, jerk: float) -> float:
     """BLEND_S at which a corner of the highest jerk that it may have deviates as far as it may."""
+    from polycnc.motion.kernels.jerk import DEVIATION_CORNER, JERK_CORNER  # for limited jerk
+
     return float((6.0 * DEVIATION_CORNER * tolerance / (JERK_CORNER * jerk)) ** (1.0 / 3.0))
 
 
@@ -308,6 +308,8 @@ class AxisRapid(NamedTuple):
 
 def axis_rapids(ways: Sequence[float], context: Context, limits: Limits, *, soft: bool) -> list[AxisRapid]:
     """How each axis runs its way of a rapid on which every axis runs alone, with limited jerk (`soft`) or without."""
+    from polycnc.motion.kernels.alone import alone_pull, alone_top, best_ramp  # for rapids that are looked at
+
     found: list[AxisRapid] = []
     own_limits = zip(limits.top_rapid, limits.acceleration, limits.jerk, limits.rotary, strict=True)
     for way, (limit, pull, jerk, rotary) in zip(ways, own_limits, strict=True):

@@ -13,8 +13,7 @@ from array import array
 from math import sqrt
 from typing import TYPE_CHECKING
 
-from polycnc.motion.compiled import PLAIN, kernels
-from polycnc.motion.kernels.chords import settle
+from polycnc.motion.compiled import kernels, plain
 from polycnc.motion.kernels.columns import PLACES, Form, PieceRecord, Rows, new_state, piece_width
 from polycnc.motion.limits import ContextTables, averages, axis_rapids, is_bent_by_way, rotary_weight
 from polycnc.motion.settings import DEFAULT, Settings
@@ -87,7 +86,7 @@ class Planner:
         self.on_pieces = on_pieces
         self.on_wait: Callable[[int, str, int, float], None] | None = None
         self._feed_profile = feed_profile
-        self._kernels = kernels() if compiled else PLAIN
+        self._kernels = kernels() if compiled else plain()
         self._state = new_state(self._axes, start)
         self._real = RealAxes(machine, channel, toolpath.axes, settings, start)
         self._limits = self._real.limits(None)
@@ -295,7 +294,7 @@ class Planner:
         """The axes come to rest behind the last row."""
         if self._runs is not None and self._runs.is_open:
             self._end_run(self._runs)
-        settle(self._pieces, self._axes, self._limits, self._state)
+        self._kernels.settle(self._pieces, self._axes, self._limits, self._state)
         self._state.run.stop = 1.0
 
     def _end_run(self, runs: LawRuns) -> None:
@@ -321,7 +320,7 @@ class Planner:
         """Count the time of windows that are settled, and hand their pieces on."""
         while runs.windows:
             window = runs.windows.popleft()
-            settle(self._pieces, self._axes, self._limits, self._state)
+            self._kernels.settle(self._pieces, self._axes, self._limits, self._state)
             self._look_ahead(window.rows.row[0])
             window.add_times(self._slots, self._rows, self._first_row)
             self._beside.settle(window.rows.row[-1], self._seconds, self._wait)

@@ -18,7 +18,6 @@ from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.motion.frames import machine_of
-from polycnc.motion.kernels.alone import best_ramp
 from polycnc.motion.kernels.columns import PLACES, Form, PieceRecord, Rows, piece_width
 from polycnc.toolpath.row_path import arc_path, line_path
 from polycnc.transformation.pole import is_at, shares_at_pole
@@ -267,6 +266,8 @@ def turn_records(
     top, pull = PART * (axis.rapid if rapid else axis.max_feed) or 1e9, PART * axis.acceleration or 1e9
     jerk, ramp = PART * axis.jerk, 0.0
     if soft and jerk > 0.0:
+        from polycnc.motion.kernels.alone import best_ramp
+
         ramp = best_ramp(way, top, pull, jerk)
         pull = min(pull, 0.5 * jerk * ramp)
     records = array("d", bytes(8 * width * count))

@@ -59,10 +59,9 @@ from polycnc.motion.pole import (
 from polycnc.motion.reach import looked_at, shares_of
 from polycnc.motion.time_constants import Use
 from polycnc.toolpath import Context, Kind
-from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS, RAPID_KINDS
+from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS, CURVE_WIDTH, RAPID_KINDS
 from polycnc.toolpath.modes import AccelerationMode, FeedMode
 from polycnc.toolpath.row_path import arc_path, line_path
-from polycnc.toolpath.table import CURVE_WIDTH
 from polycnc.transformation.orientation.linkage import STANDS_MM
 from polycnc.transformation.pole import is_at
 

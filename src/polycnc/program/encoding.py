@@ -115,7 +115,8 @@ def decode(data: bytes, override: str | None = None) -> Decoded:
     for bom, codec in _BOMS:
         if data.startswith(bom):
             return _decoded(data.decode(codec, "replace").translate(_DROP_CONTROLS), codec)
-    data = data.translate(None, _CONTROLS)
+    if any(code in data for code in _CONTROLS):
+        data = data.translate(None, _CONTROLS)
     for codec in ("ascii", "utf-8"):
         try:
             return Decoded(data.decode(codec), codec, 0)

@@ -22,7 +22,8 @@ SUFFIXES = (
 )  # fmt: skip
 """Suffixes of part programs on a PC, in the order in which they are preferred."""
 
-_NUMBERED = regex(r"([oO]?)(\d{1,9})")
+#: A longer number is none of a program.
+_MOST_DIGITS = 9
 _HEADING = regex(rb"(?:^|[\r\n])[ \t]*%?[ \t]*(?:[oO]|:)[ \t]*(\d{1,9})(?![\d.])")
 _HEADING_BYTES = 65_536
 #: What a name may lead to in place of a file.
@@ -57,8 +58,9 @@ def program_stem(path: Path) -> str:
 
 def number_of_file(path: Path) -> int | None:
     """The program number in a file's name: 10 for `O0010`, `O10.NC` and `0010.nc`."""
-    match = _NUMBERED.fullmatch(program_stem(path))
-    return int(match[2]) if match else None
+    stem = program_stem(path)
+    digits = stem[1:] if stem.startswith(("o", "O")) else stem
+    return int(digits) if digits.isdecimal() and len(digits) <= _MOST_DIGITS else None
 
 
 def stored_name_of_file(path: Path) -> str:

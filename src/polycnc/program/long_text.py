@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import errno
 import os
+import re
 from array import array
 from bisect import bisect_right
 from collections.abc import Sequence
@@ -37,6 +38,8 @@ SAMPLE_BYTES = 1024 * 1024
 HEADING_STARTS = frozenset("%oO:< \t")
 #: A line without any of these is no heading, however it begins.
 HEADING_SIGNS = b"%oO:<"
+#: Where one line in so many is looked for, all are looked at.
+_MANY = 4
 _CONTROLS = TAPE_CONTROLS.encode("ascii")
 _HEADING, _NEWLINE = b"%", 10
 #: Maps every character that may begin a heading to one.
@@ -174,18 +177,22 @@ class LongText(Sequence[str]):
                     i for i, line in zip(lines, self[lines.start : lines.stop], strict=True) if sign in line
                 )
 
-    def not_beginning(self, signs: str, is_meant: Callable[[str], bool]) -> Iterator[Sequence[int]]:
-        """Page by page the lines that are not empty and begin with none of some signs of ASCII, and others meant."""
-        alike = bytes.maketrans(signs.encode(), b" " * len(signs))
+    def not_beginning(self, signs: str, is_meant: Callable[[str], bool]) -> Iterator[range]:
+        """Runs of lines that are not empty and begin with none of some signs of ASCII, or that are meant."""
+        ends = re.compile(b"\n(?=[" + re.escape(signs.encode() + _CONTROLS) + b"\n])")
         for lines, text in self._pages():
-            begin = b"\n" + text.translate(alike, _CONTROLS)
-            if b"\n " in begin or b"\n\n" in begin:
-                read = self[lines.start : lines.stop]
-                yield [
-                    i for i, line in zip(lines, read, strict=True) if line[:1] not in signs or is_meant(line)
-                ]
-            else:
-                yield lines
+            start = lines.start
+            candidates = _lines_behind(ends, text, lines)
+            if candidates:
+                read = list(self[start : lines.stop])
+                for i in candidates:
+                    if read[i][:1] in signs and not is_meant(read[i]):
+                        line = lines[i]
+                        if line > start:
+                            yield range(start, line)
+                        start = line + 1
+            if start < lines.stop:
+                yield range(start, lines.stop)
 
     def _pages(self) -> Iterator[tuple[range, bytes]]:
         """The lines of each page, and its text, which may hold more than them."""
@@ -211,6 +218,19 @@ class LongText(Sequence[str]):
         if not skipped:
             return whole
         return whole.split(b"\n", skipped)[-1]
+
+
+def _lines_behind(ends: re.Pattern[bytes], text: bytes, lines: range) -> Sequence[int]:
+    """Which lines of a page stand behind line ends that are found; all where many do, or its text holds more lines."""
+    places = [found.start() for found in ends.finditer(b"\n" + text)]
+    if len(places) * _MANY > len(lines) or (places and text.count(b"\n") != len(lines)):
+        return range(len(lines))
+    found, line, last = [], 0, 0
+    for place in places:
+        line += text.count(b"\n", last, place)
+        last = place
+        found.append(line)
+    return found
 
 
 def read_long(path: str) -> LongText | None:

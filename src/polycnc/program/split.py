@@ -8,7 +8,8 @@ blocks costs little more than its list of lines.
 from __future__ import annotations
 
 import re
-from itertools import pairwise
+from itertools import compress, count, pairwise
+from operator import itemgetter
 from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass, replace
@@ -20,6 +21,7 @@ from polycnc.program.program import Form, Program
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
+_FIRST_SIGN = itemgetter(slice(1))
 _TAPE_MARK = regex(r"\s*%")
 _NUMBER = regex(r"\s*(?:%\s*)?(?:[oO]|:)[ \t]*(\d{1,9})(?![\d.])")
 _NAME = regex(r"\s*(?:%\s*)?<([A-Za-z0-9+\-_.]{1,32})>")
@@ -68,9 +70,10 @@ def form_of(lines: Sequence[str], headings: Iterable[int], default: Form) -> For
     if macro_header(lines) is not None:
         return Form.MACRO
     top = lines[:_HEADER_LINES]
-    if any(_COMMENT_HEADER.match(line) or _PATH_HEADER.match(line) for line in top):
+    comments = [line for line in top if line.lstrip().startswith(";")]
+    if any(_COMMENT_HEADER.match(line) or _PATH_HEADER.match(line) for line in comments):
         return Form.SINUMERIK
-    if any(_ARCHIVE_HEADER.match(lines[index]) for index in headings):
+    if any("_" in lines[index] and _ARCHIVE_HEADER.match(lines[index]) for index in headings):
         return Form.SINUMERIK
     return default
 
@@ -111,7 +114,7 @@ def split_channels(program: Program) -> dict[int, Program]:
 def _possible_headings(lines: Sequence[str]) -> Iterable[int]:
     if isinstance(lines, LongText):
         return lines.headings()
-    return [index for index, line in enumerate(lines) if line[:1] in HEADING_STARTS]
+    return list(compress(count(), map(HEADING_STARTS.__contains__, map(_FIRST_SIGN, lines))))
 
 
 def _program(source: Source, form: Form, lines: Sequence[str], first: int, end: int) -> Program:

@@ -33,14 +33,22 @@ def split_lines(text: str, path: str = "") -> list[str]:
         lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
     if not lines[-1]:
         lines.pop()
-    if len(text) > MAX_LINE:
-        _refuse_long_lines(lines, path)
+    if len(text) > MAX_LINE and _may_be_too_long(text):
+        for number, line in enumerate(lines, 1):
+            if len(line) > MAX_LINE:
+                refuse_long_line(path, number)
     return lines
 
 
-def _refuse_long_lines(lines: list[str], path: str) -> None:
-    if max(map(len, lines), default=0) > MAX_LINE:
-        refuse_long_line(path, next(n for n, text in enumerate(lines, 1) if len(text) > MAX_LINE))
+def _may_be_too_long(text: str) -> bool:
+    """Whether two line feeds are too far apart: so many characters are looked at in one go, not line by line."""
+    place = 0
+    while place + MAX_LINE < len(text):
+        found = text.rfind("\n", place, place + MAX_LINE + 1)
+        if found < 0:
+            return True
+        place = found + 1
+    return False
 
 
 def refuse_long_line(path: str, line: int) -> NoReturn:

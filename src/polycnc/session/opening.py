@@ -154,7 +154,8 @@ def _control(control_id: str) -> Control:
 def _guess(content: str | Path, name: str, *, is_text: bool, encoding: str | None) -> Control:
     """The control that a program is certainly written for."""
     from polycnc.control import registry
-    from polycnc.program import guess_control, load_programs, split_programs
+    from polycnc.program import load_programs, split_programs
+    from polycnc.program.detect import guess_control
     from polycnc.program.split import Source
     from polycnc.program.text import split_lines
 

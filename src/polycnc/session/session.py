@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from polycnc.control.interface import Control
     from polycnc.machine.model import Machine
     from polycnc.machine.setup.values import Setup
+    from polycnc.mainrun.continuation import Continuation
     from polycnc.memory.retained import RetainedStore
     from polycnc.motion.explain import TimeAccount
     from polycnc.motion.sampling.samples import Sampler, Samples
@@ -51,6 +52,7 @@ class Session:
     Attributes:
         consumers: Called with each chunk of the toolpath, in order, while the program runs.
         result: What `run` gives.
+        main_run: What executes the program in time, from the first block on that needs the clock; None until then.
     """
 
     def __init__(
@@ -75,6 +77,7 @@ class Session:
         )  # fmt: skip
         self._keep = keep
         self._in_time = False
+        self.main_run: Continuation | None = None
         self.channel.move_times = Planned()
         self.channel.passes = Passes()
         self.channel.standstill = Standstill()
@@ -92,11 +95,8 @@ class Session:
 
             self.result.planner = Planner(toolpath, machine, keep_rows=False, **self.result.lead)
 
-    def run(self, progress: Callable[[Channel], None] | None = None) -> Result:
+    def run(self) -> Result:
         """Run to the end of the program or to an alarm. Programmed stops are recorded and started again.
-
-        Args:
-            progress: Called now and then in a long run.
 
         Raises:
             MemoryFileError: What is to last could not be written into its file.
@@ -108,8 +108,6 @@ class Session:
             if wait.reason is Why.SINGLE_BLOCK:
                 self.result.stops.extend([*self.channel.inner_halts, self._halt(wait)])
                 self.channel.inner_halts.clear()
-            elif progress is not None:
-                progress(self.channel)
         self.channel.retained.commit()
         for consume in self.consumers:
             consume(self.channel.toolpath.chunk)
@@ -124,7 +122,7 @@ class Session:
 
         toolpath = self.channel.toolpath
         first, self._in_time = len(toolpath.chunks) - 1, True
-        main_run = Continuation(self.group)
+        main_run = self.main_run = Continuation(self.group)
         main_run.run()
         self._in_time = False
         self.result.stops.extend(main_run.halts)

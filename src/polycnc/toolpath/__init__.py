@@ -9,7 +9,7 @@ offsets each tool cuts, by the kernel `survey` (both are `compiled` where they c
 
 from polycnc.toolpath.context import Context
 from polycnc.toolpath.events import Event
-from polycnc.toolpath.kinds import Kind
-from polycnc.toolpath.table import NO_CURVE, Row, Toolpath
+from polycnc.toolpath.kinds import NO_CURVE, Kind
+from polycnc.toolpath.table import Row, Toolpath
 
 __all__ = ["NO_CURVE", "Context", "Event", "Kind", "Row", "Toolpath"]

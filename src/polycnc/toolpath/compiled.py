@@ -6,26 +6,31 @@ from functools import cache
 from typing import TYPE_CHECKING, TypeAlias
 
 from polycnc.kernels.library import Library
-from polycnc.toolpath import digits
-from polycnc.toolpath import survey as kernels
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from polycnc.kernels.layout import Bytes, Floats, Ints, Ints32
+    from polycnc.toolpath.digits import Forms
+    from polycnc.toolpath.survey import Box, Moves
 
 #: Writes rows as text; see `digits.fill`.
-Fill: TypeAlias = "Callable[[digits.Forms, Ints32, Floats, int, int, Bytes, Ints], int]"
-LIBRARY = Library("toolpath", (kernels, digits), (kernels.survey, digits.fill), inline=True)
+Fill: TypeAlias = "Callable[[Forms, Ints32, Floats, int, int, Bytes, Ints], int]"
+LIBRARY = Library(
+    "toolpath",
+    ("polycnc.toolpath.survey", "polycnc.toolpath.digits"),
+    ("polycnc.toolpath.survey.survey", "polycnc.toolpath.digits.fill"),
+    inline=True,
+)
 
 
 @cache
-def survey() -> Callable[[kernels.Moves, int, Bytes, Ints, Floats, kernels.Box], int]:
+def survey() -> Callable[[Moves, int, Bytes, Ints, Floats, Box], int]:
     """The compiled kernel; the plain one where there is none."""
-    return LIBRARY.compiled(kernels.survey) or kernels.survey
+    return LIBRARY.kernel("survey")
 
 
 @cache
 def fill() -> Fill | None:
     """The compiled kernel; None where there is none: Python's own formatting is faster than the plain one."""
-    return LIBRARY.compiled(digits.fill)
+    return LIBRARY.compiled("fill")

@@ -1,4 +1,4 @@
-"""Kinds of rows in a toolpath."""
+"""Kinds of rows in a toolpath, and what rows of curves have beside their ends."""
 
 from __future__ import annotations
 
@@ -22,6 +22,15 @@ class Kind(IntEnum):
     DWELL = 11
     EVENT = 12
 
+
+#: Value of the `curve` column where a row has no curve parameters.
+NO_CURVE = -1
+#: Numbers a curve row: centre x y z (work coordinates, mm), unit normal x y z of the arc's plane, full turns
+#: beyond the first, spare. A dwell: seconds, revolutions. A thread or tap: lead mm, start angle degrees;
+#: of a straight thread what its lead grows by each revolution, mm, of a circular one its centre and the normal about
+#: which it turns counter-clockwise.
+#: A skip move that a signal ends: way that is left to its programmed end, mm.
+CURVE_WIDTH = 8
 
 #: The `type` of each kind in the trace, by its number.
 TYPE_NAMES = tuple(kind.name.lower() for kind in Kind)

@@ -13,7 +13,7 @@ from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS, Kind
 from polycnc.toolpath.row_path import path_of_row
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
 
     from polycnc.geometry.frames import Vector
     from polycnc.toolpath.context import Context
@@ -35,7 +35,10 @@ class Stroke:
 
 
 def strokes(
-    toolpath: Toolpath, geometry: tuple[int, int, int], chord_error: float = 0.01
+    toolpath: Toolpath,
+    geometry: tuple[int, int, int],
+    chord_error: float = 0.01,
+    rows: Iterable[Row] | None = None,
 ) -> Iterator[Stroke]:
     """The strokes of a toolpath in order.
 
@@ -43,10 +46,11 @@ def strokes(
         toolpath: The table.
         geometry: For X, Y, Z the index of the channel axis, or -1 for an axis that does not exist.
         chord_error: How far a chord may lie from its arc, mm.
+        rows: Its rows, where somebody counts them.
     """
     stroke: Stroke | None = None
     before: Row | None = None
-    for row in toolpath.rows():
+    for row in toolpath.rows() if rows is None else rows:
         if row.kind not in _STANDING:
             tool, rapid = tool_label(row.context), row.kind in _RAPID
             points = drawn(toolpath, before, row, geometry, chord_error)

@@ -10,8 +10,7 @@ from math import atan2, inf, sqrt, tau
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.kernels.layout import Bytes, Floats, Ints, Ints32, Words32
-from polycnc.toolpath.kinds import Kind
-from polycnc.toolpath.table import CURVE_WIDTH
+from polycnc.toolpath.kinds import CURVE_WIDTH, Kind
 
 RAPIDS, CUTS, STANDS = 0, 1, 2
 _ARCS = (int(Kind.CW), int(Kind.CCW), int(Kind.HELIX_CW), int(Kind.HELIX_CCW))

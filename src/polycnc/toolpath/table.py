@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.geometry.tolerances import NO_WAY
-from polycnc.toolpath.kinds import Kind
+from polycnc.toolpath.kinds import CURVE_WIDTH, NO_CURVE, Kind
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -24,14 +24,6 @@ if TYPE_CHECKING:
     from polycnc.toolpath.context import Context
     from polycnc.toolpath.events import Event
 
-#: Value of the `curve` column where a row has no curve parameters.
-NO_CURVE = -1
-#: Numbers a curve row: centre x y z (work coordinates, mm), unit normal x y z of the arc's plane, full turns
-#: beyond the first, spare. A dwell: seconds, revolutions. A thread or tap: lead mm, start angle degrees;
-#: of a straight thread what its lead grows by each revolution, mm, of a circular one its centre and the normal about
-#: which it turns counter-clockwise.
-#: A skip move that a signal ends: way that is left to its programmed end, mm.
-CURVE_WIDTH = 8
 CHUNK_ROWS = 65_536
 #: So many rows are looked at one by one rather than halved.
 FEW_ROWS = 32

@@ -38,7 +38,7 @@ _FULL_TURN = 360.0
 #: Contexts whose factors a display keeps; the main run comes to new ones without end.
 MOST_SCALES = 1000
 #: Unit of lengths, metric or in inches.
-_UNITS = ("mm", "inch")
+UNITS = ("mm", "inch")
 #: Seconds in the time unit of each feed mode: per minute, per revolution (no time in it), inverse minutes.
 _TIME_FACTOR = {FeedMode.INVERSE_TIME: 60.0, FeedMode.PER_MINUTE: 60.0, FeedMode.PER_REVOLUTION: 1.0}
 
@@ -196,7 +196,7 @@ class Display:
             "type": TYPE_NAMES[kind],
             "program": self.toolpath.programs[program],
             "line": line,
-            "unit": _UNITS[inch],
+            "unit": UNITS[inch],
             "to": dict(zip(self.axes, work, strict=True)),
             "machine": dict(zip(self.axes, machine, strict=True)),
         }
@@ -220,7 +220,7 @@ class Display:
             scale = self.scale(context)
             seen = end[rows] if context.shown_by is None else work_rows(context.shown_by, end[rows])
             work[rows] = seen * scale.work
-            turning.extend((rows, i) for i in self._modulo(context))
+            turning.extend((rows, i) for i in self.modulo(context))
             machine[rows] = _machine_columns(end[rows], context, self.layout.geometry) * scale.machine
             feed[rows] *= np.where(kind[rows] == Kind.THREAD, scale.length, scale.feed)
             inch[rows] = context.inch
@@ -265,7 +265,7 @@ class Display:
             end = context.shown_by.to_work(end)
         names = context.names or self.axes
         shown = {axis: _shown(v * f) for axis, v, f in zip(names, end, factors, strict=True)}
-        for i in self._modulo(context):
+        for i in self.modulo(context):
             if names[i]:
                 shown[names[i]] = _shown(shown[names[i]] % _FULL_TURN)
         shown.pop("", None)
@@ -283,7 +283,7 @@ class Display:
         if scale is None:
             length = 1.0 / INCH_MM if context.inch else 1.0
             diameter = _diameters(context.diameter_axes, len(self.axes))
-            angles = self.layout.rotary.difference(self._geometry(context))
+            angles = self.layout.rotary.difference(self.geometry(context))
             work = [d if i in angles else d * length for i, d in enumerate(diameter)]
             if context.unrolled is not None:
                 work[context.unrolled[0]] = context.unrolled[1]
@@ -292,19 +292,19 @@ class Display:
             feed = _TIME_FACTOR[context.feed_mode] * (
                 context.share if context.feed_mode is FeedMode.INVERSE_TIME else length
             )
-            unit = _UNITS[context.inch]
+            unit = UNITS[context.inch]
             scale = Scale(tuple(work), tuple(diameter), length, feed, unit)
             if len(self._scales) >= MOST_SCALES:
                 self._scales.clear()
             self._scales[id(context)] = context, scale
         return scale
 
-    def _geometry(self, context: Context) -> tuple[int, int, int]:
+    def geometry(self, context: Context) -> tuple[int, int, int]:
         """Columns of X, Y, Z of what is shown."""
         made = context.transformation or context.shown_by
         return self.layout.geometry if made is None else made.geometry
 
-    def _modulo(self, context: Context) -> frozenset[int]:
+    def modulo(self, context: Context) -> frozenset[int]:
         """Axes whose display stays within one turn; not one that a transformation makes a length."""
         made = context.transformation or context.shown_by
         if made is None or context.unrolled is not None:
@@ -331,7 +331,7 @@ class Display:
         """
         center, normal, turns, context = curve[0:3], curve[3:6], curve[6], row.context
         if context.shown_by is not None:
-            columns, point = self._geometry(context), list(row.end)
+            columns, point = self.geometry(context), list(row.end)
             for axis, value in zip(columns, center, strict=True):
                 point[axis] = value
             point = context.shown_by.to_work(point)
@@ -339,7 +339,7 @@ class Display:
         tilted = sum(1 for component in normal if abs(component) > 1e-9) > 1
         shown: dict[str, float] = {}
         scale = self.scale(context)
-        for i, value, component in zip(self._geometry(context), center, normal, strict=True):
+        for i, value, component in zip(self.geometry(context), center, normal, strict=True):
             if i >= 0 and (tilted or abs(component) <= 1e-9):
                 shown[(context.names or self.axes)[i]] = _shown(value * scale.work[i])
         record: CurveRecord = {"center": shown}
@@ -361,7 +361,7 @@ class Display:
             context = self.toolpath.contexts[number]
             rows = np.flatnonzero(is_arc & (columns.context == number))
             curves, scale = columns.curves[columns.curve[rows]], self.scale(context)
-            geometry, center = self._geometry(context), curves[:, :3]
+            geometry, center = self.geometry(context), curves[:, :3]
             if context.shown_by is not None:
                 points = columns.end[rows]
                 points[:, geometry] = center

@@ -16,10 +16,9 @@ from typing import TYPE_CHECKING
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass, field
 from polycnc.toolpath.compiled import survey
-from polycnc.toolpath.kinds import RAPID_KINDS, Kind
+from polycnc.toolpath.kinds import CURVE_WIDTH, RAPID_KINDS, Kind
 from polycnc.toolpath.modes import FeedMode
 from polycnc.toolpath.survey import CUTS, RAPIDS, STANDS, Box, Moves, empty_box
-from polycnc.toolpath.table import CURVE_WIDTH
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence

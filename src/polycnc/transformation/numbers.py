@@ -8,20 +8,20 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
 from polycnc.geometry.frames import QUARTERS, cos_sin_deg
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from typing import TypeVar
 
     import numpy as np
     import numpy.typing as npt
 
     Column = npt.NDArray[np.float64]
-
-#: A number, or a column of numbers: one for each point.
-N = TypeVar("N", float, "Column")
+    #: A number, or a column of numbers: one for each point.
+    N = TypeVar("N", float, Column)
 #: What is one number; a tuple, since a union is built anew at every look.
 NUMBER = (float, int)
 #: Columns of angles whose cosines and sines are at hand.

@@ -17,7 +17,7 @@ from polycnc.compensation.runs.kernels import Offset
 
 
 def test_there_is_always_a_kernel() -> None:
-    assert lead() is (LIBRARY.compiled(kernels.lead) or kernels.lead)
+    assert lead() is (LIBRARY.compiled("lead") or kernels.lead)
 
 
 @pytest.mark.skipif(LIBRARY.lack is not None, reason="needs compiled kernels")

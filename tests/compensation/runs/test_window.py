@@ -17,8 +17,7 @@ from polycnc.compensation.runs import window as runs
 from polycnc.compensation.runs.kernels import lead
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import Auxiliary
-from polycnc.toolpath.kinds import Kind
-from polycnc.toolpath.table import NO_CURVE
+from polycnc.toolpath.kinds import NO_CURVE, Kind
 from tests.compensation.policies import FANUC_A, MELDAS, SINUMERIK_NORM_G450, SYNTEC
 from tests.compensation.support import CODES, into
 from tests.kernels.strict import strict

@@ -11,8 +11,7 @@ from typing import Any
 from polycnc.channel.channel import Channel
 from polycnc.control.registry import control
 from polycnc.language.bulk.kernels import scan
-from polycnc.language.bulk.layout import State, Tables
-from polycnc.language.bulk.moves import Columns
+from polycnc.language.bulk.layout import Columns, State, Tables
 from polycnc.language.bulk.settings import Bulk
 from polycnc.machine import load_machine
 from polycnc.machine.setup.file import parse_setup

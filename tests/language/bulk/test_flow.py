@@ -11,8 +11,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from polycnc.language.bulk.compiled import LIBRARY
-from polycnc.language.bulk.layout import State, Tables
-from polycnc.language.bulk.moves import Columns
+from polycnc.language.bulk.layout import Columns, State, Tables
 from polycnc.language.bulk.settings import Bulk
 from polycnc.program import long_text
 from polycnc.session import open_session

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import ast
-
 import pytest
 
+from polycnc.language.expressions import nodes
 from polycnc.language.expressions.code import Code, Lifted, binary, bound, call, constant, given, moved, name
 from polycnc.language.expressions.shapes import Function, Shapes, TooDeepError
 
@@ -17,13 +16,13 @@ def shapes(most: int = 16) -> Shapes:
 def nested(depth: int) -> Code:
     code = name("x")
     for _ in range(depth):
-        code = binary(ast.Add, code, Lifted("n", 0))
+        code = binary(nodes.Add, code, Lifted("n", 0))
     return code
 
 
 def test_functions_of_one_shape_differ_in_their_numbers_only() -> None:
     kept = shapes()
-    product = binary(ast.Mult, call("abs", name("x")), Lifted("n", 0))
+    product = binary(nodes.Mult, call("abs", name("x")), Lifted("n", 0))
     first, second = kept.value("x", product, [2.0]), kept.value("x", product, [5.0])
     assert (first(-3.0), second(-3.0)) == (6.0, 15.0)
     assert len(kept) == 1

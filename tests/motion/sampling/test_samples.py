@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from polycnc.machine import Machine
-from polycnc.motion import Settings
+from polycnc.motion import Settings, planner
 from polycnc.motion.planner import Planner
 from polycnc.motion.sampling.samples import Sampler, Samples
 from polycnc.toolpath import Context, Kind
@@ -127,3 +127,44 @@ def test_a_tap_turns_the_spindle_by_its_lead_in_and_out() -> None:
     turned = angle - 360.0 * (2.0 - z) / lead
     assert np.ptp(turned) < 1e-6
     assert np.ptp(z) > 11.9
+
+
+def contour(corners: int) -> Build:
+    """A way of many lines and arcs that nothing stops on."""
+    rows = Build(context=Context(spindle_rpm=600.0, spindle_direction=1))
+    rows.rapid(0.0, 0.0, 0.0)
+    for k in range(corners):
+        y = 0.3 * (k % 3)
+        rows.feed(k + 0.5, y, 0.0).arc(k + 1.0, y, 0.0, center=(k + 0.75, y))
+    return rows
+
+
+@pytest.mark.parametrize("lead", [Settings(), SOFT, Settings(acceleration=AccelerationMode.JERK_LIMITED)])
+def test_a_run_that_is_followed_gives_what_it_gives_as_a_whole(
+    lead: Settings, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(planner, "FULL_ROOM", 64)
+    kept: list[int] = []
+    follow = Sampler._follow
+
+    def watched(sampler: Sampler) -> None:
+        follow(sampler)
+        if sampler._followed is not None:
+            kept.append(len(sampler._followed.run.rows))
+
+    monkeypatch.setattr(Sampler, "_follow", watched)
+    _, followed = sampled(contour(150), lead=lead)
+    assert len(kept) > 3
+    assert max(kept) < 150  # of 300 rows with some pieces each
+    monkeypatch.setattr(Sampler, "_follow", lambda _: None)
+    _, whole = sampled(contour(150), lead=lead)
+    for one, other, slack in zip(followed, whole, (0.0, 1e-9, 1e-6, 1e-2, 0.0, 1e-9, 0.0, 0.0), strict=True):
+        assert np.allclose(one, other, rtol=0.0, atol=slack)
+
+
+def test_what_a_thread_does_is_known_at_its_end(monkeypatch: pytest.MonkeyPatch) -> None:
+    _, whole = sampled(thread(-40.0, 2.0, 90.0), LATHE)
+    monkeypatch.setattr(planner, "FULL_ROOM", 1)
+    _, followed = sampled(thread(-40.0, 2.0, 90.0), LATHE)
+    assert np.allclose(followed.spindle_angle, whole.spindle_angle, atol=1e-9)
+    assert np.allclose(followed.position, whole.position, atol=1e-9)

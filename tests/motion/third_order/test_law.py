@@ -160,7 +160,7 @@ def test_both_ways_to_run_the_kernels_give_the_same_bits(
 ) -> None:
     path = made()
     quick = quickest_law(path, AXES)
-    plain = compiled.Kernels._make(map(strict, compiled.PLAIN))
+    plain = compiled.Kernels._make(map(strict, compiled.plain()))
     monkeypatch.setattr("polycnc.motion.third_order.laws.quickest.kernels", lambda: plain)
     slow = quickest_law(path, AXES)
     for name in ("start", "way", "speed", "pull", "jerk"):

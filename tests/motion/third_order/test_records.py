@@ -167,7 +167,7 @@ def test_times_and_places_of_a_run_are_those_of_the_law() -> None:
     pieces = recorded(path, law)
     run, ways = Run(pieces, 3), np.cumsum(pieces[:, PieceRecord.LENGTH])
     starts = law.times_at(np.append(0.0, path.row_way[:-1]))
-    assert [run.enters(int(row)) for row in path.rows] == pytest.approx(starts.tolist(), abs=1e-9)
+    assert run.enters(path.rows.astype(np.int64)).tolist() == pytest.approx(starts.tolist(), abs=1e-9)
     for share in (0.1, 0.5, 0.9):
         time = float(law.times_at(np.array([share * path.way[-1]]))[0])
         assert run.time_of(share) == pytest.approx(time, abs=1e-9)
@@ -198,9 +198,8 @@ def test_no_kernel_reads_from_the_end() -> None:
 
 def alike(path: BentPath, law: JerkLaw) -> bool:
     """Whether the kernels in force and the plain ones give the same numbers."""
-    plain = compiled.PLAIN._replace(
-        put_records=strict(compiled.PLAIN.put_records), add_times=strict(compiled.PLAIN.add_times)
-    )
+    plain = compiled.plain()
+    plain = plain._replace(put_records=strict(plain.put_records), add_times=strict(plain.add_times))
     found: list[tuple[Numbers, ...]] = [
         (recorded(path, law, by=way), *times_of(path, law, by=way)) for way in (compiled.kernels(), plain)
     ]

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from polycnc.cli import diagnostics, options
-from polycnc.cli.console import note, show
+from polycnc.cli.console import note, show, standard_input
 from polycnc.cli.declaration import Argument, Commands, Option
 from polycnc.deferred.records import dataclass
 from polycnc.messages import UserError, text
@@ -124,10 +124,10 @@ def _checked(file: str, name: str, opening: options.Opening, *, is_watched: bool
     from polycnc.cli.progress import WaitingForRun
 
     try:
-        source: bytes | Path = sys.stdin.buffer.read() if file == STDIN else Path(file)
+        source: bytes | Path = standard_input() if file == STDIN else Path(file)
         session = opening.session(source, name=name, keep=False, timed=False)
-        with WaitingForRun(session) if is_watched else nullcontext() as waiting:
-            result = session.run(waiting)
+        with WaitingForRun(session) if is_watched else nullcontext():
+            result = session.run()
         found = diagnostics.diagnostics_of(result, name)
     except (UserError, OSError) as error:
         return _Checked([diagnostics.unreadable(name, error)])

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 from polycnc.cli import options
 from polycnc.cli.console import fail, say
 from polycnc.cli.declaration import Argument, Commands, Option
+from polycnc.cli.progress import end as end_of_waiting
 from polycnc.messages import text
 from polycnc.messages.catalogue import language
 
@@ -84,6 +85,7 @@ def panel(
     build(desks, language(), token)
     named = f"[{host}]" if ":" in host else host
     say(f"http://{named}:{port}/" + (f"?token={token}" if token else ""))
+    end_of_waiting()
     try:
         serve(host=host, port=port, opens=not no_open)
     finally:

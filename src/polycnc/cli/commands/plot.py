@@ -11,7 +11,7 @@ from polycnc.cli import options
 from polycnc.cli.console import fail, note
 from polycnc.cli.declaration import Argument, Commands, Option
 from polycnc.cli.diagnostics import diagnostics_of
-from polycnc.cli.progress import WaitingForRun
+from polycnc.cli.progress import Waiting, WaitingForRun
 from polycnc.messages import text
 
 if TYPE_CHECKING:
@@ -61,8 +61,8 @@ def plot(
 
 
 def _path(session: Session, view: ViewName | None, title: str) -> tuple[Result, str]:
-    with WaitingForRun(session) as waiting:
-        result = session.run(waiting)
+    with WaitingForRun(session):
+        result = session.run()
     return result, _drawing(result, view, title)
 
 
@@ -74,10 +74,10 @@ def _profile(session: Session, title: str) -> tuple[Result, str]:
     rotary = {i for i, axis in enumerate(machine.channel(1).axes) if machine.axis[axis].rotary}
     profile = Profile(axes, rotary)
     sampler = session.sample(machine.interpolation_cycle_s, profile.take)
-    with WaitingForRun(session) as waiting:
-        result = session.run(waiting)
-    result.plan  # noqa: B018 - planning to the end gives the last samples
-    sampler.close()
+    with WaitingForRun(session, sampler):
+        result = session.run()
+        result.plan  # noqa: B018 - planning to the end gives the last samples
+        sampler.close()
     return result, profile.svg(title)
 
 
@@ -94,7 +94,10 @@ def _drawing(result: Result, view: ViewName | None, title: str) -> str:
         for i in geometry
     ]
     views = VIEWS[view or ("zx" if is_lathe else "three")]
-    return svg(list(strokes(result.toolpath, geometry)), views, title, labels)
+    with Waiting(title, len(result.toolpath), "rows") as waiting:
+        rows = waiting.each(result.toolpath.rows())
+        drawn = list(strokes(result.toolpath, geometry, rows=rows))
+    return svg(drawn, views, title, labels)
 
 
 def _write_png(output: Path, drawing: str) -> None:

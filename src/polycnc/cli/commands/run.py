@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import re
-import sys
 from contextlib import ExitStack
 from importlib.util import find_spec
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Annotated, Any
 
 from polycnc.cli import options
-from polycnc.cli.console import fail, note, show
+from polycnc.cli.console import fail, note, show, standard_input
 from polycnc.cli.declaration import Argument, Commands, Option
 from polycnc.cli.progress import WaitingForRun
 from polycnc.deferred.regexes import regex
@@ -22,6 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from polycnc.motion.explain import TimeAccount
+    from polycnc.motion.sampling.samples import Sampler
     from polycnc.session import Result, Session
     from polycnc.toolpath.table import Chunk
     from polycnc.toolpath.trace import Display
@@ -72,7 +72,7 @@ def run(
     is_stdin = file == "-"
     outputs = [trace, sample[1] if sample is not None else None, state, print_to]
     refuse_inputs(outputs, opening.inputs(file, *([memory] if memory else [])))
-    source = sys.stdin.buffer.read() if is_stdin else Path(file)
+    source = standard_input() if is_stdin else Path(file)
     session = opening.session(source, keep=False, timed=not no_time, memory=memory)
     happenings = Happenings(session.result.display)
     session.consumers.append(happenings.take)
@@ -82,13 +82,16 @@ def run(
         if print_to is not None:
             session.consumers.append(_Prints(_whole(files, print_to, "w"), session.result.display).take)
         traced = trace and _trace_to(trace, session, files)
-        sampled = sample and _sample_to(sample[1], period or 0.0, session, files)
+        sampler = _sample_to(sample[1], period or 0.0, session, files) if sample else None
         account = session.explain_time() if explain_time else None
-        result = session.run(files.enter_context(WaitingForRun(session)))
+        with WaitingForRun(session, sampler):
+            result = session.run()
+            if result.timed:
+                result.plan  # noqa: B018 - planning to the end gives the last samples, and takes its time
+            if sampler is not None:
+                sampler.close()
         if traced:
             traced(result)
-        if sampled:
-            sampled(result)
         refuse_inputs(outputs, result.files)
     if state is not None:
         _write_state(state, result, usage)
@@ -120,7 +123,7 @@ def _say_if_slow(*, planned: bool) -> None:
 
         lack = PLANNING.lack
     if lack in (Lack.MISSING, Lack.STALE):
-        note(f"polycnc: {text(f'run.kernels.{lack.name.lower()}')}")
+        note(f"polycnc: {text(f'run.kernels.{lack}')}")
 
 
 def _usage_of(session: Session) -> Usage:
@@ -165,8 +168,8 @@ def period_s(written: str) -> float | None:
     return seconds if seconds >= _SHORTEST_S else None
 
 
-def _sample_to(path: Path, period: float, session: Session, files: ExitStack) -> Callable[[Result], None]:
-    """Sample the motion while it is planned; gives what ends it."""
+def _sample_to(path: Path, period: float, session: Session, files: ExitStack) -> Sampler:
+    """Sample the motion while it is planned."""
     from polycnc.motion.sampling.sample_file import SAMPLE_WRITERS
 
     mode, writer_of = SAMPLE_WRITERS[path.suffix.lower()]
@@ -175,13 +178,7 @@ def _sample_to(path: Path, period: float, session: Session, files: ExitStack) ->
         _whole(files, path, mode), result.toolpath.axes, result.toolpath.programs, result.metadata
     )
     files.callback(writer.close)
-    sampler = session.sample(period, writer.take)
-
-    def end(result: Result) -> None:
-        result.plan  # noqa: B018 - planning to the end gives the last samples
-        sampler.close()
-
-    return end
+    return session.sample(period, writer.take)
 
 
 def _write_state(path: Path, result: Result, usage: Usage | None) -> None:

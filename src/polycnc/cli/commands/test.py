@@ -51,10 +51,10 @@ def run_tests(
     outcomes: list[Outcome] = []
     unreadable = False
     paths = [Path(name) for name in options.expanded(map(str, files))]
-    with _opened(memory) as store, Waiting("polycnc test", len(paths), "files") as waiting:
-        for done, path in enumerate(paths):
-            for outcome in _run_file(path, selection, store):
-                waiting.reach(done)
+    with _opened(memory) as store, Waiting("polycnc test", len(paths), "cases") as waiting:
+        for files_done, path in enumerate(paths):
+            for cases_done, outcome in _run_file(path, selection, store):
+                waiting.reach(len(outcomes) + 1, (files_done + cases_done) / len(paths))
                 if outcome is None:
                     unreadable = True
                     continue
@@ -80,8 +80,10 @@ def _opened(memory: Path | None) -> Iterator[FileStore | None]:
         yield store
 
 
-def _run_file(path: Path, selection: Selection, memory: FileStore | None) -> Iterator[Outcome | None]:
-    """The outcomes of one file; None for a file that cannot be read."""
+def _run_file(
+    path: Path, selection: Selection, memory: FileStore | None
+) -> Iterator[tuple[float, Outcome | None]]:
+    """The outcomes of one file, None for one that cannot be read, and the share of its cases that are done."""
     from polycnc.cases.reading import UnreadableError, read_cases
     from polycnc.cases.runner import run_cases
 
@@ -89,9 +91,10 @@ def _run_file(path: Path, selection: Selection, memory: FileStore | None) -> Ite
         data = read_cases(path)
     except UnreadableError as error:
         note(f"polycnc: {error.text()}")
-        yield None
+        yield 1.0, None
         return
-    yield from run_cases(data, selection, path.parent, memory)
+    for count, outcome in enumerate(run_cases(data, selection, path.parent, memory), 1):
+        yield count / len(data), outcome
 
 
 def _tell(outcome: Outcome) -> None:

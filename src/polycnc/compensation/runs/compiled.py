@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.compensation.runs import kernels
 from polycnc.kernels.library import Library
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-LIBRARY = Library("compensation", (kernels,), (kernels.lead,), inline=True)
+_KERNELS = "polycnc.compensation.runs.kernels"
+LIBRARY = Library("compensation", (_KERNELS,), (f"{_KERNELS}.lead",), inline=True)
 
 
 def lead() -> Callable[..., int]:
     """What leads moves through a window: machine code, or the same as it is written."""
-    return LIBRARY.compiled(kernels.lead) or kernels.lead
+    return LIBRARY.kernel("lead")

@@ -10,8 +10,7 @@ from __future__ import annotations
 from ctypes import Structure
 from math import atan2, cos, pi, sqrt
 
-from polycnc.geometry.offset import SMOOTH_MM
-from polycnc.geometry.tolerances import NO_WAY
+from polycnc.geometry.tolerances import NO_WAY, SMOOTH_MM
 from polycnc.kernels.layout import Bytes, Floats, record
 from polycnc.toolpath.kinds import Kind
 

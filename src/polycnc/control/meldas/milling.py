@@ -6,19 +6,23 @@ from functools import cache
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.control.fanuc.milling.codes import ADDRESSES, POWER_ON
-from polycnc.control.meldas import tool_axis_length
 from polycnc.control.meldas.alarm_codes import ALARMS
 from polycnc.control.meldas.code_calls import registered_codes
 from polycnc.control.meldas.cycles import DRILLING
 from polycnc.control.meldas.milling_codes import G_CODES, M_CODES
 from polycnc.control.meldas.parameters import MeldasParameters
+from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.whole_numbers import DecimalPoint
 from polycnc.control.word_address.coordinates import frames
-from polycnc.control.word_address.machining_centre import HARTFORD, MillingControl
+from polycnc.control.word_address.machining_centre import MillingControl, hartford
 from polycnc.control.word_address.macro_b.variables import MacroMemory
-from polycnc.control.word_address.tools import length
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import replace
 from polycnc.toolpath.motion_settings import Ramp
+
+with loaded_when_called():
+    from polycnc.control.meldas import tool_axis_length
+    from polycnc.control.word_address.tools import length
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -26,17 +30,12 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.compensation.policy import Policy
     from polycnc.control.word_address.block.codes import GCode, MCode, Planner
-    from polycnc.control.word_address.block.rules import Rule
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.cycles.drilling import Drilling
     from polycnc.control.word_address.macro_b.code_calls import CodeCalls
     from polycnc.control.word_address.macro_b.variables import Registry
     from polycnc.messages import AlarmError
     from polycnc.toolpath.motion_settings import MotionSettings
-
-#: Five blocks are read, so three without motion may stand between two moves; the start-up block reads three, as the
-#: manual of the machine prints it for both of its controls (3.3.1 D).
-FIVE_READ = replace(HARTFORD, read_blocks=5, start_blocks=3)
 
 
 @cache
@@ -60,7 +59,16 @@ class MeldasMilling(MillingControl):
     power_on: ClassVar[Mapping[str, str]] = POWER_ON
     alarms: ClassVar[Mapping[str, str]] = ALARMS
     drilling: ClassVar[Drilling] = DRILLING
-    rules: ClassVar[tuple[Rule, ...]] = (tool_axis_length.RULE, *MillingControl.rules)
+    rules: ClassVar[tuple[Rule, ...]] = (
+        Rule(
+            "length along the tool",
+            modes={"length": ("G43.1",)},
+            check=tool_axis_length.check_company,
+            motion=tool_axis_length.plan_turning,
+            after=tool_axis_length.turn_behind,
+        ),
+        *MillingControl.rules,
+    )
     SCALES_NAMED_AXES: ClassVar[bool] = True
     PLANE_HELD_BY_ROTATION: ClassVar[bool] = True
     JOINING_HINT: ClassVar[str] = "hint.single-conditions"
@@ -86,8 +94,11 @@ class MeldasMilling(MillingControl):
         channel.mode = channel.mode.with_code("scaling", "G50")
 
     def compensation_policy(self, _channel: Channel) -> Policy:
-        """Rules of radius compensation."""
-        return FIVE_READ
+        """Five blocks are read, so three without motion may stand between two moves; the start-up block reads three.
+
+        So the manual of the machine prints it for both of its controls (3.3.1 D).
+        """
+        return replace(hartford(), read_blocks=5, start_blocks=3)
 
     def motion_settings(self, channel: Channel) -> MotionSettings:
         """#1086 G0Intp = 0: rapids run on a line; delivered, every axis by itself.

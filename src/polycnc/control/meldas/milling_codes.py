@@ -4,18 +4,23 @@ from __future__ import annotations
 
 from functools import partial
 
-from polycnc.control.fanuc.milling.codes import ALIASES, ROWS, moves, tool_length
-from polycnc.control.meldas.tool_axis_length import compensate_along_tool
+from polycnc.control.fanuc.milling.codes import ALIASES, ROWS, moves
 from polycnc.control.word_address.auxiliary import functions
 from polycnc.control.word_address.auxiliary.m_codes import MACHINING_CENTRE
 from polycnc.control.word_address.block.codes import GCode, MCode, Order, m_table, table, with_aliases
 from polycnc.control.word_address.coordinates import systems
-from polycnc.control.word_address.cycles import hole_patterns
-from polycnc.control.word_address.macro_b import calls_as_data, subprograms
-from polycnc.control.word_address.motion import circle_cutting, path_modes, skip
-from polycnc.control.word_address.tools import data_input, measuring, radius
-from polycnc.control.word_address.transformations import hypothetical_axis, tool_center_point
+from polycnc.control.word_address.motion import path_modes
+from polycnc.control.word_address.tools import radius
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.language.bulk import declare
+
+with loaded_when_called():
+    from polycnc.control.meldas import tool_axis_length
+    from polycnc.control.word_address.cycles import hole_patterns
+    from polycnc.control.word_address.macro_b import calls_as_data, subprograms
+    from polycnc.control.word_address.motion import circle_cutting, skip
+    from polycnc.control.word_address.tools import data_input, measuring
+    from polycnc.control.word_address.transformations import hypothetical_axis, tool_center_point
 
 #: Codes of FANUC that the manual's table does not have.
 FOREIGN = frozenset({
@@ -46,7 +51,7 @@ _ROWS = table(
     moves("G37", measuring.measure_length, "R D", reals="D"),
     moves("G37.1", hole_patterns.grid_of_holes, "I J P K"),
     GCode("G40", "compensation", radius.cancel_compensation, takes="I J K", order=Order.COMPENSATION),
-    GCode("G43.1", "length", tool_length(compensate_along_tool), takes="H", order=Order.LENGTH),
+    GCode("G43.1", "length", tool_axis_length.compensate_along_tool, takes="H", order=Order.LENGTH),
     GCode("G43.4", "length", tool_center_point.start_following, takes="H", order=Order.LENGTH),
     moves("G53", systems.move_in_machine_system),
     GCode("G61.1", "path", systems.note_context, only_changes=True),

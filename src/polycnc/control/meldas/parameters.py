@@ -34,7 +34,7 @@ class MeldasAxisParameters(MacroAxisParameters):
     overrun = Number(8209, delivered=0.0)
 
 
-class MeldasParameters(MacroParameters["MeldasAxisParameters"]):
+class MeldasParameters(MacroParameters[MeldasAxisParameters]):
     """The parameters of the control."""
 
     axis_class = MeldasAxisParameters

@@ -10,11 +10,11 @@ from __future__ import annotations
 from math import nan
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address.block.rules import Rule
+from polycnc.control.fanuc.milling import standing_system
 from polycnc.control.word_address.motion.path import reach
+from polycnc.control.word_address.states import LengthState, TiltState
 from polycnc.control.word_address.tools import length
-from polycnc.control.word_address.tools.length import ALONG_TOOL, LengthState
-from polycnc.control.word_address.transformations.tilted_plane import TiltState
+from polycnc.control.word_address.tools.length import ALONG_TOOL
 from polycnc.control.word_address.transformations.tool_center_point import angles_named
 from polycnc.toolpath import Kind
 
@@ -33,6 +33,7 @@ NOT_ALONG_TOOL = frozenset(("G68.2", "G53.1", "G12.1", "G7.1"))
 
 def compensate_along_tool(channel: WordAddressChannel, words: Words) -> None:
     """G43.1 H: as G43, along the tool as the head stands it at the end of the block."""
+    standing_system.end_following(channel)
     if TiltState.of(channel).plane is not None:
         raise words.fail("tilt_mode", ALONG_TOOL)
     LengthState.of(channel).along = _tool(channel, angles_named(channel, words))
@@ -50,14 +51,15 @@ def _turning(builder: Builder, plan: Plan) -> list[int]:
     return [word.axis for word in plan.axis_words if channel.axes[word.axis] in named]
 
 
-def _check(builder: Builder) -> None:
+def check_company(builder: Builder) -> None:
+    """Refuse what gives coordinates another meaning."""
     if builder.mode["length"] == ALONG_TOOL:
         for row in builder.codes:
             if row.code in NOT_ALONG_TOOL:
                 raise builder.control.fail("tool_axis_company", address=row.code)
 
 
-def _plan(builder: Builder, plan: Plan) -> Step | None:
+def plan_turning(builder: Builder, plan: Plan) -> Step | None:
     """A block that turns the head: straight to its words, with the length along the tool as it stands there."""
     turning = _turning(builder, plan)
     if builder.mode["length"] != ALONG_TOOL or not turning:
@@ -86,7 +88,7 @@ def _plan(builder: Builder, plan: Plan) -> Step | None:
     return move
 
 
-def _behind(builder: Builder, plan: Plan) -> Step | None:
+def turn_behind(builder: Builder, plan: Plan) -> Step | None:
     """Behind G28, G53 and their like the length lies along the tool as the head has come to stand; nothing moves."""
     if not _turning(builder, plan) or not any(row.axis_words for row in builder.codes):
         return None
@@ -97,8 +99,3 @@ def _behind(builder: Builder, plan: Plan) -> Step | None:
             length.turn_length(channel, _tool(channel, here))
 
     return turn
-
-
-RULE = Rule(
-    "length along the tool", modes={"length": (ALONG_TOOL,)}, check=_check, motion=_plan, after=_behind
-)

@@ -9,7 +9,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.machine_words import refuse
-from polycnc.control.sinumerik.axes import spindles as spindle_axes
 from polycnc.control.sinumerik.couplings import masters, synchronous
 from polycnc.control.sinumerik.couplings.spindle_pairs import turns
 from polycnc.control.sinumerik.errors import not_supported
@@ -26,15 +25,20 @@ from polycnc.control.sinumerik.m_functions import (
     STOP,
 )
 from polycnc.control.sinumerik.replaced import program_of
-from polycnc.control.sinumerik.tools import master_holder, selection, stages
-from polycnc.control.sinumerik.tools.holders import active as carriers
+from polycnc.control.sinumerik.tools import selection
 from polycnc.control.sinumerik.tools.management import adapters
 from polycnc.control.sinumerik.tools.sides import FACES
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.variables import part_counts
-from polycnc.control.tool_change import follow, way_to_change
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import Auxiliary
+
+with loaded_when_called():
+    from polycnc.control import tool_change
+    from polycnc.control.sinumerik.axes import spindles as spindle_axes
+    from polycnc.control.sinumerik.tools import master_holder, stages
+    from polycnc.control.sinumerik.tools.holders import active as carriers
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping
@@ -147,7 +151,7 @@ def load_tool(channel: SinumerikChannel) -> None:
     compensates = channel.mode["compensation"] != "G40" and channel.mode["tool_offset"] not in FACES
     if channel.mode[seat.GROUP] and compensates:
         raise AlarmError("PC0020")
-    follow(channel, way_to_change(channel))
+    tool_change.follow(channel, tool_change.way_to_change(channel))
     memory = channel.memory
     before = memory.tools.additive
     memory.tools.load(memory.tools.selected, memory.data)
@@ -174,6 +178,7 @@ def tool_changed(channel: SinumerikChannel) -> None:
     memory = channel.memory
     selection.follow(channel)
     frames.apply(channel, travelled=bool(memory.data.number("$SC_TOOL_OFFSET_INCR_PROG")))
-    stages.changed_radius(channel)
+    if channel.path.head is not None:
+        stages.changed_radius(channel)
     tooth_feed.follow(channel)
     channel.context_changed()

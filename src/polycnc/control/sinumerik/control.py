@@ -8,12 +8,9 @@ from math import inf
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from polycnc.channel.states.unchanging import unchanging
-from polycnc.control.alarm_text import alarm_catalogue
 from polycnc.control.sinumerik import axis_names, gcodes, replaced, tables
-from polycnc.control.sinumerik.actions import actions, overlay
 from polycnc.control.sinumerik.actions.user_data import user_data
-from polycnc.control.sinumerik.axes import jogging
-from polycnc.control.sinumerik.block import positions, procedures, single_block
+from polycnc.control.sinumerik.block import positions
 from polycnc.control.sinumerik.block.plan import ExactStop, make_plan
 from polycnc.control.sinumerik.channels import axis_containers, axis_exchange, coordination
 from polycnc.control.sinumerik.contours import preparation
@@ -30,7 +27,6 @@ from polycnc.control.sinumerik.feed.dry_run import dry_run
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.feed.spindles import Spindle, Spindles
 from polycnc.control.sinumerik.frames import active as frames
-from polycnc.control.sinumerik.frames import tool_frames
 from polycnc.control.sinumerik.frames.memory import Frames, chain
 from polycnc.control.sinumerik.limits import working_area
 from polycnc.control.sinumerik.m_functions import PROGRAM_ENDS
@@ -39,29 +35,40 @@ from polycnc.control.sinumerik.modal_state import ModalState
 from polycnc.control.sinumerik.punching import block as punching
 from polycnc.control.sinumerik.reset import reset, start_codes
 from polycnc.control.sinumerik.signals import interrupts, measuring, sections
-from polycnc.control.sinumerik.tools import sides, stages
+from polycnc.control.sinumerik.states import PointToPoint
+from polycnc.control.sinumerik.tools import sides
 from polycnc.control.sinumerik.tools.memory import Tools
-from polycnc.control.sinumerik.transformations import orientation, seat, smoothing
-from polycnc.control.sinumerik.transformations.point_to_point import PointToPoint
-from polycnc.control.sinumerik.variables import by_name, functions, lengths, part_counts, run_times
-from polycnc.control.sinumerik.variables.registry import SystemVariables
+from polycnc.control.sinumerik.transformations import seat, smoothing
+from polycnc.control.sinumerik.variables import part_counts, run_times
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.regexes import regex
 from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.emitter import nc_shapes
-from polycnc.language.sinumerik.errors import arithmetic
 from polycnc.language.sinumerik.executable import SinumerikProgram
 from polycnc.language.sinumerik.interface import LanguageMemory
 from polycnc.language.sinumerik.names.initialisation import RESET, initialise
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.language.sinumerik.names.variables import Variable
-from polycnc.language.sinumerik.statements.calls import call_modal
-from polycnc.language.sinumerik.statements.sections import end_of_subprogram
 from polycnc.memory.retained import USER_VARIABLES, VARIABLES, filled
 from polycnc.messages import AlarmError
 from polycnc.program import Form
 from polycnc.toolpath import Context
 from polycnc.toolpath.modes import CornerMode, FeedMode
 from polycnc.toolpath.motion_settings import MotionSettings
+
+with loaded_when_called():
+    from polycnc.control import alarm_text
+    from polycnc.control.sinumerik.actions import actions, overlay
+    from polycnc.control.sinumerik.axes import jogging
+    from polycnc.control.sinumerik.block import procedures, single_block
+    from polycnc.control.sinumerik.cycles import calls as cycle_calls
+    from polycnc.control.sinumerik.frames import tool_frames
+    from polycnc.control.sinumerik.tools import stages
+    from polycnc.control.sinumerik.transformations import orientation
+    from polycnc.control.sinumerik.variables import by_name, functions, lengths, registry
+    from polycnc.language.sinumerik import errors
+    from polycnc.language.sinumerik.statements import calls as call_statements
+    from polycnc.language.sinumerik.statements import sections as section_statements
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -73,7 +80,7 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.block.draft import Plan, Values
     from polycnc.control.sinumerik.block.scanned import SinumerikPlainBlocks
     from polycnc.control.sinumerik.family import SinumerikChannel
-    from polycnc.control.sinumerik.variables.registry import SystemVariable
+    from polycnc.control.sinumerik.variables.registry import SystemVariable, SystemVariables
     from polycnc.language.expressions.shapes import Shapes
     from polycnc.language.sinumerik.actions.code import ActionCode
     from polycnc.language.sinumerik.iso_dialect import IsoBlock
@@ -119,12 +126,12 @@ class Sinumerik:
     @cached_property
     def catalogue(self) -> Catalogue:
         """Texts of the control's alarms."""
-        return alarm_catalogue("sinumerik/alarms.toml", "sinumerik/cycles/alarms.toml")
+        return alarm_text.alarm_catalogue("sinumerik/alarms.toml", "sinumerik/cycles/alarms.toml")
 
     @cached_property
     def system_variables(self) -> SystemVariables:
         """All variables `$…`."""
-        return SystemVariables()
+        return registry.SystemVariables()
 
     # ---- programs
 
@@ -255,7 +262,7 @@ class Sinumerik:
     def end_of_program(self, channel: SinumerikChannel) -> None:
         """The text has ended: as M30, or as M17 in a subprogram."""
         if len(channel.stack) > 1:
-            end_of_subprogram(channel)
+            section_statements.end_of_subprogram(channel)
         else:
             preparation.check_end(channel)
             curve_definition.check_end(channel)
@@ -306,11 +313,7 @@ class Sinumerik:
         """Run a predefined procedure or a machining cycle; alarms have the column of the call."""
         try:
             if name in keywords.CYCLES:
-                from polycnc.control.sinumerik.cycles import (
-                    calls,  # programs without cycles do not pay for them
-                )
-
-                calls.start(channel, name, args, column)
+                cycle_calls.start(channel, name, args, column)
             else:
                 procedures.run(channel, name, args)
         except AlarmError as alarm:
@@ -480,7 +483,7 @@ class Sinumerik:
 
     def arithmetic_alarm(self, error: ArithmeticError) -> AlarmError:  # noqa: ARG002 - one alarm for all
         """The alarm for a calculation without a result: 14051."""
-        return arithmetic()
+        return errors.arithmetic()
 
     def block_limit(self) -> AlarmError:
         """The program has run more blocks than allowed."""
@@ -575,7 +578,7 @@ def _limit(memory: Memory, spindle: Spindle | None, feed: str) -> float:
 def _modal_in_front(channel: SinumerikChannel) -> bool:
     """Run what MCALL has set behind the motion of a block that ends its program; the program ends behind that."""
     level = channel.level
-    call_modal(channel)
+    call_statements.call_modal(channel)
     if channel.level is level:
         return False
     level.index = len(level.code.whole)

@@ -10,11 +10,14 @@ from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.frames import active as frames
 from polycnc.control.sinumerik.frames.memory import ISO_MIRROR, ISO_ROTATION, ISO_SCALE, OF_PLANES
 from polycnc.control.sinumerik.limits import working_area
-from polycnc.control.sinumerik.motion import contour_reading
 from polycnc.control.sinumerik.tools import selection
-from polycnc.control.sinumerik.tools.holders import active as carriers
 from polycnc.control.sinumerik.transformations import seat
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.language.sinumerik.names.frame import NEUTRAL
+
+with loaded_when_called():
+    from polycnc.control.sinumerik.motion import contour_reading
+    from polycnc.control.sinumerik.tools.holders import active as carriers
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.data.machine_data import MachineData

@@ -102,6 +102,16 @@ def feed_type(mode: Mode) -> FeedType:
     return FEED_TYPES[code]
 
 
+#: Path functions of group 1 that make splines.
+SPLINES = ("ASPLINE", "BSPLINE", "CSPLINE")
+#: Courses of the feed (group 37), FPO for a block, and the feed types under which FLIN and FCUB act.
+CONSTANT, LINEAR, CUBIC, POLYNOMIAL = "FNORM", "FLIN", "FCUB", "FPO"
+PROFILED = frozenset(("G93", "G94"))
+#: Ways back to the contour (group 2): on lines, on quarters and on halves of a circle.
+LINES, QUARTERS, HALVES = ("REPOSL", "REPOSA"), ("REPOSQ", "REPOSQA"), ("REPOSH", "REPOSHA")
+REPOSITIONING = (*LINES, *QUARTERS, *HALVES)
+#: Smooth approach and retraction (group 2).
+APPROACHES, RETRACTIONS = ("G147", "G247", "G347"), ("G148", "G248", "G348")
 #: Names that the cycles define for all programs (CYCLE832).
 CYCLE_SYMBOLS = {
     "_OFF": 0,

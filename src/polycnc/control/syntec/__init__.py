@@ -1,6 +1,7 @@
 """The SYNTEC milling control: what differs from the word-address base, and its macro language.
 
-`control` states what it is, `family` its channel, `codes` has its G and M tables, `builder` reads a block's shape,
+`control` states what it is, `family` its channel, `codes` has its G and M tables, `rules` what acts on
+blocks beside them, `builder` reads a block's shape,
 `plain` tells plain blocks to the scanner; `memory`, `parameters`, `units` (least input units), `alarm_codes`,
 `cycles` (drilling, hole patterns), `tapping`, `spindles`.
 

@@ -4,22 +4,9 @@ from __future__ import annotations
 
 from polycnc.control.syntec import cycles, spindles, tapping
 from polycnc.control.syntec.axis_groups import borrowing, groups
-from polycnc.control.syntec.coordinates import diameters, tool_setting
 from polycnc.control.syntec.coordinates import systems as frames
-from polycnc.control.syntec.coordinates.turns import POSTURE
-from polycnc.control.syntec.five_axes import alignment, normal_direction, spatial, tilted, tip_control
 from polycnc.control.syntec.macros import calls, interrupts
-from polycnc.control.syntec.motion import (
-    arcs,
-    dwell,
-    moves,
-    operation,
-    oscillation,
-    planes,
-    polar,
-    skips,
-    smoothing,
-)
+from polycnc.control.syntec.motion import arcs, dwell, moves, planes, smoothing
 from polycnc.control.word_address.auxiliary import functions
 from polycnc.control.word_address.block.codes import (
     MILLING_POWER_ON,
@@ -30,12 +17,19 @@ from polycnc.control.word_address.block.codes import (
     table,
 )
 from polycnc.control.word_address.coordinates import frames as base_frames
-from polycnc.control.word_address.coordinates import stroke_check, systems
-from polycnc.control.word_address.motion import nurbs, path, path_modes
-from polycnc.control.word_address.tools import length as base_length
+from polycnc.control.word_address.coordinates import systems
+from polycnc.control.word_address.motion import path, path_modes
 from polycnc.control.word_address.tools import radius
-from polycnc.control.word_address.tools import spatial as base_spatial
-from polycnc.control.word_address.transformations import normal_line
+from polycnc.deferred.functions import loaded_when_called
+
+with loaded_when_called():
+    from polycnc.control.syntec.coordinates import diameters, tool_setting
+    from polycnc.control.syntec.five_axes import alignment, normal_direction, spatial, tilted, tip_control
+    from polycnc.control.syntec.motion import operation, oscillation, polar, skips
+    from polycnc.control.word_address.coordinates import stroke_check
+    from polycnc.control.word_address.motion import nurbs
+    from polycnc.control.word_address.tools import length as base_length
+    from polycnc.control.word_address.transformations import normal_line
 
 MOTION = Order.MOTION
 
@@ -68,8 +62,8 @@ G_CODES = table(
     GCode("G10", handler=frames.input_data, takes="L P R Q I J K", axis_words=True, order=MOTION),
     GCode("G15", "polar"),
     GCode("G16", "polar", base_frames.start_polar),
-    GCode("G12.1", polar.POLAR, polar.start_polar, axis_words=True, order=MOTION),
-    GCode("G13.1", polar.POLAR, polar.end_polar),
+    GCode("G12.1", "polar_interpolation", polar.start_polar, axis_words=True, order=MOTION),
+    GCode("G13.1", "polar_interpolation", polar.end_polar),
     GCode("G17", "plane", planes.select_plane),
     GCode("G18", "plane", planes.select_plane),
     GCode("G19", "plane", planes.select_plane),
@@ -82,21 +76,21 @@ G_CODES = table(
     GCode("G37", handler=tool_setting.measure_length, takes="R D F P", axis_words=True, order=MOTION),
     GCode("G37.2", handler=tool_setting.measure_into_work_system, takes="K R F P Q", axis_words=True, order=MOTION),
     GCode("G37.3", handler=tool_setting.measure_into_length, takes="H R F P Q", axis_words=True, order=MOTION),
-    GCode("G40.1", normal_line.GROUP, normal_line.cancel),
-    GCode("G41.1", normal_line.GROUP, normal_direction.start, takes="Q P E R", order=MOTION),
-    GCode("G42.1", normal_line.GROUP, normal_direction.start, takes="Q P E R", order=MOTION),
+    GCode("G40.1", "normal_line", normal_line.cancel),
+    GCode("G41.1", "normal_line", normal_direction.start, takes="Q P E R", order=MOTION),
+    GCode("G42.1", "normal_line", normal_direction.start, takes="Q P E R", order=MOTION),
     GCode("G40", "compensation", cycles.cancel_compensation, takes="I J K", order=Order.COMPENSATION),
     GCode("G41", "compensation", cycles.compensate_left, takes="D", order=Order.COMPENSATION),
     GCode("G42", "compensation", cycles.compensate_right, takes="D", order=Order.COMPENSATION),
     *(
         GCode(code, "compensation", spatial.start, takes="D", order=Order.COMPENSATION)
-        for code in base_spatial.COMMON_SIDES
+        for code in radius.COMMON_SIDES
     ),
     GCode("G43", "length", tip_control.compensate_length, takes="H", order=Order.LENGTH),
     GCode("G44", "length", tip_control.compensate_length, takes="H", order=Order.LENGTH),
     GCode("G43.4", "length", tip_control.start, takes="H Q L I", order=Order.LENGTH),
     GCode("G43.5", "length", tip_control.start, takes="H", order=Order.LENGTH),
-    GCode("G49", "length", tip_control.cancel, order=Order.LENGTH, ends=normal_line.GROUP),
+    GCode("G49", "length", tip_control.cancel, order=Order.LENGTH, ends="normal_line"),
     GCode("G45", handler=moves.lengthened, takes="D I J K", axis_words=True, order=MOTION),
     GCode("G46", handler=moves.shortened, takes="D I J K", axis_words=True, order=MOTION),
     GCode("G47", handler=moves.lengthened_twice, takes="D I J K", axis_words=True, order=MOTION),
@@ -130,10 +124,10 @@ G_CODES = table(
     GCode("G54.4", handler=tilted.switch_work_rotation, takes="P"),
     GCode("G70", "unit", systems.note_context, only_changes=True),
     GCode("G71", "unit", systems.note_context, only_changes=True),
-    GCode("G80", "cycle", oscillation.end, ends=oscillation.OSCILLATION),
-    GCode("G81.1", oscillation.OSCILLATION, oscillation.start, takes="Q R", axis_words=True, order=MOTION),
-    GCode("G81.2", oscillation.OSCILLATION, oscillation.start_precise, takes="P Q R L", order=MOTION),
-    GCode("G80.2", oscillation.OSCILLATION, oscillation.end_precise, takes="Q", order=MOTION),
+    GCode("G80", "cycle", oscillation.end, ends="oscillation"),
+    GCode("G81.1", "oscillation", oscillation.start, takes="Q R", axis_words=True, order=MOTION),
+    GCode("G81.2", "oscillation", oscillation.start_precise, takes="P Q R L", order=MOTION),
+    GCode("G80.2", "oscillation", oscillation.end_precise, takes="Q", order=MOTION),
     *(GCode(code, "cycle") for code in cycles.CYCLES),
     GCode(tapping.RETRACT, handler=tapping.retract, takes="F S", order=MOTION),
     GCode("G134", handler=cycles.circle_of_holes, takes="I J K", axis_words=True, order=MOTION),
@@ -181,8 +175,8 @@ ADDRESSES = {
 
 POWER_ON = MILLING_POWER_ON | {
     "unit": "G71",
-    polar.POLAR: "G13.1",
-    normal_line.GROUP: normal_line.OFF,
-    oscillation.OSCILLATION: oscillation.OFF,
-    POSTURE: "",
+    "polar_interpolation": "G13.1",
+    "normal_line": "G40.1",
+    "oscillation": "G80.2",
+    "posture": "",
 }

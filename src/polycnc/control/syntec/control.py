@@ -7,44 +7,27 @@ from math import hypot, inf
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.channel.stack import LevelKind
-from polycnc.compensation.policy import Policy
 from polycnc.control.syntec import cycles, tapping
 from polycnc.control.syntec.alarm_codes import ALARMS, FOREIGN_CODES
-from polycnc.control.syntec.axis_groups import borrowing, groups, names
+from polycnc.control.syntec.axis_groups import groups
 from polycnc.control.syntec.builder import SyntecBuilder
 from polycnc.control.syntec.codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
 from polycnc.control.syntec.coordinates import systems
-from polycnc.control.syntec.coordinates.turns import TurnState
-from polycnc.control.syntec.five_axes import mechanism, normal_direction, posture, tilted, tip_control
-from polycnc.control.syntec.five_axes import spatial as spatial_radius
+from polycnc.control.syntec.coordinates.turns import OVER_POWER_OFF, TurnState, end_turns, following
 from polycnc.control.syntec.macros import calls, interrupts, single_block
 from polycnc.control.syntec.macros.variables import USER, SpaceState, locals_of
 from polycnc.control.syntec.memory import SyntecMemory
-from polycnc.control.syntec.motion import (
-    arcs,
-    conditions,
-    dwell,
-    moves,
-    oscillation,
-    polar,
-    quiet,
-    rotary_ways,
-    smoothing,
-)
+from polycnc.control.syntec.motion import arcs, conditions, dwell, moves, smoothing
 from polycnc.control.syntec.motion.moves import FeedState
 from polycnc.control.syntec.parameters import SyntecParameters
-from polycnc.control.syntec.plain import SyntecPlainBlocks
+from polycnc.control.syntec.rules import RULES
 from polycnc.control.syntec.units import decimals, least_unit
-from polycnc.control.word_address.auxiliary.interlocks import MOVES_RULE
 from polycnc.control.word_address.auxiliary.overrides import in_tapping_mode
-from polycnc.control.word_address.block import whole_numbers
 from polycnc.control.word_address.block.numbers import NumberRules
 from polycnc.control.word_address.control import WordAddressControl
 from polycnc.control.word_address.coordinates import frames
-from polycnc.control.word_address.cycles import drilling as drilling_cycles
-from polycnc.control.word_address.motion import corners, line_by_angle, nurbs
-from polycnc.control.word_address.tools import spatial
-from polycnc.control.word_address.transformations import normal_line
+from polycnc.control.word_address.states import CurveState
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import replace
 from polycnc.language.syntec import executable, iso_grammar
 from polycnc.messages import AlarmError
@@ -53,10 +36,20 @@ from polycnc.program.split import split_channels
 from polycnc.toolpath.modes import FeedMode
 from polycnc.toolpath.motion_settings import Ramp
 
+with loaded_when_called():
+    from polycnc.compensation import policy
+    from polycnc.control.syntec.five_axes import mechanism, normal_direction, tilted
+    from polycnc.control.syntec.motion import polar, quiet
+    from polycnc.control.syntec.plain import SyntecPlainBlocks
+    from polycnc.control.word_address.motion import nurbs
+    from polycnc.control.word_address.tools import spatial
+    from polycnc.control.word_address.transformations import normal_line
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from polycnc.channel.stack import Executable
+    from polycnc.compensation.policy import Policy
     from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.codes import ContextStep, GCode, Handler, MCode, MRow, Planner
     from polycnc.control.word_address.block.plan import Builder, Plan
@@ -64,6 +57,7 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.single_block import Halts
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.cycles.drilling import Drilling
+    from polycnc.control.word_address.transformations.normal_line import NormalLineRules
     from polycnc.geometry.arcs import Point
     from polycnc.language.bulk import Condition
     from polycnc.language.word_address import Grammar
@@ -89,7 +83,6 @@ class SyntecMill(WordAddressControl):
     parameter_files: ClassVar[tuple[str, ...]] = ("syntec/parameters.toml",)
     parameter_class: ClassVar = SyntecParameters
     alarm_series: ClassVar[Mapping[str, str] | None] = {"MAR": "MACRO"}
-    NORMAL_LINE_RULES: ClassVar[normal_line.NormalLineRules] = normal_direction.RULES
     alarm_files: ClassVar[tuple[str, ...]] = ("syntec/alarms.toml", "syntec/alarms_special.toml")
     g_codes: ClassVar[Mapping[str, GCode]] = G_CODES
     m_codes: ClassVar[Mapping[int, MCode]] = M_CODES
@@ -99,7 +92,7 @@ class SyntecMill(WordAddressControl):
         moves.recorded,
         dwell.ended_by_signal,
         smoothing.smoothed,
-        tip_control.following,
+        following,
         tapping.finished,
         conditions.bounded,
     )
@@ -114,7 +107,7 @@ class SyntecMill(WordAddressControl):
     LENGTH_TRAVELS_ALONE: ClassVar[bool] = False
     mdi_intervenes: ClassVar[bool] = False
     last_bit: ClassVar[int] = 31
-    only_context: ClassVar[frozenset[Handler]] = WordAddressControl.only_context | {systems.cutting_mode}
+    only_context: ClassVar[tuple[Handler, ...]] = (*WordAddressControl.only_context, systems.cutting_mode)
     repeated_codes: ClassVar[Mapping[str, Condition]] = moves.REPEATED
     #: A motion code cancels the cycle of its block, in whatever order they are typed (2.47.3, note 9).
     ENDED_ANYWHERE: ClassVar[frozenset[str]] = frozenset(G_CODES)
@@ -125,32 +118,7 @@ class SyntecMill(WordAddressControl):
         *WordAddressControl.halts_behind,
     )
     builder: ClassVar[type[Builder]] = SyntecBuilder
-    rules: ClassVar[tuple[Rule, ...]] = (
-        rotary_ways.RULE,
-        polar.RULE,
-        frames.ROTATION_RULE,
-        normal_line.RULE,
-        oscillation.RULE,
-        spatial_radius.RULE,
-        calls.RULE,
-        names.RULE,
-        moves.LEAD_RULE,
-        whole_numbers.RULE,
-        corners.RULE,
-        line_by_angle.RULE,
-        tip_control.COMPANY_RULE,
-        posture.RULE,
-        tip_control.RULE,
-        drilling_cycles.RULE,
-        cycles.OVERLAP_RULE,
-        cycles.RULE,
-        borrowing.RULE,
-        moves.INVERSE_TIME_RULE,
-        interrupts.RULE,
-        arcs.RULE,
-        calls.MODAL_RULE,
-        MOVES_RULE,
-    )
+    rules: ClassVar[tuple[Rule, ...]] = RULES
 
     # ---- programs ----------------------------------------------------------------------------------------
 
@@ -241,9 +209,12 @@ class SyntecMill(WordAddressControl):
             on = memory.parameters.interrupt_m
             if code in calls.NEVER_REGISTERED - {0} or code in (on, on + 1):
                 raise self.fail("registered_m", number=number)
-        kept = tilted.Kept.over_power_off(channel)
-        tilted.rotate_work_system(channel, on=memory.parameters.rotates_at_start == 1)
-        kept.restore(channel)
+        if memory.parameters.rotates_at_start == 1 or memory.parameters.keeps_tilt == OVER_POWER_OFF:
+            kept = tilted.kept_over_power_off(channel)
+            tilted.rotate_work_system(channel, on=memory.parameters.rotates_at_start == 1)
+            kept.restore(channel)
+        else:
+            end_turns(channel)
         self.begin(channel)
         if memory.parameters.travel_2_at_start == 1:
             channel.mode = channel.mode.with_code("stroke", "G22")
@@ -280,7 +251,7 @@ class SyntecMill(WordAddressControl):
         smoothing.leave(channel)
         if not channel.memory.parameters.keeps_preset_turn:
             systems.forget_preset_turn(channel.memory)
-        kept = tilted.Kept.of(channel)
+        kept = tilted.kept_over_reset(channel)
         super().reset(channel)
         tilted.rotate_work_system(channel, on=TurnState.of(channel).by_table)
         kept.restore(channel)
@@ -295,7 +266,8 @@ class SyntecMill(WordAddressControl):
     def finish(self, channel: SyntecChannel) -> None:
         """The main program is over."""
         arcs.check_pair_complete(channel)
-        nurbs.check_complete(channel)
+        if CurveState.of(channel).curve is not None:
+            nurbs.check_complete(channel)
         interrupts.check_off(channel)
         channel.end()
 
@@ -404,7 +376,11 @@ class SyntecMill(WordAddressControl):
     def compensation_policy(self, channel: SyntecChannel) -> Policy:
         """Radius compensation; Pr3819 = 1 checks for overcut."""
         checked = channel.memory.parameters.overcut_check == 1
-        return Policy(checks_direction=checked, sign_is_side=False)
+        return policy.Policy(checks_direction=checked, sign_is_side=False)
+
+    def normal_line_rules(self) -> NormalLineRules:
+        """What G41.1 and G42.1 refuse."""
+        return normal_direction.rules()
 
     # ---- reports -----------------------------------------------------------------------------------------
 

@@ -17,15 +17,20 @@ from polycnc.control.word_address.cycles.drilling import (
     is_active,
     lead_from_feed,
 )
-from polycnc.control.word_address.cycles.hole_patterns import drill_points, plane_point
-from polycnc.control.word_address.tools import radius, spatial
+from polycnc.control.word_address.tools import radius
 from polycnc.control.word_address.tools.radius import RadiusState
-from polycnc.cycles.drilling import holes, patterns
+from polycnc.cycles.drilling import holes
 from polycnc.cycles.drilling.holes import Action, Stroke
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.units import INCH_MM
 from polycnc.messages import AlarmError
 from polycnc.toolpath.context import STROKE
+
+with loaded_when_called():
+    from polycnc.control.word_address.cycles import hole_patterns
+    from polycnc.control.word_address.tools import spatial
+    from polycnc.cycles.drilling import patterns
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -227,14 +232,14 @@ def circle_of_holes(channel: SyntecChannel, words: Words) -> None:
     count = _count(words, "K", signed=True)
     radius = _length(words, "I", positive=True)
     start = words.angle("J") or 0.0
-    _drill(channel, patterns.circle(plane_point(channel, words), radius, start, count))
+    _drill(channel, patterns.circle(hole_patterns.plane_point(channel, words), radius, start, count))
 
 
 def line_of_holes(channel: SyntecChannel, words: Words) -> None:
     """G135 X Y I J K: K holes with pitch I along angle J (2.69)."""
     count = _count(words, "K")
     pitch, angle = _length(words, "I"), words.angle("J") or 0.0
-    _drill(channel, patterns.line(plane_point(channel, words), pitch, angle, count))
+    _drill(channel, patterns.line(hole_patterns.plane_point(channel, words), pitch, angle, count))
 
 
 def arc_of_holes(channel: SyntecChannel, words: Words) -> None:
@@ -242,14 +247,14 @@ def arc_of_holes(channel: SyntecChannel, words: Words) -> None:
     count = _count(words, "K")
     radius = _length(words, "I", positive=True)
     start, pitch = words.angle("J") or 0.0, words.angle("P") or 0.0
-    _drill(channel, patterns.arc(plane_point(channel, words), radius, start, pitch, count))
+    _drill(channel, patterns.arc(hole_patterns.plane_point(channel, words), radius, start, pitch, count))
 
 
 def grid_of_holes(channel: SyntecChannel, words: Words) -> None:
     """G137.1 X Y I P J K: P holes along X, pitch I, and K along Y, pitch J, row by row to and fro (2.71)."""
     columns, rows = _count(words, "P"), _count(words, "K")
     pitches = _length(words, "I"), _length(words, "J")
-    _drill(channel, patterns.grid(plane_point(channel, words), pitches, columns, rows))
+    _drill(channel, patterns.grid(hole_patterns.plane_point(channel, words), pitches, columns, rows))
 
 
 def _count(words: Words, address: str, *, signed: bool = False) -> int:
@@ -270,7 +275,7 @@ def _drill(channel: SyntecChannel, points: Iterator[Point]) -> None:
     """Position over each point and drill with the data of the active cycle; COR-023 where none is active."""
     if not is_active(channel) or CycleState.of(channel).data is None:
         raise AlarmError("COR-023", word="", hint="hint.syntec.pattern-without-cycle")
-    drill_points(channel, points)
+    hole_patterns.drill_points(channel, points)
 
 
 #: Words of drilling blocks that only these cycles have.

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.coordinates.diameters import DiameterState
-from polycnc.control.syntec.macros import functions
-from polycnc.control.syntec.macros.registers import check_register
-from polycnc.control.syntec.macros.system_variables import SYSTEM_VARIABLES
 from polycnc.control.syntec.macros.variables import (
     USER,
     GlobalState,
@@ -21,9 +19,13 @@ from polycnc.control.syntec.macros.variables import (
 )
 from polycnc.control.syntec.units import decimals, least_unit
 from polycnc.control.word_address.memory import Memory
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.language.syntec.expressions import NO_SUCH_VARIABLE
 from polycnc.language.syntec.values import VACANT, Text, Vacant, Value, whole
 from polycnc.messages import AlarmError
+
+with loaded_when_called():
+    from polycnc.control.syntec.macros import functions, registers, system_variables
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -39,7 +41,6 @@ class SyntecMemory(Memory):
         channel: The channel.
         locals: #1 to #400 of the running level.
         globals: `@` variables and R registers.
-        functions: The functions of the macro language, by name.
     """
 
     parameters: SyntecParameters
@@ -53,7 +54,11 @@ class SyntecMemory(Memory):
             self.globals.forget()
         user = SpaceState.of(channel).user
         self._was_kept = bool(self.globals.values or self.globals.registers or user)
-        self.functions: dict[str, Callable[..., Value]] = functions.bound(self)
+
+    @cached_property
+    def functions(self) -> dict[str, Callable[..., Value]]:
+        """The functions of the macro language, by name."""
+        return functions.bound(self)
 
     def forget_locals(self) -> None:
         """The local variables are those of the main program, as they begin."""
@@ -68,7 +73,7 @@ class SyntecMemory(Memory):
             return VACANT
         if is_local(at):
             return self.locals.get(at, VACANT)
-        space = SYSTEM_VARIABLES.find(at)
+        space = system_variables.found(at)
         return space.read(self, at - space.first)
 
     def set_variable(self, index: Value, value: Value) -> None:
@@ -77,7 +82,7 @@ class SyntecMemory(Memory):
         if is_local(at):
             put(self.locals, at, value)
             return
-        space = SYSTEM_VARIABLES.find(at)
+        space = system_variables.found(at)
         if space.write is None:
             raise AlarmError(NO_SUCH_VARIABLE, variable=f"#{at}", hint="hint.syntec.read-only")
         space.write(self, at - space.first, value)
@@ -152,7 +157,7 @@ class SyntecMemory(Memory):
         if isinstance(value, int | float):
             typed = int(value) if isinstance(value, bool) else value
         if family == "R":
-            check_register(self.channel, int(index), int(float(str(value))))
+            registers.check_register(self.channel, int(index), int(float(str(value))))
             self.globals.registers[int(index)] = int(float(str(value)))
         elif family == "#":
             self.set_variable(int(index), typed)

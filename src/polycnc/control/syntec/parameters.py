@@ -9,7 +9,7 @@ class SyntecAxisParameters(AxisParameters):
     """The parameters that every axis has."""
 
 
-class SyntecParameters(ControlParameters["SyntecAxisParameters"]):
+class SyntecParameters(ControlParameters[SyntecAxisParameters]):
     """The parameters of the control."""
 
     axis_class = SyntecAxisParameters

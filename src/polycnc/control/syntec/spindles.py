@@ -9,11 +9,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field
 from polycnc.language.bulk import Note, declare
 from polycnc.toolpath.events import SpindleSpeed
-from polycnc.transformation.couplings.coupled import Coupled
-from polycnc.transformation.couplings.laws import Ratio
+
+with loaded_when_called():
+    from polycnc.transformation.couplings.coupled import Coupled
+    from polycnc.transformation.couplings.laws import Ratio
 
 if TYPE_CHECKING:
     from polycnc.control.syntec.family import SyntecChannel

@@ -1,7 +1,8 @@
 """What the word-address controls share: plans of blocks, words, and the handlers of common codes.
 
-`control` is the base class, `machining_centre` that of milling controls; `memory` what they keep, `reset` what ends,
-`parameters` what is read of a control's parameters here, `family` the channels that handlers take.
+`control` is the base class, `machining_centre` that of milling controls; `rules` has what acts on few blocks as rows,
+`states` what features ask of each other; `memory` is what they keep, `reset` what ends, `parameters` what is read of a
+control's parameters here, `family` the channels that handlers take.
 
     block/            what a block of some shape does in some modal state
     motion/           G00 to G03 and everything beside it

@@ -8,9 +8,6 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from polycnc.channel.stack import LevelKind
 from polycnc.channel.states.unchanging import unchanging
-from polycnc.compensation.corner import CornerPolicy
-from polycnc.compensation.policy import Policy
-from polycnc.control.alarm_text import alarm_catalogue
 from polycnc.control.word_address.auxiliary import interlocks, machine_codes
 from polycnc.control.word_address.block.numbers import Convert, NumberRules, angle_converter, length_converter
 from polycnc.control.word_address.block.plan import Builder, Plan
@@ -23,22 +20,26 @@ from polycnc.control.word_address.cycles.drilling import Drilling
 from polycnc.control.word_address.memory import Memory, ParameterTable
 from polycnc.control.word_address.motion import path
 from polycnc.control.word_address.motion.path_modes import corner_mode
-from polycnc.control.word_address.motion.planes import PlaneAxes
-from polycnc.control.word_address.reset import reset
-from polycnc.control.word_address.tools import look_ahead
-from polycnc.control.word_address.transformations.cylinder import CylinderState
-from polycnc.control.word_address.transformations.normal_line import NormalLineRules
-from polycnc.control.word_address.transformations.polar_interpolation import PolarState
+from polycnc.control.word_address.states import CylinderState, PlaneAxes, PolarState
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import replace
 from polycnc.geometry.arcs import radius_mismatch
 from polycnc.language.bulk import Spelling
 from polycnc.language.word_address import Grammar, WordAddressProgram
-from polycnc.machine.kinematics import Kinematics
 from polycnc.messages import AlarmError, Catalogue, text
 from polycnc.program import Form
 from polycnc.toolpath import Context
 from polycnc.toolpath.modes import AccelerationMode, FeedMode
 from polycnc.toolpath.motion_settings import MotionSettings
+
+with loaded_when_called():
+    from polycnc.compensation import corner, policy
+    from polycnc.control import alarm_text
+    from polycnc.control.word_address import reset
+    from polycnc.control.word_address.block import plain
+    from polycnc.control.word_address.transformations import normal_line
+    from polycnc.machine import kinematics
+    from polycnc.transformation.planes import tilted
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -47,6 +48,8 @@ if TYPE_CHECKING:
     from polycnc.channel.mode import Mode
     from polycnc.channel.stack import Executable, Level
     from polycnc.channel.steps import Step as ProgramStep
+    from polycnc.compensation.corner import CornerPolicy
+    from polycnc.compensation.policy import Policy
     from polycnc.control.interface import HandMotion
     from polycnc.control.parameters import AxisParameters, ControlParameters
     from polycnc.control.word_address.block.codes import (
@@ -62,13 +65,12 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.rules import Rule
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.memory import ToolOffset
+    from polycnc.control.word_address.transformations.normal_line import NormalLineRules
     from polycnc.geometry.arcs import Point
     from polycnc.geometry.frames import Frame, Vector
     from polycnc.language.bulk import Condition
+    from polycnc.machine.kinematics import Kinematics
     from polycnc.program import Program
-
-#: Largest number of a tool offset (H, D).
-LAST_OFFSET = 999
 
 
 @unchanging
@@ -105,12 +107,10 @@ class WordAddressControl:
         SCALE_CENTER_IS_ABSOLUTE: The centre of G51 is an absolute point under G91 too.
         SCALES_NAMED_AXES: G51 scales those axes alone of which it names the centre, and arcs need both of their plane.
         CURVE_BEGINS_AT_TOOL: The first pole of a G06.2 curve must be where the tool stands.
-        NORMAL_LINE_RULES: What G41.1 and G42.1 refuse.
         INCREMENTAL_ADDRESSES: Addresses that are increments of an axis whatever the mode (U is X …).
         LENGTH_TRAVELS_ALONE: G43 H without a Z word moves Z by the offset at once.
         LATER_AXIS_WORD_COUNTS: Of an absolute and an incremental word of one axis the later one counts alone.
         ENDED_ANYWHERE: Codes that a code of their block ends wherever it stands there; others only behind them.
-        CORNER_POLICY: What may stand between the two moves of a chamfer or rounding.
         LOOPS: The largest number of a loop (DO m), and how deep loops nest.
         POINT_IN_WHOLE_NUMBERS: What a decimal point does where none belongs.
     """
@@ -125,7 +125,7 @@ class WordAddressControl:
     addresses: ClassVar[Mapping[str, Planner]] = {}
     power_on: ClassVar[Mapping[str, str]] = {}
     alarms: ClassVar[Mapping[str, str]] = {}
-    only_context: ClassVar[frozenset[Handler]] = frozenset((systems.note_context,))
+    only_context: ClassVar[tuple[Handler, ...]] = (systems.note_context,)
     repeated_codes: ClassVar[Mapping[str, Condition]] = {}
     foreign_codes: ClassVar[Mapping[str, str]] = {}
     acts: ClassVar[Mapping[str, Handler]] = machine_codes.ACTS
@@ -140,14 +140,12 @@ class WordAddressControl:
     SCALE_CENTER_IS_ABSOLUTE: ClassVar[bool] = False
     SCALES_NAMED_AXES: ClassVar[bool] = False
     CURVE_BEGINS_AT_TOOL: ClassVar[bool] = False
-    NORMAL_LINE_RULES: ClassVar[NormalLineRules] = NormalLineRules()
     INCREMENTAL_ADDRESSES: ClassVar[Mapping[str, str]] = {}
     LENGTH_TRAVELS_ALONE: ClassVar[bool] = True
     LATER_AXIS_WORD_COUNTS: ClassVar[bool] = False
     INCH_CODE: ClassVar[str] = "G20"
     #: Modal groups that a reset leaves as they are.
     KEPT_AT_RESET: ClassVar[frozenset[str]] = frozenset({"stroke"})
-    CORNER_POLICY: ClassVar[CornerPolicy] = CornerPolicy(threads_follow=False)
     ENDED_ANYWHERE: ClassVar[frozenset[str]] = frozenset()
     LOOPS: ClassVar[tuple[int, int]] = (3, 3)
     POINT_IN_WHOLE_NUMBERS: ClassVar[DecimalPoint] = DecimalPoint.READ_OVER
@@ -163,7 +161,7 @@ class WordAddressControl:
     @cached_property
     def catalogue(self) -> Catalogue:
         """Texts of the control's alarms."""
-        return alarm_catalogue(*self.alarm_files)
+        return alarm_text.alarm_catalogue(*self.alarm_files)
 
     def fail(self, mistake: str, **where: Any) -> AlarmError:
         """The control's alarm for a named mistake; its text names the word or the code where that is told."""
@@ -223,9 +221,7 @@ class WordAddressControl:
 
     def plain_blocks(self, _channel: Channel) -> PlainBlocks | None:
         """What a scanner must know of plain blocks."""
-        from polycnc.control.word_address.block.plain import PlainBlocks  # for long programs only
-
-        return PlainBlocks(Spelling(self.grammar.max_digits, round_comments=True, open_comments=True))
+        return plain.PlainBlocks(Spelling(self.grammar.max_digits, round_comments=True, open_comments=True))
 
     def make_memory(self, channel: Channel) -> Memory:
         """The control's memory as the setup fills it."""
@@ -239,9 +235,8 @@ class WordAddressControl:
         channel.mode = channel.modes.mode(self.start_codes(channel))
         channel.boundary = None
         channel.skip_levels = channel.setup.switches.block_skip_mask(plain=1)
-        channel.memory.tool.number = channel.memory.tool.next = int(
-            channel.setup.tool_at_start(channel.number)
-        )
+        tool = channel.memory.tool
+        tool.number = tool.next = int(channel.setup.tool_at_start(channel.number))
         if self.FEED_AT_START is not None:
             channel.feed = self.FEED_AT_START
         systems.refresh_zero(channel)
@@ -257,15 +252,15 @@ class WordAddressControl:
     def name_parameters(self, channel: Channel) -> None:
         """Let parameters of the setup be attributes by their names, where the control has a list of them."""
         if self.parameter_class is not None:
-            setup = channel.setup
-            channel.setup = replace(setup, parameters=self.parameter_class.naming(setup.parameters))
+            named = self.parameter_class.naming(channel.setup.parameters)
+            channel.setup = replace(channel.setup, parameters=named)
 
     def begin(self, channel: Channel) -> None:
         """A main program begins in the state that the channel is in."""
 
     def reset(self, channel: Channel) -> None:
         """The state after reset, and after the end of a program."""
-        reset(channel)
+        reset.reset(channel)
 
     def give_up(self, channel: Channel, modal: Mapping[str, str], context: Context) -> None:
         """A reset in the midst of a program: blocks that were only prepared have changed no state that stays."""
@@ -355,8 +350,7 @@ class WordAddressControl:
     def plan(self, channel: Channel, signature: tuple[str, ...]) -> Plan:
         """The plan of a shape in the present modal state, made and kept."""
         plan = self.builder(channel, self, signature).build()
-        channel_mode: Mode = channel.mode
-        channel_mode.plans[signature] = plan
+        channel.mode.plans[signature] = plan
         return plan
 
     def modal_changes(self, rows: list[GCode]) -> Iterator[tuple[str, str]]:
@@ -410,10 +404,10 @@ class WordAddressControl:
         return self._offset(channel, number, "D").total_radius if number else 0.0
 
     def _offset(self, channel: Channel, number: int, address: str) -> ToolOffset:
-        if not 0 <= number <= LAST_OFFSET:
+        """The tool offset of a number (H, D) up to 999."""
+        if not 0 <= number <= 999:
             raise self.fail("offset_number", address=address)
-        memory: Memory = channel.memory
-        return memory.offset_number(number)
+        return channel.memory.offset_number(number)  # type: ignore[no-any-return]
 
     def arc_tolerance(self, _channel: Channel) -> float:
         """Allowed difference between the radii at start and end of an arc, mm."""
@@ -461,7 +455,7 @@ class WordAddressControl:
 
     def kinematics(self, channel: Channel) -> Kinematics:
         """The rotary joints of the machine, with what parameters add to them."""
-        return Kinematics.of(channel.machine)
+        return kinematics.Kinematics.of(channel.machine)
 
     def mechanism(self, channel: Channel, _context: Context) -> Kinematics:
         """A working plane turns no tool."""
@@ -477,9 +471,7 @@ class WordAddressControl:
 
     def plane_across(self, _channel: Channel, tool: Vector) -> Frame:
         """G68.3: the plane across a tool (a unit vector of the machine)."""
-        from polycnc.transformation.planes.tilted import square_on
-
-        return square_on(tool)
+        return tilted.square_on(tool)
 
     def reference_point(self, channel: Channel, axis: int, number: int) -> float:
         """Machine position of a reference point of an axis, from 1."""
@@ -497,11 +489,19 @@ class WordAddressControl:
 
     def compensation_policy(self, _channel: Channel) -> Policy:
         """Rules of radius compensation."""
-        return Policy()
+        return policy.Policy()
+
+    def corner_policy(self) -> CornerPolicy:
+        """What may stand between the two moves of a chamfer or rounding."""
+        return corner.CornerPolicy(threads_follow=False)
+
+    def normal_line_rules(self) -> NormalLineRules:
+        """What G41.1 and G42.1 refuse."""
+        return normal_line.NormalLineRules()
 
     def stops_reading(self, _channel: Channel, code: int) -> bool:
-        """Whether nothing is read behind an M code before it has run."""
-        return code in look_ahead.STOPS
+        """Whether nothing is read behind an M code before it has run: those that stop a program, or end it."""
+        return code in (0, 1, 2, 30)
 
     def nose_tip(self, _channel: Channel) -> tuple[float, float]:
         """Way from the centre of the tool to its programmed point, in the plane, in units of its radius."""
@@ -534,8 +534,8 @@ class WordAddressControl:
         channel = builder.channel
         if channel.axis_data[axis].rotary:
             return angle_converter(form, builder.rules)
-        diameter = builder.footing.diameters[axis]
-        return length_converter(form, builder.rules, inch=builder.inch, diameter=diameter)
+        diameters = builder.footing.diameters
+        return length_converter(form, builder.rules, inch=builder.inch, diameter=diameters[axis])
 
     def axis_of_address(self, channel: Channel, address: str, builder: Builder) -> tuple[int, bool] | None:
         """The axis that an address names and whether the word is an increment; None for another address."""
@@ -592,8 +592,7 @@ class WordAddressControl:
 
     def variable_names(self, channel: Channel) -> list[str]:
         """Names of all variables that hold something."""
-        names: list[str] = channel.memory.variable_names()
-        return names
+        return [*channel.memory.variable_names()]
 
     def write_variable(self, channel: Channel, name: str, value: object) -> None:
         """Set a variable as a user names it."""

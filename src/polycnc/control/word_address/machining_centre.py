@@ -2,34 +2,32 @@
 
 from __future__ import annotations
 
+from functools import cache
 from math import inf
 from typing import TYPE_CHECKING, ClassVar
 
-from polycnc.compensation.corner import CornerPolicy
-from polycnc.compensation.policy import Policy
+from polycnc.control.word_address import rules
 from polycnc.control.word_address.auxiliary.interlocks import MOVES_RULE
 from polycnc.control.word_address.block import repeated_codes, whole_numbers
 from polycnc.control.word_address.block.codes import MCode
 from polycnc.control.word_address.coordinates import frames
 from polycnc.control.word_address.coordinates.frames import ROTATION_RULE
 from polycnc.control.word_address.cycles import drilling
-from polycnc.control.word_address.macro_b import code_calls, macro_calls, parameter_input
+from polycnc.control.word_address.macro_b import code_calls
 from polycnc.control.word_address.macro_b.custom_macro import CustomMacroControl
-from polycnc.control.word_address.motion import corners, line_by_angle, nurbs, path
-from polycnc.control.word_address.tools import look_ahead
-from polycnc.control.word_address.tools.length import renew_length
-from polycnc.control.word_address.transformations import (
-    cylinder,
-    normal_line,
-    polar_interpolation,
-    tool_center_point,
-    workpiece,
-)
+from polycnc.control.word_address.motion import path
+from polycnc.deferred.functions import loaded_when_called
+from polycnc.deferred.records import replace
+
+with loaded_when_called():
+    from polycnc.control.word_address.tools import length
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from polycnc.channel.channel import Channel
+    from polycnc.compensation.corner import CornerPolicy
+    from polycnc.compensation.policy import Policy
     from polycnc.control.word_address.block.codes import Handler, MRow
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.block.rules import Rule
@@ -38,9 +36,15 @@ if TYPE_CHECKING:
     from polycnc.language.bulk import Condition
 
 
-#: Two blocks are read ahead, and a start-up that does not see the next plane motion makes no offset (training manual
-#: 3.3.1 D of Hartford machining centres, FANUC and MELDAS).
-HARTFORD = Policy(recommand_is_square=True, blind_start_is_square=False)
+@cache
+def hartford() -> Policy:
+    """Radius compensation of Hartford machining centres, FANUC and MELDAS (training manual 3.3.1 D).
+
+    Two blocks are read ahead, and a start-up that does not see the next plane motion makes no offset.
+    """
+    from polycnc.compensation.policy import Policy
+
+    return Policy(recommand_is_square=True, blind_start_is_square=False)
 
 
 def only_the_last(builder: Builder, number: int) -> MCode | None:
@@ -64,26 +68,25 @@ class MillingControl(CustomMacroControl):
     repeated_codes: ClassVar[Mapping[str, Condition]] = repeated_codes.MILLING
     #: G20 and G21 are what they were before the power went off (manual, list of G codes, note 4).
     KEPT_AT_RESET: ClassVar[frozenset[str]] = frozenset({"unit", "stroke"})
-    CORNER_POLICY: ClassVar[CornerPolicy] = CornerPolicy(dwell_between=True, threads_follow=False)
     CURVE_BEGINS_AT_TOOL: ClassVar[bool] = True
     rules: ClassVar[tuple[Rule, ...]] = (
-        normal_line.RULE,
-        parameter_input.RULE,
+        rules.NORMAL_LINE,
+        rules.PARAMETER_INPUT,
         ROTATION_RULE,
-        polar_interpolation.rule("G90", "G91", "G94", "G95"),
-        cylinder.rule("G51", "G51.1", "G68.2", "G43.4", "G43.5"),
+        rules.polar("G90", "G91", "G94", "G95"),
+        rules.unrolled("G51", "G51.1", "G68.2", "G43.4", "G43.5"),
         code_calls.RULE,
-        macro_calls.RULE,
+        rules.MODAL_CALLS,
         whole_numbers.RULE,
-        corners.RULE,
+        rules.CORNERS,
         path.INVERSE_TIME_RULE,
-        line_by_angle.RULE,
-        workpiece.RULE,
-        tool_center_point.COMPANY_RULE,
-        tool_center_point.RULE,
-        look_ahead.STOP_RULE,
+        rules.LINES_BY_ANGLE,
+        rules.ZERO_ON_TABLE,
+        rules.COMPANY_OF_TIP,
+        rules.DIRECTION_BY_VECTOR,
+        rules.STOPS,
         drilling.RULE,
-        nurbs.RULE,
+        rules.CURVES,
         MOVES_RULE,
     )
 
@@ -133,7 +136,11 @@ class MillingControl(CustomMacroControl):
 
     def compensation_policy(self, _channel: Channel) -> Policy:
         """Rules of radius compensation."""
-        return HARTFORD
+        return hartford()
+
+    def corner_policy(self) -> CornerPolicy:
+        """A dwell may stand between the two moves of a chamfer or rounding."""
+        return replace(super().corner_policy(), dwell_between=True)
 
     def goes_with_fixture(self, _channel: Channel) -> bool:
         """Whether the tool goes along when the fixture offset of a rotary table changes (G54.2)."""
@@ -154,4 +161,4 @@ class MillingControl(CustomMacroControl):
     def note_length(self, channel: Channel, number: int, change: float) -> None:
         """Add a measured difference to a length offset."""
         channel.memory.offset_number(number).length += change
-        renew_length(channel)
+        length.renew_length(channel)

@@ -1,16 +1,23 @@
-"""The scanner's kernel as machine code."""
+"""The scanner's kernels as machine code."""
 
 from __future__ import annotations
 
 from polycnc.kernels.library import Library
-from polycnc.language.bulk import kernels, moves, numerals, reach
-from polycnc.language.bulk.formulas import calculating, reading
-from polycnc.language.bulk.routines import flow
-from polycnc.transformation.orientation import linkage, standing
 
+_BULK = "polycnc.language.bulk"
 LIBRARY = Library(
     "bulk",
-    (linkage, standing, moves, numerals, reading, calculating, flow, kernels, reach),
-    (kernels.scan, reach.rows_within),
+    (
+        "polycnc.transformation.orientation.linkage",
+        "polycnc.transformation.orientation.standing",
+        f"{_BULK}.moves",
+        f"{_BULK}.numerals",
+        f"{_BULK}.formulas.reading",
+        f"{_BULK}.formulas.calculating",
+        f"{_BULK}.routines.flow",
+        f"{_BULK}.kernels",
+        f"{_BULK}.reach",
+    ),
+    (f"{_BULK}.kernels.scan", f"{_BULK}.reach.rows_within"),
     inline=True,
 )

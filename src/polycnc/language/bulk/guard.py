@@ -6,14 +6,12 @@ from array import array
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.unchanging import unchanging
+from polycnc.language.bulk.compiled import LIBRARY
 from polycnc.language.bulk.layout import NoteRecord
-from polycnc.language.bulk.reach import rows_within
 from polycnc.transformation.orientation.linkage import room_for
 from polycnc.transformation.orientation.linked import linkage_of, zero_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from polycnc.channel.channel import Channel
     from polycnc.kernels.layout import Ints
     from polycnc.transformation.contract import Transformation
@@ -25,18 +23,15 @@ class Guard:
 
     Args:
         axes: Number of the channel's axes.
-        within: The kernel.
+        plain: Use the kernel as it is written, though it may be there compiled.
     """
 
-    def __init__(self, axes: int, within: Callable[..., int] = rows_within) -> None:
-        self._within, self._axes = within, axes
+    def __init__(self, axes: int, *, plain: bool = False) -> None:
+        self._within = LIBRARY.plain("rows_within") if plain else LIBRARY.kernel("rows_within")
+        self._axes = axes
         self._transformation: Transformation | None = None
         self._linkage, self._behind = array("d"), (0.0,) * axes
         self._room, self._unit = array("d", bytes(8 * room_for(axes))), array("d", bytes(8 * axes))
-
-    def is_needed(self, channel: Channel) -> bool:
-        """Whether a transformation acts, and axes have limits."""
-        return channel.coordinates.transformation is not None and bool(channel.limits)
 
     def is_able(self, channel: Channel) -> bool:
         """Whether it knows where the transformation leads the axes."""
@@ -51,10 +46,11 @@ class Guard:
         """How many of some rows, from where the channel stands, are certain to stay within the travel."""
         offsets = array("d", map(sum, zip(self._behind, channel.coordinates.offsets, strict=True)))
         low, high = (array("d", ends_of) for ends_of in zip(*channel.limits, strict=True))
-        return self._within(
+        found: int = self._within(
             kinds, ends, count, array("d", channel.coordinates.position), self._linkage, offsets, low, high,
             self._room, self._unit,
         )  # fmt: skip
+        return found
 
 
 def notes_before(row: int, notes: Ints, count: int) -> int:

@@ -20,6 +20,7 @@ from polycnc.language.bulk.formulas.reading import (
     read_variable,
 )
 from polycnc.language.bulk.layout import (
+    ASSIGNED,
     CR_FORM,
     CR_FORMULA,
     DIRECTION_FORM,
@@ -33,6 +34,7 @@ from polycnc.language.bulk.layout import (
     MOST_KEYS,
     MOST_LITERALS,
     MOST_WORDS,
+    Columns,
     Factor,
     Grammar,
     Leaf,
@@ -41,7 +43,7 @@ from polycnc.language.bulk.layout import (
     State,
     Tables,
 )
-from polycnc.language.bulk.moves import Columns, act, note
+from polycnc.language.bulk.moves import act, note
 from polycnc.language.bulk.numerals import BLANK, EXACT_DIGITS, NINE, POINT, TAB, ZERO, read_number
 from polycnc.language.bulk.routines.flow import (
     CALLS,
@@ -65,8 +67,6 @@ EQUALS_SIGN, OPEN, CLOSE, SEMICOLON, SLASH, STAR = 61, 40, 41, 59, 47, 42
 LONGEST_LINE = 4096
 #: What `read_word` gives instead of a key: not plain, a block number.
 NO_KEY, BLOCK_NUMBER = -1, -2
-#: Key of an assignment.
-ASSIGNED = FIRST_FORMULA + LETTER_R - LETTER_A
 #: What `read_block` gives instead of a node: a line without a block.
 NO_BLOCK = -1
 

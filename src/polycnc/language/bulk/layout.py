@@ -10,7 +10,7 @@ from ctypes import Structure
 from math import inf
 
 from polycnc.deferred.named_tuples import NamedTuple
-from polycnc.kernels.layout import Bytes, Floats, Ints, Ints32, Places, place, record
+from polycnc.kernels.layout import Bytes, Floats, Ints, Ints32, Places, Words16, Words32, place, record
 from polycnc.language.bulk.routines.layout import Frame
 from polycnc.transformation.orientation.standing import StandRecord
 
@@ -214,6 +214,23 @@ class Tables(NamedTuple):
     line_keys: Ints32
     line_values: Floats
     callees: Ints32
+
+
+class Columns(NamedTuple):
+    """Columns of the toolpath that a scan writes; `end` flat, `curves` flat with `CURVE_WIDTH` numbers a row.
+
+    Notes beside them: `notes` flat with `NOTE_WIDTH` numbers each, `said` with its value and the position each.
+    """
+
+    kind: Bytes
+    program: Words16
+    line: Words32
+    feed: Floats
+    end: Floats
+    curve: Ints32
+    curves: Floats
+    notes: Ints
+    said: Floats
 
 
 def new_state(axes: int) -> State:
@@ -478,8 +495,9 @@ FIRST_CODE = 26 * FORMS
 LAST_CODE = 1000
 FIRST_M_CODE, LAST_M_CODE = FIRST_CODE + LAST_CODE, 100
 FIRST_FORMULA = FIRST_M_CODE + LAST_M_CODE
-#: `CR=` with a formula; `R1=` is a word of R with one.
+#: `CR=` with a formula; an assignment, for `R1=` is a word of R with one.
 CR_FORMULA = FIRST_FORMULA + 26
+ASSIGNED = FIRST_FORMULA + ord("R") - ord("A")
 FIRST_TOKEN = CR_FORMULA + 1
 #: Begins the keys of a line that a routine knows by its number; figures follow, as tokens.
 LINE_KEY = FIRST_TOKEN + Token.SIZE

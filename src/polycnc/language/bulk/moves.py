@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from math import copysign, floor, nan, sqrt
 
-from polycnc.deferred.named_tuples import NamedTuple
-from polycnc.kernels.layout import Bytes, Floats, Ints, Ints32, Words16, Words32
+from polycnc.kernels.layout import Floats, Ints32
 from polycnc.language.bulk.conversions import HALF, Reading
 from polycnc.language.bulk.layout import (
     TARGET_WIDTH,
+    Columns,
     Factor,
     Motion,
     NoteRecord,
@@ -21,8 +21,7 @@ from polycnc.language.bulk.layout import (
     State,
     Strokes,
 )  # fmt: skip
-from polycnc.toolpath.kinds import Kind
-from polycnc.toolpath.table import CURVE_WIDTH, NO_CURVE
+from polycnc.toolpath.kinds import CURVE_WIDTH, NO_CURVE, Kind
 from polycnc.transformation.orientation.standing import StandRecord, stand
 
 RAPID, STRAIGHT = int(Kind.RAPID), int(Kind.FEED)
@@ -34,23 +33,6 @@ TINY, TINY_LOW, TINY_HIGH = 1e-9, 0.9e-9, 1.1e-9
 SHORTEST_CHORD = 1e-8
 #: Slack of the arc tolerance: less than the interpreter's own.
 SLACK = 5e-10
-
-
-class Columns(NamedTuple):
-    """Columns of the toolpath that a scan writes; `end` flat, `curves` flat with `CURVE_WIDTH` numbers a row.
-
-    Notes beside them: `notes` flat with `NOTE_WIDTH` numbers each, `said` with its value and the position each.
-    """
-
-    kind: Bytes
-    program: Words16
-    line: Words32
-    feed: Floats
-    end: Floats
-    curve: Ints32
-    curves: Floats
-    notes: Ints
-    said: Floats
 
 
 def act(state: State, rules: Ints32, factors: Floats, number: int, columns: Columns) -> bool:

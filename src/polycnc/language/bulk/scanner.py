@@ -3,22 +3,20 @@
 from __future__ import annotations
 
 from array import array
+from functools import cached_property
 from math import inf
 from typing import TYPE_CHECKING, Any, Protocol
 
 from polycnc.channel.states.unchanging import unchanging
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.language.bulk import layout
-from polycnc.language.bulk.guard import Guard, notes_before
-from polycnc.language.bulk.layout import State, Tables, new_state
-from polycnc.language.bulk.moves import Columns
+from polycnc.language.bulk.layout import Columns, State, Tables, new_state
 from polycnc.language.bulk.routines.layout import NO_ROUTINE
-from polycnc.language.bulk.routines.running import RunningRoutines
 from polycnc.language.bulk.shapes import Shapes
-from polycnc.language.bulk.staged import FEWEST_AHEAD, StagedRun, leading_moves
 from polycnc.language.bulk.text import Window
 from polycnc.messages import AlarmError
-from polycnc.toolpath.table import CHUNK_ROWS, CURVE_WIDTH
+from polycnc.toolpath.kinds import CURVE_WIDTH
+from polycnc.toolpath.table import CHUNK_ROWS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Hashable, Iterable, Sequence
@@ -26,8 +24,9 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.geometry.frames import Frame
     from polycnc.kernels.layout import Floats
+    from polycnc.language.bulk.guard import Guard
     from polycnc.language.bulk.recipe import Drilled, Recipe, Spelling
-    from polycnc.language.bulk.routines.running import RoutineDialect
+    from polycnc.language.bulk.routines.running import RoutineDialect, RunningRoutines
     from polycnc.language.bulk.scannable import ScannedChannel
 
 #: A run of so many blocks is worth its beginning.
@@ -35,8 +34,13 @@ WORTHWHILE = 16
 #: Blocks that one call of the kernel runs at the most where it may loop: between two calls it can be interrupted, and
 #: a loop that waits for ever is found.
 MOST_BLOCKS = 1 << 18
-#: Notes that one call of the kernel may give.
-MOST_NOTES = 4096
+#: Rows that the first calls of the kernel may give; a call that gives as many leaves room for more to the next one.
+FIRST_ROOMS, MORE_ROOMS = 1024, 4
+#: There is room for a note in so many rows.
+ROWS_PER_NOTE = 4
+#: Blocks that are scanned for stages at a time, twice as many behind each run that had no end among them: what is
+#: scanned behind the end of a run is scanned again.
+FEWEST_AHEAD = 128
 
 
 class Dialect(Protocol):
@@ -44,11 +48,16 @@ class Dialect(Protocol):
 
     Attributes:
         spelling: How its text looks.
-        routines: What it tells of programs that are called and of loops; None where these are the interpreter's.
     """
 
     spelling: Spelling
-    routines: RoutineDialect | None
+
+    @property
+    def routines(self) -> RoutineDialect | None:
+        """What it tells of programs that are called and of loops; None where these are the interpreter's.
+
+        A program that has none of them does not ask.
+        """
 
     def ready(self, channel: Channel) -> bool:
         """Whether plain blocks may be scanned now: nothing watches single blocks or holds moves back."""
@@ -122,7 +131,7 @@ class Scanner:
         axes: Number of the channel's axes.
         rooms: Rows that one call of the kernel may give.
         most_patience: Blocks that are interpreted at the most between two tries.
-        guard: Watches the travel of the axes behind a tip.
+        plain: The kernel is one as it is written; others are taken likewise.
     """
 
     def __init__(
@@ -132,11 +141,12 @@ class Scanner:
         axes: int,
         rooms: int,
         most_patience: int,
-        guard: Guard,
+        *,
+        plain: bool = False,
     ) -> None:
         self._dialect = dialect
         self._scan = scan
-        self._guard = guard
+        self._plain = plain
         self._axes = axes
         self._rooms = rooms
         self._shapes = Shapes()
@@ -146,9 +156,14 @@ class Scanner:
         self._next_try = 0
         self._most_patience = most_patience
         self._ahead = FEWEST_AHEAD
-        self._state = state = new_state(axes)
-        told = dialect.routines
-        self._routines = None if told is None else RunningRoutines(told, state, dialect.spelling)
+        self._state = new_state(axes)
+        self._routines: RunningRoutines | None = None  # until a program has one
+        self._make_room(min(FIRST_ROOMS, rooms))
+
+    def _make_room(self, rooms: int) -> None:
+        """Columns for so many rows, and for their notes."""
+        axes = self._axes
+        self._room, self._most_notes = rooms, max(rooms // ROWS_PER_NOTE, 1)
         self._columns = (
             array("B", (0,)) * rooms, array("H", (0,)) * rooms, array("I", (0,)) * rooms,
             array("d", (0.0,)) * rooms,
@@ -156,8 +171,25 @@ class Scanner:
             array("d", (0.0,)) * (rooms * CURVE_WIDTH),
         )  # fmt: skip
         self._views = tuple([memoryview(column).cast("B") for column in self._columns])
-        self._notes = array("q", bytes(8 * layout.NoteRecord.SIZE * MOST_NOTES))
-        self._said = array("d", bytes(8 * (axes + 1) * MOST_NOTES))
+        self._notes = array("q", bytes(8 * layout.NoteRecord.SIZE * self._most_notes))
+        self._said = array("d", bytes(8 * (axes + 1) * self._most_notes))
+
+    @cached_property
+    def _guard(self) -> Guard:
+        """Watches the travel of the axes behind a tip."""
+        from polycnc.language.bulk.guard import Guard  # for programs with a transformation
+
+        return Guard(self._axes, plain=self._plain)
+
+    def _needed_routines(self) -> RunningRoutines | None:
+        """The channel's routines; None where they are the interpreter's."""
+        told = None if self._routines is not None else self._dialect.routines
+        if told is not None:
+            from polycnc.language.bulk.routines.running import RunningRoutines  # for programs that have some
+
+            self._routines = RunningRoutines(told, self._state, self._dialect.spelling)
+            self._routines.forget(self._shapes)
+        return self._routines
 
     def lead(self, channel: ScannedChannel) -> range:
         """Work off plain blocks; gives as many numbers as blocks are the interpreter's before the next try.
@@ -189,8 +221,7 @@ class Scanner:
         """Whether blocks may be scanned now: the control allows it, and limits of travel can be looked at."""
         if not self._dialect.ready(channel):
             return False
-        guard = self._guard
-        return not guard.is_needed(channel) or (channel.path.is_idle and guard.is_able(channel))
+        return not _is_guarded(channel) or (channel.path.is_idle and self._guard.is_able(channel))
 
     def _some(self, channel: ScannedChannel) -> bool:
         """One call of the kernel; true if it may be called again at once."""
@@ -215,7 +246,7 @@ class Scanner:
 
     def _scanned(self, channel: ScannedChannel) -> int:
         """Rows of plain blocks straight into the table."""
-        is_guarded = self._guard.is_needed(channel)
+        is_guarded = _is_guarded(channel)
         outcome = self._call(channel, calls=not is_guarded)
         if is_guarded:
             outcome = self._guarded(channel, outcome)
@@ -229,6 +260,8 @@ class Scanner:
 
     def _guarded(self, channel: ScannedChannel, outcome: int) -> int:
         """The same blocks once more, up to the first row that could lead beyond the travel of the axes."""
+        from polycnc.language.bulk.guard import notes_before
+
         at = self._state.scan
         rows = self._guard.rows(channel, self._columns[0], self._columns[4], at.rows)
         if rows == at.rows:
@@ -244,6 +277,8 @@ class Scanner:
 
         Where one finds an alarm, the channel stands in that block: the blocks up to there are scanned once more.
         """
+        from polycnc.language.bulk.staged import StagedRun, leading_moves  # for programs with stages
+
         at = self._state.scan
         outcome = self._call(channel, self._ahead)
         first_line = channel.level.code.program.first_line + self._window.line
@@ -335,7 +370,7 @@ class Scanner:
         """Work off the loop that the channel is in, if it is in one, from the next block on."""
         while (
             self._is_ready(channel)
-            and not self._guard.is_needed(channel)
+            and not _is_guarded(channel)
             and channel.path.is_idle
             and self._turned(channel)
         ):
@@ -343,7 +378,7 @@ class Scanner:
 
     def _turned(self, channel: ScannedChannel) -> bool:
         """One call of the kernel for a loop; true if it may be called again at once."""
-        routines, level, at = self._routines, channel.level, self._state.scan
+        routines, level, at = self._needed_routines(), channel.level, self._state.scan
         if routines is None:
             return False
         self._put_state(channel)
@@ -387,9 +422,11 @@ class Scanner:
             self._generation, self._shapes = generation, Shapes()
             if self._routines is not None:
                 self._routines.forget(self._shapes)
+        if at.rows >= self._room or at.notes >= self._most_notes:
+            self._make_room(min(MORE_ROOMS * self._room, self._rooms))
         chunk, c = channel.toolpath.chunk, channel.coordinates
         # A new context is that of the first row: it must be known before the modal state goes on.
-        rows = 1 if channel.context_is_new else min(self._rooms, max(CHUNK_ROWS - len(chunk), 0))
+        rows = 1 if channel.context_is_new else min(self._room, max(CHUNK_ROWS - len(chunk), 0))
         window, spelling = self._window, dialect.spelling
         at.place, at.end = window.place, len(window.text)
         at.line = channel.level.code.program.first_line + window.line
@@ -397,7 +434,7 @@ class Scanner:
         at.program = at.text_program = channel.level.program_number
         at.blocks, at.most_blocks = 0, channel.block_limit - channel.blocks
         at.rows, at.most_rows = 0, rows
-        at.notes, at.most_notes = 0, MOST_NOTES
+        at.notes, at.most_notes = 0, self._most_notes
         at.curves, at.first_curve = 0, len(chunk.curves) // CURVE_WIDTH
         at.root = self._shapes.root(dialect.state(channel))
         for i, axis in enumerate(c.geometry):
@@ -408,9 +445,11 @@ class Scanner:
         at.shifted, at.mirrors = c.shift is not None, c.programming.mirrors
         if self._shapes.calculates or self._has_routines:
             dialect.put_variables(channel, state.variables)
+        if self._shapes.calls or self._shapes.assigns:
+            self._needed_routines()
         if self._routines is not None:
             self._routines.begin()
-        limits = () if self._guard.is_needed(channel) else dialect.limits(channel)
+        limits = () if _is_guarded(channel) else dialect.limits(channel)
         at.limited = bool(limits)
         at.numbered = dialect.numbered(channel)
         at.grammar, at.most_digits = spelling.flags, spelling.max_digits
@@ -478,6 +517,11 @@ class Scanner:
             (x, y, z) if curves else None,
             tuple(parameters[(curves - 1) * CURVE_WIDTH : curves * CURVE_WIDTH]) if curves else (),
         )
+
+
+def _is_guarded(channel: Channel) -> bool:
+    """Whether travel must be watched: a transformation acts, and axes have limits."""
+    return channel.coordinates.transformation is not None and bool(channel.limits)
 
 
 #: Tables of routines where there are none.

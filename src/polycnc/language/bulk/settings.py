@@ -11,14 +11,13 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from polycnc.channel.channel import Channel
-    from polycnc.language.bulk.layout import State, Tables
-    from polycnc.language.bulk.moves import Columns
+    from polycnc.language.bulk.layout import Columns, State, Tables
     from polycnc.language.bulk.scanner import Dialect, Scanner
 
 #: Rows that one call of the kernel may give.
 ROOMS = 16_384
 #: Programs shorter than this are left to the interpreter.
-FEWEST_LINES = 1_000
+FEWEST_LINES = 500
 
 
 @unchanging
@@ -48,18 +47,12 @@ class Bulk:
         if dialect is None:
             return None
         # For long programs only.
-        from polycnc.language.bulk.guard import Guard
-        from polycnc.language.bulk.reach import rows_within
+        from polycnc.language.bulk.compiled import LIBRARY
         from polycnc.language.bulk.scanner import Scanner
 
-        scan, within = self.scan, rows_within
+        scan = LIBRARY.compiled("scan") if self.scan is None else self.scan
         if scan is None:
-            from polycnc.language.bulk import kernels
-            from polycnc.language.bulk.compiled import LIBRARY
-
-            scan, compiled = LIBRARY.compiled(kernels.scan), LIBRARY.compiled(rows_within)
-            if scan is None or compiled is None:
-                return None
-            within = compiled
-        axes = len(channel.axes)
-        return Scanner(dialect, scan, axes, self.rooms, self.most_patience, Guard(axes, within))
+            return None
+        return Scanner(
+            dialect, scan, len(channel.axes), self.rooms, self.most_patience, plain=self.scan is not None
+        )

@@ -30,6 +30,7 @@ class Shapes:
         states: Modal states by the number of their root.
         notes: By the number of a rule, the steps that its blocks leave to the interpreter.
         assigns: Whether blocks of any rule give a variable a value.
+        calls: Whether blocks of any rule call a program.
     """
 
     def __init__(self) -> None:
@@ -40,7 +41,7 @@ class Shapes:
         self.formulas = array("i", (layout.Operation.END, 0))
         self.states: dict[int, Hashable] = {}
         self.notes: dict[int, tuple[tuple[Step, Note], ...]] = {}
-        self.assigns = False
+        self.assigns = self.calls = False
         self._roots: dict[Hashable, int] = {}
 
     def root(self, state: Hashable) -> int:
@@ -85,6 +86,7 @@ class Shapes:
             _put_arc(rule, factors, recipe.motion)
         elif isinstance(recipe.motion, Call):
             _put_call(rule, factors, recipe.motion)
+            self.calls = True
         elif isinstance(recipe.motion, Return):
             rule[layout.Rule.FLOW] = layout.Flow.RETURN
         for i, target in enumerate(_targets(recipe)):

@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.path import Move, Run
 from polycnc.language.bulk import layout
-from polycnc.toolpath.kinds import Kind
-from polycnc.toolpath.table import CURVE_WIDTH, NO_CURVE
+from polycnc.toolpath.kinds import CURVE_WIDTH, NO_CURVE, Kind
 
 if TYPE_CHECKING:
     from array import array
@@ -23,9 +22,6 @@ if TYPE_CHECKING:
 
     Columns = tuple[array[int], array[int], array[int], array[float], array[float], array[int], array[float]]
 
-#: Blocks that are scanned for stages at a time, twice as many behind each run that had no end among them: what is
-#: scanned behind the end of a run is scanned again.
-FEWEST_AHEAD = 128
 #: Moves that are handed over one by one at the most between two tries to hand over many.
 MOST_PATIENCE = 64
 _KINDS = tuple(Kind)

@@ -10,8 +10,8 @@ from polycnc.program.long_text import LongText
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-#: Lines of the first window behind a jump, and of the largest: windows double while they are used up.
-FEWEST_LINES, MOST_LINES = 64, 16_384
+#: Lines of the first window behind a jump, and of the largest; a window that is used up is followed by a larger one.
+FEWEST_LINES, MORE_LINES, MOST_LINES = 64, 4, 16_384
 
 
 class Window:
@@ -35,7 +35,9 @@ class Window:
         """Let a line be the next one; false where it is not in front of `end`, behind which nothing is read."""
         if lines is not self.lines or not self.line <= line <= self.line + 1 or not self._skip_to(line):
             self._size = (
-                min(2 * self._size, MOST_LINES) if lines is self.lines and line == self.line else FEWEST_LINES
+                min(MORE_LINES * self._size, MOST_LINES)
+                if lines is self.lines and line == self.line
+                else FEWEST_LINES
             )
             self._read(lines, line, end)
         return self.place < len(self.text)

@@ -1,33 +1,36 @@
 """Generated Python as values.
 
-`Code` is a syntax tree in tuples: the class of an `ast` node, then its fields in their order. Unlike `ast` nodes two
+`Code` is a syntax tree in tuples: the kind of a node (`nodes`), then its fields in their order. Unlike `ast` nodes two
 trees can be compared and hashed, so code of equal shape is compiled once (see `shapes`). Values that differ from
 block to block are not in the tree: a `Lifted` stands for each.
 
-    binary(ast.Mult, call("cosd", Lifted("n", 0)), name("x"))        cosd(n0) * x
+    binary(nodes.Mult, call("cosd", Lifted("n", 0)), name("x"))        cosd(n0) * x
 """
 
 from __future__ import annotations
 
-import ast
-from functools import lru_cache
-from typing import TYPE_CHECKING, Self
+from functools import cache, lru_cache
+from typing import TYPE_CHECKING, Any, Self
+
+from polycnc.language.expressions import nodes
+from polycnc.language.expressions.nodes import Kind
 
 if TYPE_CHECKING:
+    import ast
     from collections.abc import Iterable
 
 
 class Code(tuple[object, ...]):
-    """An expression or a statement: the class of its `ast` node, then the node's fields.
+    """An expression or a statement: the kind of its node, then the node's fields.
 
-    A field is again `Code`, a tuple of such, an operator or a context (a class of `ast`), or a plain value.
+    A field is again `Code`, a tuple of such, an operator or a context (each a `Kind`), or a plain value.
     """
 
     __slots__ = ()
 
     @property
     def kind(self) -> object:
-        """The class of its `ast` node."""
+        """The kind of its node."""
         return self[0]
 
 
@@ -66,18 +69,18 @@ Body = tuple[Code, ...]
 
 def name(identifier: str) -> Code:
     """A name."""
-    return Code((ast.Name, identifier, ast.Load))
+    return Code((nodes.Name, identifier, nodes.Load))
 
 
 def constant(value: float | str | bool | None) -> Code:
     """A constant; its written form tells 1 from 1.0 and True, which are equal."""
-    return Code((ast.Constant, value, repr(value)))
+    return Code((nodes.Constant, value, repr(value)))
 
 
 def attribute(base: Code, *path: str) -> Code:
     """`base.first.second`."""
     for each in path:
-        base = Code((ast.Attribute, base, each, ast.Load))
+        base = Code((nodes.Attribute, base, each, nodes.Load))
     return base
 
 
@@ -89,74 +92,74 @@ def dotted(path: str) -> Code:
 
 def item(base: Code, index: Code) -> Code:
     """`base[index]`."""
-    return Code((ast.Subscript, base, index, ast.Load))
+    return Code((nodes.Subscript, base, index, nodes.Load))
 
 
 def call(function: str | Code, *arguments: Code) -> Code:
     """`function(…)`; the function is a dotted name or an expression."""
-    return Code((ast.Call, dotted(function) if isinstance(function, str) else function, arguments, ()))
+    return Code((nodes.Call, dotted(function) if isinstance(function, str) else function, arguments, ()))
 
 
 def sequence(parts: Iterable[Code]) -> Code:
     """A tuple."""
-    return Code((ast.Tuple, tuple(parts), ast.Load))
+    return Code((nodes.Tuple, tuple(parts), nodes.Load))
 
 
 def listed(parts: Iterable[Code]) -> Code:
     """A list."""
-    return Code((ast.List, tuple(parts), ast.Load))
+    return Code((nodes.List, tuple(parts), nodes.Load))
 
 
-def unary(operator: type[ast.unaryop], operand: Code) -> Code:
+def unary(operator: Kind, operand: Code) -> Code:
     """An operator before its operand."""
-    return Code((ast.UnaryOp, operator, operand))
+    return Code((nodes.UnaryOp, operator, operand))
 
 
 def negation(condition: Code) -> Code:
     """`not condition`."""
-    return unary(ast.Not, condition)
+    return unary(nodes.Not, condition)
 
 
-def binary(operator: type[ast.operator], left: Code, right: Code) -> Code:
+def binary(operator: Kind, left: Code, right: Code) -> Code:
     """`a + b` and the like."""
-    return Code((ast.BinOp, left, operator, right))
+    return Code((nodes.BinOp, left, operator, right))
 
 
-def compared(left: Code, operator: type[ast.cmpop], right: Code) -> Code:
+def compared(left: Code, operator: Kind, right: Code) -> Code:
     """`a < b` and the like."""
-    return Code((ast.Compare, left, (operator,), (right,)))
+    return Code((nodes.Compare, left, (operator,), (right,)))
 
 
 def within(low: Code, value: Code, above: Code, *, closed: bool = False) -> Code:
     """`low <= value < above`; `closed`: `<=` at both ends."""
-    return Code((ast.Compare, low, (ast.LtE, ast.LtE if closed else ast.Lt), (value, above)))
+    return Code((nodes.Compare, low, (nodes.LtE, nodes.LtE if closed else nodes.Lt), (value, above)))
 
 
-def either(operator: type[ast.boolop], left: Code, right: Code) -> Code:
+def either(operator: Kind, left: Code, right: Code) -> Code:
     """`a and b`, `a or b`."""
-    return Code((ast.BoolOp, operator, (left, right)))
+    return Code((nodes.BoolOp, operator, (left, right)))
 
 
 def choice(condition: Code, then: Code, otherwise: Code) -> Code:
     """`then if condition else otherwise`."""
-    return Code((ast.IfExp, condition, then, otherwise))
+    return Code((nodes.IfExp, condition, then, otherwise))
 
 
 def bound(identifier: str, value: Code) -> Code:
     """`(identifier := value)`."""
-    return Code((ast.NamedExpr, Code((ast.Name, identifier, ast.Store)), value))
+    return Code((nodes.NamedExpr, Code((nodes.Name, identifier, nodes.Store)), value))
 
 
 def is_simple(code: Code) -> bool:
     """Whether a value is at hand: a parameter, a name, a constant, or an item of one at such a place."""
-    if code.kind is ast.Subscript:
+    if code.kind == nodes.Subscript:
         base, index = code[1], code[2]
         return all(isinstance(part, Code) and _is_atom(part) for part in (base, index))
     return _is_atom(code)
 
 
 def _is_atom(code: Code) -> bool:
-    return isinstance(code, Lifted) or code.kind in (ast.Name, ast.Constant)
+    return isinstance(code, Lifted) or code.kind in (nodes.Name, nodes.Constant)
 
 
 # ---- statements ------------------------------------------------------------------------------------------
@@ -164,47 +167,47 @@ def _is_atom(code: Code) -> bool:
 
 def assigned(target: Code, value: Code) -> Code:
     """`target = value`; the target is a name, an attribute or an item."""
-    return Code((ast.Assign, (Code((*target[:-1], ast.Store)),), value))
+    return Code((nodes.Assign, (Code((*target[:-1], nodes.Store)),), value))
 
 
 def added(target: Code, value: int) -> Code:
     """`target += value`."""
-    return Code((ast.AugAssign, Code((*target[:-1], ast.Store)), ast.Add, constant(value)))
+    return Code((nodes.AugAssign, Code((*target[:-1], nodes.Store)), nodes.Add, constant(value)))
 
 
 def deleted(target: Code) -> Code:
     """`del target`."""
-    return Code((ast.Delete, (Code((*target[:-1], ast.Del)),)))
+    return Code((nodes.Delete, (Code((*target[:-1], nodes.Del)),)))
 
 
 def run(expression: Code) -> Code:
     """An expression as a statement."""
-    return Code((ast.Expr, expression))
+    return Code((nodes.Expr, expression))
 
 
 def when(condition: Code, body: Body, otherwise: Body = ()) -> Code:
     """`if condition: … else: …`."""
-    return Code((ast.If, condition, body or PASS, otherwise))
+    return Code((nodes.If, condition, body or PASS, otherwise))
 
 
 def repeated(passes: Code, body: Body, otherwise: Body = ()) -> Code:
     """`for _ in passes: … else: …`."""
-    return Code((ast.For, Code((ast.Name, "_", ast.Store)), passes, body, otherwise))
+    return Code((nodes.For, Code((nodes.Name, "_", nodes.Store)), passes, body, otherwise))
 
 
 def given(value: Code | None = None) -> Code:
     """`return value`."""
-    return Code((ast.Return, value))
+    return Code((nodes.Return, value))
 
 
-BREAK = Code((ast.Break,))
-PASS: Body = (Code((ast.Pass,)),)
+BREAK = Code((nodes.Break,))
+PASS: Body = (Code((nodes.Pass,)),)
 
 
 def guarded(body: Body, caught: tuple[str, ...], handler: Body, always: Body = ()) -> Code:
     """`try: … except (caught) as error: … finally: …`."""
     kinds = sequence(map(name, caught))
-    return Code((ast.Try, body, (Code((ast.ExceptHandler, kinds, "error", handler)),), (), always))
+    return Code((nodes.Try, body, (Code((nodes.ExceptHandler, kinds, "error", handler)),), (), always))
 
 
 # ---- quotations ------------------------------------------------------------------------------------------
@@ -223,6 +226,8 @@ def quoted(text: str, *parts: Code | Plain) -> Code:
 @lru_cache(maxsize=512)
 def _quotation(text: str) -> Code:
     """A text as a tree, once for each text of our own sources; a hole is the tree of a set with a number."""
+    import ast
+
     statement = ast.parse(text).body[0]
     code = _tree(statement.value if isinstance(statement, ast.Expr) else statement)
     assert isinstance(code, Code)
@@ -230,17 +235,20 @@ def _quotation(text: str) -> Code:
 
 
 def _tree(part: object) -> object:
+    import ast
+
     if isinstance(part, ast.expr_context | ast.operator | ast.unaryop | ast.cmpop | ast.boolop):
-        return type(part)
+        return Kind(type(part).__name__)
     if isinstance(part, ast.Constant):
-        return Code((ast.Constant, part.value, repr(part.value)))
+        return Code((nodes.Constant, part.value, repr(part.value)))
     if isinstance(part, ast.AST):
-        return Code((type(part), *(_tree(getattr(part, field, None)) for field in part._fields)))
+        fields = (_tree(getattr(part, field, None)) for field in part._fields)
+        return Code((Kind(type(part).__name__), *fields))
     return tuple(map(_tree, part)) if isinstance(part, list) else part
 
 
 def _filled(code: Code, parts: tuple[Code, ...]) -> Code:
-    if code.kind is ast.Set:
+    if code.kind == nodes.Set:
         return parts[_hole(code)]
     return Code(_filled_field(field, parts) for field in code)
 
@@ -280,10 +288,9 @@ def node(code: Code) -> ast.AST:
     """The `ast` node of code. Nodes may stand in many trees, so those of frequent parts are kept."""
     kind, *parts = code
     if isinstance(code, Lifted):
-        return ast.Name(f"{kind}{code.place}", _LOAD, lineno=1, col_offset=0)
-    assert isinstance(kind, type)
-    made = kind(*map(_field, parts), lineno=1, col_offset=0)
-    assert isinstance(made, ast.AST)
+        kind, parts = nodes.Name, [f"{kind}{code.place}", nodes.Load]
+    assert isinstance(kind, Kind)
+    made: ast.AST = _class_of(kind)(*map(_field, parts), lineno=1, col_offset=0)
     return made
 
 
@@ -291,18 +298,19 @@ def _field(part: object) -> object:
     """A field of an `ast` node: a node, a list of nodes, an operator or a context, or a plain value."""
     if isinstance(part, Code):
         return node(part)
-    if isinstance(part, type):
-        return _FIXED[part]
+    if isinstance(part, Kind):
+        return _fixed(part)
     return list(map(_field, part)) if isinstance(part, tuple) else part
 
 
-class _Fixed(dict[type, object]):
-    """Operators and contexts: one node of each."""
-
-    def __missing__(self, kind: type) -> object:
-        made = self[kind] = kind()
-        return made
+@cache
+def _fixed(kind: Kind) -> object:
+    """An operator or a context: one node of each."""
+    return _class_of(kind)()
 
 
-_FIXED = _Fixed()
-_LOAD = ast.Load()
+@cache
+def _class_of(kind: Kind) -> Any:
+    import ast
+
+    return getattr(ast, kind)

@@ -6,14 +6,14 @@ operator makes of its operands. Values `V` are what the language builds: code, o
 
 from __future__ import annotations
 
-import ast
 from abc import ABC, abstractmethod
 from sys import float_info
 from typing import Generic, TypeVar
 
 from polycnc.deferred.named_tuples import NamedTuple
-from polycnc.language.expressions import code
+from polycnc.language.expressions import code, nodes
 from polycnc.language.expressions.code import Code, Lifted
+from polycnc.language.expressions.nodes import Kind
 
 #: How deep an expression may be nested, in brackets, signs and operators; Python's own limit is not far.
 MAX_DEPTH = 200
@@ -21,7 +21,7 @@ MAX_DEPTH = 200
 TIGHTEST = 100
 
 #: Operators whose results may be greater than both operands, and those that may count up by a number.
-_GROWING, _COUNTING = (ast.Add, ast.Sub, ast.Mult, ast.Div), (ast.Add, ast.Sub)
+_GROWING, _COUNTING = (nodes.Add, nodes.Sub, nodes.Mult, nodes.Div), (nodes.Add, nodes.Sub)
 _OVERFLOW = code.call("overflow")
 _IN_RANGE = f"r if {-float_info.max!r} <= (r := {{0}}) <= {float_info.max!r} else overflow()"
 
@@ -35,12 +35,12 @@ class Operator(NamedTuple):
     Attributes:
         power: How closely it binds; the greater, the closer. Operators of equal power work from left to right. Before
             an operand: the operand holds operators of greater power only.
-        gives: Python's operator (a class of `ast`), or the name of a function.
+        gives: Python's operator (a `Kind`), or the name of a function.
         family: Which operands it takes, in the language's own words.
     """
 
     power: int
-    gives: type[ast.AST] | str
+    gives: Kind | str
     family: str = ""
 
 
@@ -105,19 +105,16 @@ class OperatorReader(ABC, Generic[M, V]):
             raise self.too_deep()
 
 
-def applied(gives: type[ast.AST] | str, left: Code, right: Code) -> Code:
+def applied(gives: Kind | str, left: Code, right: Code) -> Code:
     """The code of an operator with its operands."""
-    if isinstance(gives, str):
+    if not isinstance(gives, Kind):
         return code.call(gives, left, right)
-    if issubclass(gives, ast.operator):
-        return code.binary(gives, left, right)
-    if issubclass(gives, ast.cmpop):
+    if gives in nodes.COMPARISONS:
         return code.compared(left, gives, right)
-    assert issubclass(gives, ast.boolop)
-    return code.either(gives, left, right)
+    return code.either(gives, left, right) if gives in nodes.LOGIC else code.binary(gives, left, right)
 
 
-def calculated(gives: type[ast.AST] | str, left: Code, right: Code) -> Code:
+def calculated(gives: Kind | str, left: Code, right: Code) -> Code:
     """The code of an operator between numbers; `overflow()` is called where its result is not finite.
 
     A chain of operators is asked at its end: what has left the range on its left does not come back. A sum is not asked
@@ -142,7 +139,7 @@ def overflow() -> None:
 
 def checked_value(value: Code) -> Code | None:
     """What is asked whether it is finite; None for any other code."""
-    test = value[1] if value.kind is ast.IfExp and value[3] == _OVERFLOW else None
+    test = value[1] if value.kind == nodes.IfExp and value[3] == _OVERFLOW else None
     if not isinstance(test, Code) or not isinstance(test[3], tuple):
         return None
     result = test[3][0][2]
@@ -150,9 +147,8 @@ def checked_value(value: Code) -> Code | None:
     return result
 
 
-def applied_to_one(gives: type[ast.AST] | str, operand: Code) -> Code:
+def applied_to_one(gives: Kind | str, operand: Code) -> Code:
     """The code of an operator before its operand."""
-    if isinstance(gives, str):
+    if not isinstance(gives, Kind):
         return code.call(gives, operand)
-    assert issubclass(gives, ast.unaryop)
     return code.unary(gives, operand)

@@ -7,7 +7,6 @@ block costs no more than a function object. Shapes belong to a control, and the 
 
 from __future__ import annotations
 
-import ast
 from functools import lru_cache
 from types import CodeType, FunctionType
 from typing import TYPE_CHECKING
@@ -105,6 +104,8 @@ def with_values(function: FunctionType, values: tuple[object, ...]) -> FunctionT
 
 def compiled(function: Function) -> CodeType:
     """Python's code of a function."""
+    import ast
+
     lifted = [f"n{i}" for i in range(function.numbers)] + [f"o{i}" for i in range(function.objects)]
     parameters = [ast.arg(each, lineno=1, col_offset=0) for each in (*function.parameters, *lifted)]
     arguments = ast.arguments(

@@ -6,10 +6,10 @@ once for each shape of block, not for each block.
 
 from __future__ import annotations
 
-import ast
 from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.language.expressions import nodes
 from polycnc.language.expressions.code import (
     PASS,
     Code,
@@ -239,11 +239,11 @@ class Emitter:
 
 def own_number(code: Code) -> int:
     """Which of the block's numbers a value is, with or without a sign and as REAL or not; -1 for another value."""
-    if code.kind is ast.Call and code[1] == name("float"):
+    if code.kind == nodes.Call and code[1] == name("float"):
         arguments = code[2]
         assert isinstance(arguments, tuple)
         code = arguments[0]
-    if code.kind is ast.UnaryOp and code[1] in (ast.USub, ast.UAdd):
+    if code.kind == nodes.UnaryOp and code[1] in (nodes.USub, nodes.UAdd):
         operand = code[2]
         assert isinstance(operand, Code)
         code = operand

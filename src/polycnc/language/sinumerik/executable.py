@@ -32,11 +32,12 @@ from polycnc.language.sinumerik.statements.definitions import NO_HEADER, Header,
 from polycnc.language.sinumerik.statements.labels import Labels
 from polycnc.language.sinumerik.statements.structures import Structure, structures_of
 from polycnc.messages import AlarmError
+from polycnc.program.line_runs import LineRuns
 from polycnc.program.long_text import LongText
 from polycnc.program.names import DEF_DIR
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from polycnc.channel.channel import Channel
     from polycnc.channel.steps import Step
@@ -71,10 +72,7 @@ class SinumerikProgram:
         self.is_definition_file = program.directory == DEF_DIR
         self.declared: dict[str, int] = {}
         self._lines = _blocks(program.lines)
-        numbers = array("I", map(program.first_line.__add__, self._lines))
-        numbers.append(numbers[-1] if numbers else program.first_line)
-        #: The line in the file of a step. Asked for every row, so it is the array's own method.
-        self.line = numbers.__getitem__
+        self.line = _numbering(self._lines, program.first_line)
         self.steps = kept_steps(len(self._lines))
         self._reached = bytearray(len(self._lines))
         self._scope: Scope | None = None
@@ -440,14 +438,24 @@ class SinumerikProgram:
         return structure
 
 
-def _blocks(lines: Sequence[str]) -> array[int]:
+def _blocks(lines: Sequence[str]) -> Sequence[int]:
     """The lines that are blocks: neither empty nor a comment alone."""
-    if not isinstance(lines, LongText):
-        return array("I", (i for i, line in enumerate(lines) if line[:1] not in _BLANK or _is_block(line)))
-    found = array("I")
-    for blocks in lines.not_beginning(_BLANK, _is_block):
-        found.extend(blocks)
-    return found
+    if isinstance(lines, LongText):
+        return LineRuns(lines.not_beginning(_BLANK, _is_block))
+    return array("I", (i for i, line in enumerate(lines) if line[:1] not in _BLANK or _is_block(line)))
+
+
+def _numbering(lines: Sequence[int], first: int) -> Callable[[int], int]:
+    """What gives the line in the file of a step; behind the last one, its line.
+
+    It is asked for every row, so it is the own method of an array where the program is no long one.
+    """
+    if isinstance(lines, LineRuns):
+        last = len(lines) - 1
+        return lambda index: first + (lines[min(index, last)] if lines else 0)
+    numbers = array("I", map(first.__add__, lines))
+    numbers.append(numbers[-1] if numbers else first)
+    return numbers.__getitem__
 
 
 def _is_block(line: str) -> bool:

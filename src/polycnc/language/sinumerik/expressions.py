@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import ast
 from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.language.expressions import nodes
 from polycnc.language.expressions.code import (
     Code,
     constant,
@@ -45,34 +45,34 @@ class Expr(NamedTuple):
 COMPARISON, TEXT, LOGIC, BITS, NUMBERS, FRAMES = "comparison", "text", "logic", "bits", "numbers", "frames"
 #: Operators between two operands (1.7); a greater power binds closer.
 OPERATORS = {
-    "==": Operator(1, ast.Eq, COMPARISON),
-    "<>": Operator(1, ast.NotEq, COMPARISON),
-    ">": Operator(1, ast.Gt, COMPARISON),
-    "<": Operator(1, ast.Lt, COMPARISON),
-    ">=": Operator(1, ast.GtE, COMPARISON),
-    "<=": Operator(1, ast.LtE, COMPARISON),
+    "==": Operator(1, nodes.Eq, COMPARISON),
+    "<>": Operator(1, nodes.NotEq, COMPARISON),
+    ">": Operator(1, nodes.Gt, COMPARISON),
+    "<": Operator(1, nodes.Lt, COMPARISON),
+    ">=": Operator(1, nodes.GtE, COMPARISON),
+    "<=": Operator(1, nodes.LtE, COMPARISON),
     "<<": Operator(2, "joined", TEXT),
-    "OR": Operator(3, ast.Or, LOGIC),
-    "XOR": Operator(4, ast.NotEq, LOGIC),
-    "AND": Operator(5, ast.And, LOGIC),
-    "B_OR": Operator(6, ast.BitOr, BITS),
-    "B_XOR": Operator(7, ast.BitXor, BITS),
-    "B_AND": Operator(8, ast.BitAnd, BITS),
-    "+": Operator(9, ast.Add, NUMBERS),
-    "-": Operator(9, ast.Sub, NUMBERS),
-    "*": Operator(10, ast.Mult, NUMBERS),
-    "/": Operator(10, ast.Div, NUMBERS),
+    "OR": Operator(3, nodes.Or, LOGIC),
+    "XOR": Operator(4, nodes.NotEq, LOGIC),
+    "AND": Operator(5, nodes.And, LOGIC),
+    "B_OR": Operator(6, nodes.BitOr, BITS),
+    "B_XOR": Operator(7, nodes.BitXor, BITS),
+    "B_AND": Operator(8, nodes.BitAnd, BITS),
+    "+": Operator(9, nodes.Add, NUMBERS),
+    "-": Operator(9, nodes.Sub, NUMBERS),
+    "*": Operator(10, nodes.Mult, NUMBERS),
+    "/": Operator(10, nodes.Div, NUMBERS),
     "DIV": Operator(10, "real_quotient", NUMBERS),
     "MOD": Operator(10, "remainder", NUMBERS),
-    ":": Operator(11, ast.MatMult, FRAMES),
+    ":": Operator(11, nodes.MatMult, FRAMES),
 }
 #: Operators before an operand; `<<` alone takes more than one operand with its signs.
 SIGNS = {
-    "-": Operator(TIGHTEST, ast.USub, NUMBERS),
-    "+": Operator(TIGHTEST, ast.UAdd, NUMBERS),
+    "-": Operator(TIGHTEST, nodes.USub, NUMBERS),
+    "+": Operator(TIGHTEST, nodes.UAdd, NUMBERS),
     "<<": Operator(2, "str", TEXT),
-    "NOT": Operator(TIGHTEST, ast.Not, LOGIC),
-    "B_NOT": Operator(TIGHTEST, ast.Invert, BITS),
+    "NOT": Operator(TIGHTEST, nodes.Not, LOGIC),
+    "B_NOT": Operator(TIGHTEST, nodes.Invert, BITS),
 }
 _WORDS = ("NOT", "B_NOT")
 
@@ -113,7 +113,7 @@ class ExpressionReader(Cursor[Token], OperatorReader[Token, Expr]):
             return None
         self.place += minus + 1
         number = self.emitter.number(token.value, token)
-        return unary(ast.USub, number) if minus else number
+        return unary(nodes.USub, number) if minus else number
 
     def condition(self) -> Code:
         """Code of an expression as BOOL."""
@@ -193,20 +193,20 @@ class ExpressionReader(Cursor[Token], OperatorReader[Token, Expr]):
         gives = operator.gives
         if not (left.type.is_number and right.type.is_number):
             left, right = self._comparable(mark, left, right)
-            if gives not in (ast.Eq, ast.NotEq) and not left.type.is_number:
+            if gives not in (nodes.Eq, nodes.NotEq) and not left.type.is_number:
                 raise NcSyntaxError("12150", mark.column, mark.text)
         if Type.REAL not in (left.type, right.type):
             return applied(gives, left.code, right.code)
-        if gives in (ast.Eq, ast.NotEq):
+        if gives in (nodes.Eq, nodes.NotEq):
             near = quoted("near({0}, {1})", left.code, right.code)
-            return near if gives is ast.Eq else negation(near)
-        strict = gives in (ast.Lt, ast.Gt)
+            return near if gives == nodes.Eq else negation(near)
+        strict = gives in (nodes.Lt, nodes.Gt)
         if self.scope.memory.exact_order and strict:
             return applied(gives, left.code, right.code)
         (a, a2), (b, b2) = self.emitter.twice(left.code), self.emitter.twice(right.code)
         # Both values are worked out before they are compared, so the names of the second use are bound.
         near, ordered = quoted("near({0}, {1})", a2, b2), applied(gives, a, b)
-        return either(ast.And, ordered, negation(near)) if strict else either(ast.Or, ordered, near)
+        return either(nodes.And, ordered, negation(near)) if strict else either(nodes.Or, ordered, near)
 
     def _comparable(self, mark: Token, left: Expr, right: Expr) -> tuple[Expr, Expr]:
         """Operands of a comparison that are not both numbers.

@@ -12,10 +12,10 @@ block runs.
 
 from __future__ import annotations
 
-import ast
 from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.language.expressions import nodes
 from polycnc.language.expressions.code import (
     BREAK,
     PASS,
@@ -119,8 +119,8 @@ class Joiner:
         body = stretch.body if stretch.closed else [*stretch.body, *_left(stretch.end)]
         near_limit = (assigned(ATTENTION, constant(True)), quoted("return {0}(channel)", lifted_object(0)))
         statements = (
-            assigned(_ROOM, binary(ast.Sub, ROOM, ALL_BLOCKS)),
-            when(compared(_ROOM, ast.Lt, constant(0)), near_limit),
+            assigned(_ROOM, binary(nodes.Sub, ROOM, ALL_BLOCKS)),
+            when(compared(_ROOM, nodes.Lt, constant(0)), near_limit),
             OFF_PATH,
             assigned(LEVEL, attribute(CHANNEL, "level")),
             assigned(name("L"), attribute(LEVEL, "locals")),
@@ -178,8 +178,8 @@ class Joiner:
             body.append(MARK)
         body += [_COUNT, *self._statements(emitter)]
         if emitter.acts:
-            jumped = compared(INDEX, ast.NotEq, constant(index + 1))
-            body.append(when(either(ast.Or, ATTENTION, jumped), (*_ON_PATH[emitter.is_block], _LEAVE)))
+            jumped = compared(INDEX, nodes.NotEq, constant(index + 1))
+            body.append(when(either(nodes.Or, ATTENTION, jumped), (*_ON_PATH[emitter.is_block], _LEAVE)))
         return body
 
     def _statements(self, emitter: Emitter) -> list[Code]:
@@ -267,7 +267,7 @@ class Joiner:
 
 def _repeated(passes: Code, again: int, body: list[Code], over: tuple[Code, ...]) -> Code:
     """A loop, which the channel takes over at step `again` when the block limit is near; `over`: behind a burst."""
-    handed_over = when(compared(_BLOCKS, ast.Gt, _ROOM), _left(again))
+    handed_over = when(compared(_BLOCKS, nodes.Gt, _ROOM), _left(again))
     return repeated(passes, (handed_over, *body), over)
 
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import ast
 from typing import TYPE_CHECKING
 
+from polycnc.language.expressions import nodes
 from polycnc.language.expressions.code import Code, Lifted, assigned, constant, quoted, sequence
 from polycnc.language.expressions.operators import TIGHTEST
 from polycnc.language.sinumerik import keywords
@@ -433,5 +433,5 @@ provide(position_attribute=position_attribute, axis_address=axis_address, Axis=A
 
 def _is_written(code: Code) -> bool:
     """Whether a value is a number of the block, with a minus or without."""
-    operand = code[2] if code.kind is ast.UnaryOp else code
+    operand = code[2] if code.kind == nodes.UnaryOp else code
     return isinstance(operand, Lifted)

@@ -8,10 +8,10 @@ function. The code works on `m`, the channel's memory:
 
 from __future__ import annotations
 
-import ast
 from math import isfinite
 from typing import TYPE_CHECKING, Any, Protocol
 
+from polycnc.language.expressions import nodes
 from polycnc.language.expressions.code import Code, Lifted, call, constant, name, unary
 from polycnc.language.expressions.cursor import Cursor
 from polycnc.language.expressions.operators import (
@@ -101,25 +101,25 @@ def syntec_shapes() -> Shapes:
 COMPARISON = "comparison"
 #: Operators between two operands (operation manual of the macro language); a greater power binds closer.
 OPERATORS = {
-    "*": Operator(8, ast.Mult),
+    "*": Operator(8, nodes.Mult),
     "/": Operator(8, "divide"),
     "MOD": Operator(8, "modulo"),
-    "+": Operator(7, ast.Add),
-    "-": Operator(7, ast.Sub),
-    "<": Operator(6, ast.Lt, COMPARISON),
-    ">": Operator(6, ast.Gt, COMPARISON),
-    "<=": Operator(6, ast.LtE, COMPARISON),
-    ">=": Operator(6, ast.GtE, COMPARISON),
-    "=": Operator(5, ast.Eq, COMPARISON),
-    "<>": Operator(4, ast.NotEq, COMPARISON),
+    "+": Operator(7, nodes.Add),
+    "-": Operator(7, nodes.Sub),
+    "<": Operator(6, nodes.Lt, COMPARISON),
+    ">": Operator(6, nodes.Gt, COMPARISON),
+    "<=": Operator(6, nodes.LtE, COMPARISON),
+    ">=": Operator(6, nodes.GtE, COMPARISON),
+    "=": Operator(5, nodes.Eq, COMPARISON),
+    "<>": Operator(4, nodes.NotEq, COMPARISON),
     "&": Operator(3, "bit_and"),
     "AND": Operator(3, "bit_and"),
     "XOR": Operator(2, "bit_xor"),
     "OR": Operator(1, "bit_or"),
 }
 SIGNS = {
-    "-": Operator(TIGHTEST, ast.USub),
-    "+": Operator(TIGHTEST, ast.UAdd),
+    "-": Operator(TIGHTEST, nodes.USub),
+    "+": Operator(TIGHTEST, nodes.UAdd),
     "NOT": Operator(TIGHTEST, "bit_not"),
 }
 #: Bare expressions in words hold arithmetic only; a comparison there needs brackets.
@@ -188,10 +188,10 @@ class Reader(Cursor[Token], OperatorReader[Token, Code]):
 
     def signed(self, operator: Operator, _mark: Token, operand: Code) -> Code:
         """A value with its sign; a number takes it at once."""
-        if operator.gives is ast.UAdd:
+        if operator.gives == nodes.UAdd:
             return operand
         value = self.literals[operand.place] if isinstance(operand, Lifted) else None
-        if operator.gives is ast.USub and isinstance(operand, Lifted) and isinstance(value, int | float):
+        if operator.gives == nodes.USub and isinstance(operand, Lifted) and isinstance(value, int | float):
             self.literals[operand.place] = -value
             return operand
         return applied_to_one(operator.gives, operand)
@@ -199,7 +199,7 @@ class Reader(Cursor[Token], OperatorReader[Token, Code]):
     def joined(self, operator: Operator, _mark: Token, left: Code, right: Code) -> Code:
         """Two operands."""
         value = applied(operator.gives, left, right)
-        return unary(ast.UAdd, value) if operator.family == COMPARISON else value
+        return unary(nodes.UAdd, value) if operator.family == COMPARISON else value
 
     def too_deep(self) -> AlarmError:
         """An expression that is too complex."""

@@ -343,12 +343,12 @@ class WordAddressProgram:
         head = _HEAD.match(text)
         reader.pos = head.end() if head else 0
         levels = reader.skip_levels()
-        number = reader.match(_SEQUENCE_WORD)
+        number = reader.match(_SEQUENCE_WORD) if reader.peek() == "N" else ""
         digits_at = reader.pos - len(number.lstrip("N \t"))
         if "." in number:
             self._check_number("", number)
         levels |= reader.skip_levels()
-        keyword = reader.match(KEYWORD)
+        keyword = reader.match(KEYWORD) if reader.peek() else ""
         if keyword:
             step = parse_statement(reader, keyword, self, index)
         elif not reader.peek():
@@ -492,7 +492,7 @@ class BlockReader(Reader):
     def skip_levels(self) -> int:
         """Bit mask of the block skip levels marked here: `/` and `/1` are level 1."""
         levels = 0
-        while match := _SKIP.match(self.text, self.pos):
+        while self.peek() == "/" and (match := _SKIP.match(self.text, self.pos)):
             levels |= 1 << int(match[1] or 1)
             self.pos = match.end()
         return levels

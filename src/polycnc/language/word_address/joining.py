@@ -11,10 +11,9 @@ Every block is counted, and near the block limit (`Channel.joined_below`) only t
 
 from __future__ import annotations
 
-import ast
 from typing import TYPE_CHECKING
 
-from polycnc.language.expressions import joined
+from polycnc.language.expressions import joined, nodes
 from polycnc.language.expressions.code import (
     added,
     assigned,
@@ -74,7 +73,7 @@ class _Stretch:
         if isinstance(step, Assignment):
             return current, self._placed(step.statement)
         following = constant(index + 1)
-        hands_over = either(ast.Or, compared(INDEX, ast.NotEq, following), ATTENTION)
+        hands_over = either(nodes.Or, compared(INDEX, nodes.NotEq, following), ATTENTION)
         if isinstance(step, ConditionalJump):
             condition = self._placed(step.condition.lifting)
             return current, when(condition, self._acting(step.jump, following, hands_over))
@@ -89,7 +88,7 @@ class _Stretch:
 
     def function(self, shapes: Shapes, body: Body, alone: Step) -> Step:
         """The step; near the block limit it runs the first of its steps alone."""
-        near_limit = compared(BLOCKS, ast.Gt, ROOM)
+        near_limit = compared(BLOCKS, nodes.Gt, ROOM)
         first = given(call(self.lift(alone), CHANNEL))
         head = (
             when(near_limit, (assigned(ATTENTION, constant(True)), first)),
@@ -115,14 +114,16 @@ def join_loop(shapes: Shapes, steps: list[tuple[int, Step]], end: int, loop_end:
     loop, condition, number = name("loop"), name("condition"), constant(loop_end.number)
     loops = attribute(name("level"), "data")
     entered = _any(
-        compared(loop, ast.Is, constant(None)),
-        compared(attribute(loop, "end"), ast.NotEq, constant(end)),
-        compared(attribute(loop, "start"), ast.NotEq, constant(first - 1)),
+        compared(loop, nodes.Is, constant(None)),
+        compared(attribute(loop, "end"), nodes.NotEq, constant(end)),
+        compared(attribute(loop, "start"), nodes.NotEq, constant(first - 1)),
     )
     one_by_one = run(call(stretch.lift(join(shapes, steps)), CHANNEL))
-    room = binary(ast.FloorDiv, binary(ast.Sub, ROOM, BLOCKS), constant(count))
-    passes = call("range", call("min", constant(BURST), binary(ast.Add, room, constant(1))))
-    over = either(ast.And, compared(condition, ast.IsNot, constant(None)), negation(call(condition, CHANNEL)))
+    room = binary(nodes.FloorDiv, binary(nodes.Sub, ROOM, BLOCKS), constant(count))
+    passes = call("range", call("min", constant(BURST), binary(nodes.Add, room, constant(1))))
+    over = either(
+        nodes.And, compared(condition, nodes.IsNot, constant(None)), negation(call(condition, CHANNEL))
+    )
     last = (
         assigned(CURRENT, constant(end)),
         added(BLOCKS, count),
@@ -146,5 +147,5 @@ def join_loop(shapes: Shapes, steps: list[tuple[int, Step]], end: int, loop_end:
 def _any(*conditions: Code) -> Code:
     first, *others = conditions
     for condition in others:
-        first = either(ast.Or, first, condition)
+        first = either(nodes.Or, first, condition)
     return first

@@ -8,13 +8,13 @@ variables through the channel's memory `m`: `m.locals[n]` for #1-#33, `m.common`
 
 from __future__ import annotations
 
-import ast
 import re
 from math import isinf
 from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.regexes import regex
+from polycnc.language.expressions import nodes
 from polycnc.language.expressions.code import (
     Code,
     Lifted,
@@ -63,20 +63,20 @@ VACANT_TOO = "vacant too"
 OPERATORS = {
     "EQ": Operator(COMPARISON, "eq_", VACANT_TOO),
     "NE": Operator(COMPARISON, "ne_", VACANT_TOO),
-    "GT": Operator(COMPARISON, ast.Gt),
-    "GE": Operator(COMPARISON, ast.GtE),
-    "LT": Operator(COMPARISON, ast.Lt),
-    "LE": Operator(COMPARISON, ast.LtE),
-    "+": Operator(SUM, ast.Add),
-    "-": Operator(SUM, ast.Sub),
+    "GT": Operator(COMPARISON, nodes.Gt),
+    "GE": Operator(COMPARISON, nodes.GtE),
+    "LT": Operator(COMPARISON, nodes.Lt),
+    "LE": Operator(COMPARISON, nodes.LtE),
+    "+": Operator(SUM, nodes.Add),
+    "-": Operator(SUM, nodes.Sub),
     "XOR": Operator(SUM, "xor_"),
     "OR": Operator(SUM, "or_"),
-    "*": Operator(PRODUCT, ast.Mult),
-    "/": Operator(PRODUCT, ast.Div),
+    "*": Operator(PRODUCT, nodes.Mult),
+    "/": Operator(PRODUCT, nodes.Div),
     "AND": Operator(PRODUCT, "and_"),
     "MOD": Operator(PRODUCT, "mod_"),
 }
-SIGNS = {"-": Operator(TIGHTEST, ast.USub), "+": Operator(TIGHTEST, ast.UAdd)}
+SIGNS = {"-": Operator(TIGHTEST, nodes.USub), "+": Operator(TIGHTEST, nodes.UAdd)}
 
 _BLANKS = (" ", "\t")
 _VARIABLE = regex(r"#[ \t]*(\d+)(?![\d.])")
@@ -396,12 +396,12 @@ class Reader(OperatorReader[int, Code]):
 
 def number_of(code: Code) -> Code:
     """Code of a plain number: a bare variable counts as zero while it is vacant."""
-    return either(ast.Or, code, _ZERO) if _is_variable(code) else code
+    return either(nodes.Or, code, _ZERO) if _is_variable(code) else code
 
 
 def _is_variable(code: Code) -> bool:
     """Whether code reads a variable: an item of a list of the memory, or a method of it."""
-    if code.kind is ast.Subscript:
+    if code.kind == nodes.Subscript:
         return True
     function = code[1]
-    return code.kind is ast.Call and isinstance(function, Code) and function.kind is ast.Attribute
+    return code.kind == nodes.Call and isinstance(function, Code) and function.kind == nodes.Attribute

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import inf
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address.motion.skip import LastSkip
+from polycnc.control.word_address.states import LastSkip
 from polycnc.deferred.records import dataclass, field, replace
 from polycnc.mainrun.commands.programs import text_of
 from polycnc.mainrun.execution.interpolator import ChannelInterpolator

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from polycnc.mainrun.preparation.layout import Before
 from polycnc.motion.compiled import kernels
 from polycnc.motion.frames import with_axis
-from polycnc.motion.kernels.chords import settle
 from polycnc.motion.kernels.columns import MAIN_RUN, TAP, Form, Limits, PieceRecord, new_state, piece_width
 from polycnc.motion.kernels.jerk import window_s
 from polycnc.motion.limits import ContextTables
@@ -92,7 +91,7 @@ class PieceBuffer:
     def end_in_rest(self) -> None:
         """The axes come to rest behind the last row."""
         self.state.run.stop, self._rested = 1.0, True
-        settle(self._records, self._axes, self.led or self.limits, self.state)
+        self._kernels.settle(self._records, self._axes, self.led or self.limits, self.state)
 
     def least_seconds(self, behind: int) -> float:
         """The least time of the pieces ahead, but for so many of them in front."""
@@ -110,7 +109,7 @@ class PieceBuffer:
             return []
         rows, number, called, state = prepared.rows_for(layout), prepared.number, prepared.called, self.state
         if prepared.led is not None:  # the axes rest where the use changes
-            settle(self._records, self._axes, prepared.led, state)
+            self._kernels.settle(self._records, self._axes, prepared.led, state)
             state.run.stop = 1.0
         self.led, self.use = prepared.limits, prepared.use
         contexts = self.tables.of(prepared.use)

@@ -16,8 +16,7 @@ from polycnc.motion.kernels.feeds import faster, follows_radius, is_rapid, strai
 from polycnc.motion.third_order.laying.rows import goes_by_law
 from polycnc.motion.time_constants import Use, use_of
 from polycnc.toolpath import Context, Kind
-from polycnc.toolpath.kinds import ARC_KINDS
-from polycnc.toolpath.table import CURVE_WIDTH
+from polycnc.toolpath.kinds import ARC_KINDS, CURVE_WIDTH
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

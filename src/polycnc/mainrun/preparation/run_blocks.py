@@ -14,7 +14,7 @@ from polycnc.motion.kernels.columns import LARGEST_OVERRIDE
 from polycnc.motion.standing.waits import ORIENT
 from polycnc.toolpath import Kind
 from polycnc.toolpath.events import Circle, Deed, Pen, SignalWrite
-from polycnc.toolpath.table import CURVE_WIDTH
+from polycnc.toolpath.kinds import CURVE_WIDTH
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

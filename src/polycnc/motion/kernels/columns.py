@@ -265,7 +265,8 @@ class RunState(Structure):
         standing_spindle: Rows that wait for a spindle at rest.
         exit_pull: Pull of the last row around its end.
         top2: Highest cap since the axes last stood; `top_pull` likewise.
-        low2: Lowest hold within reach; `low_pull` likewise.
+        low2: Lowest hold of those that reach the next piece, if it has not ended by then: `low2_way` is how far it
+            reaches along that, mm. `low_pull` and `low_pull_way` likewise.
         ahead: Way for which holds reach ahead.
         window: Seconds that a change of speed is spread over.
         alone: The last row is a line (1), and one from rest (2).
@@ -304,7 +305,9 @@ class RunState(Structure):
     top2: float
     top_pull: float
     low2: float
+    low2_way: float
     low_pull: float
+    low_pull_way: float
     ahead: float
     window: float
     alone: float

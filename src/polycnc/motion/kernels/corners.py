@@ -192,6 +192,9 @@ def rounded2(
         radius = min(tolerance * cos_b * (1.0 + cos_b) / (sin_b * sin_b), touch * slower * cos_b / sin_b)
         touch = min(touch, radius * sin_b / (cos_b * slower))
     x2, faster = cap2, max(before, after)
+    a_before, an_after, across, along = 0.0, 0.0, 0.0, 0.0
+    if radius < inf:  # a division takes as long as ten products
+        a_before, an_after, across, along = 1.0 / before, 1.0 / after, 0.5 / sin_b, 0.5 / cos_b
     for i in range(n):
         pull = state.joint.ease * limits.acceleration[i]
         if limits.rotary[i] != 0.0:
@@ -201,8 +204,8 @@ def rounded2(
         elif (
             radius < inf and pull * radius < SURELY * x2 * faster * faster
         ):  # else no share of it is too large
-            a, b = tangent[i] / before, unit[i] / after
-            share = largest_share(0.5 * (b - a) / sin_b, 0.5 * (b + a) / cos_b, sin_b, cos_b)
+            a, b = tangent[i] * a_before, unit[i] * an_after
+            share = largest_share(across * (b - a), along * (b + a), sin_b, cos_b)
             if share > 0.0:
                 x2 = min(x2, pull * radius / (share * faster * faster))
     return x2
@@ -219,9 +222,10 @@ def half_turn(n: int, limits: Limits, state: State) -> tuple[float, float, float
     before, after = sqrt(before), sqrt(after)
     if before <= SAME_DIRECTION or after <= SAME_DIRECTION:
         return before, after, 0.0, 1.0
+    a_before, an_after = 1.0 / before, 1.0 / after
     for i in range(n):
         if limits.rotary[i] == 0.0:
-            a, b = tangent[i] / before, unit[i] / after
+            a, b = tangent[i] * a_before, unit[i] * an_after
             apart += (b - a) * (b - a)
             together += (b + a) * (b + a)
     return before, after, 0.5 * sqrt(apart), 0.5 * sqrt(together)

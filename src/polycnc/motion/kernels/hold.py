@@ -36,7 +36,8 @@ def hold(pieces: Floats, first: int, n: int, state: State) -> None:
             else 0.0
         )
         if pieces[at + PieceRecord.PAUSE] > 0.0:
-            state.run.top2 = state.run.top_pull = state.run.ahead = 0.0
+            state.run.top2 = state.run.top_pull = 0.0
+            state.run.ahead = state.run.low2_way = state.run.low_pull_way = 0.0
             state.run.low2 = state.run.low_pull = inf
         elif (
             pieces[at + PieceRecord.HOLD2] < state.run.top2
@@ -49,17 +50,18 @@ def hold(pieces: Floats, first: int, n: int, state: State) -> None:
             continue
         state.run.top2 = max(state.run.top2, pieces[at + PieceRecord.CAP2])
         state.run.top_pull = max(state.run.top_pull, pieces[at + PieceRecord.PULL])
-        if pieces[at + PieceRecord.PAUSE] == 0.0 and pieces[at + PieceRecord.HOLD2] < inf:
-            state.run.ahead = max(state.run.ahead, pieces[at + PieceRecord.HOLD_WAY])
-            state.run.low2 = min(state.run.low2, pieces[at + PieceRecord.HOLD2])
-            state.run.low_pull = min(state.run.low_pull, pieces[at + PieceRecord.HOLD_PULL])
+        if pieces[at + PieceRecord.PAUSE] == 0.0 and pieces[at + PieceRecord.HOLD_WAY] > SLIVER_MM:
+            meet_hold(pieces, at, state)
         if state.run.ahead > 0.0:
             if (
                 pieces[at + PieceRecord.CAP2] > state.run.low2
                 or pieces[at + PieceRecord.PULL] > state.run.low_pull
             ):
                 hold_ahead(pieces, p, n, state)
-            state.run.ahead -= pieces[at + PieceRecord.LENGTH]
+            length = pieces[at + PieceRecord.LENGTH]
+            state.run.ahead -= length
+            state.run.low2_way -= length
+            state.run.low_pull_way -= length
         pieces[at + PieceRecord.ENTRY2] = min(pieces[at + PieceRecord.ENTRY2], pieces[at + PieceRecord.CAP2])
         if p > 0 and pieces[at - width + PieceRecord.FORM] != Form.TIMED:
             pieces[at + PieceRecord.ENTRY2] = min(
@@ -74,7 +76,8 @@ def hold_behind(pieces: Floats, p: int, n: int, state: State) -> int:
     """Spread the bounds of the joint before piece p backwards; the number of cuts made there.
 
     Pieces that are slower than the joint take more of the half window than their length says: so no joint reaches
-    farther than `run.top2` over rows before it says, however fast it is, and those that lie farther are final.
+    farther than `run.top2` over rows before it says, however fast it is, and those that lie farther are final. Behind a
+    joint whose own bounds are as low all is as low already: this one is left with less of its half window there.
     """
     width, cuts, joint = piece_width(n), 0, p * piece_width(n)
     left, cap2, pull = (
@@ -101,16 +104,53 @@ def hold_behind(pieces: Floats, p: int, n: int, state: State) -> int:
         pieces[at + PieceRecord.ENTRY2] = min(pieces[at + PieceRecord.ENTRY2], cap2)
         if pieces[at + PieceRecord.PAUSE] > 0.0:
             break
+        if pieces[at + PieceRecord.HOLD2] <= cap2 and pieces[at + PieceRecord.HOLD_PULL] <= pull:
+            break
         left -= length
         q -= 1
     return cuts
 
 
+def meet_hold(pieces: Floats, at: int, state: State) -> None:
+    """Take in the joint before a piece: how far its bounds reach ahead, and the lowest of all."""
+    run, way = state.run, pieces[at + PieceRecord.HOLD_WAY]
+    run.ahead = max(run.ahead, way)
+    run.low2, run.low2_way = lower_hold(run.low2, run.low2_way, pieces[at + PieceRecord.HOLD2], way)
+    run.low_pull, run.low_pull_way = lower_hold(
+        run.low_pull, run.low_pull_way, pieces[at + PieceRecord.HOLD_PULL], way
+    )
+
+
+def lower_hold(low: float, low_way: float, bound: float, way: float) -> tuple[float, float]:
+    """The lower of two bounds, and how far it reaches; the farther way where they are alike."""
+    if bound < ALIKE * low:
+        return bound, way
+    if bound * ALIKE <= low:
+        return min(low, bound), max(low_way, way)
+    return low, low_way
+
+
 def hold_ahead(pieces: Floats, p: int, n: int, state: State) -> None:
     """Give piece p the bounds of the joints before it that reach so far, and cut it where the lowest one ends."""
-    width, at, way = piece_width(n), p * piece_width(n), 0.0
+    run, at = state.run, p * piece_width(n)
+    if min(run.low2_way, run.low_pull_way) <= SLIVER_MM:
+        look_back(pieces, p, n, state)
     cap2, pull = pieces[at + PieceRecord.CAP2], pieces[at + PieceRecord.PULL]
-    low2, low_pull, end2, end_pull = inf, inf, inf, inf
+    edge = min(
+        run.low2_way if run.low2 < ALIKE * cap2 else inf,
+        run.low_pull_way if run.low_pull < ALIKE * pull else inf,
+    )
+    if worth_cutting(pieces, at, edge):
+        cut(pieces, p, n, state, edge)
+    pieces[at + PieceRecord.CAP2], pieces[at + PieceRecord.PULL] = (
+        min(cap2, run.low2),
+        min(pull, run.low_pull),
+    )
+
+
+def look_back(pieces: Floats, p: int, n: int, state: State) -> None:
+    """Find the lowest bounds of the joints before piece p that reach so far: one of the last lowest has ended."""
+    width, way, low2, low_pull, low2_way, low_pull_way = piece_width(n), 0.0, inf, inf, inf, inf
     longest = 0.5 * sqrt(state.run.top2) * state.run.window
     for q in range(p, -1, -1):
         joint = q * width
@@ -122,22 +162,14 @@ def hold_ahead(pieces: Floats, p: int, n: int, state: State) -> None:
             break
         left = pieces[joint + PieceRecord.HOLD_WAY] - way
         if left > SLIVER_MM:
-            hold2, hold_pull = pieces[joint + PieceRecord.HOLD2], pieces[joint + PieceRecord.HOLD_PULL]
-            if hold2 < ALIKE * low2:
-                low2, end2 = hold2, left
-            elif hold2 * ALIKE <= low2:
-                low2, end2 = min(low2, hold2), max(end2, left)
-            if hold_pull < ALIKE * low_pull:
-                low_pull, end_pull = hold_pull, left
-            elif hold_pull * ALIKE <= low_pull:
-                low_pull, end_pull = min(low_pull, hold_pull), max(end_pull, left)
+            low2, low2_way = lower_hold(low2, low2_way, pieces[joint + PieceRecord.HOLD2], left)
+            low_pull, low_pull_way = lower_hold(
+                low_pull, low_pull_way, pieces[joint + PieceRecord.HOLD_PULL], left
+            )
         if q > 0:
             way += pieces[joint - width + PieceRecord.LENGTH]
-    edge = min(end2 if low2 < ALIKE * cap2 else inf, end_pull if low_pull < ALIKE * pull else inf)
-    if worth_cutting(pieces, at, edge):
-        cut(pieces, p, n, state, edge)
-    pieces[at + PieceRecord.CAP2], pieces[at + PieceRecord.PULL] = min(cap2, low2), min(pull, low_pull)
-    state.run.low2, state.run.low_pull = low2, low_pull
+    state.run.low2, state.run.low2_way = low2, low2_way
+    state.run.low_pull, state.run.low_pull_way = low_pull, low_pull_way
 
 
 def worth_cutting(pieces: Floats, at: int, edge: float) -> bool:

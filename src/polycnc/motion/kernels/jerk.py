@@ -102,14 +102,15 @@ def corner_hold2(
     if run.lone > 0.0:
         left = max(run.gap / blend - run.lone, 0.0)
         cap2 = min(cap2, left * left)
-    lone = 0.0
-    if not is_spline:
-        lone = lone_speed(contexts, record, n, limits, state, length, cap2, bow)
-    lone_pull, state.joint.pull = state.joint.pull, pull
     x2 = row_hold2(contexts, record, n, limits, state, length, cap2, bow, is_spline or curved)
+    lone, pull_in_row, state.joint.pull = 0.0, state.joint.pull, pull
+    if not is_spline:
+        lone = lone_speed(contexts, record, n, limits, state, length, cap2, bow, x2)
     run.lone = run.gap = 0.0
     if lone * lone > x2:
-        state.joint.pull, x2, run.lone = lone_pull, lone * lone, lone
+        x2, run.lone = lone * lone, lone
+    else:
+        state.joint.pull = pull_in_row
     run.passed = sqrt(x2)
     return x2
 
@@ -129,10 +130,11 @@ def lone_speed(
     length: float,
     cap2: float,
     bow: float,
+    enough: float,
 ) -> float:
     """Largest speed, its square up to `cap2`, at the joint at hand if the average sees no other one with it.
 
-    Sets `joint.pull`.
+    Sets `joint.pull`. 0 where the square is no more than `enough`.
 
     It sees none on τ before and behind the joint, nor one that is seen with that: the next joint must be so far away
     that both can be passed so. The jerk of a corner is `Δq'·v/τ²`, that of a step of curvature `Δq''·v²/τ`, that of the
@@ -142,18 +144,16 @@ def lone_speed(
     ramp, blend = contexts[record + ContextRecord.RAMP_S], contexts[record + ContextRecord.BLEND_S]
     unit, tangent, bend, before = state.unit, state.tangent, state.bend, state.bent_before
     turn2, away = 0.0, state.run.gap / blend - state.run.passed
-    if away <= 0.0:
+    v = min(sqrt(cap2), 0.5 * length / blend, away)
+    if v <= 0.0 or v * v <= enough:
         return 0.0
     for i in range(n):
         if limits.rotary[i] == 0.0:
             turn2 += square(unit[i] - tangent[i])
     turn = sqrt(turn2)
-    v = min(sqrt(cap2), 0.5 * length / blend, away)
     if turn > NO_TURN:
         v = min(v, contexts[record + ContextRecord.ROUNDING] / blend)
     deviates = (v * turn / 6.0 + v * v * bow * blend / 12.0) * blend
-    if v <= 0.0:
-        return 0.0
     v *= min(1.0, ARC_DEVIATION * contexts[record + ContextRecord.TOLERANCE] / max(deviates, 1e-300))
     slow = 1.0
     for i in range(n):
@@ -191,17 +191,18 @@ def row_hold2(
     blend, tolerance = contexts[record + ContextRecord.BLEND_S], contexts[record + ContextRecord.TOLERANCE]
     x2 = cap2 if not curved else min(cap2, curve_joint2(blend, tolerance, n, limits, state, arc))
     shorter, mean, turn, changes = min(length, state.run.length), 0.5 * (length + state.run.length), 0.0, 0.0
+    a_mm = 1.0 / mean  # a division takes as long as ten products
     for i in range(n):
         step = unit[i] - tangent[i]
-        bowed[i] = step / mean
+        bowed[i] = step * a_mm
         if limits.rotary[i] == 0.0:
             turn, changes = turn + step * step, changes + square(bowed[i] - bow[i])
-    turn, changes = sqrt(turn), sqrt(changes)
+    turn, changes, one2 = sqrt(turn), sqrt(changes), shorter * shorter / (blend * blend)
     for i in range(n):
         a, j = state.joint.ease * limits.acceleration[i], state.joint.ease * limits.jerk[i]
         part = ROW if (unit[i] - tangent[i]) * bow[i] < 0.0 else JERK_CORNER
         change = abs(bowed[i] - bow[i]) if limits.rotary[i] != 0.0 else changes
-        x2 = lines_hold2(j, blend, most_bow(state, i), change, shorter, mean, x2)
+        x2 = lines_hold2(j, blend, most_bow(state, i), change, one2, mean, x2)
         x2 = step_hold2(a, part * j, blend, row_step(state, i, mean), shorter, x2)
     if turn > NO_TURN:
         rounding = contexts[record + ContextRecord.ROUNDING] / blend
@@ -221,15 +222,20 @@ def row_hold2(
 
 
 def lines_hold2(
-    j: float, blend: float, most: float, change: float, shorter: float, mean: float, x2: float
+    j: float, blend: float, most: float, change: float, one2: float, mean: float, x2: float
 ) -> float:
-    """Largest x up to `x2` by the q'' of an axis that a row of short lines makes; `change` is what changes of it."""
-    if most * mean <= NO_TURN:
+    """Largest x up to `x2` by the q'' of an axis that a row of short lines makes; `change` is what changes of it.
+
+    Up to `one2` the average sees one joint at a time.
+    """
+    part = JERK_LINES * j * blend
+    if most * mean <= NO_TURN or one2 >= x2 or part > SURELY * x2 * most:
         return x2
-    if JERK_LINES * j * blend > SURELY * x2 * most or shorter * shorter > SURELY * x2 * blend * blend:
-        return x2
-    most2 = max(JERK_LINES * j * blend / most, step_top2(j, blend, change, mean, JERK_LINES, x2))
-    return min(x2, max(most2, shorter * shorter / (blend * blend)))
+    most2, cube = max(part / most, one2), JERK_CURVE * j * mean
+    # What changes allows more only if it is less than all.
+    if part > most2 * change and cube * cube > most2 * most2 * most2 * change * change:
+        most2 = max(most2, step_top2(j, blend, change, mean, JERK_LINES, x2))
+    return min(x2, most2)
 
 
 def step_hold2(a: float, j: float, blend: float, step: float, shorter: float, x2: float) -> float:
@@ -294,14 +300,15 @@ def ask_jerk(n: int, state: State, shorter: float, mean: float, blend: float, v:
     Where the average sees no more than one joint before and one behind a place, those are all. Elsewhere it may see one
     more on the side of the shorter line.
     """
-    is_one, more, seen = v * blend <= shorter, 0.0, 0.0
+    is_one, more, seen, of_turn, of_bow = v * blend <= shorter, 0.0, 0.0, v / (blend * blend), 0.0
     if not is_one:
+        of_bow = v * v / blend
         more = min(1.0, UNEVEN * v * blend * (1.0 / shorter - 1.0 / (2.0 * mean - shorter)))
         seen = tents(v, blend, mean)
     for i in range(n):
-        turns = v * row_step(state, i, mean) / (blend * blend)
+        turns = of_turn * row_step(state, i, mean)
         if not is_one:
-            begins = v * v * most_bow(state, i) / blend
+            begins = of_bow * most_bow(state, i)
             turns = turns * (1.0 + more) + min(begins, v * v * abs(state.bowed[i] - state.bow[i]) * seen)
         state.asked[i] = turns
 
@@ -334,6 +341,7 @@ def row_pull(
     """
     ramp, blend = contexts[record + ContextRecord.RAMP_S], contexts[record + ContextRecord.BLEND_S]
     parts, left, turns, seen = inf, state.joint.pull, False, tents(v, blend, shorter)
+    of_way = 2.0 / ramp
     for i in range(n):
         a, j = state.joint.ease * limits.acceleration[i], state.joint.ease * limits.jerk[i]
         step, bow, bowed = row_step(state, i, mean), most_bow(state, i), state.bowed[i]
@@ -351,7 +359,7 @@ def row_pull(
             if curvature > NO_TURN:
                 parts = min(parts, JERK_BOTH * j / max(3.0 * v * curvature, 1e-300))
         if way > 0.0:
-            asked = 2.0 * way / ramp + step * seen + 2.0 * bow * v
+            asked = of_way * way + step * seen + 2.0 * bow * v
             left = lowered(left, LONE * j - state.asked[i], asked)
             left = lowered(left, a - v * step * seen, way)
     state.joint.pull = min(state.joint.pull, left if turns or not curved else parts)

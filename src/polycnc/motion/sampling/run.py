@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from polycnc.motion.averaging import tent_acceleration, under_tents
 from polycnc.motion.kernels.columns import PLACES, Form, PieceRecord
 from polycnc.motion.kernels.jerk import window_s
 from polycnc.motion.law import STEPS, Law
+from polycnc.motion.sampling.tents import CURVE, LINE, under_tents
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -26,17 +26,22 @@ if TYPE_CHECKING:
     from polycnc.motion.limits import AxisRapid
 
 Numbers: TypeAlias = "NDArray[np.float64]"
+#: Indices: of rows, axes, pieces.
+Places: TypeAlias = "NDArray[np.int64]"
 #: Position, velocity and acceleration, or what stands for them along the path.
 Moved: TypeAlias = "tuple[Numbers, Numbers, Numbers]"
 
 
 class Run:
-    """Positions of all axes over a run.
+    """Positions of all axes over a run, which may go on behind the pieces that are known so far.
 
     Args:
-        pieces: Records of planned pieces, (m, width), from rest to rest.
+        pieces: Records of planned pieces, (m, width), from rest on; to rest where no more follow.
         n: Number of axes.
         limits: For a rapid of each axis by itself: how each runs.
+
+    Attributes:
+        rows: The row of every piece that is kept, (m,).
     """
 
     def __init__(self, pieces: Numbers, n: int, limits: Sequence[AxisRapid] = ()) -> None:
@@ -45,39 +50,78 @@ class Run:
             float(pieces[0, PieceRecord.BLEND]),
             n,
         )
-        self.rows = pieces[:, PieceRecord.ROW].astype(np.int64)
+        self._form = int(pieces[0, PieceRecord.FORM])
+        self.rows = np.zeros(0, np.int64)
+        self._start, self._end, self._leave, self._arrive = (np.zeros((0, n)) for _ in range(4))
+        self._bends = (np.zeros((0, n)),) * 2 if self._form == Form.JERKED else None
+        self._length, self._ways, self._is_bent = np.zeros(0), np.zeros(1), False
+        self.law = Law()
+        self._alone: list[Law] = []
+        self.go_on(pieces)
+        if self._form == Form.TIMED:
+            ways = np.abs(self._end[0] - self._start[0]).tolist()
+            self._alone = [_trapezoid(way, own.top, own.pull) for way, own in zip(ways, limits, strict=True)]
+            self._ramps = [own.ramp for own in limits]
+            ends = [law.end_time + own for law, own in zip(self._alone, self._ramps, strict=True)]
+            self.law = self._alone[ends.index(max(ends))]
+
+    def go_on(self, pieces: Numbers) -> None:
+        """More pieces follow, (m, width)."""
+        n = self._n
         block = [
             pieces[:, PieceRecord.VECTORS + k * n : PieceRecord.VECTORS + (k + 1) * n]
             for k in range(PLACES + 2)
         ]
-        self._start, self._end = block[PLACES], block[PLACES + 1]
-        self._length = np.maximum(pieces[:, PieceRecord.LENGTH], 1e-300)
-        self._ways: Numbers = np.concatenate([[0.0], np.cumsum(pieces[:, PieceRecord.LENGTH])])
+        start, end = block[PLACES], block[PLACES + 1]
+        length = np.maximum(pieces[:, PieceRecord.LENGTH], 1e-300)
         bent = np.isin(pieces[:, PieceRecord.FORM], (Form.BENT, Form.CURVED, Form.JERKED))[:, None]
-        scale = (self._length / pieces[:, PieceRecord.MARGIN])[:, None]
-        chord = self._end - self._start
-        self._leave = np.where(bent, block[0] * scale, chord)
-        self._arrive = np.where(bent, block[1] * scale, chord)
-        self._alone: list[Law] = []
-        self._bends: tuple[Numbers, Numbers] | None = None
-        if pieces[0, PieceRecord.FORM] == Form.TIMED:
-            ways = np.abs(chord[0]).tolist()
-            self._alone = [_trapezoid(way, own.top, own.pull) for way, own in zip(ways, limits, strict=True)]
-            self._ramps = [own.ramp for own in limits]
-            ends = [law.seconds + own for law, own in zip(self._alone, self._ramps, strict=True)]
-            self.law = self._alone[ends.index(max(ends))]
-        elif pieces[0, PieceRecord.FORM] == Form.JERKED:
-            self._bends = block[2] * scale * scale, block[3] * scale * scale
+        scale = (length / pieces[:, PieceRecord.MARGIN])[:, None]
+        chord = end - start
+        self.rows = np.concatenate([self.rows, pieces[:, PieceRecord.ROW].astype(np.int64)])
+        ways = np.cumsum(np.concatenate([self._ways[-1:], pieces[:, PieceRecord.LENGTH]]))
+        self._ways = np.concatenate([self._ways[:-1], ways])
+        self._length = np.concatenate([self._length, length])
+        self._start, self._end = np.concatenate([self._start, start]), np.concatenate([self._end, end])
+        self._is_bent |= bool(bent.any())
+        self._leave = np.concatenate([self._leave, np.where(bent, block[0] * scale, chord)])
+        self._arrive = np.concatenate([self._arrive, np.where(bent, block[1] * scale, chord)])
+        self.__dict__.pop("_edges", None)
+        if self._bends is not None:
+            bends = zip(self._bends, (block[2], block[3]), strict=True)
+            first, last = (np.concatenate([known, more * scale * scale]) for known, more in bends)
+            self._bends = first, last
             columns = PieceRecord.TIME, PieceRecord.LENGTH, PieceRecord.PULL, PieceRecord.JERK
             seconds, ways, pulls, jerks = (pieces[:, column] for column in columns)
-            self.law = Law.of(seconds, ways, np.sqrt(pieces[:, PieceRecord.SPEED2]), pulls, jerks)
-        else:
-            self.law = Law.of(*_phases(pieces))
+            self.law.extend(seconds, ways, np.sqrt(pieces[:, PieceRecord.SPEED2]), pulls, jerks)
+        elif self._form != Form.TIMED:
+            self.law.extend(*_phases(pieces))
+
+    def forget(self, before: float) -> None:
+        """Nobody asks for a time before this one: what the averages do not reach from there on is dropped."""
+        before = max(before - self._ramp - 2.0 * self._blend, 0.0)
+        kept = min(int(self._index(np.array([self.law.at(before)]))[0]), len(self.rows) - 1)
+        self.law.forget(before)
+        self.rows, self._length, self._ways = self.rows[kept:], self._length[kept:], self._ways[kept:]
+        self._start, self._end = self._start[kept:], self._end[kept:]
+        self._leave, self._arrive = self._leave[kept:], self._arrive[kept:]
+        if self._bends is not None:
+            self._bends = self._bends[0][kept:], self._bends[1][kept:]
+        self.__dict__.pop("_edges", None)
+
+    @property
+    def can_go_on(self) -> bool:
+        """Whether more pieces may follow: none does behind a rapid of each axis by itself."""
+        return self._form != Form.TIMED
+
+    @property
+    def known_s(self) -> float:
+        """Up to when the motion is known, whatever follows."""
+        return self.law.end_time
 
     @property
     def seconds(self) -> float:
         """Duration, until the averages have come to rest."""
-        return self.law.seconds + window_s(self._ramp, self._blend)
+        return self.law.end_time + window_s(self._ramp, self._blend)
 
     @property
     def start(self) -> Numbers:
@@ -94,10 +138,9 @@ class Run:
         """The axis with the longest way: the one along which a lead counts."""
         return int(np.argmax(np.abs(self._end[-1, :] - self._start[0, :])))
 
-    def enters(self, row: int) -> float:
-        """When the axes come to the first piece of a row."""
-        way = float(self._ways[np.searchsorted(self.rows, row)])
-        return self.law.when(way) + 0.5 * self._ramp + self._blend
+    def enters(self, rows: Places) -> Numbers:
+        """When the axes come to the first piece of rows, (k,)."""
+        return self.law.when_at(self._ways[np.searchsorted(self.rows, rows)]) + 0.5 * self._ramp + self._blend
 
     def share_at(self, time: float) -> float:
         """The share of the way that is done at a time from the start of the run, by the axis that comes last."""
@@ -117,7 +160,7 @@ class Run:
         share = abs(float(self._end[0, axis]) - float(self._start[0, axis])) / float(self._length[0])
         return 0.5 * self._ramp + self._blend + self.law.lag(axis_speed / max(share, 1e-12))
 
-    def piece_at(self, time: Numbers) -> NDArray[np.intp]:
+    def piece_at(self, time: Numbers) -> Places:
         """Index of the piece at times from the start of the run."""
         return self._index(self.law.mean(time - self._blend, self._ramp))
 
@@ -126,42 +169,37 @@ class Run:
         middle, blend = np.asarray(time) - self._blend, self._blend
         if blend == 0.0:
             return self._on_path(middle)
-        position, velocity = under_tents(
-            lambda moments: self._on_path(moments)[0], middle, blend, self._edges
-        )
-        first, here, last = (self._on_path(middle + late)[0] for late in (-blend, 0.0, blend))
-        return position, velocity, tent_acceleration(first, here, last, blend)
+        degree = CURVE if self._is_bent else LINE
+        return under_tents(self._place, middle, blend, self._edges, degree)
 
     def on_path(self, time: Numbers) -> Numbers:
         """Positions on the path itself, before they are averaged, at times from the start of the run, (k, n)."""
-        return self._on_path(np.asarray(time) - self._blend)[0]
+        return self._place(np.asarray(time) - self._blend)
 
     @cached_property
     def _edges(self) -> Numbers:
         """When the axes' averaged way begins to follow another rule, or comes to another piece."""
-        low = np.array([self.law.when(way) for way in self._ways[1:-1].tolist()])
+        low = self.law.when_at(self._ways[1:-1])
         high = low + self._ramp
         for _ in range(STEPS if self._ramp else 0):
             middle = 0.5 * (low + high)
             before = self.law.mean(middle, self._ramp) < self._ways[1:-1]
             low, high = np.where(before, middle, low), np.where(before, high, middle)
-        phases = self.law.edges(-1.0, self.law.seconds + self._ramp + 1.0, self._ramp)
-        return np.unique(np.concatenate([np.array(phases), high]))
+        laws = zip(self._alone, self._ramps, strict=True) if self._alone else ((self.law, self._ramp),)
+        phases = [law.edges(-1.0, law.end_time + ramp + 1.0, ramp) for law, ramp in laws]
+        return np.unique(np.concatenate([*phases, high]))
 
-    def _index(self, way: Numbers) -> NDArray[np.intp]:
+    def _index(self, way: Numbers) -> Places:
         return np.clip(np.searchsorted(self._ways, way, "right") - 1, 0, len(self._length) - 1)
 
     def _on_path(self, time: Numbers) -> Moved:
         """Position, velocity and acceleration on the path itself."""
         if self._alone:
             return self._each_alone(time)
-        way, speed, rate = (value[:, None] for value in _averaged(self.law, time, self._ramp))
-        k = self._index(way[:, 0])
-        f = np.clip((way - self._ways[k][:, None]) / self._length[k][:, None], 0.0, 1.0)
-        start, chord, length = self._start[k], self._end[k] - self._start[k], self._length[k][:, None]
-        # A cubic through both ends with their tangents (Hermite); on a line it is the line.
-        leave, arrive = self._leave[k] - chord, self._arrive[k] - chord
-        position = start + f * (chord + (1.0 - f) * ((1.0 - f) * leave - f * arrive))
+        way, speed, rate = self.law.motion(time, self._ramp)
+        speed, rate = speed[:, None], rate[:, None]
+        k, f, chord, leave, arrive, position = self._by_way(way)
+        length = self._length[k][:, None]
         if self._bends is None:
             first = chord + (1.0 - f) * (1.0 - 3.0 * f) * leave + f * (3.0 * f - 2.0) * arrive
             second = (6.0 * f - 4.0) * leave + (6.0 * f - 2.0) * arrive
@@ -170,21 +208,35 @@ class Run:
             first, second = self._leave[k] + f * (bend + 0.5 * f * change), bend + f * change
         return position, first * speed / length, second * (speed / length) ** 2 + first * rate / length
 
+    def _place(self, time: Numbers) -> Numbers:
+        """Positions on the path itself."""
+        return self._each_alone(time)[0] if self._alone else self._by_way(self.law.mean(time, self._ramp))[-1]
+
+    def _by_way(self, way: Numbers) -> tuple[Places, Numbers, Numbers, Numbers, Numbers, Numbers]:
+        """The piece at ways, its part that is done, its chord and by what its tangents differ, and the position.
+
+        A cubic through both ends with their tangents (Hermite); on a line it is the line.
+        """
+        k = self._index(way)
+        f = np.clip((way - self._ways[k]) / self._length[k], 0.0, 1.0)[:, None]
+        start, chord = self._start[k], self._end[k] - self._start[k]
+        if not self._is_bent:
+            still = np.zeros((1, self._n))
+            return k, f, chord, still, still, start + f * chord
+        leave, arrive = self._leave[k] - chord, self._arrive[k] - chord
+        position = start + f * (chord + (1.0 - f) * ((1.0 - f) * leave - f * arrive))
+        return k, f, chord, leave, arrive, position
+
     def _each_alone(self, time: Numbers) -> Moved:
         """Every axis by its own law."""
         columns: list[Moved] = []
         for i, (law, ramp) in enumerate(zip(self._alone, self._ramps, strict=True)):
             start, end = float(self._start[0, i]), float(self._end[0, i])
             sense = 1.0 if end >= start else -1.0
-            way, speed, rate = _averaged(law, time, ramp)
+            way, speed, rate = law.motion(time, ramp)
             columns.append((start + sense * way, sense * speed, sense * rate))
         position, velocity, acceleration = (np.stack(values, axis=1) for values in zip(*columns, strict=True))
         return position, velocity, acceleration
-
-
-def _averaged(law: Law, time: Numbers, ramp: float) -> Moved:
-    """Way, speed and acceleration along the path, averaged over the time `ramp` before each of these."""
-    return law.mean(time, ramp), law.mean_speed(time, ramp), law.mean_pull(time, ramp)
 
 
 def _phases(pieces: Numbers) -> Moved:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import IO, TYPE_CHECKING, Protocol, TypeAlias
+from typing import IO, TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -12,9 +12,8 @@ if TYPE_CHECKING:
 
     from polycnc.motion.sampling.samples import Samples
 
-#: A column: numbers, or the names of programs.
-Column: TypeAlias = "NDArray[np.float64] | NDArray[np.int64] | list[str]"
-
+#: So many samples are written at once.
+BATCH = 1 << 16
 _KINDS = ("position", "velocity", "acceleration")
 
 
@@ -28,16 +27,36 @@ class SampleWriter(Protocol):
         """Write what belongs behind the last sample."""
 
 
-def columns(axes: tuple[str, ...], programs: list[str], samples: Samples) -> dict[str, Column]:
-    """Samples as columns by name: `x_position`, `x_velocity`, `x_acceleration` for every axis."""
-    named: dict[str, Column] = {"time": samples.time}
+def columns(samples: Samples) -> list[NDArray[np.float64] | NDArray[np.int64]]:
+    """Samples as columns in the order of `names`; of the program its number."""
     moved = samples.position, samples.velocity, samples.acceleration
-    for kind, values in zip(_KINDS, moved, strict=True):
-        named.update({f"{axis.lower()}_{kind}": values[:, i] for i, axis in enumerate(axes)})
-    named["spindle_rpm"], named["spindle_angle"] = samples.spindle_rpm, samples.spindle_angle
-    named["program"] = [programs[k] if k < len(programs) else "" for k in samples.program]
-    named["line"] = samples.line
-    return named
+    each = [values[:, i] for values in moved for i in range(values.shape[1])]
+    spindle = samples.spindle_rpm, samples.spindle_angle
+    return [samples.time, *each, *spindle, samples.program, samples.line]
+
+
+class _Gathered:
+    """Samples until they are worth to be written: a run that lasts a moment has few."""
+
+    def __init__(self) -> None:
+        self._samples: list[Samples] = []
+        self._count = 0
+
+    def add(self, samples: Samples) -> Samples | None:
+        """More samples; gives all of them when they are enough."""
+        self._samples.append(samples)
+        self._count += len(samples.time)
+        return self.all() if self._count >= BATCH else None
+
+    def all(self) -> Samples | None:
+        """Those that are left, if there are any."""
+        import numpy as np
+
+        gathered, self._samples, self._count = self._samples, [], 0
+        if not gathered:
+            return None
+        kind = type(gathered[0])
+        return kind(*(np.concatenate(column) for column in zip(*gathered, strict=True)))
 
 
 class Parquet:
@@ -49,20 +68,33 @@ class Parquet:
         import pyarrow as pa
         from pyarrow import parquet
 
-        self._axes, self._programs = axes, programs
+        self._programs = programs
         types = {"program": pa.dictionary(pa.int32(), pa.string()), "line": pa.int32()}
         fields = [pa.field(name, types.get(name, pa.float64())) for name in names(axes)]
         self._schema = pa.schema(fields, metadata=dict(metadata))
-        self._writer = parquet.ParquetWriter(stream, self._schema)
+        # Every value of a motion is another one: only names repeat.
+        self._writer = parquet.ParquetWriter(stream, self._schema, use_dictionary=["program"])
+        self._gathered = _Gathered()
 
     def take(self, samples: Samples) -> None:
         """Write samples."""
+        self._write(self._gathered.add(samples))
+
+    def _write(self, samples: Samples | None) -> None:
+        if samples is None:
+            return
         import pyarrow as pa
 
-        self._writer.write_table(pa.table(columns(self._axes, self._programs, samples), schema=self._schema))
+        *numbers, program, line = columns(samples)
+        named = pa.DictionaryArray.from_arrays(
+            pa.array(program, pa.int32()), pa.array(self._programs, pa.string())
+        )
+        arrays = [*(pa.array(column) for column in numbers), named, pa.array(line, pa.int32())]
+        self._writer.write_table(pa.Table.from_arrays(arrays, schema=self._schema))
 
     def close(self) -> None:
         """Write the end of the file."""
+        self._write(self._gathered.all())
         self._writer.close()
 
 
@@ -74,14 +106,15 @@ class Csv:
     ) -> None:
         import csv
 
-        self._axes, self._programs = axes, programs
+        self._programs = programs
         self._writer = csv.writer(stream, lineterminator="\n")
         self._writer.writerow(names(axes))
 
     def take(self, samples: Samples) -> None:
         """Write samples."""
-        values = columns(self._axes, self._programs, samples).values()
-        self._writer.writerows(zip(*(v if isinstance(v, list) else v.tolist() for v in values), strict=True))
+        *numbers, program, line = (column.tolist() for column in columns(samples))
+        named = [self._programs[int(number)] for number in program]
+        self._writer.writerows(zip(*numbers, named, line, strict=True))
 
     def close(self) -> None:
         """Nothing stands behind the last line."""

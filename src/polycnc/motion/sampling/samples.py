@@ -9,21 +9,22 @@ from __future__ import annotations
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.motion.kernels.columns import PieceRecord, piece_width
+from polycnc.motion.sampling.facts import Facts, RowFacts
 from polycnc.toolpath import Context, Kind
-from polycnc.toolpath.table import CURVE_WIDTH
 
 if TYPE_CHECKING:
     from array import array
     from collections.abc import Callable, Sequence
 
-    import numpy as np
     from numpy.typing import NDArray
 
     from polycnc.machine import Machine
     from polycnc.motion.planner import Planner
-    from polycnc.motion.sampling.run import Moved, Numbers, Run
+    from polycnc.motion.sampling.run import Moved, Numbers, Places, Run
     from polycnc.motion.settings import Settings
     from polycnc.toolpath import Toolpath
     from polycnc.toolpath.table import Chunk
@@ -56,18 +57,6 @@ class Samples(NamedTuple):
     line: NDArray[np.int64]
 
 
-class RowFacts(NamedTuple):
-    """What a sample must know of its row."""
-
-    kind: int
-    program: int
-    line: int
-    context: Context
-    rpm: float
-    lead: float
-    start_angle: float
-
-
 class Sampler:
     """Samples a toolpath while it is planned.
 
@@ -78,6 +67,9 @@ class Sampler:
         settings: Those of the planner.
         period: Seconds from sample to sample.
         give: Called with samples, in order.
+
+    Attributes:
+        line: The farthest line of the main program, which is the first of the toolpath, that was sampled.
     """
 
     def __init__(
@@ -92,52 +84,47 @@ class Sampler:
         self._toolpath, self._machine, self._settings = toolpath, machine, settings
         self._planner, self._period, self._give = planner, period, give
         self._n = len(toolpath.axes)
-        self._facts: dict[int, RowFacts] = {}
+        self._facts = Facts(toolpath, planner)
         self._waits: dict[int, list[tuple[str, float]]] = {}
         self._open: list[Numbers] = []
+        self._followed: _Followed | None = None
         self._time, self._count, self._angle, self._rpm = 0.0, 0, 0.0, 0.0
         self._tap_way: Numbers | None = None
         self._tails: list[tuple[Run, float]] = []
         self._row = RowFacts(Kind.EVENT, 0, 0, Context(), 0.0, 0.0, 0.0)
-        self._forgotten = 0
         self._position: Sequence[float] | Numbers = planner.position
         self._rest: Sequence[float] | Numbers = self._position
+        self.line = 0
         planner.on_pieces, planner.on_wait = self._pieces, self._wait
 
     # ---- what the planner tells ----------------------------------------------------------------------------
 
     def take(self, chunk: Chunk) -> None:
         """Note what the samples of a chunk's rows must know; comes before the planner takes the chunk."""
-        facing = self._planner.facing
-        for row in range(len(chunk)):
-            kind, at = chunk.kind[row], chunk.curve[row] * CURVE_WIDTH
-            context = self._toolpath.contexts[chunk.context[row]]
-            radius = abs(chunk.end[row * self._n + facing]) if facing >= 0 else 0.0
-            rpm = context.spindle_direction * self._planner.rpm(context, radius)
-            lead, angle = 0.0, 0.0
-            if kind in (Kind.THREAD, Kind.TAP) and at >= 0:
-                lead, angle = chunk.curves[at : at + 2]
-            self._facts[chunk.first + row] = RowFacts(
-                kind, chunk.program[row], chunk.line[row], context, rpm, lead, angle
-            )
+        if len(chunk):
+            self._facts.take(chunk)
 
     def _wait(self, row: int, share: str, _context: int, seconds: float) -> None:
         self._waits.setdefault(row, []).append((share, seconds))
 
     def _pieces(self, records: array[float], count: int) -> None:
-        import numpy as np
-
         width = piece_width(self._n)
         pieces = np.array(records[: count * width]).reshape(count, width)
         starts = np.flatnonzero(pieces[:, PieceRecord.SPEED2] == 0.0)
         edges = [0, *starts.tolist(), count]
-        for first, last in pairwise(edges):
-            if first in starts:
+        for k, (first, last) in enumerate(pairwise(edges)):
+            if k:
                 self._close_run(
                     float(min(pieces[first, PieceRecord.EARLY], pieces[first, PieceRecord.PAUSE]))
                 )
             if last > first:
                 self._open.append(pieces[first:last])
+        self._follow()
+
+    @property
+    def count(self) -> int:
+        """Samples so far."""
+        return self._count
 
     @property
     def time(self) -> float:
@@ -147,42 +134,70 @@ class Sampler:
     def close(self) -> None:
         """Give what is left, when the planner has finished."""
         self._close_run()
-        self._stand(max((*self._facts, *self._waits), default=-1))
+        self._stand(max((self._facts.end - 1, *self._waits)))
 
     # ---- time ----------------------------------------------------------------------------------------------
+
+    def _follow(self) -> None:
+        """Give the samples of the run so far, as far as nothing to come can change them, and keep no more than needed.
+
+        What a thread or a tap does depends on the whole run.
+        """
+        if not self._open:
+            return
+        if self._followed is None:
+            facts = self._facts.of(int(self._open[0][0, PieceRecord.ROW]))
+            assert facts is not None
+            if facts.kind in (Kind.THREAD, Kind.TAP):
+                return
+        followed = self._taken_up()
+        if followed.run.can_go_on:
+            self._give_moves(followed, self._times(followed.run.known_s, is_whole=False))
+            followed.forget((self._count - 1) * self._period - self._time)
+            self._facts.forget(int(followed.run.rows[0]))
+
+    def _taken_up(self) -> _Followed:
+        """The run with all pieces so far; the waits in front of it are over."""
+        from polycnc.motion.sampling.run import Run
+
+        pieces = np.concatenate(self._open)
+        self._open = []
+        if self._followed is None:
+            first = int(pieces[0, PieceRecord.ROW])
+            facts = self._facts.of(first)
+            assert facts is not None
+            run = Run(pieces, self._n, self._planner.rapids_of(pieces[0], facts.context))
+            self._stand(first, run)
+            self._followed = _Followed(run, self._facts)
+        else:
+            self._followed.go_on(pieces, self._facts)
+        return self._followed
 
     def _close_run(self, early: float = 0.0) -> None:
         """The axes come to rest: give the samples of the run, up to where the next one begins.
 
         That is `early` seconds before its end where two strokes overlap.
         """
-        import numpy as np
-
-        if not self._open:
+        if not self._open and self._followed is None:
             return
-        from polycnc.motion.sampling.run import Run
-
-        pieces = np.concatenate(self._open)
-        self._open = []
-        first = int(pieces[0, PieceRecord.ROW])
-        run = Run(pieces, self._n, self._planner.rapids_of(pieces[0], self._facts[first].context))
-        self._stand(first, run)
+        followed = self._taken_up() if self._open else self._followed
+        assert followed is not None
+        self._followed = None
+        run = followed.run
         seconds = run.seconds - early
-        self._move(run, seconds)
+        self._move(followed, seconds)
         self._tails = [(tail, at + seconds) for tail, at in self._tails if at + seconds < tail.seconds]
         if early:
             self._tails.append((run, seconds))
         self._position = run.end
         still = np.zeros((1, self._n))
         self._rest = self._planner.real_axes.motion((run.end[None], still, still), self._row.context)[0][0]
-        for row in range(self._forgotten, int(pieces[-1, PieceRecord.ROW])):
-            self._facts.pop(row, None)
-        self._forgotten = int(pieces[-1, PieceRecord.ROW])
+        self._facts.forget(int(run.rows[-1]))
 
     def _stand(self, until: int, run: Run | None = None) -> None:
         """Spend the waits of all rows up to one, at rest; the last begins a run."""
         for row in sorted(row for row in self._waits if row <= until):
-            self._row = self._facts.get(row, self._row)
+            self._row = self._facts.of(row) or self._row
             for share, seconds in self._waits.pop(row):
                 thread = share == "spindle_s" and self._row.kind == Kind.THREAD
                 if thread and run is not None and self._row.rpm != 0.0:
@@ -190,7 +205,7 @@ class Sampler:
                 else:
                     self._spin(seconds, self._row.rpm if share == "spindle_s" else self._rpm)
         if run is not None:
-            self._row = self._facts[until]
+            self._row = self._facts.of(until) or self._row
 
     def _until_mark(self, run: Run) -> float:
         """Seconds until the axes may start, so that the thread begins at its start angle.
@@ -203,11 +218,10 @@ class Sampler:
         sense = 1.0 if self._row.rpm > 0.0 else -1.0
         return ((ahead - sense * self._angle) % 360.0) / degrees_s
 
-    def _times(self, seconds: float) -> Numbers:
-        """Sample times within the next seconds, from now."""
-        import numpy as np
-
-        last = int(np.ceil((self._time + seconds) / self._period - 1e-9))
+    def _times(self, seconds: float, *, is_whole: bool = True) -> Numbers:
+        """Sample times within the next seconds, from now; surely within them where these are not the whole."""
+        whole = np.ceil((self._time + seconds) / self._period - 1e-9)
+        last = int(whole if is_whole else np.floor((self._time + seconds) / self._period - 1e-6))
         counts = np.arange(self._count, max(last, self._count), dtype=np.float64)
         times: Numbers = counts * self._period - self._time
         self._count = max(last, self._count)
@@ -215,52 +229,48 @@ class Sampler:
 
     def _spin(self, seconds: float, rpm: float) -> None:
         """Rest while the spindle goes evenly to a speed."""
-        import numpy as np
-
         for times in _batches(self._times(seconds)):
             still = np.zeros((len(times), self._n))
             place = np.repeat(np.array([self._rest]), len(times), axis=0)
             share = times / seconds
             speed = self._rpm + share * (rpm - self._rpm)
             angle = self._angle + 3.0 * (self._rpm + speed) * times
-            self._say(times, (place, still, still), speed, angle, None)
+            program, line = (np.full(len(times), number) for number in (self._row.program, self._row.line))
+            self._say(times, (place, still, still), speed, angle, program, line)
         self._angle += 3.0 * (self._rpm + rpm) * seconds
         self._rpm = rpm
         self._time += seconds
 
-    def _move(self, run: Run, seconds: float) -> None:
-        """Follow a run for a time; the spindle of a tap follows the axes, else it turns as the rows ask."""
-        import numpy as np
+    def _move(self, followed: _Followed, seconds: float) -> None:
+        """Follow a run to its end; the spindle of a tap follows the axes, else it turns as the rows ask."""
+        run, first = followed.run, self._row
+        sense = self._tap_sense(run, first)
+        self._give_moves(followed, self._times(seconds), sense)
+        if sense != 0.0:
+            self._angle += sense * 360.0 * float(np.abs(run.end - self._position)[run.main_axis]) / first.lead
+            self._rpm = 0.0
+        else:
+            self._angle += followed.turned_at(seconds)
+            self._rpm = float(followed.rpm[-1])
+        self._time += seconds
 
-        rows = np.unique(run.rows)
-        facts = {int(row): self._facts[int(row)] for row in rows}
-        tap = facts[int(rows[0])]
-        sense = self._tap_sense(run, tap)
-        rpm = np.array([facts[int(row)].rpm for row in rows])
-        start = np.array([run.enters(row) for row in rows] + [seconds])
-        start[0] = 0.0
-        turned = np.concatenate([[0.0], np.cumsum(6.0 * rpm * np.diff(start))])
-        for times in _batches(self._times(seconds)):
-            moved = self._with_tails(times, run.at(times))
-            k = np.clip(np.searchsorted(start, times, "right") - 1, 0, len(rpm) - 1)
+    def _give_moves(self, followed: _Followed, times: Numbers, sense: float = 0.0) -> None:
+        """Samples of a run; `sense` says how a tap turns the spindle."""
+        run, first = followed.run, self._row
+        for part in _batches(times):
+            moved = self._with_tails(part, run.at(part))
             if sense != 0.0:
                 axis = run.main_axis
                 angle = (
-                    self._angle + sense * 360.0 * np.abs(moved[0][:, axis] - self._position[axis]) / tap.lead
+                    self._angle
+                    + sense * 360.0 * np.abs(moved[0][:, axis] - self._position[axis]) / first.lead
                 )
-                speed = sense * 60.0 * np.abs(moved[1][:, axis]) / tap.lead
+                speed = sense * 60.0 * np.abs(moved[1][:, axis]) / first.lead
             else:
-                speed, angle = rpm[k], self._angle + turned[k] + 6.0 * rpm[k] * (times - start[k])
-            said = [facts[int(row)] for row in run.rows[run.piece_at(times)]]
-            moved = self._planner.real_axes.motion(moved, tap.context)
-            self._say(times, moved, speed, angle, said)
-        if sense != 0.0:
-            self._angle += sense * 360.0 * float(np.abs(run.end - self._position)[run.main_axis]) / tap.lead
-            self._rpm = 0.0
-        else:
-            self._angle += float(turned[-1])
-            self._rpm = float(rpm[-1])
-        self._time += seconds
+                speed, angle = followed.spindle(part, self._angle)
+            program, line = self._facts.places(run.rows[run.piece_at(part)])
+            moved = self._planner.real_axes.motion(moved, first.context)
+            self._say(part, moved, speed, angle, program, line)
 
     def _with_tails(self, times: Numbers, moved: Moved) -> Moved:
         """What the axes do while runs before this one still come to rest."""
@@ -283,15 +293,63 @@ class Sampler:
         return turning if float((way * self._tap_way).sum()) > 0.0 else -turning
 
     def _say(
-        self, times: Numbers, moved: Moved, rpm: Numbers, angle: Numbers, facts: list[RowFacts] | None
+        self, times: Numbers, moved: Moved, rpm: Numbers, angle: Numbers, program: Places, line: Places
     ) -> None:
-        import numpy as np
-
         if len(times):
-            rows = facts if facts is not None else [self._row] * len(times)
-            program = np.array([row.program for row in rows])
-            line = np.array([row.line for row in rows])
+            self.line = max(self.line, int(line[program == 0].max(initial=0)))
             self._give(Samples(times + self._time, *moved, rpm, angle, program, line))
+
+
+class _Followed:
+    """A run that is sampled, and how its rows turn the spindle.
+
+    Args:
+        run: The run.
+        facts: Those of its rows.
+
+    Attributes:
+        rpm: Speed of the spindle from each of `starts` on, (k,).
+    """
+
+    def __init__(self, run: Run, facts: Facts) -> None:
+        self.run = run
+        rows = np.unique(run.rows)
+        self._last = int(rows[-1])
+        self.rpm = facts.rpm(rows)
+        self._starts = run.enters(rows)
+        self._starts[0] = 0.0
+        self._turned = np.concatenate([[0.0], np.cumsum(6.0 * self.rpm[:-1] * np.diff(self._starts))])
+
+    def go_on(self, pieces: Numbers, facts: Facts) -> None:
+        """More pieces of the run."""
+        self.run.go_on(pieces)
+        rows = np.unique(self.run.rows)
+        rows = rows[rows > self._last]
+        if not len(rows):
+            return
+        self._last = int(rows[-1])
+        starts = np.concatenate([self._starts[-1:], self.run.enters(rows)])
+        rpm = np.concatenate([self.rpm[-1:], facts.rpm(rows)])
+        steps = 6.0 * rpm[:-1] * np.diff(starts)
+        self._turned = np.concatenate([self._turned[:-1], np.cumsum([self._turned[-1], *steps])])
+        self._starts = np.concatenate([self._starts, starts[1:]])
+        self.rpm = np.concatenate([self.rpm, rpm[1:]])
+
+    def forget(self, before: float) -> None:
+        """Nobody asks for a time before this one."""
+        self.run.forget(before)
+        kept = max(int(np.searchsorted(self._starts, before, "right")) - 1, 0)
+        self._starts, self._turned, self.rpm = self._starts[kept:], self._turned[kept:], self.rpm[kept:]
+
+    def spindle(self, times: Numbers, angle: float) -> tuple[Numbers, Numbers]:
+        """Speed and angle at times, (k,) each, for an angle at the start of the run."""
+        k = np.maximum(np.searchsorted(self._starts, times, "right") - 1, 0)
+        speed = self.rpm[k]
+        return speed, angle + self._turned[k] + 6.0 * speed * (times - self._starts[k])
+
+    def turned_at(self, seconds: float) -> float:
+        """Degrees that the spindle turns until the run is over."""
+        return float(self._turned[-1] + 6.0 * self.rpm[-1] * (seconds - self._starts[-1]))
 
 
 def _batches(times: Numbers) -> list[Numbers]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from polycnc.motion.kernels.columns import piece_width
 from polycnc.motion.planner import Planner
 from polycnc.toolpath import Kind, Toolpath
-from polycnc.toolpath.table import NO_CURVE
+from polycnc.toolpath.kinds import NO_CURVE
 
 if TYPE_CHECKING:
     from array import array

@@ -22,8 +22,7 @@ from polycnc.toolpath.events import (
     Stroke,
     ToolSelection,
 )
-from polycnc.toolpath.kinds import RAPID_KINDS
-from polycnc.toolpath.table import CURVE_WIDTH
+from polycnc.toolpath.kinds import CURVE_WIDTH, RAPID_KINDS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence

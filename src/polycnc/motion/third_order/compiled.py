@@ -7,19 +7,6 @@ from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.kernels.library import Library
-from polycnc.motion.third_order.bends import (
-    bending,
-    controls,
-    knots,
-    levelling,
-    pieces,
-    rests,
-    seams,
-    seeking,
-    stretches,
-    turning,
-    within,
-)
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -31,16 +18,29 @@ if TYPE_CHECKING:
     from polycnc.motion.third_order.bends.stretches import Stretches
     from polycnc.motion.third_order.bends.turning import Turning
 
+_BENDS = "polycnc.motion.third_order.bends"
 LIBRARY = Library(
     "third_order",
-    (stretches, turning, seams, knots, controls, within, levelling, pieces, rests, seeking, bending),
     (
-        bending.bend_path,
-        rests.next_rest,
-        pieces.end_rows,
-        seams.shift_ways,
-        seeking.find_seam,
-        seeking.far_enough,
+        f"{_BENDS}.stretches",
+        f"{_BENDS}.turning",
+        f"{_BENDS}.seams",
+        f"{_BENDS}.knots",
+        f"{_BENDS}.controls",
+        f"{_BENDS}.within",
+        f"{_BENDS}.levelling",
+        f"{_BENDS}.pieces",
+        f"{_BENDS}.rests",
+        f"{_BENDS}.seeking",
+        f"{_BENDS}.bending",
+    ),
+    (
+        f"{_BENDS}.bending.bend_path",
+        f"{_BENDS}.rests.next_rest",
+        f"{_BENDS}.pieces.end_rows",
+        f"{_BENDS}.seams.shift_ways",
+        f"{_BENDS}.seeking.find_seam",
+        f"{_BENDS}.seeking.far_enough",
     ),
 )
 
@@ -56,10 +56,13 @@ class Kernels(NamedTuple):
     far_enough: Callable[[Stretches, int, int, int, float, int, Floats], int]
 
 
-PLAIN = Kernels._make(LIBRARY.kernels)
-
-
 @cache
 def kernels() -> Kernels:
     """The compiled kernels; the plain ones where there are none."""
-    return PLAIN if LIBRARY.lack is not None else Kernels._make(map(LIBRARY.compiled, PLAIN))
+    return Kernels._make(map(LIBRARY.kernel, LIBRARY.names))
+
+
+@cache
+def plain() -> Kernels:
+    """The kernels as they are written."""
+    return Kernels._make(map(LIBRARY.plain, LIBRARY.names))

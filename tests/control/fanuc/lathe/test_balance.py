@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from polycnc.control.fanuc.lathe.balance import BalanceState
+from polycnc.control.fanuc.lathe.states import BalanceState
 from polycnc.session import Result, open_session
 
 

@@ -6,15 +6,8 @@ from math import log, nan
 
 import pytest
 
-from polycnc.control.sinumerik.feed.profiles import (
-    CUBIC,
-    LINEAR,
-    POLYNOMIAL,
-    Course,
-    Profile,
-    course_of,
-    spline,
-)
+from polycnc.control.sinumerik.feed.profiles import Course, Profile, course_of, spline
+from polycnc.control.sinumerik.tables import CUBIC, LINEAR, POLYNOMIAL
 
 
 def test_polynomial_of_the_manual() -> None:

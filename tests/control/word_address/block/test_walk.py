@@ -21,7 +21,7 @@ MOST = {"fanuc-m": 13, "meldas-m": 13, "syntec-mill": 14, "fanuc-0i-tf": 14}
 
 
 def files_entered(control_id: str, signature: tuple[str, ...], values: list[float]) -> list[str]:
-    """The files of the package that a block enters whose shape is new, in the order entered."""
+    """The files of the package that a block enters whose shape is new, in the order entered; classes write nothing."""
     channel = run("G0 X1.\nM30\n", control_id)
     block = WordBlock(signature, values)
     files: dict[str, None] = {}
@@ -36,7 +36,7 @@ def files_entered(control_id: str, signature: tuple[str, ...], values: list[floa
     finally:
         sys.setprofile(None)
     assert not channel.alarms
-    return list(files)
+    return [name for name in files if not name.startswith("deferred/")]
 
 
 @pytest.mark.parametrize(("control_id", "most"), MOST.items())

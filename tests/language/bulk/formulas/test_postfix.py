@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import ast
-
 import pytest
 
 from polycnc.control.registry import control
 from polycnc.control.word_address.control import WordAddressControl
 from polycnc.language.bulk.formulas.postfix import formulas
 from polycnc.language.bulk.layout import STACK, Operation
+from polycnc.language.expressions import nodes
 from polycnc.language.expressions.code import Lifted, binary, call
 from polycnc.language.word_address.executable import BlockReader
 
@@ -53,8 +52,8 @@ def test_what_the_scanner_does_not_calculate_is_none(text: str) -> None:
 
 def test_more_values_than_have_room_are_none() -> None:
     deep = Lifted("n", 0)
-    code = binary(ast.Mult, deep, deep)
+    code = binary(nodes.Mult, deep, deep)
     for _ in range(STACK):
-        code = binary(ast.Mult, deep, code)
+        code = binary(nodes.Mult, deep, code)
     assert formulas([(0, code)], {0: 0}) is None
     assert formulas([(0, call("unknown", deep, deep))], {0: 0}) is None

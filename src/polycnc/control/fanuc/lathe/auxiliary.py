@@ -6,8 +6,8 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.dwell import dwell as seconds_or_revolutions
-from polycnc.control.fanuc.lathe.cycles import grinding
-from polycnc.control.fanuc.lathe.motion.drawing import DrawingState
+from polycnc.control.fanuc.lathe.cycles.modal import GRINDING
+from polycnc.control.fanuc.lathe.states import DrawingState
 from polycnc.control.word_address.auxiliary import functions
 from polycnc.control.word_address.block.plan import NOT_YET
 from polycnc.messages import AlarmError
@@ -44,7 +44,7 @@ def wait_for_blocks(channel: LatheChannel, _words: Words) -> None:
 
 def plan_second_auxiliary(builder: Builder) -> Step | None:
     """B: second auxiliary function; in a grinding cycle it is a word of the cycle."""
-    if builder.mode["motion"] in grinding.CODES:
+    if builder.mode["motion"] in GRINDING:
         return None
     return functions.plan_second_auxiliary(builder)
 

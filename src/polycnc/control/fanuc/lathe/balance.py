@@ -9,12 +9,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.channel.states.state import Lifetime, State
 from polycnc.channel.waits import PreprocessingStop
-from polycnc.control.fanuc.lathe.cycles.single import CYCLES
-from polycnc.control.word_address.block.rules import Rule
+from polycnc.control.fanuc.lathe.cycles.modal import CYCLES
+from polycnc.control.fanuc.lathe.states import BalanceState
 from polycnc.control.word_address.motion.path import target
-from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -28,19 +26,6 @@ GROUP = "turret_mirror"
 #: Wait marks: where the paths switch balance cutting on and off, and where they cut.
 ON, OFF, CUT = 68, 69, 1
 RAPID, LINE = "G0", "G1"
-
-
-@dataclass(slots=True)
-class BalanceState(State, lifetime=Lifetime.RESET):
-    """The paths that cut together; none where this one cuts by itself.
-
-    Attributes:
-        paths: Their numbers.
-        has_met: The running block has met those of the other paths.
-    """
-
-    paths: frozenset[int] = frozenset()
-    has_met: bool = False
 
 
 def is_available(channel: LatheChannel) -> bool:
@@ -137,7 +122,3 @@ def _meet(channel: LatheChannel, mark: int, paths: Iterable[int]) -> None:
         channel.flush()
         channel.synchronise()  # they meet when their axes are there, not when the block is prepared
         group.meet(channel, mark, others)
-
-
-#: Balanced paths start their cuts together.
-RULE = Rule("balanced cutting", modes={GROUP: ("G68",)}, wrap=together)

@@ -9,30 +9,37 @@ from __future__ import annotations
 from functools import cache
 from typing import TYPE_CHECKING
 
-from polycnc.control.fanuc.lathe import auxiliary as turning_auxiliary
 from polycnc.control.fanuc.lathe import balance as turning_balance
-from polycnc.control.fanuc.lathe import spindle_indexing
-from polycnc.control.fanuc.lathe.coordinates import limits, systems, tilted
-from polycnc.control.fanuc.lathe.cycles import grinding as turning_grinding
-from polycnc.control.fanuc.lathe.cycles import repetitive, single
+from polycnc.control.fanuc.lathe.coordinates import limits, systems
 from polycnc.control.fanuc.lathe.cycles.drilling import NORMAL_CYCLES, SERIES_15_CYCLES
 from polycnc.control.fanuc.lathe.cycles.tapping import RIGID, RIGID_OFF, rigid_tapping
-from polycnc.control.fanuc.lathe.motion import beside, retract, threads
+from polycnc.control.fanuc.lathe.motion import threads
 from polycnc.control.fanuc.lathe.parameters import LatheParameters
-from polycnc.control.fanuc.lathe.tools import data_input, measuring, nose_radius, offsets
+from polycnc.control.fanuc.lathe.tools import offsets
 from polycnc.control.word_address.auxiliary import functions
 from polycnc.control.word_address.block.codes import GCode, MCode, Order, m_table
 from polycnc.control.word_address.coordinates import frames
 from polycnc.control.word_address.coordinates import systems as coordinates
-from polycnc.control.word_address.macro_b import macro_calls, parameter_input, subprograms
+from polycnc.control.word_address.macro_b import code_calls
 from polycnc.control.word_address.motion import path, path_modes
-from polycnc.control.word_address.transformations import (
-    cylinder,
-    normal_line,
-    polar_interpolation,
-    tilted_plane,
-)
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, replace
+
+with loaded_when_called():
+    from polycnc.control.fanuc.lathe import auxiliary as turning_auxiliary
+    from polycnc.control.fanuc.lathe import spindle_indexing
+    from polycnc.control.fanuc.lathe.coordinates import tilted
+    from polycnc.control.fanuc.lathe.cycles import grinding as turning_grinding
+    from polycnc.control.fanuc.lathe.cycles import repetitive, single
+    from polycnc.control.fanuc.lathe.motion import beside, retract
+    from polycnc.control.fanuc.lathe.tools import data_input, measuring, nose_radius
+    from polycnc.control.word_address.macro_b import macro_calls, parameter_input, subprograms
+    from polycnc.control.word_address.transformations import (
+        cylinder,
+        normal_line,
+        polar_interpolation,
+        tilted_plane,
+    )
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -75,7 +82,7 @@ def _point(code: str, handler: object, takes: str = "") -> GCode:
 
 def _cycle(code: str, handler: object) -> GCode:
     """A multiple repetitive cycle: its P and D may be depths and allowances."""
-    return replace(_point(code, handler, repetitive.WORDS), reals="PD")
+    return replace(_point(code, handler, "P Q U V W R D I J K A E"), reals="PD")
 
 
 ROWS: tuple[Row, ...] = (
@@ -94,8 +101,8 @@ ROWS: tuple[Row, ...] = (
     *same(GCode("G11", handler=parameter_input.end)),
     *same(_point("G10.6", retract.prepare)),
     *same(GCode("G7.1", handler=cylinder.cylinder, axis_words=True, order=Order.MOTION), "G107"),
-    *same(GCode("G12.1", polar_interpolation.GROUP, polar_interpolation.start_polar), "G112"),
-    *same(GCode("G13.1", polar_interpolation.GROUP, polar_interpolation.end_polar), "G113"),
+    *same(GCode("G12.1", "polar_interpolation", polar_interpolation.start_polar), "G112"),
+    *same(GCode("G13.1", "polar_interpolation", polar_interpolation.end_polar), "G113"),
     *same(GCode("G17", "plane", systems.select_plane)),
     *same(GCode("G18", "plane", systems.select_plane)),
     *same(GCode("G19", "plane", systems.select_plane)),
@@ -118,9 +125,9 @@ ROWS: tuple[Row, ...] = (
     *same(GCode("G40", "compensation", nose_radius.cancel, takes="I J K", order=Order.COMPENSATION)),
     *same(GCode("G41", "compensation", nose_radius.left, takes="D", order=Order.COMPENSATION)),
     *same(GCode("G42", "compensation", nose_radius.right, takes="D", order=Order.COMPENSATION)),
-    *same(GCode("G40.1", normal_line.GROUP, normal_line.cancel)),
-    *same(GCode("G41.1", normal_line.GROUP, normal_line.start)),
-    *same(GCode("G42.1", normal_line.GROUP, normal_line.start)),
+    *same(GCode("G40.1", "normal_line", normal_line.cancel)),
+    *same(GCode("G41.1", "normal_line", normal_line.start)),
+    *same(GCode("G42.1", "normal_line", normal_line.start)),
     *same(GCode("G43.7", "atc_offset", offsets.select_by_code, takes="D", order=Order.LENGTH), "G44.7"),
     *same(
         GCode("G43", "atc_offset", offsets.select_by_length_code, takes="D", order=Order.LENGTH), "G44"
@@ -130,8 +137,8 @@ ROWS: tuple[Row, ...] = (
     *by_system("G50.3", "G92.1", "G92.1", _point("G50.3", systems.preset_system)),
     *same(GCode("G50.1", "mirror", frames.end_mirror, axis_words=True)),
     *same(GCode("G51.1", "mirror", frames.mirror, axis_words=True)),
-    *same(GCode("G50.2", beside.POLYGON, beside.end_polygon, order=Order.MOTION), "G250"),
-    *same(GCode("G51.2", beside.POLYGON, beside.start_polygon, takes="P Q R", order=Order.MOTION), "G251"),
+    *same(GCode("G50.2", "polygon", beside.end_polygon, order=Order.MOTION), "G250"),
+    *same(GCode("G51.2", "polygon", beside.start_polygon, takes="P Q R", order=Order.MOTION), "G251"),
     *same(_point("G81.1", beside.start_oscillation, "Q R")),
     *same(GCode("G81.4", handler=beside.start_gear, takes="T L Q P", reals="PQ", order=Order.MOTION)),
     *same(GCode("G50.4", handler=beside.end_synchronous, takes="P Q L", order=Order.MOTION)),
@@ -198,12 +205,12 @@ MEASURING_37 = (
 )
 #: One path, or 8137#0 NVC = 1: G68 mirrors the opposite turret; else it is balance cutting.
 MIRROR = (
-    *same(GCode("G68", turning_balance.GROUP, systems.mirror_turret, takes="P")),
-    *same(GCode("G69", turning_balance.GROUP, systems.end_mirror_turret)),
+    *same(GCode("G68", "turret_mirror", systems.mirror_turret, takes="P")),
+    *same(GCode("G69", "turret_mirror", systems.end_mirror_turret)),
 )
 BALANCE = (
-    *same(GCode("G68", turning_balance.GROUP, turning_balance.begin, takes="*")),
-    *same(GCode("G69", turning_balance.GROUP, turning_balance.end, takes="*")),
+    *same(GCode("G68", "turret_mirror", turning_balance.begin, takes="*")),
+    *same(GCode("G69", "turret_mirror", turning_balance.end, takes="*")),
 )
 #: 5106#0 GFX = 1: grinding cycles in place of G71 to G74.
 GRINDING = tuple(
@@ -311,14 +318,14 @@ POWER_ON = {
     "unit": "G21",
     "fluctuation": "G25",
     "compensation": "G40",
-    normal_line.GROUP: normal_line.OFF,
+    "normal_line": "G40.1",
     "atc_offset": "G49",
     "mirror": "G50.1",
     "polygon": "G50.2",
     "wcs": "G54",
     "path": "G64",
     "macro": "G67",
-    "calls": macro_calls.ALL_CALLS,
+    "calls": code_calls.ALL_CALLS,
     "turret_mirror": "G69",
     "rotation": "G69.1",
     RIGID: RIGID_OFF,

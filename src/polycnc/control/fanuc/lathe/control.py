@@ -6,12 +6,10 @@ from functools import cache
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.channel.stack import LevelKind
-from polycnc.control.fanuc import tool_plane
 from polycnc.control.fanuc.acceleration import accelerated
 from polycnc.control.fanuc.alarm_codes import ALARMS, HINTED_WORDS
 from polycnc.control.fanuc.code_calls import registered_codes
-from polycnc.control.fanuc.lathe import auxiliary, balance
-from polycnc.control.fanuc.lathe import reset as turning_reset
+from polycnc.control.fanuc.lathe import balance
 from polycnc.control.fanuc.lathe.codes import (
     ADDRESSES,
     M_CODES,
@@ -22,35 +20,31 @@ from polycnc.control.fanuc.lathe.codes import (
     written_codes,
 )
 from polycnc.control.fanuc.lathe.coordinates import limits, systems
-from polycnc.control.fanuc.lathe.cycles import (
-    drilling,
-    intervention,
-    modal,
-    repetitive,
-    shape,
-    single,
-    speed_arrival,
-    tapping,
-)
+from polycnc.control.fanuc.lathe.cycles import drilling, modal, tapping
 from polycnc.control.fanuc.lathe.memory import TurningMemory
-from polycnc.control.fanuc.lathe.motion import beside, drawing, retract, threads
+from polycnc.control.fanuc.lathe.motion import threads
 from polycnc.control.fanuc.lathe.parameters import LatheParameters
-from polycnc.control.fanuc.lathe.tools import data_input, files, nose_radius, offsets
+from polycnc.control.fanuc.lathe.rules import RULES
+from polycnc.control.fanuc.lathe.tools import offsets
 from polycnc.control.fanuc.operation import MODES_WITHOUT_JUMPS, dry_run, suppresses_reading
-from polycnc.control.word_address.auxiliary.interlocks import MOVES_RULE
-from polycnc.control.word_address.block import whole_numbers
 from polycnc.control.word_address.block.whole_numbers import DecimalPoint
-from polycnc.control.word_address.coordinates.frames import ROTATION_RULE
-from polycnc.control.word_address.macro_b import code_calls, interruption, macro_calls
+from polycnc.control.word_address.macro_b import code_calls, interruption
 from polycnc.control.word_address.macro_b.custom_macro import CustomMacroControl
 from polycnc.control.word_address.motion import path
-from polycnc.control.word_address.tools import look_ahead
+from polycnc.control.word_address.states import PolarState
 from polycnc.control.word_address.tools.radius import RadiusState
-from polycnc.control.word_address.transformations import cylinder, normal_line, polar_interpolation
-from polycnc.control.word_address.transformations.normal_line import NormalLineRules
-from polycnc.control.word_address.transformations.polar_interpolation import PolarState
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import replace
 from polycnc.toolpath.modes import FeedMode
+
+with loaded_when_called():
+    from polycnc.control.fanuc import tool_plane
+    from polycnc.control.fanuc.lathe import auxiliary
+    from polycnc.control.fanuc.lathe import reset as turning_reset
+    from polycnc.control.fanuc.lathe.cycles import repetitive
+    from polycnc.control.fanuc.lathe.motion import drawing
+    from polycnc.control.fanuc.lathe.tools import nose_radius
+    from polycnc.control.word_address.transformations import normal_line
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -73,16 +67,11 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.cycles.drilling import Drilling
     from polycnc.control.word_address.macro_b.code_calls import CodeCalls
     from polycnc.control.word_address.macro_b.variables import Registry
+    from polycnc.control.word_address.transformations.normal_line import NormalLineRules
     from polycnc.geometry.frames import Frame, Vector
     from polycnc.language.bulk import Condition
     from polycnc.messages import AlarmError
     from polycnc.toolpath.motion_settings import MotionSettings
-
-#: What this control refuses on an unrolled cylinder beside `cylinder.REFUSED`: threads, measuring, rotation and cycles.
-NOT_ON_CYLINDERS = frozenset({
-    "G31.8", "G32", "G34", "G35", "G36", "G50", "G50.3", "G53.2", "G68.1",
-    "G70", "G71", "G72", "G73", "G74", "G75", "G76", "G90", "G94",
-})  # fmt: skip
 
 
 @cache
@@ -110,7 +99,7 @@ class FanucTurning(CustomMacroControl):
         threads.locked,
         drilling.in_cycle,
     )
-    only_context: ClassVar[frozenset[Handler]] = CustomMacroControl.only_context | {auxiliary.surface_speed}
+    only_context: ClassVar[tuple[Handler, ...]] = (*CustomMacroControl.only_context, auxiliary.surface_speed)
     repeated_codes: ClassVar[Mapping[str, Condition]] = systems.REPEATED
     addresses: ClassVar[Mapping[str, Planner]] = ADDRESSES
     power_on: ClassVar[Mapping[str, str]] = POWER_ON
@@ -121,14 +110,12 @@ class FanucTurning(CustomMacroControl):
         "comp_avoidance_dangerous": "PS5447",
         "comp_avoidance_interferes": "PS5448",
     }
-    data_files: ClassVar[DataFiles] = files
     parameter_files: ClassVar[tuple[str, ...]] = ("fanuc/parameters.toml", "fanuc/lathe/parameters.toml")
     parameter_class: ClassVar = LatheParameters
     EXTENDED_WORK_SYSTEMS: ClassVar[int] = 48
     MODES_WITHOUT_JUMPS: ClassVar[frozenset[str]] = MODES_WITHOUT_JUMPS
     DIAMETER_PROGRAMMING: ClassVar[bool] = True
     POINT_IN_WHOLE_NUMBERS: ClassVar[DecimalPoint] = DecimalPoint.REFUSED
-    NORMAL_LINE_RULES: ClassVar[NormalLineRules] = NormalLineRules(preset="G50")
     INCREMENTAL_ADDRESSES: ClassVar[Mapping[str, str]] = {"U": "X", "V": "Y", "W": "Z", "H": "C"}
     LATER_AXIS_WORD_COUNTS: ClassVar[bool] = True
     #: A motion code in the block of a tap cancels the tap, wherever it stands (II.4.5.1, "cancel").
@@ -137,37 +124,7 @@ class FanucTurning(CustomMacroControl):
         threads.not_between_threads,
         *CustomMacroControl.halts_behind,
     )
-    rules: ClassVar[tuple[Rule, ...]] = (
-        intervention.RULE,
-        beside.RULE,
-        beside.END_RULE,
-        ROTATION_RULE,
-        normal_line.RULE,
-        data_input.RULE,
-        polar_interpolation.rule("G98", "G99"),
-        cylinder.rule(*NOT_ON_CYLINDERS),
-        repetitive.RULE,
-        code_calls.RULE,
-        macro_calls.RULE,
-        whole_numbers.RULE,
-        nose_radius.CORNER_RULE,
-        tapping.WAITING_RULE,
-        offsets.WAITING_RULE,
-        speed_arrival.RULE,
-        drilling.RULE,
-        single.ROTATION_RULE,
-        nose_radius.RULE,
-        look_ahead.STOP_RULE,
-        threads.RULE,
-        retract.RULE,
-        shape.INTERRUPTION_RULE,
-        balance.RULE,
-        shape.RULE,
-        single.CLEARING_RULE,
-        tapping.LEAVING_RULE,
-        drawing.RULE,
-        MOVES_RULE,
-    )
+    rules: ClassVar[tuple[Rule, ...]] = RULES
 
     # ---- state -----------------------------------------------------------------------------------------------
 
@@ -248,6 +205,13 @@ class FanucTurning(CustomMacroControl):
     def make_memory(self, channel: LatheChannel) -> TurningMemory:
         """Offsets, tools and variables."""
         return TurningMemory(channel, _system_variables)
+
+    @property
+    def data_files(self) -> DataFiles:
+        """Offsets and parameters as files."""
+        from polycnc.control.fanuc.lathe.tools import files
+
+        return files
 
     def start(self, channel: LatheChannel) -> None:
         """Power-on state; positions of the setup are those of the displays, X in diameter."""
@@ -394,6 +358,10 @@ class FanucTurning(CustomMacroControl):
     def compensates_to_intermediate(self, channel: LatheChannel) -> bool:
         """5003#2 CCN: the vector vanishes behind the intermediate point of G28 and G30."""
         return channel.memory.parameters.CCN
+
+    def normal_line_rules(self) -> NormalLineRules:
+        """What G41.1 and G42.1 refuse."""
+        return normal_line.NormalLineRules(preset="G50")
 
     def compensation_policy(self, channel: LatheChannel) -> Policy:
         """Rules of nose radius compensation by 5003, 5008, 5010, 19607, 19625."""

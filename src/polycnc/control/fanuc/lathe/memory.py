@@ -5,11 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.channel.states.state import Lifetime, lasting
-from polycnc.control.word_address.macro_b.parameter_input import set_parameter
 from polycnc.control.word_address.macro_b.variables import MacroMemory
 from polycnc.control.word_address.memory import ProgrammingFrames
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY, Frame, scaling, translation
+
+with loaded_when_called():
+    from polycnc.control.word_address.macro_b import parameter_input
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -92,4 +95,4 @@ class TurningMemory(MacroMemory):
     def set_cycle_parameter(self, parameter: Parameter[float], value: float) -> None:
         """What the first block of a turning cycle says, a parameter from then on (II.4.2.1 to 4.2.7)."""
         if value != self.parameters.value(parameter):
-            set_parameter(self.channel, parameter.key, value, keeps_plans=True)
+            parameter_input.set_parameter(self.channel, parameter.key, value, keeps_plans=True)

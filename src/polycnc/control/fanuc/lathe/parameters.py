@@ -41,7 +41,7 @@ class LatheAxisParameters(FanucAxisParameters):
     identification = Whole(12600, delivered=0)
 
 
-class LatheParameters(FanucParameters["LatheAxisParameters"]):
+class LatheParameters(FanucParameters[LatheAxisParameters]):
     """The parameters of the control."""
 
     axis_class = LatheAxisParameters

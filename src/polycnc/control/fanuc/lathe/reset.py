@@ -5,19 +5,21 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, end_of
-from polycnc.control.fanuc.lathe import balance
-from polycnc.control.fanuc.lathe.balance import BalanceState
 from polycnc.control.fanuc.lathe.coordinates import limits, systems
-from polycnc.control.fanuc.lathe.cycles import single
+from polycnc.control.fanuc.lathe.cycles.modal import CYCLES
 from polycnc.control.fanuc.lathe.cycles.tapping import ClampState
 from polycnc.control.fanuc.lathe.memory import TurningFrames
 from polycnc.control.fanuc.lathe.parameters import LatheParameters
+from polycnc.control.fanuc.lathe.states import BalanceState
 from polycnc.control.fanuc.lathe.tools import offsets
 from polycnc.control.fanuc.lathe.tools.offsets import OffsetState
 from polycnc.control.word_address.coordinates.systems import ZeroState
 from polycnc.control.word_address.cycles.drilling import CycleState
 from polycnc.control.word_address.tools.radius import RadiusState
-from polycnc.control.word_address.transformations import cylinder, normal_line, polar_interpolation
+from polycnc.deferred.functions import loaded_when_called
+
+with loaded_when_called():
+    from polycnc.control.word_address.transformations import cylinder, normal_line, polar_interpolation
 
 if TYPE_CHECKING:
     from polycnc.control.fanuc.lathe.family import LatheChannel
@@ -38,7 +40,7 @@ _KEPT_BY = {
 }
 #: Groups that every reset brings back.
 _CLEARED = (
-    polar_interpolation.GROUP, cylinder.GROUP, normal_line.GROUP, "shape", "macro", "calls", "data_input"
+    "polar_interpolation", "cylinder", "normal_line", "shape", "macro", "calls", "data_input"
 )  # fmt: skip
 
 
@@ -59,7 +61,7 @@ def reset(channel: LatheChannel) -> None:
     codes.pop("shape", None)
     if clears:
         codes |= {group: before[group] for bit, group in _KEPT_BY.items() if parameters.value(bit)}
-    if codes["motion"] in single.CYCLES:
+    if codes["motion"] in CYCLES:
         codes["motion"] = "G1"
     system = ZeroState.of(channel).system if not clears or parameters.C14 else codes["wcs"]
     channel.mode = channel.modes.mode(codes)
@@ -81,7 +83,7 @@ def _end_states(channel: LatheChannel, *, clears: bool) -> None:
     memory = channel.memory
     if BalanceState.of(channel).paths:
         # Balance cutting always ends (II.7.1), whatever becomes of other modal codes.
-        channel.mode = channel.mode.with_code(balance.GROUP, "G69")
+        channel.mode = channel.mode.with_code("turret_mirror", "G69")
     drills = channel.mode["cycle"] != "G80"
     kept = ((CycleState, ClampState) if drills else ()) + (() if clears else (ZeroState, TurningFrames))
     end_of(channel, Lifetime.RESET, (*kept, *memory.kept_at_reset))

@@ -16,7 +16,7 @@ from polycnc.control.fanuc.system_variables import (
 )
 from polycnc.control.word_address.macro_b.variables import Read, Registry, SystemRange, Write
 from polycnc.control.word_address.memory import EXTERNAL
-from polycnc.control.word_address.motion.skip import LastSkip
+from polycnc.control.word_address.states import LastSkip
 from polycnc.control.word_address.tools.radius import tool_position
 from polycnc.control.word_address.transformations import cylinder
 

@@ -5,8 +5,6 @@ from __future__ import annotations
 from functools import wraps
 from typing import TYPE_CHECKING, Any
 
-from polycnc.control.fanuc.dwell import dwell
-from polycnc.control.fanuc.milling import leading_edge, leaning, standing_system, table_system
 from polycnc.control.fanuc.milling.cycles import MILLING_DRILLING
 from polycnc.control.word_address.auxiliary import functions
 from polycnc.control.word_address.auxiliary.m_codes import MACHINING_CENTRE
@@ -20,18 +18,27 @@ from polycnc.control.word_address.block.codes import (
     table,
     with_aliases,
 )
-from polycnc.control.word_address.coordinates import frames, stroke_check, systems
+from polycnc.control.word_address.coordinates import frames, systems
 from polycnc.control.word_address.cycles.drilling import is_active
-from polycnc.control.word_address.macro_b import code_calls, macro_calls, parameter_input
-from polycnc.control.word_address.motion import nurbs, path, path_modes, planes, position_offset, skip, thread
-from polycnc.control.word_address.tools import corner_vectors, length, measuring, spatial
-from polycnc.control.word_address.transformations import (
-    cylinder,
-    normal_line,
-    polar_interpolation,
-    tilted_plane,
-    workpiece,
-)
+from polycnc.control.word_address.macro_b import code_calls
+from polycnc.control.word_address.motion import path, path_modes
+from polycnc.control.word_address.tools.radius import SIDES
+from polycnc.deferred.functions import loaded_when_called
+
+with loaded_when_called():
+    from polycnc.control.fanuc import dwell
+    from polycnc.control.fanuc.milling import leading_edge, standing_system, table_system
+    from polycnc.control.word_address.coordinates import stroke_check
+    from polycnc.control.word_address.macro_b import macro_calls, parameter_input
+    from polycnc.control.word_address.motion import nurbs, planes, position_offset, skip, thread
+    from polycnc.control.word_address.tools import corner_vectors, length, measuring, spatial
+    from polycnc.control.word_address.transformations import (
+        cylinder,
+        normal_line,
+        polar_interpolation,
+        tilted_plane,
+        workpiece,
+    )
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
@@ -51,17 +58,6 @@ def outside_cycles(code: str, handler: Handler, takes: str = "") -> GCode:
     return moves(code, act, takes)
 
 
-def tool_length(handler: Handler) -> Handler:
-    """A length code; it ends tool centre point control."""
-
-    @wraps(handler)
-    def act(channel: Channel, words: Words) -> None:
-        standing_system.end_following(channel)
-        handler(channel, words)
-
-    return act
-
-
 def moves(code: str, handler: Handler, takes: str = "", **fields: Any) -> GCode:
     """A row of a one-shot code that takes the axis words of its block."""
     return GCode(code, handler=handler, takes=takes, axis_words=True, order=Order.MOTION, **fields)
@@ -75,7 +71,7 @@ ROWS = table(
     GCode("G2", "motion", ends="cycle", planner=path.plan_arc_cw),
     GCode("G3", "motion", ends="cycle", planner=path.plan_arc_ccw),
     GCode("G6.2", "motion", ends="cycle", planner=nurbs.plan_nurbs),
-    moves("G4", dwell, "X P U"),
+    moves("G4", dwell.dwell, "X P U"),
     GCode("G5", handler=path_modes.high_speed_machining, takes="P"),
     GCode("G5.1", handler=path_modes.contour_control, takes="Q R"),
     GCode("G5.4", handler=path_modes.select_current_loop, takes="Q"),
@@ -86,8 +82,8 @@ ROWS = table(
     GCode("G15", "polar"),
     GCode("G16", "polar", frames.start_polar),
     GCode("G7.1", handler=cylinder.cylinder, axis_words=True, order=Order.MOTION),
-    GCode("G12.1", polar_interpolation.GROUP, polar_interpolation.start_polar),
-    GCode("G13.1", polar_interpolation.GROUP, polar_interpolation.end_polar),
+    GCode("G12.1", "polar_interpolation", polar_interpolation.start_polar),
+    GCode("G13.1", "polar_interpolation", polar_interpolation.end_polar),
     GCode("G17", "plane", planes.select_plane),
     GCode("G18", "plane", planes.select_plane),
     GCode("G19", "plane", planes.select_plane),
@@ -108,23 +104,26 @@ ROWS = table(
     moves("G37", measuring.measure_length, "H"),
     GCode("G38", handler=corner_vectors.hold_vector, takes="I J K", order=Order.COMPENSATION),
     GCode("G39", handler=corner_vectors.corner_arc, takes="I J K", order=Order.COMPENSATION),
-    GCode("G40.1", normal_line.GROUP, normal_line.cancel),
-    GCode("G41.1", normal_line.GROUP, normal_line.start),
-    GCode("G42.1", normal_line.GROUP, normal_line.start),
+    GCode("G40.1", "normal_line", normal_line.cancel),
+    GCode("G41.1", "normal_line", normal_line.start),
+    GCode("G42.1", "normal_line", normal_line.start),
     GCode("G40", "compensation", table_system.cancel, takes="I J K", order=Order.COMPENSATION),
     GCode("G41", "compensation", corner_vectors.compensate_left, takes="D I J K", order=Order.COMPENSATION),
     GCode("G42", "compensation", corner_vectors.compensate_right, takes="D I J K", order=Order.COMPENSATION),
     *(
         GCode(code, "compensation", table_system.compensate, takes="D", order=Order.COMPENSATION)
-        for code in spatial.SIDES
+        for code in SIDES
     ),
     GCode("G41.3", "compensation", leading_edge.offset_edge, takes="D", order=Order.COMPENSATION),
-    GCode("G43", "length", tool_length(length.compensate_length), takes="H", order=Order.LENGTH),
-    GCode("G44", "length", tool_length(length.compensate_length), takes="H", order=Order.LENGTH),
+    GCode("G43", "length", standing_system.compensate_length, takes="H", order=Order.LENGTH),
+    GCode("G44", "length", standing_system.compensate_length, takes="H", order=Order.LENGTH),
     GCode("G43.4", "length", standing_system.start_following, takes="H", order=Order.LENGTH),
     GCode("G43.5", "length", standing_system.start_following, takes="H Q", order=Order.LENGTH),
-    *(moves(code, position_offset.offset_move, "D I J K R", idle_in_cycle=True) for code in position_offset.TIMES),
-    GCode("G49", "length", tool_length(length.cancel_length), order=Order.LENGTH),
+    *(
+        moves(code, position_offset.offset_move, "D I J K R", idle_in_cycle=True)
+        for code in ("G45", "G46", "G47", "G48")
+    ),
+    GCode("G49", "length", standing_system.cancel_length, order=Order.LENGTH),
     GCode("G50", "scaling", frames.end_scale),
     GCode("G51", "scaling", frames.scale, takes="I J K P", reals="P", axis_words=True),
     GCode("G50.1", "mirror", frames.end_mirror, axis_words=True),
@@ -182,15 +181,15 @@ ADDRESSES = {
 
 POWER_ON = MILLING_POWER_ON | {
     "fluctuation": "G25",
-    polar_interpolation.GROUP: "G13.1",
-    cylinder.GROUP: "",
-    normal_line.GROUP: normal_line.OFF,
-    workpiece.FIXTURE: "",
-    workpiece.ERROR: "",
-    standing_system.SYSTEM: "",
-    table_system.SYSTEM: "",
-    leaning.GROUP: "",
-    "calls": macro_calls.ALL_CALLS,
+    "polar_interpolation": "G13.1",
+    "cylinder": "",
+    "normal_line": "G40.1",
+    "fixture": "",
+    "workpiece_error": "",
+    "tip_system": "",
+    "point_system": "",
+    "tip_lean": "",
+    "calls": code_calls.ALL_CALLS,
     "interruption": "M97",
     "data_input": "G11",
 }

@@ -5,28 +5,33 @@ from __future__ import annotations
 from functools import cache
 from typing import TYPE_CHECKING, ClassVar
 
-from polycnc.compensation.policy import Approach, Policy
-from polycnc.control.fanuc import tool_plane
 from polycnc.control.fanuc.acceleration import accelerated
 from polycnc.control.fanuc.alarm_codes import ALARMS
 from polycnc.control.fanuc.code_calls import registered_codes
-from polycnc.control.fanuc.milling import five_axes, leading_edge, leaning, standing_system, table_system
 from polycnc.control.fanuc.milling.codes import ADDRESSES, G_CODES, M_CODES, POWER_ON
 from polycnc.control.fanuc.milling.cycles import MILLING_DRILLING
 from polycnc.control.fanuc.milling.parameters import FanucMillingParameters
+from polycnc.control.fanuc.milling.rules import RULES
 from polycnc.control.fanuc.operation import MODES_WITHOUT_JUMPS, dry_run, suppresses_reading
 from polycnc.control.word_address.block.whole_numbers import DecimalPoint
-from polycnc.control.word_address.machining_centre import HARTFORD, MillingControl
+from polycnc.control.word_address.coordinates import tip
+from polycnc.control.word_address.machining_centre import MillingControl
 from polycnc.control.word_address.macro_b import interruption
 from polycnc.control.word_address.macro_b.variables import MacroMemory
 from polycnc.control.word_address.motion import path
-from polycnc.control.word_address.tools import length, look_ahead
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import replace
+
+with loaded_when_called():
+    from polycnc.control.fanuc import tool_plane
+    from polycnc.control.fanuc.milling import mechanism
+    from polycnc.control.word_address.tools import length
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from polycnc.channel.channel import Channel
+    from polycnc.compensation.policy import Policy
     from polycnc.control.word_address.block.codes import ContextStep, GCode, MCode, MRow, Planner, Step
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.rules import Rule
@@ -74,23 +79,9 @@ class FanucMilling(MillingControl):
     drilling: ClassVar[Drilling] = MILLING_DRILLING
     context_steps: ClassVar[tuple[ContextStep, ...]] = (
         *MillingControl.context_steps,
-        standing_system.displayed,
+        tip.displayed,
     )
-    rules: ClassVar[tuple[Rule, ...]] = (
-        five_axes.RULE,
-        table_system.RULE,
-        table_system.START_RULE,
-        five_axes.VECTOR_RULE,
-        leading_edge.RULE,
-        standing_system.LENGTH_RULE,
-        standing_system.START_RULE,
-        standing_system.ARC_RULE,
-        standing_system.RULE,
-        leaning.RULE,
-        *MillingControl.rules,
-        look_ahead.TRAVEL_RULE,
-        interruption.RULE,
-    )
+    rules: ClassVar[tuple[Rule, ...]] = RULES
     SCALE_CENTER_IS_ABSOLUTE: ClassVar[bool] = True
     MODES_WITHOUT_JUMPS: ClassVar[frozenset[str]] = MODES_WITHOUT_JUMPS
     POINT_IN_WHOLE_NUMBERS: ClassVar[DecimalPoint] = DecimalPoint.REFUSED
@@ -134,9 +125,11 @@ class FanucMilling(MillingControl):
 
     def compensation_policy(self, channel: Channel) -> Policy:
         """Start-up types A, B, C (5003#0, #1), blocks read ahead (19625), interference (5008)."""
+        from polycnc.compensation.policy import Approach
+
         parameters = _given(channel)
         return replace(
-            HARTFORD,
+            super().compensation_policy(channel),
             approach=Approach.CORNER if parameters.SUP else Approach.SQUARE,
             bare_cancel_is_square=True,
             shifts_without_motion=parameters.SUV,
@@ -170,8 +163,6 @@ class FanucMilling(MillingControl):
 
     def kinematics(self, channel: Channel) -> Kinematics:
         """With 19666, 19697 to 19714 and 19665#4, #5."""
-        from polycnc.control.fanuc.milling import mechanism
-
         return mechanism.kinematics_of(channel, _given(channel))
 
     def rotary_ranges(self, channel: Channel) -> Mapping[str, tuple[float, float]]:

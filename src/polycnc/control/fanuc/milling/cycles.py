@@ -6,23 +6,32 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.milling.parameters import FanucMillingParameters
 from polycnc.control.word_address.auxiliary.functions import RigidTappingState
+from polycnc.control.word_address.coordinates.on_table import OnTable
 from polycnc.control.word_address.cycles.drilling import (
     CycleState,
     DrillCycle,
     Drilling,
+    rapid_over,
     third_axis,
     turn_by_m_code,
     turn_spindle,
 )
 from polycnc.control.word_address.cycles.shift import shift_by_i_and_j
-from polycnc.control.word_address.transformations import workpiece
-from polycnc.cycles.drilling import holes, lathe
+from polycnc.cycles.drilling import holes
+from polycnc.deferred.functions import loaded_when_called
+
+with loaded_when_called():
+    from polycnc.control.word_address.transformations import workpiece
+    from polycnc.cycles.drilling import lathe
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.auxiliary.functions import RigidTapping
-    from polycnc.control.word_address.block.plan import Builder
+    from polycnc.control.word_address.block.plan import AxisWord, Builder
     from polycnc.control.word_address.cycles.drilling import CycleData
+    from polycnc.control.word_address.family import MillingChannel
     from polycnc.cycles.drilling.holes import Cycle
 
 CYCLES = {
@@ -128,6 +137,11 @@ def turn(channel: Channel, direction: int) -> None:
     (turn_spindle if _taps_rigidly(channel) else turn_by_m_code)(channel, direction)
 
 
+def go_over_hole(channel: MillingChannel, words: Sequence[AxisWord], end: list[float]) -> None:
+    """Rapid over a hole; where axes of the table turn on the way, as the work zero lies when they have."""
+    (workpiece.go_over_hole if OnTable.of(channel).acts else rapid_over)(channel, words, end)
+
+
 MILLING_DRILLING = Drilling(
     CYCLES,
     kept="RQPIJ",
@@ -140,5 +154,5 @@ MILLING_DRILLING = Drilling(
     check=check_tapping,
     dress=in_step,
     turn=turn,
-    over=workpiece.go_over_hole,
+    over=go_over_hole,
 )

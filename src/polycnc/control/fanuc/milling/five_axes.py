@@ -13,13 +13,13 @@ from typing import TYPE_CHECKING
 
 from polycnc.compensation.spatial.rules import INTERSECTION_FIRST, Corners, Rules
 from polycnc.control.fanuc.milling.parameters import FanucMillingParameters
-from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.coordinates.on_table import OnTable
 from polycnc.control.word_address.coordinates.systems import ZeroState
+from polycnc.control.word_address.coordinates.tip import TIP_CODES
+from polycnc.control.word_address.states import TiltState
 from polycnc.control.word_address.tools import radius, spatial
 from polycnc.control.word_address.tools.radius import RadiusState
-from polycnc.control.word_address.transformations.tilted_plane import TiltState
-from polycnc.control.word_address.transformations.tool_center_point import TIP_CODES, plan_with_direction
+from polycnc.control.word_address.transformations.tool_center_point import plan_with_direction
 from polycnc.deferred.records import replace
 from polycnc.messages import AlarmError
 
@@ -37,7 +37,7 @@ ALLOWED = frozenset((*STRAIGHT, *ARCS, "G4", "G9", "G40", "G61", "G64", "G80", "
 #: The forms of FANUC 16i, which lead no axis, for machines with rotary axes in the table alone, and in both.
 FOR_TABLES, FOR_MIXED = ("G41.4", "G42.4"), ("G41.5", "G42.5")
 #: Codes that may take turns while the compensation is on.
-FORMS = (("G41.2", "G42.2"), spatial.BY_VECTOR, FOR_TABLES, FOR_MIXED)
+FORMS = (("G41.2", "G42.2"), radius.BY_VECTOR, FOR_TABLES, FOR_MIXED)
 RULES = Rules(
     no_corner="PS0033",
     square_start=True,
@@ -72,9 +72,9 @@ def compensate(channel: WordAddressChannel, words: Words) -> None:
 def _check_machine(channel: WordAddressChannel, words: Words, code: str) -> None:
     """PS5460 for a form that is not for this machine; those of FANUC 16i do not go with tip control."""
     length, kinematics = channel.mode["length"], channel.control.kinematics(channel)
-    if code in spatial.BY_VECTOR and length == "G43.4":
+    if code in radius.BY_VECTOR and length == "G43.4":
         raise words.fail("spatial_motion", code)
-    if code in spatial.BY_VECTOR and length not in TIP_CODES and kinematics.work:
+    if code in radius.BY_VECTOR and length not in TIP_CODES and kinematics.work:
         parameters = _parameters(channel)
         if not parameters.TBP or parameters.WKP:
             raise words.fail(
@@ -111,10 +111,10 @@ def cancel(channel: WordAddressChannel, words: Words) -> None:
     radius.cancel_compensation(channel, words)
 
 
-def _check_block(builder: Builder) -> None:
+def check_block(builder: Builder) -> None:
     """Refuse what nobody here knows the control to do between the first block and G40."""
     before = builder.before["compensation"]
-    if before not in spatial.SIDES:
+    if before not in radius.SIDES:
         return
     kinematics: Kinematics = builder.channel.control.kinematics(builder.channel)
     form = next(codes for codes in FORMS if before in codes)
@@ -146,9 +146,9 @@ def _check_turn(builder: Builder, code: str) -> None:
         raise not_yet(f"{turns}: {code}")
 
 
-def _behind(builder: Builder, _plan: Plan) -> Step | None:
+def relax_behind(builder: Builder, _plan: Plan) -> Step | None:
     """Behind G40 the stage that has led back has nothing to do."""
-    if builder.mode["compensation"] in spatial.SIDES:
+    if builder.mode["compensation"] in radius.SIDES:
         return None
     return lambda channel, _values: channel.path.relax()
 
@@ -162,7 +162,7 @@ def not_yet(code: str) -> AlarmError:
     return AlarmError("PC0001", hint="hint.not-supported", code=code)
 
 
-def _plan_direction(builder: Builder, plan: Plan) -> Step | None:
+def plan_direction(builder: Builder, plan: Plan) -> Step | None:
     """I J K of G41.6, G42.6 without tip control, on machines whose tool turns: the tool stands so at the end."""
     if builder.mode["length"] in TIP_CODES:
         return None
@@ -175,15 +175,3 @@ def refuse_two_directions(builder: Builder, plan: Plan) -> None:
     rotary = [word for word in plan.axis_words if builder.channel.axis_data[word.axis].rotary]
     if rotary and any(builder.has(letter) and builder.is_free(letter) for letter in "IJK"):
         raise builder.control.fail("tip_company", address=rotary[0].address)
-
-
-#: Blocks that name the direction of the tool by a vector.
-VECTOR_RULE = Rule(
-    "tool direction by a vector in radius compensation in space",
-    modes={"compensation": spatial.BY_VECTOR},
-    motion=_plan_direction,
-)
-#: What must not come during radius compensation in space.
-RULE = Rule(
-    "radius compensation in space", modes={"compensation": spatial.SIDES}, check=_check_block, after=_behind
-)

@@ -15,10 +15,9 @@ from polycnc.channel.moves.path import Move, PlacedEvent, Rank, Stage
 from polycnc.control.fanuc.milling import five_axes
 from polycnc.control.fanuc.milling.five_axes import not_yet
 from polycnc.control.fanuc.milling.parameters import FanucMillingParameters
-from polycnc.control.word_address.block.rules import Rule
+from polycnc.control.word_address.coordinates.tip import TIP_CODES
 from polycnc.control.word_address.tools.radius import RadiusState, place_of_block
 from polycnc.control.word_address.tools.spatial import posture_of
-from polycnc.control.word_address.transformations.tool_center_point import TIP_CODES
 from polycnc.deferred.records import replace
 from polycnc.geometry.vectors import dot, minus, times
 from polycnc.messages import AlarmError
@@ -201,7 +200,7 @@ def cancel(channel: WordAddressChannel, words: Words) -> None:
     five_axes.cancel(channel, words)
 
 
-def _check_block(builder: Builder) -> None:
+def check_block(builder: Builder) -> None:
     """Refuse other motions and compensations, and what nobody here knows the control to do."""
     if builder.before["compensation"] != CODE:
         return
@@ -216,7 +215,3 @@ def _check_block(builder: Builder) -> None:
     for address in ("D", "H"):
         if builder.has(address):
             raise not_yet(f"{address}: {CODE}")
-
-
-#: What must not come while the leading edge is offset.
-RULE = Rule("leading edge offset", modes={"compensation": (CODE,)}, check=_check_block)

@@ -9,7 +9,6 @@ from math import cos, radians, sin, sqrt
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
-from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.transformations.tool_center_point import plan_with_direction
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.vectors import dot, minus, times
@@ -67,12 +66,8 @@ def leaned(channel: WordAddressChannel, vector: Vector, position: list[float]) -
     return (i, j, k)
 
 
-def _plan(builder: Builder, plan: Plan) -> Step | None:
+def plan_leaning(builder: Builder, plan: Plan) -> Step | None:
     """A straight block that leans the tool; without I J K it stays as it stands (15i, B-63323EN-1, page 1053)."""
     if builder.mode["length"] != "G43.5":
         return None
     return plan_with_direction(builder, plan, leaned)
-
-
-#: Straight blocks while the tool leans.
-RULE = Rule("tool that leans towards its way", modes={GROUP: ("Q",)}, motion=_plan)

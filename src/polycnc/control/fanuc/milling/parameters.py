@@ -18,7 +18,7 @@ class FanucMillingAxisParameters(FanucAxisParameters):
     control_point_shift = Number(19667, delivered=0.0)
 
 
-class FanucMillingParameters(FanucParameters["FanucMillingAxisParameters"]):
+class FanucMillingParameters(FanucParameters[FanucMillingAxisParameters]):
     """The parameters of the control."""
 
     axis_class = FanucMillingAxisParameters

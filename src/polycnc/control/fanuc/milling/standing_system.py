@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING
 from polycnc.control.fanuc.milling import leaning
 from polycnc.control.fanuc.milling.five_axes import not_yet
 from polycnc.control.fanuc.milling.parameters import FanucMillingParameters
-from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.coordinates import on_table
-from polycnc.control.word_address.coordinates.tip import TipState
+from polycnc.control.word_address.coordinates.tip import TIP_CODES, TipState
 from polycnc.control.word_address.motion import path
 from polycnc.control.word_address.motion.arcs import mirrors_plane, scales, write_with_rest
+from polycnc.control.word_address.tools import length
 from polycnc.control.word_address.transformations import tool_center_point, workpiece
 from polycnc.deferred.records import replace
 from polycnc.geometry.planes import PLANES
@@ -31,7 +31,6 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import WordAddressChannel
     from polycnc.geometry.arcs import Point
-    from polycnc.toolpath import Context
 
 #: Modal group: "work" while words name the tip in a system that does not turn.
 SYSTEM = "tip_system"
@@ -69,26 +68,33 @@ def end_following(channel: WordAddressChannel) -> None:
     channel.mode = channel.mode.with_code(SYSTEM, "")
 
 
-def displayed(channel: WordAddressChannel, context: Context) -> Context:
-    """A context while words name points of another system than that of the path: displays show them there."""
-    naming = channel.coordinates.naming
-    return context if naming is None else replace(context, shown_by=naming)
+def compensate_length(channel: WordAddressChannel, words: Words) -> None:
+    """G43, G44 H: the length offset of Z; it ends tool centre point control."""
+    end_following(channel)
+    length.compensate_length(channel, words)
 
 
-def _check_lengths(builder: Builder) -> None:
+def cancel_length(channel: WordAddressChannel, words: Words) -> None:
+    """G49: neither length nor tool centre point control."""
+    end_following(channel)
+    length.cancel_length(channel, words)
+
+
+def check_lengths(builder: Builder) -> None:
     """PS5421 for G43.4 within G43.5 and the other way round, PS5452 for tip control within G43, G44 and so on.
 
     General knowledge of FANUC 30i (its lists of these alarms).
     """
     before, after = builder.before["length"], builder.mode["length"]
-    led = [code in tool_center_point.TIP_CODES for code in (before, after)]
+    led = [code in TIP_CODES for code in (before, after)]
     if all(led) and before != after:
         raise builder.control.fail("tip_company", address=after)
     if any(led) and not all(led) and "G49" not in (before, after):
         raise builder.control.fail("five_axis_mode", address=after)
 
 
-def _check_block(builder: Builder) -> None:
+def check_block(builder: Builder) -> None:
+    """Refuse codes whose ways are not told in that system."""
     if builder.mode["length"] != "G43.4":
         return
     for row in builder.codes:
@@ -96,7 +102,7 @@ def _check_block(builder: Builder) -> None:
             raise not_yet(f"{row.code}: 19696#5")
 
 
-def _plan(builder: Builder, plan: Plan) -> Step | None:
+def plan_arc(builder: Builder, plan: Plan) -> Step | None:
     """An arc ends in the work system, as the table has turned there."""
     if builder.mode["length"] != "G43.4" or builder.mode["motion"] not in ARCS:
         return None
@@ -157,7 +163,7 @@ def _told(channel: WordAddressChannel, position: list[float]) -> list[float]:
     return [value + way for value, way in zip(position, beside, strict=True)] if beside else position
 
 
-def _in_plane(builder: Builder, _plan: Plan, step: Step | None) -> Step | None:
+def keep_plane(builder: Builder, _plan: Plan, step: Step | None) -> Step | None:
     """PS5421 for a chamfer or a rounding in a plane that the table turns out of itself."""
     if step is None or builder.mode["length"] != "G43.4" or builder.corner() is None:
         return step
@@ -172,10 +178,10 @@ def _in_plane(builder: Builder, _plan: Plan, step: Step | None) -> Step | None:
     return move
 
 
-def _plan_start(builder: Builder, plan: Plan) -> Step | None:
+def plan_start(builder: Builder, plan: Plan) -> Step | None:
     """The block in which tip control begins: the axes go straight to where its words are (B-63944EN/02, page 656)."""
     motion, words = builder.mode["motion"], plan.axis_words
-    if motion not in STRAIGHT or builder.before["length"] in tool_center_point.TIP_CODES:
+    if motion not in STRAIGHT or builder.before["length"] in TIP_CODES:
         return None
     if builder.mode["length"] == "G43.5":
         directed = tool_center_point.plan_with_direction(
@@ -217,10 +223,10 @@ def _straight_by_axes(
     channel.context_changed()
 
 
-def _refuse_standing_arc(builder: Builder, plan: Plan) -> Step | None:
+def refuse_standing_arc(builder: Builder, plan: Plan) -> Step | None:
     """PS5421 for a block of G02 or G03 that turns rotary axes alone: the tip stands (A-79348E, page 14)."""
     motion, words = builder.mode["motion"], plan.axis_words
-    tip = builder.mode["length"] in tool_center_point.TIP_CODES
+    tip = builder.mode["length"] in TIP_CODES
     if (
         tip
         and words
@@ -256,23 +262,3 @@ def _turns_in_plane(channel: WordAddressChannel, w: int, begin: list[float], end
                 return False
     turned = (kinematics.work_turn(angles) @ started.inverse()).direct(*normal)
     return dot(turned, normal) > 1.0 - ALONG * ALONG
-
-
-#: Words while they name the tip in a system that does not turn.
-RULE = Rule(
-    "tip in a system that stands", modes={SYSTEM: ("work",)}, check=_check_block, motion=_plan, wrap=_in_plane
-)
-#: Arcs of the tip.
-ARC_RULE = Rule(
-    "arcs under tip control",
-    modes={"length": tool_center_point.TIP_CODES},
-    motion=_refuse_standing_arc,
-)
-#: Straight blocks in which tip control begins.
-START_RULE = Rule("block in which tip control begins", codes=tool_center_point.TIP_CODES, motion=_plan_start)
-#: One kind of length compensation in another.
-LENGTH_RULE = Rule(
-    "kinds of length compensation",
-    codes=("G43", "G44", *tool_center_point.TIP_CODES),
-    check=_check_lengths,
-)

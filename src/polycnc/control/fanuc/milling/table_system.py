@@ -14,13 +14,13 @@ from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.fanuc.milling import five_axes, leading_edge
 from polycnc.control.fanuc.milling.five_axes import not_yet
 from polycnc.control.fanuc.milling.parameters import FanucMillingParameters
-from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.coordinates.systems import work_zero
+from polycnc.control.word_address.coordinates.tip import TIP_CODES
 from polycnc.control.word_address.motion import path
-from polycnc.control.word_address.tools import spatial
+from polycnc.control.word_address.tools import radius, spatial
 from polycnc.control.word_address.transformations.tilted_plane import turn_to
-from polycnc.control.word_address.transformations.tool_center_point import TIP_CODES, angles_named
+from polycnc.control.word_address.transformations.tool_center_point import angles_named
 from polycnc.deferred.records import dataclass, replace
 from polycnc.geometry.frames import translation
 from polycnc.toolpath import Kind
@@ -84,9 +84,9 @@ def _begin(channel: WordAddressChannel, words: Words) -> None:
     channel.context_changed()
 
 
-def _behind(builder: Builder, _plan: Plan) -> Step | None:
+def name_behind(builder: Builder, _plan: Plan) -> Step | None:
     """From the block behind the first one on words name points of the table."""
-    if builder.mode["compensation"] not in spatial.SIDES:
+    if builder.mode["compensation"] not in radius.SIDES:
         return None
 
     def name(channel: WordAddressChannel, _values: list[float]) -> None:
@@ -98,11 +98,11 @@ def _behind(builder: Builder, _plan: Plan) -> Step | None:
     return name
 
 
-def _plan(builder: Builder, plan: Plan) -> Step | None:
+def plan_direction(builder: Builder, plan: Plan) -> Step | None:
     """A straight block whose I J K name the direction of the tool on the table."""
     words, motion = plan.axis_words, builder.mode["motion"]
     side = builder.mode["compensation"]
-    letters = [letter for letter in "IJK" if side in spatial.BY_VECTOR and builder.has(letter)]
+    letters = [letter for letter in "IJK" if side in radius.BY_VECTOR and builder.has(letter)]
     if not letters or motion not in STRAIGHT:
         return None
     five_axes.refuse_two_directions(builder, plan)
@@ -134,9 +134,9 @@ def _here(channel: WordAddressChannel) -> dict[str, float]:
     return dict(zip(channel.axes, channel.coordinates.machine, strict=True))
 
 
-def _before(builder: Builder, plan: Plan) -> Step | None:
+def refuse_apart(builder: Builder, plan: Plan) -> Step | None:
     """Which system words beside G40 name is not known for sure: they are refused where the two are not the same."""
-    if builder.mode["compensation"] in spatial.SIDES or not plan.axis_words:
+    if builder.mode["compensation"] in radius.SIDES or not plan.axis_words:
         return None
     turns = any(builder.has(joint.axis) for joint in builder.channel.control.kinematics(builder.channel).work)
 
@@ -153,7 +153,3 @@ def _before(builder: Builder, plan: Plan) -> Step | None:
 
 #: Points nearer to each other (mm) are the same.
 SAME_MM = 1e-6
-#: Words while they name points of the table.
-RULE = Rule("points of the table", modes={SYSTEM: ("table",)}, before=_before, motion=_plan)
-#: Blocks in which the compensation begins.
-START_RULE = Rule("block in which points of the table begin", codes=tuple(spatial.SIDES), after=_behind)

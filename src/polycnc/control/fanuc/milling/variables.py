@@ -17,8 +17,8 @@ from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_
 from polycnc.control.word_address.macro_b.interruption import InterruptionState
 from polycnc.control.word_address.macro_b.variables import Read, Registry, SystemRange, Write
 from polycnc.control.word_address.memory import EXTERNAL
-from polycnc.control.word_address.motion.skip import LastSkip
-from polycnc.control.word_address.tools.length import LengthState, renew_length
+from polycnc.control.word_address.states import LastSkip, LengthState
+from polycnc.control.word_address.tools.length import renew_length
 from polycnc.control.word_address.tools.radius import RadiusState, tool_position
 from polycnc.control.word_address.transformations import cylinder
 

@@ -14,17 +14,20 @@ from polycnc.channel.interpolator import PassiveWatcher
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.actions import axes as action_axes
 from polycnc.control.sinumerik.actions.axes import ActionAxes
-from polycnc.control.sinumerik.block import arguments
-from polycnc.control.sinumerik.couplings import generated
 from polycnc.control.sinumerik.couplings.links import Couplings
 from polycnc.control.sinumerik.curve_tables.memory import CurveTables, table_of
 from polycnc.control.sinumerik.errors import not_supported
-from polycnc.control.sinumerik.variables import in_force
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError
 from polycnc.transformation.couplings.graph import CircularCouplingError
 from polycnc.transformation.couplings.laws import ByCurve, Ratio
+
+with loaded_when_called():
+    from polycnc.control.sinumerik.block import arguments
+    from polycnc.control.sinumerik.couplings import generated
+    from polycnc.control.sinumerik.variables import in_force
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -8,11 +8,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.states.state import Lifetime, State
-from polycnc.control.sinumerik.block import arguments
-from polycnc.control.sinumerik.variables import in_force
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.messages import AlarmError
+
+with loaded_when_called():
+    from polycnc.control.sinumerik.block import arguments
+    from polycnc.control.sinumerik.variables import in_force
 
 if TYPE_CHECKING:
     from collections.abc import Callable

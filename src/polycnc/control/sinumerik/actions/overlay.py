@@ -15,13 +15,16 @@ from typing import TYPE_CHECKING
 from polycnc.channel.interpolator import HANDWHEEL_OFFSET
 from polycnc.channel.states.state import Lifetime, State, lasting
 from polycnc.control.sinumerik import tables
-from polycnc.control.sinumerik.actions import axes as action_axes
-from polycnc.control.sinumerik.block import arguments
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass, field
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import Deed
+
+with loaded_when_called():
+    from polycnc.control.sinumerik.actions import axes as action_axes
+    from polycnc.control.sinumerik.block import arguments
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

@@ -5,10 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
-from polycnc.control.sinumerik.block import arguments
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.messages import AlarmError
+
+with loaded_when_called():
+    from polycnc.control.sinumerik.block import arguments
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.block.arguments import Arguments

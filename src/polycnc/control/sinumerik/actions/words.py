@@ -5,19 +5,22 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik import tables
-from polycnc.control.sinumerik.actions import axes as action_axes
 from polycnc.control.sinumerik.actions import fixed_stop
 from polycnc.control.sinumerik.actions.axes import ActionAxes
-from polycnc.control.sinumerik.axes import spindles as spindle_axes
-from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.positions import Dimension, is_diameter
 from polycnc.control.sinumerik.m_functions import DIRECTIONS
-from polycnc.control.sinumerik.motion import indexing
 from polycnc.control.sinumerik.signals import measuring_actions
-from polycnc.control.sinumerik.variables import in_force
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.geometry.units import INCH_MM
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import Auxiliary, HFunction, SpindleSpeed
+
+with loaded_when_called():
+    from polycnc.control.sinumerik.actions import axes as action_axes
+    from polycnc.control.sinumerik.axes import spindles as spindle_axes
+    from polycnc.control.sinumerik.block import arguments
+    from polycnc.control.sinumerik.motion import indexing
+    from polycnc.control.sinumerik.variables import in_force
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.actions.axes import ActionAxes
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.limits import protection, working_area
-from polycnc.control.sinumerik.motion import splines
 from polycnc.control.sinumerik.motion.contour_reading import Readings
 from polycnc.control.sinumerik.motion.polar import Polar
 from polycnc.control.sinumerik.tools import stages
@@ -79,7 +79,7 @@ def _assigned(channel: SinumerikChannel, args: Arguments) -> Geometry:
 def _check(channel: SinumerikChannel) -> None:
     """14410 under a spline, 14411 under radius compensation, 14412 under a transformation, 14413 with FTOCON."""
     mode = channel.mode
-    if mode["motion"] in splines.SPLINES:
+    if mode["motion"] in tables.SPLINES:
         raise AlarmError("14410")
     if mode["compensation"] != "G40":
         raise AlarmError("14411")

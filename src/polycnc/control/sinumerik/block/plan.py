@@ -23,31 +23,31 @@ from polycnc.control.sinumerik.block.positions import (
     whole,
 )
 from polycnc.control.sinumerik.errors import not_supported
-from polycnc.control.sinumerik.feed import feed_words, profiles, spindle_speed
+from polycnc.control.sinumerik.feed import spindle_speed
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.frames import active as frames
-from polycnc.control.sinumerik.frames import codes as frame_codes
-from polycnc.control.sinumerik.frames import tool_frames
 from polycnc.control.sinumerik.limits import working_area
-from polycnc.control.sinumerik.motion import circles, involutes, moves, repositioning, splines
-from polycnc.control.sinumerik.oscillation import words as oscillation
+from polycnc.control.sinumerik.motion import circles, moves
 from polycnc.control.sinumerik.punching import block as punching
 from polycnc.control.sinumerik.signals import measuring, sections
-from polycnc.control.sinumerik.tangential import definitions as tangential
-from polycnc.control.sinumerik.tools import online, selection, smooth_approach, stages
-from polycnc.control.sinumerik.tools.holders import active as carriers
-from polycnc.control.sinumerik.transformations import (
-    history,
-    oblique,
-    orientation,
-    point_to_point,
-    seat,
-    smoothing,
-)
+from polycnc.control.sinumerik.tools import selection
+from polycnc.control.sinumerik.transformations import seat, smoothing
 from polycnc.control.sinumerik.transformations.words import SECOND, SINGLE, TRIPLES
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass
 from polycnc.language.bulk import Enter, Idle, Note, declare
 from polycnc.messages import AlarmError
+
+with loaded_when_called():
+    from polycnc.control.sinumerik.feed import feed_words
+    from polycnc.control.sinumerik.frames import codes as frame_codes
+    from polycnc.control.sinumerik.frames import tool_frames
+    from polycnc.control.sinumerik.motion import involutes, repositioning, splines
+    from polycnc.control.sinumerik.oscillation import words as oscillation
+    from polycnc.control.sinumerik.tangential import definitions as tangential
+    from polycnc.control.sinumerik.tools import online, smooth_approach, stages
+    from polycnc.control.sinumerik.tools.holders import active as carriers
+    from polycnc.control.sinumerik.transformations import history, oblique, orientation, point_to_point
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -87,9 +87,9 @@ BLOCK_MOTIONS: dict[str, Callable[[Draft], Step | None]] = {
     "G751": moves.fixed_point,
     "G5": oblique.plunge,
     "G7": oblique.plunge,
-    **dict.fromkeys(repositioning.FUNCTIONS, repositioning.reposition),
-    **dict.fromkeys(smooth_approach.APPROACHES, smooth_approach.approach),
-    **dict.fromkeys(smooth_approach.RETRACTIONS, smooth_approach.retract),
+    **dict.fromkeys(tables.REPOSITIONING, repositioning.reposition),
+    **dict.fromkeys(tables.APPROACHES, smooth_approach.approach),
+    **dict.fromkeys(tables.RETRACTIONS, smooth_approach.retract),
 }
 LINEAR = frozenset(("G0", "G1"))
 #: Addresses that need a transformation; PO stands for polynomials of the direction as well.
@@ -125,7 +125,7 @@ def make_plan(channel: SinumerikChannel, block: Block) -> Plan:
     if transforms:
         orientation.plan(draft)
         point_to_point.plan(draft)
-    follows = tangential.plan_words(draft) if mode[tangential.GROUP] and not _has_function(codes) else None
+    follows = tangential.plan_words(draft) if mode["tangential"] and not _has_function(codes) else None
     own = _own_function(draft)
     strokes = punching.begin(draft) if own is None and _concerns_press(draft) else None
     moving = _motion(draft) if own is None and not _has_function(codes) else None
@@ -139,7 +139,7 @@ def make_plan(channel: SinumerikChannel, block: Block) -> Plan:
     measures = measuring.measure(draft) if draft.has(*measuring.WORDS) else None
     if measures is not None:
         draft.steps.append(measures[0])
-    in_spline = mode["motion"] in splines.SPLINES
+    in_spline = mode["motion"] in tables.SPLINES
     check = splines.positioned(draft) if in_spline else None
     draft.steps += [check] if check is not None else []
     swings = oscillation.oscillate(draft) if draft.has("OSCILL") else None
@@ -192,15 +192,15 @@ def _early_effects(draft: Draft, modal: list[tuple[str, str]]) -> list[Step]:
 def _late_effects(draft: Draft, modal: list[tuple[str, str]]) -> list[Step]:
     """What modal functions do behind the words; a retraction ends compensation itself, behind its line or arc."""
     codes = draft.codes
-    leaves = codes.get("block_motion") in smooth_approach.RETRACTIONS and codes.get("compensation") == "G40"
+    leaves = codes.get("block_motion") in tables.RETRACTIONS and codes.get("compensation") == "G40"
     late = [(n, code) for n, code in modal if n in LATE_EFFECTS and not (leaves and n == "compensation")]
     return [_effect(LATE_EFFECTS, draft.channel.mode, name, code) for name, code in late]
 
 
 def _shapes_feed(draft: Draft) -> bool:
     """Whether the feed of a block is not constant: FPO, or FLIN and FCUB where they act."""
-    by_code = draft.mode["feed_profile"] != profiles.CONSTANT and draft.mode["feed"] in profiles.PROFILED
-    return by_code or any(word.modifier == profiles.POLYNOMIAL for word in draft.block.words)
+    by_code = draft.mode["feed_profile"] != tables.CONSTANT and draft.mode["feed"] in tables.PROFILED
+    return by_code or any(word.modifier == tables.POLYNOMIAL for word in draft.block.words)
 
 
 def _concerns_transformation(draft: Draft) -> bool:
@@ -328,7 +328,7 @@ def _own_function(draft: Draft) -> Step | None:
     if "frame" in draft.codes:
         if "block_motion" in draft.codes:
             raise AlarmError("12120", text=draft.codes["frame"])
-        return frame_codes.FRAME_CODES[draft.codes["frame"]](draft)
+        return frame_codes.plan(draft, draft.codes["frame"])
     code = draft.codes.get("block_motion")
     return BLOCK_MOTIONS[code](draft) if code is not None else None
 
@@ -444,7 +444,8 @@ def _zero_offset(channel: SinumerikChannel, values: Values) -> None:  # noqa: AR
 
 def _plane(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
     """G17, G18, G19: tool lengths change their axes."""
-    stages.change_plane(channel)
+    if channel.path.head is not None:
+        stages.change_plane(channel)
     auxiliary.tool_changed(channel)
 
 
@@ -513,7 +514,7 @@ def _feed_is_in_force(channel: SinumerikChannel) -> bool:
 
 def _contour_is_in_force(channel: SinumerikChannel) -> bool:
     """No compensation is active."""
-    return stages.active_cutter(channel) is None
+    return channel.path.head is None or stages.active_cutter(channel) is None
 
 
 #: When functions of a group that are in force already change nothing.

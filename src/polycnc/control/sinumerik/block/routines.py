@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ast
 from typing import TYPE_CHECKING
 
 from polycnc.language.bulk.formulas.postfix import OtherError
@@ -10,6 +9,7 @@ from polycnc.language.bulk.formulas.typed_postfix import Sort, TypedPostfix
 from polycnc.language.bulk.layout import LOOPS, Operation
 from polycnc.language.bulk.routines.layout import LineKind
 from polycnc.language.bulk.routines.statements import NOTHING, REFUSED, UNREAD, Statement
+from polycnc.language.expressions import nodes
 from polycnc.language.expressions.code import Code, Lifted, constant, name, quoted
 from polycnc.language.sinumerik.executable import SinumerikProgram
 from polycnc.language.sinumerik.lexer import prefix_of
@@ -117,8 +117,8 @@ class SinumerikRoutines:
             emitter = code.compiled(index, channel).emitter
             postfix = self.postfix(channel, code, emitter)
             for statement in emitter.statements:
-                called = statement[1] if statement.kind is ast.Expr else None
-                if not isinstance(called, Code) or called.kind is not ast.Call or called[1] != _DEFINE:
+                called = statement[1] if statement.kind == nodes.Expr else None
+                if not isinstance(called, Code) or called.kind != nodes.Call or called[1] != _DEFINE:
                     return REFUSED
                 _, slot, value = called[2] if isinstance(called[2], tuple) else ()
                 postfix.handed(value, self._variables.place_of(channel, code, slot[1]))
@@ -158,7 +158,7 @@ class SinumerikRoutines:
             if parameter.by_reference:
                 raise OtherError
             postfix.handed(value, self._variables.place_of(channel, code, parameter.slot))
-        if passes.kind is not ast.Constant or not isinstance(passes[1], int):
+        if passes.kind != nodes.Constant or not isinstance(passes[1], int):
             raise OtherError
         numbers = tuple(float(number.value) for number in emitter.numbers)
         callee = code, channel.toolpath.program_number(found.name), _steps(code)
@@ -219,12 +219,12 @@ def sort_of(emitter: Emitter, place: int) -> Sort:
 
 def _put_statement(postfix: TypedPostfix, statement: Code, code: SinumerikProgram, index: int) -> int:
     """Add what a statement calculates; gives the step to which it jumps, -1 for none."""
-    if statement.kind is ast.Assign:
+    if statement.kind == nodes.Assign:
         postfix.assignment(statement)
         return -1
-    if statement.kind is ast.Return:
+    if statement.kind == nodes.Return:
         return _target(statement, code, index)
-    condition, body, otherwise = statement[1:4] if statement.kind is ast.If else (None, (), ())
+    condition, body, otherwise = statement[1:4] if statement.kind == nodes.If else (None, (), ())
     if not isinstance(condition, Code) or not isinstance(body, tuple) or len(body) != 1 or otherwise:
         raise OtherError
     postfix.condition(condition)
@@ -233,11 +233,11 @@ def _put_statement(postfix: TypedPostfix, statement: Code, code: SinumerikProgra
 
 def _target(statement: Code, code: SinumerikProgram, index: int) -> int:
     """The step to which `return jump(channel, program, word, target)` leads."""
-    called = statement[1] if statement.kind is ast.Return else None
-    if not isinstance(called, Code) or called.kind is not ast.Call or called[1] != _JUMP:
+    called = statement[1] if statement.kind == nodes.Return else None
+    if not isinstance(called, Code) or called.kind != nodes.Call or called[1] != _JUMP:
         raise OtherError
     _, _, word, target = called[2] if isinstance(called[2], tuple) else ()
-    if word.kind is not ast.Constant or target.kind is not ast.Constant or not isinstance(target[1], str):
+    if word.kind != nodes.Constant or target.kind != nodes.Constant or not isinstance(target[1], str):
         raise OtherError
     found = code.find_target(target[1], index, str(word[1]))
     if found < 0:
@@ -277,5 +277,5 @@ def _alone(emitter: Emitter) -> Code | None:
     """The only statement of a block, if it is a call."""
     if len(emitter.statements) != 1 or emitter.branch is not None or emitter.uses_stop or emitter.uses_main:
         return None
-    called = emitter.statements[0][1] if emitter.statements[0].kind is ast.Expr else None
-    return called if isinstance(called, Code) and called.kind is ast.Call else None
+    called = emitter.statements[0][1] if emitter.statements[0].kind == nodes.Expr else None
+    return called if isinstance(called, Code) and called.kind == nodes.Call else None

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ast
 from math import inf
 from typing import TYPE_CHECKING
 
@@ -18,8 +17,8 @@ from polycnc.language.bulk import (
 )
 from polycnc.language.bulk.formulas.postfix import OtherError
 from polycnc.language.bulk.formulas.typed_postfix import TypedPostfix
-from polycnc.language.bulk.kernels import ASSIGNED
 from polycnc.language.bulk.layout import (
+    ASSIGNED,
     CR_FORM,
     CR_FORMULA,
     DIRECTION_FORM,
@@ -29,6 +28,7 @@ from polycnc.language.bulk.layout import (
     FORMS,
     Token,
 )
+from polycnc.language.expressions import nodes
 from polycnc.language.sinumerik.emitter import own_number
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
@@ -223,7 +223,7 @@ class SinumerikPlainBlocks:
             return None
         postfix = self._of_text(channel, code, emitter, keys, set())
         for statement in emitter.statements:
-            if statement.kind is not ast.Assign:
+            if statement.kind != nodes.Assign:
                 return None
             postfix.assignment(statement)
         return Recipe((channel.mode, code), formulas=tuple(postfix.done))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ast
 from array import array
 from math import nan
 from typing import TYPE_CHECKING, Any
@@ -11,6 +10,7 @@ from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.language.bulk.formulas.postfix import OtherError
 from polycnc.language.bulk.formulas.typed_postfix import Located, Sort
 from polycnc.language.bulk.layout import NUMBERED, VARIABLES
+from polycnc.language.expressions import nodes
 from polycnc.language.expressions.code import Code, Lifted
 from polycnc.language.sinumerik.executable import SinumerikProgram
 from polycnc.language.sinumerik.names.values import Type
@@ -97,7 +97,7 @@ class VariablesAtHand:
         def located(code: Code) -> Located:
             array_of = _array(code)
             base, index = array_of or code[1:3]
-            if code.kind is not ast.Subscript or not isinstance(base, Code) or not isinstance(index, Code):
+            if code.kind != nodes.Subscript or not isinstance(base, Code) or not isinstance(index, Code):
                 raise OtherError
             owner = emitter.objects[base.place] if isinstance(base, Lifted) else program
             if owner is channel.memory.language.r:
@@ -194,12 +194,14 @@ def _other() -> Variable:
 
 def _array(code: Code) -> tuple[object, object] | None:
     """List and slot of an array of whose elements the code speaks: `L[slot].items[index]`."""
-    items = code[1] if code.kind is ast.Subscript else None
-    if not isinstance(items, Code) or items.kind is not ast.Attribute or items[2] != "items":
+    items = code[1] if code.kind == nodes.Subscript else None
+    if not isinstance(items, Code) or items.kind != nodes.Attribute or items[2] != "items":
         return None
     variable = items[1]
     return (
-        (variable[1], variable[2]) if isinstance(variable, Code) and variable.kind is ast.Subscript else None
+        (variable[1], variable[2])
+        if isinstance(variable, Code) and variable.kind == nodes.Subscript
+        else None
     )
 
 

@@ -10,42 +10,40 @@ from functools import partial
 from math import nan, pi
 from typing import TYPE_CHECKING
 
-from polycnc.compensation.corner import Shape
 from polycnc.control.machine_words import asking, plc_of
 from polycnc.control.sinumerik import auxiliary, replaced, tables
-from polycnc.control.sinumerik.axes import spindles as spindle_axes
-from polycnc.control.sinumerik.block import offset_words, outside_feeds, plain
+from polycnc.control.sinumerik.block import outside_feeds, plain
 from polycnc.control.sinumerik.block.draft import axis_column
 from polycnc.control.sinumerik.block.positions import ModuloRange, number, whole
 from polycnc.control.sinumerik.couplings import synchronous
 from polycnc.control.sinumerik.couplings.spindle_pairs import turns
 from polycnc.control.sinumerik.errors import not_supported
-from polycnc.control.sinumerik.feed import (
-    axis_settings,
-    spindle_speed,
-    thread_ramps,
-    tolerances,
-    tooth_feed,
-    wheels,
-)
+from polycnc.control.sinumerik.feed import spindle_speed, thread_ramps, tolerances, tooth_feed, wheels
 from polycnc.control.sinumerik.feed.pace import Overrides
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
-from polycnc.control.sinumerik.feed.profiles import ProgrammedFeed
 from polycnc.control.sinumerik.motion import moves
-from polycnc.control.sinumerik.oscillation import words as oscillation
 from polycnc.control.sinumerik.punching import block as punching
-from polycnc.control.sinumerik.signals import fixed_stop, retraction
+from polycnc.control.sinumerik.signals import fixed_stop
 from polycnc.control.sinumerik.tables import length_factor
-from polycnc.control.sinumerik.tools import master_holder, stages
-from polycnc.control.sinumerik.tools.management import lists
 from polycnc.control.sinumerik.transformations import seat
-from polycnc.control.sinumerik.transformations.posture import Orienting
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.language.bulk import Note, declare
 from polycnc.language.sinumerik.names.spindles import spindle_number as named_spindle
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import HFunction, SpindleSpeed, ToolSelection
+
+with loaded_when_called():
+    from polycnc.control.sinumerik.axes import spindles as spindle_axes
+    from polycnc.control.sinumerik.block import offset_words
+    from polycnc.control.sinumerik.feed import axis_settings
+    from polycnc.control.sinumerik.feed.profiles import ProgrammedFeed
+    from polycnc.control.sinumerik.oscillation import words as oscillation
+    from polycnc.control.sinumerik.signals import retraction
+    from polycnc.control.sinumerik.tools import master_holder, stages
+    from polycnc.control.sinumerik.tools.management import lists
+    from polycnc.control.sinumerik.transformations.posture import Orienting
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.block.draft import Draft, Step, Values
@@ -308,8 +306,8 @@ def turning_rate(_draft: Draft, position: int, _shape: WordShape) -> Step:
 # ---- corners
 
 
-def corner(shape_of_corner: Shape) -> Maker:
-    """CHF, CHR, RND: what is put between this block and the next one; FRC is its feed."""
+def corner(shape_of_corner: str) -> Maker:
+    """CHF, CHR, RND: what is put between this block and the next one, by its name as a `Shape`; FRC is its feed."""
 
     def make(draft: Draft, position: int, _shape: WordShape) -> Step:
         own_feed = draft.take("FRC")
@@ -497,7 +495,9 @@ WORDS: dict[str, Maker] = {
     "F": feed,
     "FZ": tooth_feed.tooth_feed,
     "FA": axis_feed,
-    **oscillation.OSCILLATION_WORDS,
+    **dict.fromkeys(("OSP1", "OSP2", "OSE", "OSB", "OST1", "OST2", "OSNSC"), oscillation.datum),
+    "OSCTRL": oscillation.options,
+    "OS": oscillation.switch,
     "S": speed,
     "LIMS": speed_limit,
     "SPOS": spindle_position,
@@ -514,9 +514,9 @@ WORDS: dict[str, Maker] = {
     "DISC": offset_words.disc,
     "ISD": offset_words.depth,
     "ORIS": turning_rate,
-    "CHF": corner(Shape.CHAMFER_LENGTH),
-    "CHR": corner(Shape.CHAMFER),
-    "RND": corner(Shape.ROUNDING),
+    "CHF": corner("CHAMFER_LENGTH"),
+    "CHR": corner("CHAMFER"),
+    "RND": corner("ROUNDING"),
     "RNDM": modal_rounding,
     "FRCM": modal_corner_feed,
     "ADIS": rounding_distance,
@@ -545,17 +545,15 @@ WORDS: dict[str, Maker] = {
 #: Addresses that take an extension or an index, and those that take something round their value.
 _EXTENDED = """
 S M H T D F FA LIMS SPOS SPOSA AX TOFFL TOFF OVRA ACC ACCLIMA VELOLIM VELOLIMA JERKLIM JERKLIMA SCPARA ATOL
-FGREF FL POLF ADISPOSA
+FGREF FL POLF ADISPOSA OSP1 OSP2 OSE OSB OST1 OST2 OSNSC OSCTRL OS
 """
-EXTENDED = frozenset(
-    (*_EXTENDED.split(), *oscillation.OSCILLATION_WORDS, *outside_feeds.WORDS, *fixed_stop.WORDS)
-)
+EXTENDED = frozenset((*_EXTENDED.split(), *outside_feeds.WORDS, *fixed_stop.WORDS))
 MODIFIED = {
     **dict.fromkeys(("SPOS", "SPOSA", "AX"), frozenset(("AC", "IC", "DC", "ACP", "ACN"))),
     **dict.fromkeys(("M", "H"), frozenset(("QU",))),
     "F": frozenset(("FPO",)),
     "POLF": frozenset(("AC", "IC")),
-    **dict.fromkeys(oscillation.POSITIONS, frozenset(("AC", "IC"))),
+    **dict.fromkeys(("OSP1", "OSP2", "OSE", "OSB"), frozenset(("AC", "IC"))),
 }
 #: What the machine's own controller may refuse.
 ASKED = {"S": "S_CODE", "T": "T_CODE"}

@@ -12,14 +12,17 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.states.state import Lifetime, State
-from polycnc.control.sinumerik.actions import axes as action_axes
-from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.couplings.links import coupled
 from polycnc.control.sinumerik.data.machine_data import MachineData
 from polycnc.control.sinumerik.errors import not_supported
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.messages import AlarmError
+
+with loaded_when_called():
+    from polycnc.control.sinumerik.actions import axes as action_axes
+    from polycnc.control.sinumerik.block import arguments
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel

@@ -9,13 +9,18 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.waits import Wait, Why
-from polycnc.control.sinumerik.actions import axes as action_axes
-from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.arguments import Arguments, Procedure
 from polycnc.control.sinumerik.channels.coordination import group_of
-from polycnc.control.sinumerik.tools import stages
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.messages import AlarmError
+
+with loaded_when_called():
+    from polycnc.control.sinumerik.actions import axes as action_axes
+    from polycnc.control.sinumerik.block import arguments
+
+with loaded_when_called():
+    from polycnc.control.sinumerik.tools import stages
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

@@ -27,9 +27,9 @@ from polycnc.control.sinumerik.motion.contour_reading import (
 )
 from polycnc.control.sinumerik.tables import feed_type, length_factor
 from polycnc.control.sinumerik.transformations import seat
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass, replace
-from polycnc.geometry import offset
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.geometry.units import INCH_MM
@@ -37,6 +37,9 @@ from polycnc.language.sinumerik.names.values import Type
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 from polycnc.toolpath.kinds import CCW_KINDS
+
+with loaded_when_called():
+    from polycnc.geometry import offset
 
 if TYPE_CHECKING:
     from polycnc.channel.moves.path import Move

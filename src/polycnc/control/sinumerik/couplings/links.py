@@ -15,13 +15,16 @@ from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.curve_tables.memory import CurveTables
 from polycnc.control.sinumerik.data.machine_data import MachineData
 from polycnc.control.sinumerik.errors import not_supported
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field, replace
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.tolerances import NO_WAY
-from polycnc.transformation.couplings.coupled import Coupled, Shown
 from polycnc.transformation.couplings.laws import Ratio
 from polycnc.transformation.kinematic.parallel import ParallelAxes
 from polycnc.transformation.seated import Seated
+
+with loaded_when_called():
+    from polycnc.transformation.couplings.coupled import Coupled, Shown
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence

@@ -12,17 +12,21 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.moves.path import Rank, Stage
 from polycnc.channel.states.state import Lifetime, State
-from polycnc.control.sinumerik.block import arguments
-from polycnc.control.sinumerik.couplings import spindle_pairs, switching, synchronous
+from polycnc.control.sinumerik.couplings import spindle_pairs, synchronous
 from polycnc.control.sinumerik.couplings.links import Couplings, Kind, Link
 from polycnc.control.sinumerik.couplings.spindle_pairs import Pair, SpindlePairs, turns
 from polycnc.control.sinumerik.errors import not_supported
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.language.sinumerik.names.spindles import spindle_number
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.messages import AlarmError
 from polycnc.transformation.couplings.laws import Ratio
+
+with loaded_when_called():
+    from polycnc.control.sinumerik.block import arguments
+    from polycnc.control.sinumerik.couplings import switching
 
 if TYPE_CHECKING:
     from polycnc.channel.moves.path import Move

@@ -10,14 +10,17 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.couplings import spindle_pairs
 from polycnc.control.sinumerik.couplings.spindle_pairs import Pair, SpindlePairs, turns
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tables import TURN
-from polycnc.control.sinumerik.variables.clock import Clock
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import SpindleWait
+
+with loaded_when_called():
+    from polycnc.control.sinumerik.block import arguments
+    from polycnc.control.sinumerik.variables.clock import Clock
 
 if TYPE_CHECKING:
     from collections.abc import Collection

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.path import PlacedEvent
 from polycnc.control.sinumerik.feed.profile_stage import ProfileStage, TellsFeed
-from polycnc.control.sinumerik.feed.profiles import POLYNOMIAL, Profile, ProgrammedFeed
+from polycnc.control.sinumerik.feed.profiles import Profile, ProgrammedFeed
+from polycnc.control.sinumerik.tables import POLYNOMIAL
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.block.draft import Values

@@ -11,15 +11,18 @@ from typing import TYPE_CHECKING
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik import gcodes, tables
 from polycnc.control.sinumerik.actions.overlay import left_to_path
-from polycnc.control.sinumerik.couplings.gears import Gears
 from polycnc.control.sinumerik.couplings.links import Couplings
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.tables import MINUTE
 from polycnc.control.sinumerik.transformations import seat
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field
 from polycnc.geometry.arcs import EVEN
 from polycnc.toolpath.context import Pace
 from polycnc.toolpath.modes import FeedMode
+
+with loaded_when_called():
+    from polycnc.control.sinumerik.couplings.gears import Gears
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.family import SinumerikChannel

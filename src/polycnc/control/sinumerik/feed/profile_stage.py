@@ -13,7 +13,8 @@ from polycnc.channel.moves import knots
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import EndOfBlock, Item, Move, PlacedEvent, Rank, Stage
 from polycnc.control.sinumerik.feed import profiles
-from polycnc.control.sinumerik.feed.profiles import CONSTANT, CUBIC, Course, Profile
+from polycnc.control.sinumerik.feed.profiles import Course, Profile
+from polycnc.control.sinumerik.tables import CONSTANT, CUBIC
 from polycnc.deferred.records import dataclass, field
 from polycnc.toolpath.events import Event
 from polycnc.toolpath.kinds import Kind

@@ -11,16 +11,13 @@ from math import ceil, isnan, nan
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
+from polycnc.control.sinumerik.tables import LINEAR, POLYNOMIAL
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-#: Codes of the profiles; a feed by FPO is one of a single block.
-CONSTANT, LINEAR, CUBIC, POLYNOMIAL = "FNORM", "FLIN", "FCUB", "FPO"
-#: Feed types under which FLIN and FCUB act.
-PROFILED = frozenset(("G93", "G94"))
 #: A course that falls to nothing would never end: so much of its greatest end is left.
 LEAST_SHARE = 0.01
 #: The feed changes by this part of itself from one slice to the next; so many slices at least and at most.

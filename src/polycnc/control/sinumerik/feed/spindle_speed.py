@@ -10,15 +10,18 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.actions.axes import ActionAxes
-from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.arguments import Arguments
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.tables import MM_PER_M
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass
 from polycnc.deferred.regexes import regex
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.messages import AlarmError
+
+with loaded_when_called():
+    from polycnc.control.sinumerik.block import arguments
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.family import SinumerikChannel

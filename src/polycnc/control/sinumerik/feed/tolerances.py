@@ -10,14 +10,17 @@ from polycnc.channel.states.state import Lifetime, State, lasting
 from polycnc.control.sinumerik.block.arguments import Arguments
 from polycnc.control.sinumerik.block.draft import axis_column
 from polycnc.control.sinumerik.block.positions import number
-from polycnc.control.sinumerik.feed.axis_settings import axis_of
 from polycnc.control.sinumerik.tables import length_factor
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.variables.row import RowWithStop
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.language.sinumerik.words import WordAlarm
+
+with loaded_when_called():
+    from polycnc.control.sinumerik.feed import axis_settings
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.block.draft import Draft, Step, Values
@@ -102,7 +105,7 @@ def _programmed(address: str) -> Callable[[SinumerikChannel, Arguments], float]:
 
 
 def _programmed_of_axis(channel: SinumerikChannel, indices: Arguments) -> float:
-    column = axis_of(channel, "$PA_ATOL", indices)
+    column = axis_settings.axis_of(channel, "$PA_ATOL", indices)
     value = Smoothing.of(channel).of_axes.get(column, NO_TOLERANCE)
     return _in_program_units(channel, value, is_length=not channel.memory.axes[column].rotary)
 
@@ -132,7 +135,7 @@ def _axis_tolerance(channel: SinumerikChannel, column: int) -> float:
 
 
 def _active_of_axis(channel: SinumerikChannel, indices: Arguments) -> float:
-    column = axis_of(channel, "$AA_ATOL", indices)
+    column = axis_settings.axis_of(channel, "$AA_ATOL", indices)
     value = _axis_tolerance(channel, column)
     return _in_program_units(channel, value, is_length=not channel.memory.axes[column].rotary)
 

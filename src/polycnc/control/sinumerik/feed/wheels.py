@@ -12,13 +12,16 @@ from math import inf, pi
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
-from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tables import MINUTE, MM_PER_M
 from polycnc.control.sinumerik.tools.edges import DP_LENGTH, DP_RADIUS, GRINDING_TYPES
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import SignalWrite
+
+with loaded_when_called():
+    from polycnc.control.sinumerik.block import arguments
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.sinumerik.tools import stages
 from polycnc.control.sinumerik.transformations import seat
+from polycnc.deferred.functions import loaded_when_called
+
+with loaded_when_called():
+    from polycnc.control.sinumerik.tools import stages
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.family import SinumerikChannel

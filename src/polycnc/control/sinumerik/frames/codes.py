@@ -263,6 +263,11 @@ def _limit(draft: Draft, side: str) -> Step:
 
 
 #: What each function of the group does with its block.
+def plan(draft: Draft, code: str) -> Step:
+    """The step of a function of group 3."""
+    return FRAME_CODES[code](draft)
+
+
 FRAME_CODES: dict[str, Callable[[Draft], Step]] = {
     "TRANS": translate,
     "ATRANS": translate,

@@ -14,9 +14,9 @@ from polycnc.channel.moves.path import Move
 from polycnc.channel.moves.travel import Travel
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik import gcodes
-from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.variables.row import Indices, Row
 from polycnc.control.sinumerik.variables.stored import Stored
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY
@@ -24,6 +24,9 @@ from polycnc.geometry.planes import PLANES
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
+
+with loaded_when_called():
+    from polycnc.control.sinumerik.block import arguments
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.family import SinumerikChannel

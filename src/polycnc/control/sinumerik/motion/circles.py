@@ -9,19 +9,18 @@ from functools import partial
 from math import cos, hypot, pi, radians, sin
 from typing import TYPE_CHECKING
 
-from polycnc.channel.moves.chord_path import ChordPath
-from polycnc.channel.moves.knots import write_chords
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.block import plain
 from polycnc.control.sinumerik.block.outside_feeds import take_block_feed
 from polycnc.control.sinumerik.block.positions import Dimension, is_diameter, number, target
-from polycnc.control.sinumerik.motion import contour_reading, moves
+from polycnc.control.sinumerik.motion import moves
 from polycnc.control.sinumerik.motion.last_move import ArcOfMove, LastMove
 from polycnc.control.sinumerik.motion.polar import Polar
 from polycnc.control.sinumerik.tables import length_factor
 from polycnc.control.sinumerik.tools.tool_plane import CHORD_ERROR_MM, bends_arcs
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.geometry import arcs
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY
@@ -32,6 +31,11 @@ from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 from polycnc.toolpath.kinds import CCW_KINDS, arc_kind
+
+with loaded_when_called():
+    from polycnc.channel.moves import knots
+    from polycnc.channel.moves.chord_path import ChordPath
+    from polycnc.control.sinumerik.motion import contour_reading
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.block.draft import Draft, Step, Values
@@ -294,7 +298,7 @@ def _follow(channel: SinumerikChannel, move: Move, feed: float) -> None:
     points = list(path.chords(CHORD_ERROR_MM / largest))
     parts = [(k / len(points), point) for k, point in enumerate(points, 1)]
     way = ChordPath(move.start, parts, path.direction, c.geometry)
-    write_chords(channel, way.led(channel), feed, partial(channel.curve, Kind.SPLINE))
+    knots.write_chords(channel, way.led(channel), feed, partial(channel.curve, Kind.SPLINE))
 
 
 # ---- CIP

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik import tables
-from polycnc.control.sinumerik.actions import axes as action_axes
 from polycnc.control.sinumerik.block import plain
 from polycnc.control.sinumerik.block.outside_feeds import take_block_feed
 from polycnc.control.sinumerik.block.positions import AxisTerm, Dimension, axis_term, number, target
@@ -22,8 +21,8 @@ from polycnc.control.sinumerik.motion.last_move import LastMove
 from polycnc.control.sinumerik.motion.polar import Polar
 from polycnc.control.sinumerik.signals import measuring
 from polycnc.control.sinumerik.tables import length_factor
-from polycnc.control.sinumerik.transformations import point_to_point, seat
-from polycnc.control.sinumerik.variables.clock import Clock
+from polycnc.control.sinumerik.transformations import seat
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY
@@ -34,6 +33,11 @@ from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 from polycnc.toolpath.modes import FeedMode
+
+with loaded_when_called():
+    from polycnc.control.sinumerik.actions import axes as action_axes
+    from polycnc.control.sinumerik.transformations import point_to_point
+    from polycnc.control.sinumerik.variables.clock import Clock
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.block.draft import Draft, Goal, Step, Values

@@ -17,7 +17,7 @@ from polycnc.control.sinumerik.block.positions import number
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.motion import circles, moves
 from polycnc.control.sinumerik.signals import interrupts
-from polycnc.control.sinumerik.tables import length_factor
+from polycnc.control.sinumerik.tables import HALVES, LINES, length_factor
 from polycnc.control.sinumerik.tools import stages
 from polycnc.control.sinumerik.tools.sides import SIDES
 from polycnc.control.sinumerik.variables.row import RowWithStop
@@ -35,8 +35,6 @@ if TYPE_CHECKING:
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.geometry.arcs import Point
 
-LINES, QUARTERS, HALVES = ("REPOSL", "REPOSA"), ("REPOSQ", "REPOSQA"), ("REPOSH", "REPOSHA")
-FUNCTIONS = (*LINES, *QUARTERS, *HALVES)
 #: Of the G functions of group 26, in the order of `$AC_REPOS_PATH_MODE` from 1.
 POINTS = ("RMB", "RMI", "RME", "RMN")
 #: Bits of `$AC_ASUP` (general knowledge: the list of system variables).

@@ -71,7 +71,6 @@ class Splines(State, lifetime=Lifetime.POWER):
 #: What holds at an end of a spline (BNAT, BTAN, BAUTO and the like); without a neighbour a tangent is that of NAT.
 ENDS = {"NAT": End.STRAIGHT, "TAN": End.STRAIGHT, "AUTO": End.FREE}
 
-SPLINES = ("ASPLINE", "BSPLINE", "CSPLINE")
 #: Points of the spline that 10 blocks need at least; C splines: MD20160 and one more (4.2).
 WINDOW, LEAST_POINTS = 10, {"ASPLINE": 4, "BSPLINE": 6}
 

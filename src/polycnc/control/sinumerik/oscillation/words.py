@@ -229,10 +229,3 @@ def _infeeds(
         )
         ends[column] = machine[column] + way
     return made, ends
-
-
-OSCILLATION_WORDS: dict[str, Callable[[Draft, int, WordShape], Step]] = {
-    **dict.fromkeys((*POSITIONS, *NUMBERS), datum),
-    "OSCTRL": options,
-    "OS": switch,
-}

@@ -9,18 +9,21 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
-from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.positions import number
 from polycnc.control.sinumerik.data.machine_data import MachineData
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.punching.strokes import Acceleration, Begin, End, SegmentStage
 from polycnc.control.sinumerik.signals import measuring
 from polycnc.control.sinumerik.tables import length_factor
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.planes import PLANES
 from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import Stroke
+
+with loaded_when_called():
+    from polycnc.control.sinumerik.block import arguments
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel

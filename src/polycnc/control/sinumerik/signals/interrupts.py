@@ -15,12 +15,15 @@ from polycnc.channel.moves.path import Rank, Stage
 from polycnc.channel.stack import LevelKind
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.actions import actions
-from polycnc.control.sinumerik.block import arguments, single_block
 from polycnc.control.sinumerik.block.positions import of_display
-from polycnc.control.sinumerik.signals import retraction
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field, replace
 from polycnc.language.sinumerik.statements.calls import call_without_arguments, named_program
 from polycnc.messages import AlarmError
+
+with loaded_when_called():
+    from polycnc.control.sinumerik.block import arguments, single_block
+    from polycnc.control.sinumerik.signals import retraction
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -12,7 +12,6 @@ from polycnc.channel.interpolator import PassiveWatcher
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move
 from polycnc.channel.states.state import Lifetime, State
-from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.signals import measuring
 from polycnc.control.sinumerik.signals.measuring import (
@@ -24,10 +23,14 @@ from polycnc.control.sinumerik.signals.measuring import (
     Job,
     Measuring,
 )
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
+
+with loaded_when_called():
+    from polycnc.control.sinumerik.block import arguments
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -10,14 +10,17 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.block.arguments import Arguments, Procedure
-from polycnc.control.sinumerik.couplings.gears import Gears
-from polycnc.control.sinumerik.couplings.generated import MasterValues
 from polycnc.control.sinumerik.couplings.links import Couplings, Kind
 from polycnc.control.sinumerik.data.machine_data import MachineData
 from polycnc.control.sinumerik.variables.row import Indices, RowWithStop
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.language.sinumerik.statements.sections import ENDS_CONTEXT
+
+with loaded_when_called():
+    from polycnc.control.sinumerik.couplings.gears import Gears
+    from polycnc.control.sinumerik.couplings.generated import MasterValues
 
 if TYPE_CHECKING:
     from polycnc.channel.stack import Level

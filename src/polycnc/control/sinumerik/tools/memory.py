@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 from polycnc.channel.states.state import Lifetime, State, retained
 from polycnc.compensation.tips import tip_direction
 from polycnc.control.sinumerik.data.machine_data import MachineData
-from polycnc.control.sinumerik.tools import cutting_data
 from polycnc.control.sinumerik.tools.edges import (
     DP_BASE_LENGTH,
     DP_LENGTH,
@@ -29,6 +28,7 @@ from polycnc.control.sinumerik.tools.lengths import (
     along_axes,
     direction_of,
 )
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.planes import PLANES
@@ -37,6 +37,9 @@ from polycnc.machine.kinematics import turn_between
 from polycnc.memory.encoding import encoded
 from polycnc.memory.retained import TOOLS
 from polycnc.messages import AlarmError
+
+with loaded_when_called():
+    from polycnc.control.sinumerik.tools import cutting_data
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

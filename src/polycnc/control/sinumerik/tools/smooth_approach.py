@@ -30,9 +30,7 @@ from polycnc.control.sinumerik.motion.last_move import LastMove
 from polycnc.control.sinumerik.tables import MINUTE, length_factor
 from polycnc.control.sinumerik.tools import sides, stages
 from polycnc.control.sinumerik.tools.smooth_stage import (
-    APPROACHES,
     LINES,
-    RETRACTIONS,
     Approach,
     Clearance,
     Shape,
@@ -52,8 +50,6 @@ if TYPE_CHECKING:
 
 #: What FAD calls the types of feeds that it may have of its own.
 _FEED_TYPES = {FeedMode.PER_MINUTE: "PM", FeedMode.PER_REVOLUTION: "PR"}
-
-__all__ = ["APPROACHES", "RETRACTIONS", "approach", "retract"]
 
 
 @dataclass(slots=True)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from polycnc.channel.moves import origins
 from polycnc.channel.moves.path import Move, Rank, Stage
+from polycnc.control.sinumerik.tables import RETRACTIONS
 from polycnc.deferred.records import dataclass, replace
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError
@@ -23,7 +24,6 @@ if TYPE_CHECKING:
 #: DISCL in mm, and whether it is a height (AC) or counts from the machining plane.
 Clearance: TypeAlias = tuple[float, bool] | None
 LINES, QUARTERS = ("G147", "G148"), ("G247", "G248")
-APPROACHES, RETRACTIONS = ("G147", "G247", "G347"), ("G148", "G248", "G348")
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,7 +13,6 @@ from functools import partial
 from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 from polycnc.channel.moves.knots import join
-from polycnc.compensation.spatial.limiting_surface import Mill, across, infeed
 from polycnc.compensation.spatial.rules import (
     ARC_FIRST,
     INTERSECTION_FIRST,
@@ -25,13 +24,18 @@ from polycnc.compensation.spatial.rules import (
 from polycnc.compensation.spatial.stage import SpatialStage
 from polycnc.control.sinumerik.tools.edges import DP_CORNER_RADIUS, DP_RADIUS
 from polycnc.control.sinumerik.tools.sides import SIDES, Contour
-from polycnc.control.sinumerik.transformations.posture import Orienting
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass, replace
 from polycnc.machine.kinematics import unit
 from polycnc.messages import AlarmError
 from polycnc.transformation.chain import Chain
 from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
+
+with loaded_when_called():
+    from polycnc.compensation.spatial import limiting_surface
+    from polycnc.compensation.spatial.limiting_surface import Mill
+    from polycnc.control.sinumerik.transformations.posture import Orienting
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -133,11 +137,11 @@ class CircumferentialStage(SpatialStage):
         floor = self.floor
         if floor is None:
             return 0.0
-        found = across(floor.surface.normal, tangent)
+        found = limiting_surface.across(floor.surface.normal, tangent)
         if found is None:
             return 0.0
         moved = floor.actual.radius - floor.standard.radius
-        return -infeed(floor.standard, floor.actual, moved, normal, tool, found)
+        return -limiting_surface.infeed(floor.standard, floor.actual, moved, normal, tool, found)
 
 
 def stage_of(channel: SinumerikChannel) -> CircumferentialStage | None:

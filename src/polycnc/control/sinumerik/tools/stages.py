@@ -15,13 +15,11 @@ from polycnc.channel.moves.knots import Motions, join
 from polycnc.compensation.contour_tool import ContourTool, CuttingEdge
 from polycnc.compensation.corner import CornerPolicy, CornerStage, CornerViolation, Shape
 from polycnc.compensation.cutter import CutterCompensation
-from polycnc.compensation.plane import Plane
 from polycnc.compensation.policy import Approach, Policy, Violation
 from polycnc.compensation.tips import tip_direction
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.motion.spline_stage import SplineStage
-from polycnc.control.sinumerik.tools import faces, spatial
-from polycnc.control.sinumerik.tools.cutting_data import in_space
+from polycnc.control.sinumerik.tools import spatial
 from polycnc.control.sinumerik.tools.edges import DP_LARGEST_ANGLE, DP_LEAST_ANGLE, DP_TIP
 from polycnc.control.sinumerik.tools.lengths import Rules, along_axes
 from polycnc.control.sinumerik.tools.sides import FACES, SIDES, Contour
@@ -29,6 +27,7 @@ from polycnc.control.sinumerik.tools.smooth_stage import SmoothApproach
 from polycnc.control.sinumerik.tools.tool_plane import lead, tool_plane
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.transformations.walls import WallStage
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import replace
 from polycnc.geometry.arcs import EVEN
 from polycnc.geometry.frames import IDENTITY, Frame
@@ -37,6 +36,10 @@ from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.geometry.vectors import minus, times
 from polycnc.messages import AlarmError
+
+with loaded_when_called():
+    from polycnc.compensation.plane import Plane
+    from polycnc.control.sinumerik.tools import cutting_data, faces
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.family import SinumerikChannel
@@ -145,13 +148,14 @@ def change_plane(channel: SinumerikChannel) -> None:
     channel.path.take(*OF_PLANE)
 
 
-def insert(channel: SinumerikChannel, shape: Shape, size: float, feed: float = nan) -> None:
-    """CHF, CHR, RND: a chamfer or rounding after the move of this block; alarm 16500 for a negative size.
+def insert(channel: SinumerikChannel, name: str, size: float, feed: float = nan) -> None:
+    """CHF, CHR, RND: the `Shape` of a name after the move of this block; alarm 16500 for a negative size.
 
     Of both in one block the rounding counts, in whichever order they stand (Fundamentals).
     """
     if size < 0.0:
         raise AlarmError("16500")
+    shape = Shape[name]
     if size > 0.0 and (shape is Shape.ROUNDING or not corner(channel).rounds):
         corner(channel).insert(shape, size, feed)
 
@@ -270,7 +274,7 @@ def _cutting_edge(channel: SinumerikChannel, active: Edge, edge: Edge, back: Fra
     inverts = tools.rules is not None and tools.rules.inverts_wear
     nose = edge.radius(tools.additive, inverts=inverts) + tools.added_radius
     size = nose + Contour.of(channel).allowance_mm
-    tip = in_space(channel.mode["plane"], tip_direction(int(edge.values[DP_TIP])))
+    tip = cutting_data.in_space(channel.mode["plane"], tip_direction(int(edge.values[DP_TIP])))
     beside = minus(_measured(channel, active), _measured(channel, edge))
     if not any(tip) or min(nose, size) <= NO_WAY or abs(beside[w]) > NO_WAY:
         _refuse_edges()
@@ -370,8 +374,8 @@ def changed_radius(channel: SinumerikChannel) -> None:
 
 def changed_frame(channel: SinumerikChannel) -> None:
     """A frame, or CUT2D for CUT2DF, while compensation is active: another scale is another radius in the program."""
-    in_space = spatial.stage_of(channel) or faces.stage_of(channel)
-    stage = in_space or active_cutter(channel)
+    held_in_space = spatial.stage_of(channel) or faces.stage_of(channel)
+    stage = held_in_space or active_cutter(channel)
     if stage is None or channel.mode["compensation"] == "G40":
         return
     contour, linear = Contour.of(channel), seat.frame_in_front(channel).m

@@ -12,12 +12,11 @@ from itertools import pairwise
 from math import hypot
 from typing import TYPE_CHECKING
 
-from polycnc.channel.moves.knots import join
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move, Rank, Stage
-from polycnc.compensation.cutter import CutterCompensation
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.transformations import seat
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import replace
 from polycnc.geometry.arcs import EVEN, circle_image, is_even
@@ -26,7 +25,11 @@ from polycnc.geometry.planes import PLANES
 from polycnc.geometry.vectors import axis_vector, cross, dot, minus, times
 from polycnc.toolpath.kinds import Kind
 
+with loaded_when_called():
+    from polycnc.channel.moves import knots
+
 if TYPE_CHECKING:
+    from polycnc.compensation.cutter import CutterCompensation
     from polycnc.control.sinumerik.family import SinumerikChannel
 
 #: Chords of an arc that the program sees as an ellipse may be this far off it, mm.
@@ -50,6 +53,8 @@ def bends_arcs(channel: SinumerikChannel, normal: Vector) -> bool:
     zero = channel.coordinates.zero
     if is_even(zero) or circle_image(zero, normal) is not None:
         return False
+    from polycnc.compensation.cutter import CutterCompensation
+
     cutter = channel.path.find(CutterCompensation)
     return cutter is None or not cutter.active
 
@@ -189,7 +194,7 @@ class OutOfToolPlane(_Led):
             replace(move, kind=Kind.SPLINE, start=start, end=end, center=None, turns=0.0)
             for start, end in pairwise((move.start, *ends))
         ]
-        join(self._channel, chords, shows=True)
+        knots.join(self._channel, chords, shows=True)
         for chord in chords:
             super().move(chord)
 

@@ -5,17 +5,16 @@ from __future__ import annotations
 from math import inf
 from typing import TYPE_CHECKING
 
-from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.block.positions import Dimension, number
 from polycnc.control.sinumerik.couplings.links import Couplings, bare
 from polycnc.control.sinumerik.errors import not_supported
+from polycnc.control.sinumerik.states import PointToPoint
+from polycnc.control.sinumerik.tables import APPROACHES, RETRACTIONS
 from polycnc.control.sinumerik.tools import stages
-from polycnc.control.sinumerik.tools.smooth_stage import APPROACHES, RETRACTIONS
 from polycnc.control.sinumerik.transformations import data_sets, seat
 from polycnc.control.sinumerik.transformations.orientation import is_point_to_point
 from polycnc.control.sinumerik.transformations.pole_sides import plane_of, stand
 from polycnc.control.sinumerik.transformations.posture import Orienting, Posture
-from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.language.sinumerik.words import WordAlarm
@@ -36,24 +35,6 @@ TURN = 360.0
 WITHOUT_END = ("I", "J", "K", "AR", "PO")
 #: A turn that is shorter than half a round by less goes forward, degrees.
 HALF_TURN = 1e-6
-
-
-@dataclass(slots=True)
-class PointToPoint(State, lifetime=Lifetime.RESET):
-    """What a block that goes with the axes does.
-
-    Attributes:
-        turns: TU of the running block; None where it is not programmed.
-        placed: Columns of the axes that the running block sends to a place.
-        across: STAT = 1 was programmed, and no block has gone with the axes since: under TRANSMIT that goes to the
-            other side of the centre.
-        shown_by: What shows its end while it is written.
-    """
-
-    turns: int | None = None
-    placed: frozenset[int] = frozenset()
-    across: bool = False
-    shown_by: Transformation | None = None
 
 
 def plan(draft: Draft) -> None:

@@ -16,8 +16,7 @@ from polycnc.control.sinumerik.couplings import links
 from polycnc.control.sinumerik.data.machine_data import MachineData
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tools.lengths import OF_MACHINE
-from polycnc.control.sinumerik.transformations import data_sets
-from polycnc.control.sinumerik.transformations.data_sets import Build
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, replace
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.vectors import minus, plus
@@ -30,11 +29,15 @@ from polycnc.transformation.kinematic.polar import CLOSEST_MM, PolarPlane
 from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
 from polycnc.transformation.seated import Seated
 
+with loaded_when_called():
+    from polycnc.control.sinumerik.transformations import data_sets
+
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.family import SinumerikChannel
+    from polycnc.control.sinumerik.transformations.data_sets import Build
     from polycnc.geometry.frames import Frame, Vector
     from polycnc.language.sinumerik.names.frame import NcFrame
     from polycnc.transformation.contract import Geometry

@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.failure import stand_at_last_row
 from polycnc.compensation.corner import CornerStage
+from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.couplings import switching
 from polycnc.control.sinumerik.couplings.links import Couplings
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.frames.memory import OF_PLANES
 from polycnc.control.sinumerik.limits import protection, working_area
-from polycnc.control.sinumerik.motion import splines
 from polycnc.control.sinumerik.tables import TURN, length_factor
 from polycnc.control.sinumerik.tools import selection as lengths_of_edge
 from polycnc.control.sinumerik.tools import stages
@@ -199,7 +199,7 @@ def _check_change(channel: SinumerikChannel) -> None:
     mode = channel.mode
     if mode["compensation"] != "G40":
         raise AlarmError("14400")
-    if mode["motion"] in splines.SPLINES:
+    if mode["motion"] in tables.SPLINES:
         raise AlarmError("14402")
     if mode["fine_tool_offset"] == "FTOCON":
         raise AlarmError("PC0014", text="FTOCON")

@@ -6,9 +6,12 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.channel.waits import Wait, Why
-from polycnc.control.word_address.tools.data_input import refuse_axes
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field
 from polycnc.program.split import split_channels
+
+with loaded_when_called():
+    from polycnc.control.word_address.tools import data_input
 
 if TYPE_CHECKING:
     from polycnc.control.syntec.family import SyntecChannel
@@ -75,7 +78,7 @@ def _bytes_of(program: Program) -> int:
 
 def meet(channel: SyntecChannel, words: Words) -> None:
     """G04.1 P Q: axis groups wait for each other; Q names them by digits, without Q all of them."""
-    refuse_axes(words, "meeting_mark")
+    data_input.refuse_axes(words, "meeting_mark")
     mark, groups = words.typed("P"), words.typed("Q")
     existing = {each.number for each in channel.machine.channels}
     if mark is None or mark < 0 or mark != int(mark):

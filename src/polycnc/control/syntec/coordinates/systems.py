@@ -12,15 +12,11 @@ from polycnc.control.syntec.coordinates.turns import (
     renew_work_turn,
     turn_preset_frame,
 )
-from polycnc.control.syntec.five_axes.spatial import choose_corners
-from polycnc.control.syntec.macros.registers import write_register
 from polycnc.control.syntec.motion import conditions
-from polycnc.control.syntec.motion.polar import switch_polar
 from polycnc.control.syntec.units import least_unit
 from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.coordinates import frames as base_frames
 from polycnc.control.word_address.coordinates import systems as base_systems
-from polycnc.control.word_address.coordinates.stroke_check import StrokeZone
 from polycnc.control.word_address.coordinates.systems import (
     ZeroState,
     go_to_reference,
@@ -28,12 +24,18 @@ from polycnc.control.word_address.coordinates.systems import (
     shift_of_zero,
 )
 from polycnc.control.word_address.memory import EXTERNAL
-from polycnc.control.word_address.tools.data_input import TOOL_FIELDS, refuse_axes, refuse_words
-from polycnc.control.word_address.tools.length import renew_length
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import about, scaling
 from polycnc.geometry.planes import PLANES
 from polycnc.language.syntec.values import to_long
+
+with loaded_when_called():
+    from polycnc.control.syntec.five_axes import spatial
+    from polycnc.control.syntec.macros import registers
+    from polycnc.control.syntec.motion import polar
+    from polycnc.control.word_address.tools import data_input
+    from polycnc.control.word_address.tools import length as tool_length
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -201,6 +203,8 @@ def set_zone(channel: SyntecChannel, zones: dict[int, tuple[float, float]]) -> N
     axes = tuple(sorted(zones))
     inside = channel.memory.parameters.travel_2_inside == 1
     lows, highs = tuple(zones[a][0] for a in axes), tuple(zones[a][1] for a in axes)
+    from polycnc.control.word_address.coordinates.stroke_check import StrokeZone
+
     channel.boundary = StrokeZone(lows, highs, axes, inside)
 
 
@@ -211,7 +215,7 @@ def scale_factors(channel: SyntecChannel, words: Words) -> tuple[float, float, f
     """Factors of G51: P for all axes or I J K; only axes of the plane are scaled (2.33)."""
     common = words.typed("P")
     if common is not None:
-        refuse_words(words, "IJK", "argument")
+        data_input.refuse_words(words, "IJK", "argument")
     factors = [1.0, 1.0, 1.0]
     for axis in PLANES[channel.mode["plane"]][:2]:
         own = words.typed("IJK"[axis])
@@ -269,24 +273,26 @@ def input_data(channel: SyntecChannel, words: Words) -> None:
             raise words.fail("argument", "G10")
         if not 0 <= number <= LAST_REGISTER:
             raise words.fail("argument", "P")
-        write_register(channel, int(number), to_long(value))
+        registers.write_register(channel, int(number), to_long(value))
         return
     if kind == WORK_OFFSET:
         _input_work_offset(channel, words)
         return
     if kind == SPATIAL_CORNERS:
-        choose_corners(channel, words)
+        spatial.choose_corners(channel, words)
         return
     if kind == POLAR_PAIR:
-        switch_polar(channel, words)
+        polar.switch_polar(channel, words)
         return
     if kind == VIRTUAL_AXIS:
         map_virtual_axis(channel, words)
         return
+    from polycnc.control.word_address.tools.data_input import TOOL_FIELDS
+
     if kind not in TOOL_FIELDS or kind == 1:
         raise channel.control.not_yet("G10" if kind is None else f"G10 L{kind:g}", "G10")
-    refuse_words(words, "QIJK", "argument")
-    refuse_axes(words, "argument")
+    data_input.refuse_words(words, "QIJK", "argument")
+    data_input.refuse_axes(words, "argument")
     length = words.length("R")
     if number is None or number != int(number) or number < 1 or length is None:
         raise words.fail("argument", "P" if length is not None else "R")
@@ -295,12 +301,12 @@ def input_data(channel: SyntecChannel, words: Words) -> None:
     if channel.mode["distance"] == "G91":
         length += getattr(tool, field)
     setattr(tool, field, length)
-    renew_length(channel)
+    tool_length.renew_length(channel)
 
 
 def _input_work_offset(channel: SyntecChannel, words: Words) -> None:
     """G10 L2 P X Y Z: zero of work system P, 0 the external one; G91 adds."""
-    refuse_words(words, "RQIJK", "argument")
+    data_input.refuse_words(words, "RQIJK", "argument")
     number = words.typed("P")
     if number is None or number != int(number) or not 0 <= number <= len(WORK_SYSTEMS):
         raise words.fail("argument", "P" if number is not None else "G10")

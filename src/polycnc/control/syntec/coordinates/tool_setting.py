@@ -12,8 +12,8 @@ from polycnc.control.word_address.auxiliary import functions
 from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
 from polycnc.control.word_address.memory import EXTERNAL
 from polycnc.control.word_address.motion import skip
+from polycnc.control.word_address.states import LengthState
 from polycnc.control.word_address.tools import length
-from polycnc.control.word_address.tools.length import LengthState
 from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath import Kind
 from polycnc.toolpath.events import Auxiliary

@@ -6,20 +6,25 @@ G54.4 P1 is on.
 
 from __future__ import annotations
 
+from math import inf
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, lasting, retained
 from polycnc.control.syntec.parameters import SyntecParameters
-from polycnc.control.word_address.coordinates.systems import ZeroState
-from polycnc.control.word_address.coordinates.tip import TipState
-from polycnc.control.word_address.motion.planes import choose_basic_axes
-from polycnc.control.word_address.tools.length import LengthState
+from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
+from polycnc.control.word_address.coordinates.tip import TIP_CODES, TipState
+from polycnc.control.word_address.states import LengthState
 from polycnc.control.word_address.tools.radius import active_compensation
-from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.functions import loaded_when_called
+from polycnc.deferred.records import dataclass, field, replace
 from polycnc.geometry.frames import IDENTITY, Frame
-from polycnc.machine.kinematics import turn_about
 from polycnc.memory.retained import TILTED_PLANES, WORK_TURNS
-from polycnc.transformation.planes.tilted import by_own_axes
+from polycnc.toolpath.context import Pace
+
+with loaded_when_called():
+    from polycnc.control.word_address.motion import planes
+    from polycnc.machine import kinematics
+    from polycnc.transformation.planes import tilted
 
 if TYPE_CHECKING:
     from typing import Self
@@ -27,6 +32,7 @@ if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.syntec.memory import SyntecMemory
+    from polycnc.toolpath import Context
 
 
 @dataclass(slots=True)
@@ -104,6 +110,26 @@ class KeptPlane(State, lifetime=Lifetime.RETAINED):
     parts: dict[str, list[float] | str | bool] = retained(TILTED_PLANES)
 
 
+@dataclass(slots=True)
+class FollowingState(State, lifetime=Lifetime.RESET):
+    """How fast the linear axes may follow the rotary ones by I of G43.4, mm/min; 0: as Pr3091 has it."""
+
+    fastest: float = 0.0
+
+
+def following(channel: SyntecChannel, context: Context) -> Context:
+    """A context under tool tip control, with the highest speed of the axes that follow (2.28.3, note 9)."""
+    if not leads_tip(channel):
+        return context
+    fastest = FollowingState.of(channel).fastest or channel.memory.parameters.following_speed
+    return replace(context, pace=Pace(following=fastest / 60.0)) if 0.0 < fastest < inf else context
+
+
+def leads_tip(channel: SyntecChannel) -> bool:
+    """Whether tool tip control is active."""
+    return channel.mode["length"] in TIP_CODES
+
+
 def keep_plane(channel: SyntecChannel) -> None:
     """Note the tilted plane as it is now, for the time behind power-off."""
     state, kept = TurnState.of(channel), channel.memory.parameters.keeps_tilt == OVER_POWER_OFF
@@ -130,7 +156,7 @@ def turn_of(channel: Channel, system: str) -> Frame:
     x, y, z = WorkTurns.of(channel).by_system.get(system, (0.0, 0.0, 0.0))
     if x == y == z == 0.0:
         return IDENTITY
-    return by_own_axes(((2, z), (1, y), (0, x)))
+    return tilted.by_own_axes(((2, z), (1, y), (0, x)))
 
 
 def renew_preset_frame(memory: SyntecMemory) -> None:
@@ -138,7 +164,7 @@ def renew_preset_frame(memory: SyntecMemory) -> None:
     state = TurnState.of(memory.channel)
     x, y, z = state.axis
     turns = state.angle != 0.0 and x * x + y * y + z * z != 0.0
-    turn = turn_about((x, y, z), state.angle) if turns else IDENTITY
+    turn = kinematics.turn_about((x, y, z), state.angle) if turns else IDENTITY
     zero = ZeroState.of(memory.channel)
     zero.turn, zero.frame = state.work, state.work @ turn
     zero.table, zero.plane = state.table, state.tilt
@@ -167,6 +193,13 @@ def _refuse_turn(channel: SyntecChannel, code: str) -> None:
         raise channel.control.not_yet(f"{code} G12.1", code)
     if active_compensation(channel) is not None:
         raise channel.control.not_yet(f"{code} {channel.mode['compensation']}", code)
+
+
+def end_turns(channel: SyntecChannel) -> None:
+    """Power-on where nothing is kept over it: no plane is tilted, no work system turns."""
+    renew_preset_frame(channel.memory)
+    refresh_zero(channel)
+    keep_plane(channel)
 
 
 def refer_posture(channel: SyntecChannel, turn: Frame) -> None:
@@ -200,7 +233,7 @@ def renew_work_turn(channel: SyntecChannel) -> bool:
     if TipState.of(channel).is_leading(channel):
         refer_posture(channel, turn)
     if not turn.is_identity:
-        choose_basic_axes(channel)
+        planes.choose_basic_axes(channel)
     state.work = turn
     renew_preset_frame(channel.memory)
     return True

@@ -16,8 +16,8 @@ from polycnc.control.syntec.units import least_unit
 from polycnc.control.word_address.coordinates import tip
 from polycnc.control.word_address.coordinates.systems import ZeroState, plane_on_table
 from polycnc.control.word_address.coordinates.tip import TipState
+from polycnc.control.word_address.states import LengthState
 from polycnc.control.word_address.tools import length
-from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.tilted_plane import (
     check_compensation,

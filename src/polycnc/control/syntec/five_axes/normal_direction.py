@@ -10,9 +10,9 @@ from math import inf
 from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.coordinates.turns import TurnState
+from polycnc.control.word_address.states import PolarState
 from polycnc.control.word_address.transformations.normal_line import GROUP, LEFT, NormalLineRules, end
 from polycnc.control.word_address.transformations.normal_stage import Direction, NormalStage
-from polycnc.control.word_address.transformations.polar_interpolation import PolarState
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.units import INCH_MM
 
@@ -37,7 +37,11 @@ _FORBIDDEN: dict[str | tuple[str, str], str] = {
     **dict.fromkeys(("G12.1", "G68.2", "G68.3", "G92.1"), "normal_frame"),
     ("G5", "P"): "normal_smoothing",
 }
-RULES = NormalLineRules(_FORBIDDEN, preset="", axis_word="normal_rotary_word", with_its_end=False)
+
+
+def rules() -> NormalLineRules:
+    """What the control refuses while the axis follows the cuts."""
+    return NormalLineRules(_FORBIDDEN, preset="", axis_word="normal_rotary_word", with_its_end=False)
 
 
 def start(channel: SyntecChannel, words: Words) -> None:

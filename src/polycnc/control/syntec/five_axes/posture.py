@@ -11,9 +11,8 @@ from __future__ import annotations
 from math import nan
 from typing import TYPE_CHECKING
 
-from polycnc.control.syntec.coordinates.turns import POSTURE, PostureState, TurnState
+from polycnc.control.syntec.coordinates.turns import PostureState, TurnState
 from polycnc.control.syntec.motion.moves import feed_to
-from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion.path import reach
 from polycnc.control.word_address.transformations.tilted_plane import turn_to
 from polycnc.geometry.vectors import dot
@@ -30,7 +29,7 @@ STRAIGHT = {"G0": Kind.RAPID, "G1": Kind.FEED}
 SAME_DIRECTION = 1e-12
 
 
-def _plan(builder: Builder, plan: Plan) -> Step | None:
+def plan_posture(builder: Builder, plan: Plan) -> Step | None:
     """A straight block with rotary words: its end stands the tool in the work system as they say."""
     words = plan.axis_words
     standing = builder.channel.control.kinematics(builder.channel).axes
@@ -63,7 +62,7 @@ def _plan(builder: Builder, plan: Plan) -> Step | None:
     return move
 
 
-def _wrap(builder: Builder, _plan: Plan, step: Step | None) -> Step | None:
+def wrap_posture(builder: Builder, _plan: Plan, step: Step | None) -> Step | None:
     """Before rotary words have told how the tool stands in the work system, a move needs one that stands in it already.
 
     Otherwise the rotary axes might have to turn with that move, or not before they are named: the manual does not say.
@@ -91,7 +90,3 @@ def _stands_already(channel: SyntecChannel) -> bool:
 def not_yet(code: str) -> AlarmError:
     """PC0001 for what the manual does not say."""
     return AlarmError("PC0001", hint="hint.not-supported", code=code)
-
-
-#: Rotary words while directions refer to a work system that is turned.
-RULE = Rule("tool direction in a turned work system", modes={POSTURE: ("work",)}, motion=_plan, wrap=_wrap)

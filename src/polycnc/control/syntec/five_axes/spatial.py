@@ -7,13 +7,11 @@ from typing import TYPE_CHECKING
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.compensation.spatial.rules import ARC_FIRST, INTERSECTION, Corners, Rules
 from polycnc.control.syntec.coordinates.turns import PostureState
-from polycnc.control.word_address.block.rules import Rule
-from polycnc.control.word_address.tools import spatial
-from polycnc.control.word_address.tools.length import LengthState
+from polycnc.control.word_address.coordinates.tip import TIP_CODES
+from polycnc.control.word_address.states import LengthState, PolarState
+from polycnc.control.word_address.tools import radius, spatial
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.normal_stage import NormalStage
-from polycnc.control.word_address.transformations.polar_interpolation import PolarState
-from polycnc.control.word_address.transformations.tool_center_point import TIP_CODES
 from polycnc.deferred.records import dataclass
 from polycnc.messages import AlarmError
 
@@ -84,21 +82,21 @@ def choose_corners(channel: SyntecChannel, words: Words) -> None:
     SpatialState.of(channel).corner_way = int(way)
 
 
-def _check_block(builder: Builder) -> None:
+def check_block(builder: Builder) -> None:
     """Refuse what the compensation does not allow."""
     before, after = builder.before["compensation"], builder.mode["compensation"]
     fail = builder.control.fail
-    if before in spatial.SIDES:
+    if before in radius.SIDES:
         for row in builder.codes:
             if row.code in FORBIDDEN and row.code != builder.before["plane"]:
                 raise fail(FORBIDDEN[row.code], address=row.code)
             if row.code in spatial.SHAPES:
                 raise _not_yet(row.code, before)
-        if builder.has("D") and not any(row.code in spatial.SIDES for row in builder.codes):
+        if builder.has("D") and not any(row.code in radius.SIDES for row in builder.codes):
             raise _not_yet("D", before)
         if builder.mode["length"] not in TIP_CODES:
             raise fail("spatial_frame", address=builder.mode["length"])
-    if after in spatial.BY_VECTOR:
+    if after in radius.BY_VECTOR:
         for address in builder.slots:
             target = builder.control.axis_of_address(builder.channel, address, builder)
             if target is not None and builder.channel.axis_data[target[0]].rotary:
@@ -107,7 +105,3 @@ def _check_block(builder: Builder) -> None:
 
 def _not_yet(address: str, code: str) -> AlarmError:
     return AlarmError("PC0001", hint="hint.not-supported", address=address, code=f"{code} {address}")
-
-
-#: What must not come during spatial radius compensation.
-RULE = Rule("spatial radius compensation", modes={"compensation": spatial.SIDES}, check=_check_block)

@@ -21,7 +21,7 @@ from polycnc.control.word_address.coordinates import frames as base_frames
 from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
 from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.motion.planes import choose_basic_axes
-from polycnc.control.word_address.tools.length import LengthState
+from polycnc.control.word_address.states import LengthState
 from polycnc.control.word_address.transformations.tilted_plane import (
     check_compensation,
     named_point,
@@ -43,24 +43,6 @@ class Kept(NamedTuple):
     code: str = ""
     stands: bool = False
 
-    @classmethod
-    def of(cls, channel: SyntecChannel) -> Kept:
-        """What there is in front of a reset; no plane where Pr3014 keeps none."""
-        state = TurnState.of(channel)
-        if not channel.memory.parameters.keeps_tilt or state.tilt is IDENTITY:
-            return cls(IDENTITY)
-        return cls(state.tilt, state.told_by, LengthState.of(channel).direction is not None)
-
-    @classmethod
-    def over_power_off(cls, channel: SyntecChannel) -> Kept:
-        """What there was when the power went off; no plane unless Pr3014 is 2."""
-        parts = KeptPlane.of(channel).parts
-        if channel.memory.parameters.keeps_tilt != OVER_POWER_OFF or not parts:
-            return cls(IDENTITY)
-        a, b, c, d, e, f, g, h, i, x, y, z = cast("list[float]", parts["plane"])
-        plane = translation(x, y, z) @ Frame(((a, b, c), (d, e, f), (g, h, i)))
-        return cls(plane, str(parts["code"]), bool(parts["stands"]))
-
     def restore(self, channel: SyntecChannel) -> None:
         """The plane acts again behind the reset, or none does; nothing moves."""
         if self.tilt is IDENTITY:
@@ -71,6 +53,24 @@ class Kept(NamedTuple):
             _set_stood(channel, self.tilt, self.code)
         else:
             set_tilt(channel, self.tilt, self.code)
+
+
+def kept_over_reset(channel: SyntecChannel) -> Kept:
+    """What there is in front of a reset; no plane where Pr3014 keeps none."""
+    state = TurnState.of(channel)
+    if not channel.memory.parameters.keeps_tilt or state.tilt is IDENTITY:
+        return Kept(IDENTITY)
+    return Kept(state.tilt, state.told_by, LengthState.of(channel).direction is not None)
+
+
+def kept_over_power_off(channel: SyntecChannel) -> Kept:
+    """What there was when the power went off; no plane unless Pr3014 is 2."""
+    parts = KeptPlane.of(channel).parts
+    if channel.memory.parameters.keeps_tilt != OVER_POWER_OFF or not parts:
+        return Kept(IDENTITY)
+    a, b, c, d, e, f, g, h, i, x, y, z = cast("list[float]", parts["plane"])
+    plane = translation(x, y, z) @ Frame(((a, b, c), (d, e, f), (g, h, i)))
+    return Kept(plane, str(parts["code"]), bool(parts["stands"]))
 
 
 def tilt_by_angles(channel: SyntecChannel, words: Words) -> None:

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from math import inf
 from typing import TYPE_CHECKING
 
-from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.syntec.coordinates import length as tool_length
 from polycnc.control.syntec.coordinates.turns import (
+    FollowingState,
     PostureState,
     TurnState,
     refer_posture,
@@ -15,48 +14,22 @@ from polycnc.control.syntec.coordinates.turns import (
     renew_work_turn,
 )
 from polycnc.control.syntec.five_axes import alignment, mechanism
-from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.coordinates.systems import refresh_zero
-from polycnc.control.word_address.coordinates.tip import TipState
-from polycnc.control.word_address.tools.length import LengthState
+from polycnc.control.word_address.coordinates.tip import TIP_CODES, TipState
+from polycnc.control.word_address.states import LengthState, PolarState
 from polycnc.control.word_address.transformations import normal_line, tool_center_point
-from polycnc.control.word_address.transformations.polar_interpolation import PolarState
-from polycnc.control.word_address.transformations.tool_center_point import TIP_CODES
-from polycnc.deferred.records import dataclass, replace
 from polycnc.geometry.frames import IDENTITY
 from polycnc.language.bulk import declare, declared
-from polycnc.toolpath.context import Pace
 
 if TYPE_CHECKING:
     from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder, Plan
-    from polycnc.toolpath import Context
 
 #: What does not go with tip control (2.28.3, 2.29.3); G05 P10000 has an alarm of its own.
 NOT_WITH_TIP = frozenset(("G12.1", "G31.10", "G31.11", "G41", "G42"))
 MINUTE = 60.0
-
-
-@dataclass(slots=True)
-class FollowingState(State, lifetime=Lifetime.RESET):
-    """How fast the linear axes may follow the rotary ones by I of G43.4, mm/min; 0: as Pr3091 has it."""
-
-    fastest: float = 0.0
-
-
-def following(channel: SyntecChannel, context: Context) -> Context:
-    """A context under tool tip control, with the highest speed of the axes that follow (2.28.3, note 9)."""
-    if not is_on(channel):
-        return context
-    fastest = FollowingState.of(channel).fastest or channel.memory.parameters.following_speed
-    return replace(context, pace=Pace(following=fastest / MINUTE)) if 0.0 < fastest < inf else context
-
-
-def is_on(channel: SyntecChannel) -> bool:
-    """Whether tool tip control is active."""
-    return channel.mode["length"] in TIP_CODES
 
 
 def start(channel: SyntecChannel, words: Words) -> None:
@@ -121,7 +94,7 @@ def end(channel: SyntecChannel) -> None:
         alignment.stand_on_plane(channel, angles)
 
 
-def _check_block(builder: Builder) -> None:
+def check_company(builder: Builder) -> None:
     """COR-023 for what does not go with tip control while it is on; under G43.5 increments do not either."""
     before, after = builder.before["length"], builder.mode["length"]
     if before not in TIP_CODES or after not in TIP_CODES:
@@ -141,7 +114,7 @@ def _names_axes(builder: Builder) -> bool:
     return any(target is not None for target in found)
 
 
-def _plan_with_direction(builder: Builder, plan: Plan) -> Step | None:
+def plan_with_direction(builder: Builder, plan: Plan) -> Step | None:
     """G43.5: I, J, K give the direction of the tool at the end of a straight block; rotary words are refused."""
     if builder.mode["length"] != "G43.5":
         return None
@@ -160,9 +133,3 @@ def _plan_with_direction(builder: Builder, plan: Plan) -> Step | None:
         step(channel, values)
 
     return declare(move, declared(step))
-
-
-#: Straight blocks that name the direction of the tool.
-RULE = Rule("tool direction by a vector", modes={"length": ("G43.5",)}, motion=_plan_with_direction)
-#: What must not come while words name the tip.
-COMPANY_RULE = Rule("company of tool tip control", modes={"length": TIP_CODES}, check=_check_block)

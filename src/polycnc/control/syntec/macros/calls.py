@@ -16,12 +16,14 @@ from polycnc.control.syntec.builder import CALLS, SyntecBuilder, macro_program, 
 from polycnc.control.syntec.macros import interrupts
 from polycnc.control.syntec.macros.variables import INDEXED_LETTERS, Locals
 from polycnc.control.word_address.block.rules import Rule
-from polycnc.control.word_address.macro_b.macro_calls import enter_macro
-from polycnc.control.word_address.macro_b.subprograms import note_call
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field
 from polycnc.language.syntec.blocks import FORMS
 from polycnc.language.syntec.values import Text, Value
 from polycnc.language.word_address import WordBlock
+
+with loaded_when_called():
+    from polycnc.control.word_address.macro_b import macro_calls, subprograms
 
 if TYPE_CHECKING:
     from polycnc.channel.stack import Level
@@ -134,7 +136,7 @@ def _plan_g65(builder: SyntecBuilder, plan: Plan) -> Step:
         count = _count(words, builder)
         channel.off_path = True
         if code == "G65":
-            enter_macro(channel, program, Locals(words), count)
+            macro_calls.enter_macro(channel, program, Locals(words), count)
         else:
             ModalMacroState.of(channel).calls[:] = [
                 ModalMacro(program, count, Locals(words), code == "G66.1")
@@ -183,7 +185,7 @@ def _follow(channel: SyntecChannel, _values: list[Any]) -> None:
     state = ModalMacroState.of(channel)
     modal, state.due = state.due, None
     if modal is not None and not channel.finished:
-        enter_macro(channel, modal.program, modal.local, modal.repeats, kind=LevelKind.MODAL)
+        macro_calls.enter_macro(channel, modal.program, modal.local, modal.repeats, kind=LevelKind.MODAL)
 
 
 def end_modal_call(channel: SyntecChannel, _words: Words) -> None:
@@ -277,7 +279,7 @@ def _plan_code_macro(builder: SyntecBuilder, plan: Plan, macro: CodeMacro) -> St
             enter_shared(channel, macro.program, macro.kind)
             channel.level.data["rest"] = local
         else:
-            enter_macro(channel, macro.program, local, count, kind=macro.kind)
+            macro_calls.enter_macro(channel, macro.program, local, count, kind=macro.kind)
 
     return call
 
@@ -325,7 +327,7 @@ def enter_shared(
 
 def call_subprogram(channel: SyntecChannel, words: Words) -> None:
     """M98 P H L: program P (without P the running one), from N number H, L times."""
-    note_call(channel, words, "M98")
+    subprograms.note_call(channel, words, "M98")
     program = channel.level.code.program
     if "P" in words:
         program = channel.control.find_program(channel, _whole(words, "P", "subprogram_number"))
@@ -336,7 +338,7 @@ def call_external_subprogram(channel: SyntecChannel, words: Words) -> None:
     """M198 P H L: as M98, the file read anew at each call; P must be there."""
     if "P" not in words:
         raise words.fail("subprogram_number", "M198")
-    note_call(channel, words, "M198")
+    subprograms.note_call(channel, words, "M198")
     number = _whole(words, "P", "subprogram_number")
     program = channel.store.find_external_number(number)
     if program is None:
@@ -363,7 +365,7 @@ def return_from_program(channel: SyntecChannel, words: Words) -> None:
 
     P and Q end all passes of the call.
     """
-    note_call(channel, words, "M99")
+    subprograms.note_call(channel, words, "M99")
     sequence = _whole(words, "P", "program_number") if "P" in words else None
     line = _whole(words, "Q", "program_number") if "Q" in words else None
     is_main = len(channel.stack) == 1

@@ -7,15 +7,17 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from polycnc.channel.waits import PREPROCESSING
-from polycnc.control.syntec.macros import diagnosis, records
-from polycnc.control.syntec.macros.machine_parameters import read_long, write_long
-from polycnc.control.syntec.macros.registers import write_register
+from polycnc.control.syntec.macros import records
 from polycnc.control.syntec.macros.system_variables import system_variable
 from polycnc.control.syntec.macros.variables import BitState, FunctionState
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.regexes import regex
 from polycnc.language.syntec.values import VACANT, Text, Vacant, Value, number, whole
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import Circle, Message, Pen, Print
+
+with loaded_when_called():
+    from polycnc.control.syntec.macros import diagnosis, machine_parameters, registers
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -82,7 +84,7 @@ def machine_parameter(memory: SyntecMemory, index: Value, _group: Value = VACANT
     """PARAM(n): a parameter as a Long; VACANT where it is not supported."""
     if not isinstance(index, int):
         raise AlarmError(WRONG_TYPE)
-    found = read_long(memory, index)
+    found = machine_parameters.read_long(memory, index)
     return VACANT if found is None else found
 
 
@@ -90,7 +92,7 @@ def write_parameter(memory: SyntecMemory, index: Value, value: Value) -> Value:
     """SETPR(n, v): writes a parameter and gives 1."""
     if not isinstance(index, int) or not isinstance(value, int):
         raise AlarmError(WRONG_TYPE)
-    write_long(memory, index, value)
+    machine_parameters.write_long(memory, index, value)
     return 1
 
 
@@ -165,7 +167,7 @@ def write_register_bit(memory: SyntecMemory, register: Value, bit: Value, value:
     mask = 1 << b
     old = memory.globals.read_register(r) & 0xFFFFFFFF
     new = old | mask if whole(value, WRONG_REGISTER_BIT) else old & ~mask
-    write_register(memory.channel, r, new - 2**32 if new >= 2**31 else new)
+    registers.write_register(memory.channel, r, new - 2**32 if new >= 2**31 else new)
     return VACANT
 
 

@@ -11,16 +11,18 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.stack import LevelKind
 from polycnc.channel.states.state import Lifetime, State
-from polycnc.control.syntec.motion.polar import POLAR
 from polycnc.control.syntec.motion.smoothing import SmoothingState
 from polycnc.control.syntec.spindles import SpindleState
 from polycnc.control.word_address.auxiliary import machine_codes
 from polycnc.control.word_address.block.rules import Rule
-from polycnc.control.word_address.motion import path, skip
-from polycnc.control.word_address.motion.arc_signals import made_arc
+from polycnc.control.word_address.motion import path
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass, replace
 from polycnc.toolpath import Kind
+
+with loaded_when_called():
+    from polycnc.control.word_address.motion import arc_signals, skip
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -38,7 +40,13 @@ GROUP, ON, OFF = "interrupt", "M96", "M97"
 DELIVERED = 96
 LAST_PROGRAM, LAST_BIT, LAST_REGISTER, REGISTER_BITS = 9999, 511, 65535, 16
 #: Modal states in which the signal has no effect: group and the code that is none of them (3.2.3, 10).
-DEAF = {POLAR: "G13.1", "polar": "G15", "compensation": "G40", "scaling": "G50", "mirror": "G50.1"}
+DEAF = {
+    "polar_interpolation": "G13.1",
+    "polar": "G15",
+    "compensation": "G40",
+    "scaling": "G50",
+    "mirror": "G50.1",
+}
 STRAIGHT = {"G0": Kind.RAPID, "G1": Kind.FEED}
 
 
@@ -205,7 +213,7 @@ def _made_row(channel: SyntecChannel, start: list[float], mark: int) -> MadeArc 
     chunk = channel.toolpath.chunk
     if len(chunk) == mark + 1 and chunk.kind[-1] in STRAIGHT.values() and not channel.path.changes_ends:
         return MadeLine(Kind(chunk.kind[-1]), chunk.feed[-1], start, channel.coordinates.position[:])
-    return made_arc(channel, start, mark)
+    return arc_signals.made_arc(channel, start, mark)
 
 
 def _share_of_call(

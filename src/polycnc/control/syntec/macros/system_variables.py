@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, cast
 from polycnc.control.syntec.builder import macro_program
 from polycnc.control.syntec.coordinates.systems import WORK_SYSTEMS
 from polycnc.control.syntec.coordinates.turns import PostureState, TurnState, turn_preset_frame
-from polycnc.control.syntec.macros.machine_parameters import read_long
 from polycnc.control.syntec.macros.variables import (
     USER,
     BitState,
@@ -24,15 +23,19 @@ from polycnc.control.syntec.motion.arcs import ArcState
 from polycnc.control.syntec.motion.moves import SkipState
 from polycnc.control.syntec.motion.oscillation import check_frame
 from polycnc.control.syntec.motion.polar import block_start
-from polycnc.control.syntec.motion.quiet import is_quiet, switch_quiet
 from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
 from polycnc.control.word_address.memory import EXTERNAL, ToolOffsets
-from polycnc.control.word_address.motion.skip import LastSkip
+from polycnc.control.word_address.states import LastSkip
 from polycnc.control.word_address.tools.length import renew_length
 from polycnc.control.word_address.tools.radius import active_compensation
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.syntec.values import VACANT, Value, number, to_long, whole
 from polycnc.messages import AlarmError
+
+with loaded_when_called():
+    from polycnc.control.syntec.macros import machine_parameters
+    from polycnc.control.syntec.motion import quiet
 
 if TYPE_CHECKING:
     from polycnc.control.syntec.memory import SyntecMemory
@@ -191,12 +194,12 @@ def _word(index: int) -> tuple[Read, Write]:
 
 
 def _quiet(memory: SyntecMemory, _offset: int) -> int:
-    return int(is_quiet(memory.channel))
+    return int(quiet.is_quiet(memory.channel))
 
 
 def _set_quiet(memory: SyntecMemory, _offset: int, value: Value) -> None:
     """#1500: quiet mode."""
-    switch_quiet(memory.channel, on=number(value) != 0)
+    quiet.switch_quiet(memory.channel, on=number(value) != 0)
 
 
 def _constant(value: int) -> Read:
@@ -300,7 +303,7 @@ def _write_modal_long(memory: SyntecMemory, offset: int, value: Value) -> None:
 
 
 def _parameter(first: int) -> Read:
-    return lambda memory, offset: read_long(memory, first + offset) or 0
+    return lambda memory, offset: machine_parameters.read_long(memory, first + offset) or 0
 
 
 def _skip_input(memory: SyntecMemory, offset: int) -> Value:
@@ -367,3 +370,8 @@ SYSTEM_VARIABLES = Registry(
         Space(20001, 20658, _read_work_offset, _write_work_offset),
     ]
 )
+
+
+def found(index: int) -> Space:
+    """The space of a system variable; COR-016 for none."""
+    return SYSTEM_VARIABLES.find(index)

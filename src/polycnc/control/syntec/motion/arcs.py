@@ -5,20 +5,23 @@ from __future__ import annotations
 from math import hypot
 from typing import TYPE_CHECKING
 
-from polycnc.channel.moves.knots import passing
 from polycnc.channel.states.state import Lifetime, State, lasting
 from polycnc.control.syntec.coordinates.systems import ScaleState
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words_as_data import targets_as_data, word_as_data
+from polycnc.control.word_address.coordinates.tip import TIP_CODES
 from polycnc.control.word_address.motion import path
 from polycnc.control.word_address.motion.arcs import emit_arc
 from polycnc.control.word_address.motion.path import CENTER_WORDS
-from polycnc.control.word_address.transformations.tool_center_point import TIP_CODES
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass
 from polycnc.geometry import arcs
 from polycnc.geometry.planes import PLANES
 from polycnc.language.bulk import Arc, declare
 from polycnc.toolpath import Kind
+
+with loaded_when_called():
+    from polycnc.channel.moves import knots
 
 if TYPE_CHECKING:
     from polycnc.channel.stack import Level
@@ -261,7 +264,7 @@ def _three_point_moves(channel: SyntecChannel, mid: list[float], end: list[float
     try:
         center, normal = arcs.three_point_circle(*points)  # type: ignore[arg-type]
     except ValueError:
-        with channel.under(passing(channel.context)):
+        with channel.under(knots.passing(channel.context)):
             channel.straight(Kind.FEED, places[0], feed, mid)
         channel.straight(Kind.FEED, places[1], feed, end)
         return
@@ -270,7 +273,7 @@ def _three_point_moves(channel: SyntecChannel, mid: list[float], end: list[float
         kind, normal = Kind.CW, (-normal[0], -normal[1], -normal[2])
     others = [i for i in range(len(end)) if i not in c.geometry]
     if any(mid[i] != c.programmed[i] or end[i] != c.programmed[i] for i in others):
-        with channel.under(passing(channel.context)):
+        with channel.under(knots.passing(channel.context)):
             channel.curve(kind, places[0], feed, center=center, normal=normal, programmed=mid)
     channel.curve(kind, places[1], feed, center=center, normal=normal, programmed=end)
 

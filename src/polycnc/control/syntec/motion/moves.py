@@ -19,15 +19,13 @@ from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.coordinates.frames import PolarCoordinateState, polar_target, scale_of
 from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.cycles.drilling import CycleState
-from polycnc.control.word_address.motion import path, skip
+from polycnc.control.word_address.motion import path
 from polycnc.control.word_address.motion.arcs import emit_arc
 from polycnc.control.word_address.motion.path import CENTER_WORDS
-from polycnc.control.word_address.motion.skip import LastSkip
+from polycnc.control.word_address.states import LastSkip
 from polycnc.control.word_address.tools import radius
-from polycnc.control.word_address.tools.data_input import refuse_words
 from polycnc.control.word_address.tools.radius import RadiusState
-from polycnc.control.word_address.transformations.normal_stage import NormalStage
-from polycnc.control.word_address.transformations.polar_interpolation import is_length
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field, replace
 from polycnc.geometry import arcs
 from polycnc.geometry.frames import IDENTITY
@@ -36,6 +34,11 @@ from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath import Kind
 from polycnc.toolpath.context import NO_OVERLAP, STROKE, Overlap
 from polycnc.toolpath.modes import FeedMode
+
+with loaded_when_called():
+    from polycnc.control.word_address.motion import skip
+    from polycnc.control.word_address.tools import data_input
+    from polycnc.control.word_address.transformations import normal_line, polar_interpolation
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -246,7 +249,7 @@ def _frame_is_in_force(channel: SyntecChannel) -> bool:
 
 def _length_is_in_force(channel: SyntecChannel) -> bool:
     """G49: as on every control; no direction is led to the path either."""
-    return channel.path.find(NormalStage) is None and repeated_codes.length(channel)
+    return (channel.path.head is None or not normal_line.acts(channel)) and repeated_codes.length(channel)
 
 
 def _has_no_modal_call(channel: SyntecChannel) -> bool:
@@ -352,7 +355,7 @@ def _way(channel: SyntecChannel, end: list[float]) -> float:
             return tip
     if channel.memory.is_inch:
         for axis, data in enumerate(channel.axis_data):
-            if data.rotary and not is_length(channel, axis):
+            if data.rotary and not polar_interpolation.is_length(channel, axis):
                 ways[axis] *= INCH_MM
     return hypot(*ways)
 
@@ -435,7 +438,7 @@ def _lengthened_move(factor: float, channel: SyntecChannel, words: Words) -> Non
         return
     if motion not in ("G0", "G1"):
         raise control.fail("argument", address=code)
-    refuse_words(words, "IJK", "argument")
+    data_input.refuse_words(words, "IJK", "argument")
     c = channel.coordinates
     end = c.programmed[:]
     for axis, value, incremental in words.axes():

@@ -15,7 +15,6 @@ from polycnc.channel.states.state import Lifetime, State, lasting
 from polycnc.control.syntec.axis_groups.names import CODES, axis_of_code
 from polycnc.control.syntec.motion.moves import rapid_as
 from polycnc.control.syntec.units import least_unit
-from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion.oscillation import (
     Fixed,
     Oscillator,
@@ -161,7 +160,7 @@ def end_precise(channel: SyntecChannel, words: Words) -> None:
     state.precise, state.precise_axis = False, running.axis
 
 
-def _check_block(builder: Builder) -> None:
+def check_block(builder: Builder) -> None:
     """Refuse moves and frames of an axis that oscillates."""
     state = OscillationState.of(builder.channel)
     if builder.before[OSCILLATION] == OFF or state.running is None:
@@ -259,7 +258,3 @@ def _arrive(channel: SyntecChannel, axis: int, place: float) -> None:
     machine = channel.coordinates.machine
     machine[axis] = place
     channel.coordinates.arrive_machine(machine)
-
-
-#: What must not come while an axis oscillates.
-RULE = Rule("oscillation", unless={OSCILLATION: OFF}, check=_check_block)

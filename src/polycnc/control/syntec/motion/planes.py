@@ -5,9 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.motion.polar import plane_code
-from polycnc.control.word_address.motion.planes import PlaneAxes, choose_axes
-from polycnc.control.word_address.transformations.polar_interpolation import PolarState
+from polycnc.control.word_address.states import PlaneAxes, PolarState
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.geometry.planes import PLANES
+
+with loaded_when_called():
+    from polycnc.control.word_address.motion import planes
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -31,7 +34,7 @@ def select_plane(channel: SyntecChannel, words: Words) -> None:
     else:
         named = [axis for axis, _, _ in words.axes()]
         plane = PLANES[channel.mode["plane"]][:2]
-        choose_axes(channel, geometry_axes(channel.axes, named, plane, memory.basic_geometry))
+        planes.choose_axes(channel, geometry_axes(channel.axes, named, plane, memory.basic_geometry))
     channel.context_changed()
 
 

@@ -11,19 +11,20 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.syntec.coordinates.diameters import DiameterState
-from polycnc.control.word_address.block.rules import Rule
+from polycnc.control.word_address.states import PolarState
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.polar_interpolation import (
     GROUP,
     PLANE_OF_LINEAR,
-    PolarState,
     enter_polar,
     leave_polar,
-    length_word,
 )
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.planes import PLANES
-from polycnc.transformation.kinematic.polar import PolarPlane
+
+with loaded_when_called():
+    from polycnc.transformation.kinematic.polar import PolarPlane
 
 if TYPE_CHECKING:
     from polycnc.control.syntec.family import SyntecChannel
@@ -163,7 +164,7 @@ def leave_plane(channel: SyntecChannel) -> None:
         leave_polar(channel)
 
 
-def _check_block(builder: Builder) -> None:
+def check_block(builder: Builder) -> None:
     """Refuse codes that polar interpolation does not allow."""
     if builder.before[POLAR] != "G12.1":
         return
@@ -172,7 +173,3 @@ def _check_block(builder: Builder) -> None:
             raise builder.control.fail("polar_mode", address=row.code)
         if row.code == "G10.9":
             raise builder.control.fail("polar_diameter", address=row.code)
-
-
-#: What blocks may hold and how they are read in polar interpolation.
-RULE = Rule("polar interpolation", unless={POLAR: "G13.1"}, check=_check_block, convert=length_word)

@@ -9,16 +9,19 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
-from polycnc.control.syntec.five_axes import tip_control
+from polycnc.control.syntec.coordinates.turns import leads_tip
 from polycnc.control.syntec.motion.fitting import FittingStage
 from polycnc.control.syntec.parameters import SyntecParameters
 from polycnc.control.syntec.units import least_unit
-from polycnc.control.word_address.motion import nurbs
 from polycnc.control.word_address.motion.path_modes import PathModeState
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, replace
 from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath.events import Deed
 from polycnc.toolpath.modes import CornerMode
+
+with loaded_when_called():
+    from polycnc.control.word_address.motion import nurbs
 
 if TYPE_CHECKING:
     from typing import Self
@@ -70,7 +73,7 @@ def smoothed(channel: SyntecChannel, context: Context) -> Context:
     """A context under G05 or G05.1: corners are rounded within the tolerance, but under G61, G63 and tip control."""
     state = SmoothingState.of(channel)
     tolerance = state.tolerance
-    if not tolerance or tip_control.is_on(channel) or channel.mode["path"] in STOPPING_MODES:
+    if not tolerance or leads_tip(channel) or channel.mode["path"] in STOPPING_MODES:
         return context
     if context.corner_mode is not CornerMode.CONTINUOUS and not state.fits:
         return context
@@ -140,7 +143,7 @@ def high_precision(channel: SyntecChannel, words: Words) -> None:
     if switch not in (0, ON) or (error is not None and error <= 0.0):
         raise words.fail("smoothing_format", "P" if switch not in (0, ON) else "E")
     geometry, rotary = _axes(channel, words)
-    if switch == ON and tip_control.is_on(channel):
+    if switch == ON and leads_tip(channel):
         raise words.fail("tip_smoothing", "G5")
     if switch == ON and channel.mode["path"] in STOPPING_MODES:
         raise words.fail("smoothing_stops", "G5")

@@ -5,15 +5,18 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, plain
-from polycnc.compensation.corner import CornerStage
-from polycnc.control.tool_change import follow, way_to_change
 from polycnc.control.word_address.motion.path import FEED_MODES
 from polycnc.control.word_address.tools.radius import suspended
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.bulk import Conversion, Note, Scaling, SetFeed, Word, declare
 from polycnc.toolpath.events import SecondAuxiliary, SpindleSpeed, ToolSelection
 from polycnc.toolpath.modes import FeedMode
+
+with loaded_when_called():
+    from polycnc.control import tool_change
+    from polycnc.control.word_address.motion import corners
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.block.codes import Step
@@ -84,9 +87,9 @@ def _number(value: float) -> float | int:
 
 def bring_to_change(channel: WordAddressChannel) -> None:
     """The axes go to where tools are changed, without compensation, if the change itself leads them there."""
-    if way := way_to_change(channel):
+    if way := tool_change.way_to_change(channel):
         with suspended(channel):
-            follow(channel, way)
+            tool_change.follow(channel, way)
 
 
 def change_tool(channel: WordAddressChannel, _words: Words) -> None:
@@ -162,9 +165,8 @@ def dwell(channel: WordAddressChannel, words: Words, *, in_revolutions: bool = F
     times = [address for address in "XUP" if address in words]
     if len(times) > 1:
         raise words.fail("address", times[1])
-    corners = channel.path.find(CornerStage)
-    if corners is not None:
-        corners.dwell()
+    if channel.path.head is not None:
+        corners.dwell(channel)
     milliseconds = words.integer("P")
     if milliseconds is None:
         value = next((_seconds(words, address) for address in ("X", "U") if address in words), None)

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from polycnc.control.word_address.auxiliary import functions
 from polycnc.control.word_address.block.codes import MCode
-from polycnc.control.word_address.macro_b import subprograms
+from polycnc.deferred.functions import loaded_when_called
+
+with loaded_when_called():
+    from polycnc.control.word_address.macro_b import subprograms
 
 #: Stops, ends and calls, and what the control itself must know of spindle, tool and coolant.
 MACHINING_CENTRE = (

@@ -9,9 +9,12 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
-from polycnc.control.word_address.macro_b.variables import ControlSwitches
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, replace
 from polycnc.toolpath.modes import CornerMode
+
+with loaded_when_called():
+    from polycnc.control.word_address.macro_b.variables import ControlSwitches
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

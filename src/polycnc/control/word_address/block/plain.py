@@ -10,11 +10,14 @@ from typing import TYPE_CHECKING
 
 from polycnc.control.machine_words import may_refuse_moves
 from polycnc.control.word_address.motion import arcs
-from polycnc.control.word_address.transformations import tool_center_point
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.geometry.planes import PLANES
 from polycnc.language.bulk import Arc, Conditions, Recipe, Spelling
 from polycnc.language.bulk.layout import FIRST_CODE, FIRST_FORMULA, FIRST_M_CODE, FORMS, NUMBERED
 from polycnc.messages import AlarmError
+
+with loaded_when_called():
+    from polycnc.control.word_address.transformations import tool_center_point
 
 if TYPE_CHECKING:
     from collections.abc import Hashable, Sequence
@@ -38,14 +41,16 @@ class PlainBlocks:
 
     Attributes:
         spelling: How the control's text looks.
-        routines: What the scanner asks of programs that are called; None where the interpreter calls them.
     """
-
-    routines: RoutineDialect | None = None
 
     def __init__(self, spelling: Spelling) -> None:
         self.spelling = spelling
         self._conditions = Conditions()
+
+    @property
+    def routines(self) -> RoutineDialect | None:
+        """What the scanner asks of programs that are called; None where the interpreter calls them."""
+        return None
 
     def ready(self, channel: WordAddressChannel) -> bool:
         """Single blocks are watched; forbidden zones, unrolled surfaces and most held moves are not."""

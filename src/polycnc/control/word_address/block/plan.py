@@ -16,6 +16,7 @@ from polycnc.control.word_address.block.numbers import Convert, NumberRules, len
 from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.memory import SentCodes
 from polycnc.control.word_address.motion.path_modes import end_of_exact_stop, exact_stop_block
+from polycnc.deferred.functions import Deferred
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass
 from polycnc.language.bulk import Idle, Later, Note, declare, declared
@@ -263,8 +264,9 @@ class Builder:
         def step(channel: Channel, values: list[float]) -> None:
             handler(channel, Words(plan, values))
 
-        tell: Callable[[Plan], object] | None = declared(handler)  # type: ignore[assignment]
-        return step if tell is None else declare(step, Later(lambda: tell(plan)))
+        if isinstance(handler, Deferred):  # its module need not be there before somebody asks
+            return declare(step, Later(lambda: _told(handler, plan)))
+        return step if declared(handler) is None else declare(step, Later(lambda: _told(handler, plan)))
 
     @property
     def drills(self) -> bool:
@@ -319,7 +321,7 @@ class Builder:
         step, control = self.handled(handler, self.words_of(row, plan)), self.control
         if any(self.has(address) for address in row.addresses):
             return step
-        if handler in control.only_context:
+        if any(handler is each for each in control.only_context):
             return declare(step, Note())
         if self._in_force(row) and row.code in control.repeated_codes:
             return _unless_repeated(step, control.repeated_codes[row.code])
@@ -474,6 +476,12 @@ def _m_step(row: MCode, builder: Builder, plan: Plan) -> Step:
             handler(channel, values)
 
     return act
+
+
+def _told(handler: Handler, plan: Plan) -> object:
+    """What a handler says that a plan does; None for nothing."""
+    tell: Callable[[Plan], object] | None = declared(handler)  # type: ignore[assignment]
+    return None if tell is None else tell(plan)
 
 
 def _nothing(_channel: Channel, _values: list[float]) -> None:

@@ -10,11 +10,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.coordinates.systems import ZeroState, work_frame, zero_offsets
-from polycnc.control.word_address.macro_b.macro_calls import ModalCallState
-from polycnc.control.word_address.tools.length import LengthState
+from polycnc.control.word_address.states import CylinderState, LengthState, ModalCallState, TiltState
 from polycnc.control.word_address.tools.radius import RadiusState, active_compensation
-from polycnc.control.word_address.transformations.cylinder import CylinderState
-from polycnc.control.word_address.transformations.tilted_plane import TiltState
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.family import MacroChannel, WordAddressChannel

@@ -15,9 +15,13 @@ from polycnc.geometry.frames import IDENTITY, Frame
 if TYPE_CHECKING:
     from polycnc.control.word_address.family import WordAddressChannel
     from polycnc.geometry.frames import Vector
+    from polycnc.toolpath import Context
     from polycnc.transformation.contract import Transformation
     from polycnc.transformation.couplings.coupled import Shown
     from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
+
+#: Codes of tip control.
+TIP_CODES = ("G43.4", "G43.5")
 
 
 @dataclass(slots=True)
@@ -75,6 +79,12 @@ def lead(
     state.seated = state.active if frame.is_identity else Seated(state.active, frame)
     state.told = state.seated if told is None else Seated(state.active, told)
     channel.coordinates.transform(state.seated, None, (IDENTITY, offsets), standing(channel))
+
+
+def displayed(channel: WordAddressChannel, context: Context) -> Context:
+    """A context while words name points of another system than that of the path: displays show them there."""
+    naming = channel.coordinates.naming
+    return context if naming is None else replace(context, shown_by=naming)
 
 
 def standing(channel: WordAddressChannel) -> Shown | None:

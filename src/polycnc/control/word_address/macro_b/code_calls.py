@@ -16,9 +16,12 @@ from polycnc.control.word_address.auxiliary.interlocks import note_tool_number
 from polycnc.control.word_address.block.codes import GCode, MCode, Order
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words import Words
-from polycnc.control.word_address.macro_b import macro_calls, subprograms
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field
 from polycnc.machine.model import program_called
+
+with loaded_when_called():
+    from polycnc.control.word_address.macro_b import macro_calls, subprograms
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -28,6 +31,8 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.family import MacroChannel
     from polycnc.machine.model import Machine
 
+#: Letters of codes that may call programs, outside of any program that was called so; B stands for blocks (G66.1).
+ALL_CALLS = "GMTB"
 #: The common variable that hands a T code to its program.
 TOOL_VARIABLE = 149
 

@@ -9,13 +9,17 @@ from polycnc.control.word_address.auxiliary import overrides
 from polycnc.control.word_address.block import whole_numbers
 from polycnc.control.word_address.block.numbers import NumberRules
 from polycnc.control.word_address.control import WordAddressControl
-from polycnc.control.word_address.macro_b import code_calls, interruption, macro_calls, single_block
+from polycnc.control.word_address.macro_b import code_calls, single_block
 from polycnc.control.word_address.macro_b.variables import locals_of
 from polycnc.control.word_address.motion import path_modes
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import replace
 from polycnc.messages import AlarmError
 from polycnc.program import ProgramFileError
 from polycnc.toolpath.modes import FeedMode
+
+with loaded_when_called():
+    from polycnc.control.word_address.macro_b import interruption, macro_calls
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -14,11 +14,14 @@ from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.block.codes import MCode
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.macro_b.variables import LOCALS
-from polycnc.control.word_address.motion.skip import signal_position
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
+
+with loaded_when_called():
+    from polycnc.control.word_address.motion import skip
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -146,7 +149,7 @@ def _stop(
 ) -> list[float] | None:
     """Where on the way just made an input comes."""
     if arc is None:
-        return signal_position(channel, start, end, dict(at))
+        return skip.signal_position(channel, start, end, dict(at))
     share = arc.share_at(channel, at)
     return None if share is None else arc.position(share)
 

@@ -5,14 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.channel.stack import LevelKind
-from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.block.numbers import length_converter
 from polycnc.control.word_address.block.plan import Arguments
-from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.macro_b import calls_as_data, subprograms
 from polycnc.control.word_address.macro_b.variables import LOCALS
-from polycnc.deferred.records import dataclass, field
+from polycnc.control.word_address.states import ModalCall, ModalCallState
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.bulk import declare
 
@@ -35,26 +33,6 @@ ARGUMENTS = {
 FURTHER_ARGUMENTS = {"G": 10, "L": 12, "N": 14, "P": 16}
 _LENGTHS = frozenset("ABCIJKQRUVWXYZ")
 _SETS = 10
-#: Letters of codes that may call programs, outside of any program that was called so; B stands for blocks (G66.1).
-ALL_CALLS = "GMTB"
-
-
-@dataclass(slots=True)
-class ModalCall:
-    """G66 or G66.1: the macro that follows every block."""
-
-    program: Program
-    repeats: int
-    arguments: list[float | None]
-    each_block: bool
-
-
-@dataclass(slots=True)
-class ModalCallState(State, lifetime=Lifetime.RESET):
-    """The modal calls that are active, the last one called first; `due` follows the block that runs."""
-
-    calls: list[ModalCall] = field(default_factory=list)
-    due: ModalCall | None = None
 
 
 def arguments_of(words: Words, skip: str = "", *, without_m: int | None = None) -> list[float | None]:
@@ -262,13 +240,3 @@ def note_level(channel: MacroChannel) -> None:
     else:
         letters = "".join(kind for kind in ("G", "MT") if not by_code & set(kind))
     channel.mode = channel.mode.with_code("calls", letters if "B" in callers else letters + "B")
-
-
-#: Blocks that G66.1 takes as arguments, and the macro behind blocks that move.
-RULE = Rule(
-    "modal macro calls",
-    modes={"macro": ("G66", "G66.1")},
-    replace=plan_argument_block,
-    after=plan_modal_call,
-    last=plan_following,
-)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.memory import ParameterTable
 from polycnc.deferred.records import replace
@@ -79,7 +78,3 @@ def set_parameter(
     if not keeps_plans:
         channel.modes.forget_plans()
     channel.control.parameters_changed(channel)
-
-
-#: Between G10 L50 and G11 blocks are parameters.
-RULE = Rule("input of parameters", unless={"data_input": "G11"}, replace=plan_parameter_block)

@@ -7,8 +7,6 @@ from math import nan
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.block.plain import PlainBlocks
-from polycnc.control.word_address.macro_b.routines import MacroRoutines
-from polycnc.language.bulk.formulas.postfix import formulas
 from polycnc.language.word_address.patterns import MEMORIES
 from polycnc.language.word_address.words import is_fixed_code
 from polycnc.messages import AlarmError
@@ -17,19 +15,24 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from polycnc.control.word_address.family import MacroChannel
+    from polycnc.control.word_address.macro_b.routines import MacroRoutines
     from polycnc.kernels.layout import Floats
-    from polycnc.language.bulk import Spelling
 
 
 class MacroPlainBlocks(PlainBlocks):
     """What the scanner asks of a control with custom macro B."""
 
-    def __init__(self, spelling: Spelling) -> None:
-        super().__init__(spelling)
-        self.routines = MacroRoutines()
+    @property
+    def routines(self) -> MacroRoutines:
+        """Subprograms, macros and loops."""
+        from polycnc.control.word_address.macro_b.routines import MacroRoutines
+
+        return MacroRoutines()
 
     def formulas(self, channel: MacroChannel, line: str) -> tuple[tuple[str, ...], tuple[int, ...] | None]:
         """What the reader makes of the line, if the scanner can calculate it."""
+        from polycnc.language.bulk.formulas.postfix import formulas  # for programs with formulas
+
         try:
             found = channel.level.code.words_of(line)
         except AlarmError:

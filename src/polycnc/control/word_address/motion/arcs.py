@@ -11,7 +11,7 @@ from __future__ import annotations
 from math import dist, hypot
 from typing import TYPE_CHECKING
 
-from polycnc.channel.moves.knots import passing
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.geometry import arcs
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.tolerances import NO_WAY
@@ -20,6 +20,9 @@ from polycnc.toolpath import Kind
 from polycnc.toolpath.kinds import arc_kind
 from polycnc.toolpath.modes import FeedMode
 from polycnc.toolpath.table import is_way
+
+with loaded_when_called():
+    from polycnc.channel.moves import knots
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.family import WordAddressChannel
@@ -171,7 +174,7 @@ def write_with_rest(
     helix = third >= 0 and abs(on_circle[third] - c.position[third]) > NO_WAY
     held, x, y, z = channel.context, *middle
     is_whole = not is_way(on_circle, position)
-    with channel.under(held if is_whole else passing(held)):
+    with channel.under(held if is_whole else knots.passing(held)):
         channel.curve(
             arc_kind(ccw=ccw, helix=helix), on_circle, feed, center=(x, y, z), normal=axis_vector(w)
         )

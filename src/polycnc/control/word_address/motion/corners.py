@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 from polycnc.channel.moves.knots import Motions
 from polycnc.compensation.corner import CornerStage, CornerViolation, Shape
 from polycnc.compensation.plane import Plane
-from polycnc.control.word_address.block.rules import Rule
 from polycnc.geometry.planes import PLANES
 
 if TYPE_CHECKING:
@@ -55,7 +54,14 @@ def corner_stage(channel: WordAddressChannel) -> CornerStage:
     alarms = channel.control.alarms
     codes = {violation: alarms[mistake] for violation, mistake in MISTAKES.items()}
     plane = Plane(u, v, w, channel.coordinates.geometry)
-    return channel.path.put(CornerStage(plane, channel.control.CORNER_POLICY, codes, Motions(channel)))
+    return channel.path.put(CornerStage(plane, channel.control.corner_policy(), codes, Motions(channel)))
+
+
+def dwell(channel: WordAddressChannel) -> None:
+    """A dwell stands between the two moves of a corner, where the control lets it."""
+    stage = channel.path.find(CornerStage)
+    if stage is not None:
+        stage.dwell()
 
 
 def refuse_start_up(channel: WordAddressChannel) -> None:
@@ -70,7 +76,3 @@ def refuse_change(channel: WordAddressChannel) -> None:
     stage = channel.path.find(CornerStage)
     if stage is not None and not stage.settle():
         raise channel.control.fail("corner_no_move")
-
-
-#: Chamfers and roundings.
-RULE = Rule("corners", words=tuple(SHAPES), corner=plan_corner_words)

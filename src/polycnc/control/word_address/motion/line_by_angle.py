@@ -6,7 +6,6 @@ from math import cos, hypot, nan, radians, sin, tan
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.block.numbers import angle_converter
-from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion.path import reach
 from polycnc.geometry.planes import PLANES
 from polycnc.messages import AlarmError
@@ -73,7 +72,3 @@ def plan_line_by_angle(builder: Builder, plan: Plan) -> Step | None:
         channel.straight(kind, c.to_position(end), nan if rapid else channel.feed, end)
 
     return move
-
-
-#: Straight blocks that tell their end by an angle.
-RULE = Rule("lines by angle", words=(ANGLE,), in_cycles=False, motion=plan_line_by_angle)

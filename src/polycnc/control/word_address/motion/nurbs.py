@@ -8,10 +8,8 @@ from math import dist
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.knots import write_chords
-from polycnc.channel.states.state import Lifetime, State
-from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion import path
-from polycnc.deferred.records import dataclass, field
+from polycnc.control.word_address.states import Curve, CurveState
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
@@ -25,28 +23,6 @@ WEIGHTS, DEFAULT_WEIGHT = (0.001, 1000.0), 1.0
 CHORD_TOLERANCE_MM = 0.001
 #: How far the first pole may lie from where the tool stands, mm.
 START_WINDOW_MM = 0.0015
-
-
-@dataclass(slots=True)
-class Curve:
-    """A curve that blocks are still telling."""
-
-    order: int
-    knots: list[float] = field(default_factory=list)
-    poles: list[tuple[float, ...]] = field(default_factory=list)
-    weights: list[float] = field(default_factory=list)
-
-    @property
-    def is_complete(self) -> bool:
-        """Whether every knot is there."""
-        return len(self.knots) == len(self.poles) + self.order
-
-
-@dataclass(slots=True)
-class CurveState(State, lifetime=Lifetime.RESET):
-    """The curve that blocks of G06.2 are telling; None for none."""
-
-    curve: Curve | None = None
 
 
 def plan_nurbs(builder: Builder, plan: Plan) -> Step | None:
@@ -126,9 +102,6 @@ def _cut(channel: WordAddressChannel, curve: Curve) -> None:
     write_chords(channel, map(list, points), channel.feed, partial(channel.straight, Kind.SPLINE))
 
 
-def _behind(builder: Builder, _plan: Plan, step: Step | None) -> Step | None:
+def close_curve(builder: Builder, _plan: Plan, step: Step | None) -> Step | None:
+    """A block of another motion code behind a curve."""
     return then(step) if builder.before["motion"] == "G6.2" != builder.mode["motion"] else step
-
-
-#: A curve is complete when another motion code comes.
-RULE = Rule("NURBS curves", modes={"motion": ("G6.2",)}, wrap=_behind)

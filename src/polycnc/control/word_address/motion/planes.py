@@ -4,26 +4,18 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.coordinates.frames import turns_plane
 from polycnc.control.word_address.coordinates.systems import ZeroState
 from polycnc.control.word_address.coordinates.tip import TipState
+from polycnc.control.word_address.states import CylinderState, PlaneAxes
 from polycnc.control.word_address.tools.radius import RadiusState, idle_or_active
 from polycnc.control.word_address.transformations import cylinder
-from polycnc.deferred.records import dataclass, replace
+from polycnc.deferred.records import replace
 from polycnc.geometry.planes import PLANES
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import MacroChannel, WordAddressChannel
-    from polycnc.transformation.kinematic.parallel import ParallelAxes
-
-
-@dataclass(slots=True)
-class PlaneAxes(State, lifetime=Lifetime.POWER):
-    """The parallel axes that a plane has chosen; None where its axes are X, Y and Z."""
-
-    parallel: ParallelAxes | None = None
 
 
 def choose_axes(channel: WordAddressChannel, geometry: tuple[int, int, int]) -> None:
@@ -72,7 +64,7 @@ def lay_axes(channel: MacroChannel, words: Words) -> None:
         if role in (5, 6, 7):
             basic[role - 5] = axis
     geometry = (basic[0], basic[1], basic[2])
-    state = cylinder.CylinderState.of(channel)
+    state = CylinderState.of(channel)
     if state.active is None:
         choose_axes(channel, geometry)
         return

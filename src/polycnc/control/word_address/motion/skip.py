@@ -7,17 +7,15 @@ from functools import partial
 from math import dist
 from typing import TYPE_CHECKING
 
-from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.auxiliary.overrides import fixed_feed
 from polycnc.control.word_address.motion.path import FEED_MODES, reach
-from polycnc.deferred.records import dataclass
+from polycnc.control.word_address.states import LastSkip
 from polycnc.machine.setup.values import SkipInput
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:
-    from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import MacroChannel, WordAddressChannel
 
@@ -27,18 +25,6 @@ SKIP_INPUTS = range(1, 9)
 TORQUE_LIMIT_SKIP = BY_TORQUE, BY_TORQUE_OR_INPUT = (98, 99)
 #: Where the torque of an axis reaches its limit: a signal of the setup. Without it no limit acts.
 TORQUE_LIMIT = "TORQUE_LIMIT"
-
-
-@dataclass(slots=True)
-class LastSkip(State, lifetime=Lifetime.POWER):
-    """Where the last skip move has ended (absolute display); None where there was none."""
-
-    position: list[float] | None = None
-
-    @classmethod
-    def here(cls, channel: Channel) -> list[float]:
-        """That position, else where the channel is."""
-        return cls.of(channel).position or channel.coordinates.position
 
 
 def skip_move(channel: WordAddressChannel, words: Words) -> None:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from math import isclose, nan
 from typing import TYPE_CHECKING
 
-from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.coordinates import tip
 from polycnc.control.word_address.coordinates.systems import ZeroState, frame_as_told, refresh_zero
 from polycnc.control.word_address.cycles import drilling
-from polycnc.deferred.records import dataclass, field, replace
+from polycnc.control.word_address.states import UPRIGHT, LengthState
+from polycnc.deferred.records import replace
 from polycnc.geometry.vectors import times
 from polycnc.toolpath import Kind
 
@@ -23,28 +23,8 @@ if TYPE_CHECKING:
 #: The code under which a length counts along the tool as the head turns it (MELDAS).
 ALONG_TOOL = "G43.1"
 _SIGN = {"G43": 1.0, "G44": -1.0, ALONG_TOOL: 1.0}
-_UPRIGHT: Vector = (0.0, 0.0, 1.0)
 #: What rounding leaves of a length (mm) is not travelled.
 NO_WAY = 1e-9
-
-
-@dataclass(slots=True)
-class LengthState(State, lifetime=Lifetime.RESET):
-    """The active length offset.
-
-    Attributes:
-        number: Its number (H).
-        direction: The direction in which it counts where that is not Z.
-        along: The tool as the head turns it, which is that direction under G43.1.
-        lost: Axes in which it does not count until the next G43, G44 or H.
-        left_at: Machine positions to which axes were sent without regard to it.
-    """
-
-    number: int = 0
-    direction: Vector | None = None
-    along: Vector = _UPRIGHT
-    lost: tuple[int, ...] = ()
-    left_at: dict[int, float] = field(default_factory=dict)
 
 
 def compensate_length(channel: WordAddressChannel, words: Words) -> None:
@@ -176,7 +156,7 @@ def _shift(channel: WordAddressChannel, *, travelled: bool = True) -> None:
         raise channel.control.fail("plane")
     value = active_value(channel)
     turned = channel.mode.codes.get("length") == ALONG_TOOL
-    for axis, part in zip(geometry, state.along if turned else state.direction or _UPRIGHT, strict=True):
+    for axis, part in zip(geometry, state.along if turned else state.direction or UPRIGHT, strict=True):
         if axis >= 0:
             lengths[axis] = value * part if part and axis not in state.lost else 0.0
     refresh_zero(channel, travelled=travelled)

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.tools.radius import active_compensation
 from polycnc.language.bulk import declare, declared
 
@@ -19,8 +18,6 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.family import WordAddressChannel
 
-#: Codes that stop a program, or end it.
-STOPS = frozenset({0, 1, 2, 30})
 LINES = frozenset({"G0", "G1"})
 
 
@@ -52,9 +49,3 @@ def plan_travel(builder: Builder, plan: Plan, step: Step | None) -> Step | None:
 
     # A block without a way is none that the scanner hands to compensation, so a run of blocks does as `step` says.
     return declare(run, declared(step))
-
-
-#: M codes behind which nothing is read.
-STOP_RULE = Rule("codes that stop reading", unless={"compensation": "G40"}, after=plan_stop)
-#: Moves without a way.
-TRAVEL_RULE = Rule("moves without a way", unless={"compensation": "G40"}, in_cycles=False, wrap=plan_travel)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import copysign, nan
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address.tools.length import LengthState
+from polycnc.control.word_address.states import LengthState
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:

@@ -7,33 +7,42 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.path import Move
 from polycnc.channel.states.state import Lifetime, State
-from polycnc.compensation.policy import Violation
-from polycnc.control.word_address.motion import corners
-from polycnc.control.word_address.motion.arcs import mirrors_plane
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.planes import PLANES
 from polycnc.toolpath import Kind
+
+with loaded_when_called():
+    from polycnc.control.word_address.motion import arcs, corners
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator, Mapping
 
     from polycnc.compensation.cutter import CutterCompensation
+    from polycnc.compensation.policy import Violation
     from polycnc.control.word_address.block.codes import Step
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import WordAddressChannel
     from polycnc.geometry.arcs import Point
 
-#: What each violation is called in a control's table of mistakes.
+#: Codes of compensation in space (`spatial`) that every control with it has, by the side of the path on which the tool
+#: stands.
+COMMON_SIDES = {"G41.2": 1, "G42.2": -1, "G41.6": 1, "G42.6": -1}
+#: All codes by that side; G41.4 to G42.5 are the forms of FANUC 16i.
+SIDES = {**COMMON_SIDES, "G41.4": 1, "G42.4": -1, "G41.5": 1, "G42.5": -1}
+#: Codes that name the tool's direction by I J K.
+BY_VECTOR = ("G41.6", "G42.6")
+#: What each `Violation` is called in a control's table of mistakes.
 MISTAKES = {
-    Violation.ARC_START: "comp_arc_start",
-    Violation.ARC_CANCEL: "comp_arc_start",
-    Violation.INNER_RADIUS_TOO_SMALL: "comp_interference",
-    Violation.NO_INTERSECTION: "comp_no_intersection",
-    Violation.INTERFERENCE: "comp_interference",
-    Violation.NO_AVOIDANCE: "comp_no_avoidance",
-    Violation.AVOIDANCE_DANGEROUS: "comp_avoidance_dangerous",
-    Violation.AVOIDANCE_INTERFERES: "comp_avoidance_interferes",
+    "ARC_START": "comp_arc_start",
+    "ARC_CANCEL": "comp_arc_start",
+    "INNER_RADIUS_TOO_SMALL": "comp_interference",
+    "NO_INTERSECTION": "comp_no_intersection",
+    "INTERFERENCE": "comp_interference",
+    "NO_AVOIDANCE": "comp_no_avoidance",
+    "AVOIDANCE_DANGEROUS": "comp_avoidance_dangerous",
+    "AVOIDANCE_INTERFERES": "comp_avoidance_interferes",
 }
 
 
@@ -54,8 +63,11 @@ class RadiusState(State, lifetime=Lifetime.RESET):
 
 def violation_codes(alarms: Mapping[str, str]) -> dict[Violation, str]:
     """The control's alarm code of every violation; that of an interference where it has none of its own."""
+    from polycnc.compensation.policy import Violation
+
     return {
-        violation: alarms.get(mistake, alarms["comp_interference"]) for violation, mistake in MISTAKES.items()
+        Violation[name]: alarms.get(mistake, alarms["comp_interference"])
+        for name, mistake in MISTAKES.items()
     }
 
 
@@ -183,7 +195,7 @@ def side_on_display(channel: WordAddressChannel) -> int:
     """Side in display coordinates: a mirror of one plane axis changes left and right."""
     side: int = RadiusState.of(channel).side
     plane = PLANES[channel.mode["plane"]]
-    return -side if mirrors_plane(channel.coordinates.programming, plane) else side
+    return -side if arcs.mirrors_plane(channel.coordinates.programming, plane) else side
 
 
 def direction_of(channel: WordAddressChannel, words: Words) -> Point | None:

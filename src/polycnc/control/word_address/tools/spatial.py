@@ -13,7 +13,7 @@ from polycnc.channel.moves.knots import join
 from polycnc.control.word_address.coordinates.systems import work_zero
 from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.tools import radius
-from polycnc.control.word_address.tools.radius import RadiusState
+from polycnc.control.word_address.tools.radius import SIDES, RadiusState
 
 if TYPE_CHECKING:
     from polycnc.compensation.spatial.rules import Corners, Rules
@@ -24,12 +24,6 @@ if TYPE_CHECKING:
     from polycnc.control.word_address.family import WordAddressChannel
     from polycnc.transformation.orientation.solutions import Posture
 
-#: Codes that every control with this compensation has, by the side of the path on which the tool stands.
-COMMON_SIDES = {"G41.2": 1, "G42.2": -1, "G41.6": 1, "G42.6": -1}
-#: All codes by that side; G41.4 to G42.5 are the forms of FANUC 16i.
-SIDES = {**COMMON_SIDES, "G41.4": 1, "G42.4": -1, "G41.5": 1, "G42.5": -1}
-#: Codes that name the tool's direction by I J K.
-BY_VECTOR = ("G41.6", "G42.6")
 #: Codes that mirror and scale what the program says.
 SHAPES = ("G50", "G50.1", "G51", "G51.1")
 

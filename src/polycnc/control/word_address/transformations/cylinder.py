@@ -9,18 +9,17 @@ from __future__ import annotations
 from math import pi
 from typing import TYPE_CHECKING
 
-from polycnc.channel.states.state import Lifetime, State
-from polycnc.control.word_address.block.rules import Rule
+from polycnc.control.word_address.states import CylinderState
 from polycnc.control.word_address.tools.radius import RadiusState, active_compensation
-from polycnc.deferred.records import dataclass
 from polycnc.geometry.planes import PLANES
 
 if TYPE_CHECKING:
+    from collections.abc import Collection
+
     from polycnc.control.word_address.block.numbers import Convert
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import MacroChannel, WordAddressChannel
-    from polycnc.transformation.kinematic.cylinder import Cylinder
 
 #: Modal group that holds `G7.1` while a cylinder is unrolled.
 GROUP = "cylinder"
@@ -30,19 +29,6 @@ REFUSED = frozenset({
     "G0", "G12.1", "G27", "G28", "G29", "G30", "G31", "G33", "G37", "G52", "G53", "G54", "G55", "G56", "G57", "G58",
     "G59", "G60", "G68", "G92",
 })  # fmt: skip
-
-
-@dataclass(slots=True)
-class CylinderState(State, lifetime=Lifetime.RESET):
-    """Cylindrical interpolation.
-
-    Attributes:
-        active: The unrolled surface; None while it is off.
-        geometry_before: The columns of X, Y and Z that hold again at its end.
-    """
-
-    active: Cylinder | None = None
-    geometry_before: tuple[int, int, int] = (-1, -1, -1)
 
 
 def cylinder(channel: MacroChannel, words: Words) -> None:
@@ -114,12 +100,12 @@ def end_cylinder(channel: WordAddressChannel) -> None:
     channel.context_changed()
 
 
-def _check_block(builder: Builder, refused: frozenset[str]) -> None:
-    """Refuse codes that cylindrical interpolation does not allow."""
+def check_block(builder: Builder, further: Collection[str]) -> None:
+    """Refuse codes that cylindrical interpolation does not allow: `REFUSED`, and further ones of the control."""
     if not builder.before.codes.get(GROUP):
         return
     for row in builder.codes:
-        if row.code in refused or (row.group == "cycle" and row.code != "G80"):
+        if row.code in REFUSED or row.code in further or (row.group == "cycle" and row.code != "G80"):
             raise builder.control.fail("cylinder_code", address=row.code)
 
 
@@ -135,28 +121,13 @@ def shown(channel: WordAddressChannel, axis: int, value: float) -> float:
     return value / active.mm_per_degree if active is not None and active.axis == axis else value
 
 
-def _surface_word(builder: Builder, axis: int, _form: str, convert: Convert | None) -> Convert | None:
+def surface_word(builder: Builder, axis: int, _form: str, convert: Convert | None) -> Convert | None:
     """Words of the unrolled axis are angles of the surface."""
     channel = builder.channel
     unrolled = CylinderState.of(channel).active
     if unrolled is None or axis != unrolled.axis:
         return convert
     return lambda value: unroll(channel, axis, convert(value) if convert else value)
-
-
-def rule(*further: str) -> Rule:
-    """What blocks may hold and how they are read in cylindrical interpolation.
-
-    Args:
-        further: G codes that a control refuses beside `REFUSED`.
-    """
-    refused = REFUSED | set(further)
-    return Rule(
-        "cylindrical interpolation",
-        unless={GROUP: ""},
-        check=lambda builder: _check_block(builder, refused),
-        convert=_surface_word,
-    )
 
 
 def _forget_compensation(channel: WordAddressChannel) -> None:

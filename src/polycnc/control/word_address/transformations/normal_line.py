@@ -13,7 +13,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.transformations.normal_stage import CUTS, SAME_DEG, Direction, NormalStage
 from polycnc.deferred.records import dataclass, field
 from polycnc.geometry.planes import PLANES
@@ -78,6 +77,11 @@ def start(channel: MacroChannel, words: Words) -> None:
     channel.path.put(NormalStage(direction, channel.toolpath))
 
 
+def acts(channel: WordAddressChannel) -> bool:
+    """Whether the axis follows the path."""
+    return channel.path.find(NormalStage) is not None
+
+
 def cancel(channel: WordAddressChannel, _words: Words) -> None:
     """G40.1: the axis stays where it is."""
     end(channel)
@@ -98,7 +102,7 @@ def end(channel: WordAddressChannel) -> None:
 
 def check_block(builder: Builder) -> None:
     """Refuse what the control does not allow while the axis follows the path."""
-    rules: NormalLineRules = builder.control.NORMAL_LINE_RULES
+    rules: NormalLineRules = builder.control.normal_line_rules()
     if builder.before.codes.get(GROUP, OFF) == OFF or not (rules.with_its_end or builder.mode[GROUP] != OFF):
         return
     fail, codes = builder.control.fail, [row.code for row in builder.codes]
@@ -116,7 +120,3 @@ def check_block(builder: Builder) -> None:
         raise fail("normal_plane", address=builder.mode["plane"])
     if builder.has(name) and rules.preset in codes:
         raise fail("normal_preset", address=rules.preset, code=rules.preset)
-
-
-#: What must not stand in blocks while the axis follows the path.
-RULE = Rule("normal line control", unless={GROUP: OFF}, check=check_block)

@@ -8,15 +8,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.block.numbers import length_converter
-from polycnc.control.word_address.block.rules import Rule
+from polycnc.control.word_address.states import CylinderState, PolarState
 from polycnc.control.word_address.tools.radius import RadiusState
-from polycnc.control.word_address.transformations.cylinder import CylinderState
-from polycnc.deferred.records import dataclass
 from polycnc.geometry.planes import PLANES
 
 if TYPE_CHECKING:
+    from collections.abc import Collection
+
     from polycnc.control.word_address.block.numbers import Convert
     from polycnc.control.word_address.block.plan import Builder
     from polycnc.control.word_address.block.words import Words
@@ -34,22 +33,6 @@ _CUTS = frozenset({"G1", "G2", "G3"})
 ALLOWED = frozenset({
     "G1", "G2", "G3", "G4", "G9", "G13.1", "G40", "G41", "G42", "G65", "G66", "G66.1", "G67",
 })  # fmt: skip
-
-
-@dataclass(slots=True)
-class PolarState(State, lifetime=Lifetime.RESET):
-    """The plane of polar coordinate interpolation, and what its end brings back.
-
-    Attributes:
-        plane: None while it is off.
-        diameter: The machine display shows diameters of its linear axis.
-        plane_before: Code of the plane that holds again then; `geometry_before` its axes.
-    """
-
-    plane: PolarPlane | None = None
-    diameter: bool = False
-    plane_before: str = "G17"
-    geometry_before: tuple[int, int, int] = (-1, -1, -1)
 
 
 def start_polar(channel: MacroChannel, words: Words) -> None:
@@ -139,29 +122,14 @@ def length_word(builder: Builder, axis: int, form: str, convert: Convert | None)
     return length_converter(form, builder.rules, inch=builder.inch)
 
 
-def _check_block(builder: Builder, allowed: frozenset[str]) -> None:
-    """Refuse codes that polar coordinate interpolation does not allow, and rapid motion."""
+def check_block(builder: Builder, further: Collection[str]) -> None:
+    """Refuse what polar coordinate interpolation does not allow: codes but `ALLOWED` and further ones, rapid motion."""
     if builder.before.codes.get(GROUP) != "G12.1":
         return
     control, motion = builder.control, builder.mode["motion"]
     for row in builder.codes:
-        if row.code not in allowed:
+        if row.code not in ALLOWED and row.code not in further:
             raise control.fail("polar_code", address=row.code)
     moves = any(control.axis_of_address(builder.channel, a, builder) for a in builder.slots)
     if moves and motion not in _CUTS and not any(row.axis_words for row in builder.codes):
         raise control.fail("polar_code", address=motion)
-
-
-def rule(*further: str) -> Rule:
-    """What blocks may hold and how they are read in polar coordinate interpolation.
-
-    Args:
-        further: G codes that a control allows beside `ALLOWED`.
-    """
-    allowed = ALLOWED | set(further)
-    return Rule(
-        "polar coordinate interpolation",
-        unless={GROUP: "G13.1"},
-        check=lambda builder: _check_block(builder, allowed),
-        convert=length_word,
-    )

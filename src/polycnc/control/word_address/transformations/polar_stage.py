@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.pole import PoleStage, standing
-from polycnc.control.word_address.transformations.polar_interpolation import PolarState
+from polycnc.control.word_address.states import PolarState
 
 if TYPE_CHECKING:
     from polycnc.transformation.kinematic.polar import PolarPlane

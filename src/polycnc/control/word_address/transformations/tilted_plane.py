@@ -9,7 +9,6 @@ from __future__ import annotations
 from math import nan
 from typing import TYPE_CHECKING
 
-from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.coordinates import frames, on_table
 from polycnc.control.word_address.coordinates.on_table import OnTable
 from polycnc.control.word_address.coordinates.systems import (
@@ -22,10 +21,9 @@ from polycnc.control.word_address.coordinates.systems import (
 )
 from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.motion.planes import choose_basic_axes
+from polycnc.control.word_address.states import LengthState, TiltState
 from polycnc.control.word_address.tools import length
-from polycnc.control.word_address.tools.length import LengthState
 from polycnc.control.word_address.tools.radius import RadiusState
-from polycnc.deferred.records import dataclass, field
 from polycnc.geometry.frames import IDENTITY, Frame, rotation, translation
 from polycnc.geometry.vectors import times
 from polycnc.messages import AlarmError
@@ -46,19 +44,6 @@ MACHINE_ZERO = (0.0, 0.0, 0.0)
 #: P of G53.1 and G53.6: the nearest position, or the sense in which the first rotary axis turns.
 NEAREST = 0
 SENSES = {NEAREST: 0, 1: 1, 2: -1}
-
-
-@dataclass(slots=True)
-class TiltState(State, lifetime=Lifetime.RESET):
-    """The tilted plane inside the work system, and what blocks have told of the next one (P2, P3).
-
-    `way` is their P; `placed` is where the origin lies in the plane through three points, and how that turns (P2 Q0).
-    """
-
-    plane: Frame | None = None
-    told: list[tuple[Vector, Vector]] = field(default_factory=list)
-    way: int = EULER
-    placed: Frame = IDENTITY
 
 
 def tilt_plane(channel: WordAddressChannel, words: Words) -> None:

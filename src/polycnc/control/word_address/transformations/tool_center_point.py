@@ -11,7 +11,6 @@ from array import array
 from math import nan
 from typing import TYPE_CHECKING
 
-from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.block.words_as_data import targets_as_data
 from polycnc.control.word_address.coordinates import on_table, tip
@@ -22,11 +21,12 @@ from polycnc.control.word_address.coordinates.systems import (
     frame_on_table,
     refresh_zero,
 )
+from polycnc.control.word_address.coordinates.tip import TIP_CODES
 from polycnc.control.word_address.motion.path import reach
 from polycnc.control.word_address.motion.planes import choose_basic_axes
-from polycnc.control.word_address.tools.length import LengthState
+from polycnc.control.word_address.states import LengthState, TiltState
 from polycnc.control.word_address.tools.radius import RadiusState
-from polycnc.control.word_address.transformations.tilted_plane import TiltState, nearest_angles
+from polycnc.control.word_address.transformations.tilted_plane import nearest_angles
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.vectors import times
 from polycnc.language.bulk import Straight, declare
@@ -107,10 +107,9 @@ def _check_work_zero(channel: WordAddressChannel) -> None:
 
 #: What does not go with tool centre point control (macro B reference §12), beside drilling cycles.
 NOT_WITH_TIP = frozenset(("G12.1", "G27", "G28", "G29", "G30", "G41", "G42", "G53"))
-TIP_CODES = ("G43.4", "G43.5")
 
 
-def _check_block(builder: Builder) -> None:
+def check_company(builder: Builder) -> None:
     """Refuse codes of the machine, cycles and radius compensation of a plane; under G43.5 rotary words too.
 
     A block that ends the control, or begins it, may hold what its other codes allow.
@@ -237,9 +236,3 @@ def end_following(channel: WordAddressChannel) -> None:
         return
     channel.coordinates.transform(None)
     refresh_zero(channel)
-
-
-#: Straight blocks that name the direction of the tool.
-RULE = Rule("tool direction by a vector", modes={"length": ("G43.5",)}, in_cycles=False, motion=plan_with_tip)
-#: What must not come while words name the tip.
-COMPANY_RULE = Rule("company of tool centre point control", modes={"length": TIP_CODES}, check=_check_block)

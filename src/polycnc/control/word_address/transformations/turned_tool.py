@@ -14,8 +14,9 @@ from polycnc.control.word_address.coordinates import on_table, tip
 from polycnc.control.word_address.coordinates.on_table import OnTable
 from polycnc.control.word_address.coordinates.systems import ZeroState, lies, plane_on_table, refresh_zero
 from polycnc.control.word_address.coordinates.tip import TipState
+from polycnc.control.word_address.states import TiltState
 from polycnc.control.word_address.tools.radius import RadiusState
-from polycnc.control.word_address.transformations.tilted_plane import TiltState, turn_to
+from polycnc.control.word_address.transformations.tilted_plane import turn_to
 from polycnc.deferred.records import replace
 from polycnc.geometry.frames import IDENTITY
 from polycnc.messages import AlarmError

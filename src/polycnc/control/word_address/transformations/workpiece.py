@@ -10,17 +10,16 @@ from math import nan
 from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.block.codes import Order
-from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.coordinates import on_table, tip
 from polycnc.control.word_address.coordinates.on_table import OnTable
-from polycnc.control.word_address.coordinates.tip import TipState
+from polycnc.control.word_address.coordinates.tip import TIP_CODES, TipState
 from polycnc.control.word_address.cycles import drilling
 from polycnc.control.word_address.motion import path
 from polycnc.control.word_address.motion.path import reach
+from polycnc.control.word_address.states import TiltState
 from polycnc.control.word_address.tools import data_input
 from polycnc.control.word_address.transformations import turned_tool
-from polycnc.control.word_address.transformations.tilted_plane import TiltState, check_compensation
-from polycnc.control.word_address.transformations.tool_center_point import TIP_CODES
+from polycnc.control.word_address.transformations.tilted_plane import check_compensation
 from polycnc.language.bulk import Idle, declare
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
@@ -120,7 +119,7 @@ def _turning(builder: Builder, plan: Plan) -> list[int]:
     return [word.axis for word in plan.axis_words if builder.channel.axes[word.axis] in named]
 
 
-def _plan(builder: Builder, plan: Plan) -> Step | None:
+def plan_turning(builder: Builder, plan: Plan) -> Step | None:
     """The work zero is that of the block's end; the axes go straight to where its words are then."""
     turning = _turning(builder, plan)
     if TipState.of(builder.channel).active is not None:
@@ -131,7 +130,7 @@ def _plan(builder: Builder, plan: Plan) -> Step | None:
     if builder.mode["cycle"] != "G80":
         return None
     if motion not in STRAIGHT:
-        return None  # `_wrap` looks whether the table turns
+        return None  # `wrap_turning` looks whether the table turns
     kind, names_feed = STRAIGHT[motion], builder.has("F")
     polar = builder.mode.codes.get("polar") == "G16"
 
@@ -180,7 +179,7 @@ def go_over_hole(channel: MillingChannel, words: Sequence[AxisWord], end: list[f
         drilling.rapid_over(channel, words, end)
 
 
-def _behind(builder: Builder, plan: Plan) -> Step | None:
+def follow_behind(builder: Builder, plan: Plan) -> Step | None:
     """Behind G28, G53 and their like the work zero is that of where the table has come to."""
     if not _turning(builder, plan):
         return None
@@ -193,7 +192,7 @@ def _behind(builder: Builder, plan: Plan) -> Step | None:
     return follow
 
 
-def _refuse_one_shot(builder: Builder, plan: Plan) -> Step | None:
+def refuse_one_shot(builder: Builder, plan: Plan) -> Step | None:
     """PC0001 for a one-shot code that would move the axes while a workpiece error has to turn the tool."""
     codes = [row for row in builder.codes if row.axis_words and row.order is Order.MOTION]
     if not codes or all(row.code in RETURNS for row in codes):
@@ -249,7 +248,7 @@ def reach_posed(channel: WordAddressChannel, words: tuple[AxisWord, ...], values
     return goal
 
 
-def _wrap(builder: Builder, plan: Plan, step: Step | None) -> Step | None:
+def wrap_turning(builder: Builder, plan: Plan, step: Step | None) -> Step | None:
     """A cycle with an axis of the table tells the scanner nothing; PC0001 for an arc or a thread that turns one."""
     turning, led = _turning(builder, plan), TipState.of(builder.channel).active is not None
     if step is not None and plan.axis_words and OnTable.of(builder.channel).turns_tool and not led:
@@ -289,14 +288,3 @@ def _turned(builder: Builder, plan: Plan, step: Step) -> Step:
         turned_tool.go(channel, (kind, feed), words, before, goal)
 
     return move
-
-
-#: What turns of the table do to the work zero.
-RULE = Rule(
-    "work zero on a rotary table",
-    modes={FIXTURE: ("G54.2",), ERROR: ("G54.4",)},
-    before=_refuse_one_shot,
-    motion=_plan,
-    wrap=_wrap,
-    after=_behind,
-)

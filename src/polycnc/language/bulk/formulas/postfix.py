@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import ast
 from typing import TYPE_CHECKING
 
 from polycnc.language.bulk.layout import STACK, Operation
+from polycnc.language.expressions import nodes
 from polycnc.language.expressions.code import Code, Lifted, constant, dotted
 from polycnc.language.expressions.operators import checked_value
 
@@ -14,16 +14,16 @@ if TYPE_CHECKING:
 
 _ZERO, _READ = constant(0.0), dotted("m.read")
 _OPERATORS = {
-    ast.Add: Operation.ADD,
-    ast.Sub: Operation.SUBTRACT,
-    ast.Mult: Operation.MULTIPLY,
-    ast.Div: Operation.DIVIDE,
+    nodes.Add: Operation.ADD,
+    nodes.Sub: Operation.SUBTRACT,
+    nodes.Mult: Operation.MULTIPLY,
+    nodes.Div: Operation.DIVIDE,
 }
 _COMPARISONS: dict[object, int] = {
-    ast.Gt: Operation.GREATER,
-    ast.GtE: Operation.GREATER_OR_EQUAL,
-    ast.Lt: Operation.LESS,
-    ast.LtE: Operation.LESS_OR_EQUAL,
+    nodes.Gt: Operation.GREATER,
+    nodes.GtE: Operation.GREATER_OR_EQUAL,
+    nodes.Lt: Operation.LESS,
+    nodes.LtE: Operation.LESS_OR_EQUAL,
 }
 #: By their names too; they tell a vacant variable from zero.
 _EQUALITIES: dict[object, int] = {"eq_": Operation.EQUAL, "ne_": Operation.NOT_EQUAL}
@@ -86,11 +86,11 @@ class Postfix:
 
     def condition(self, code: Code) -> None:
         """Add what leaves 1 on the stack where a condition holds, else 0; as `value`."""
-        if code.kind is ast.Compare:
+        if code.kind == nodes.Compare:
             operands, operation = (code[1], *_parts(code[3])), _COMPARISONS.get(_parts(code[2])[0])
         else:
-            function = code[1] if code.kind is ast.Call else None
-            name = function[1] if isinstance(function, Code) and function.kind is ast.Name else None
+            function = code[1] if code.kind == nodes.Call else None
+            name = function[1] if isinstance(function, Code) and function.kind == nodes.Name else None
             operands, operation = _parts(code[2]), _EQUALITIES.get(name)
         if operation is None:
             raise OtherError
@@ -112,10 +112,10 @@ class Postfix:
 
     def _put_any(self, code: Code) -> int:
         """A value that may be vacant."""
-        if code.kind is ast.Subscript:
+        if code.kind == nodes.Subscript:
             self.done += (Operation.VARIABLE_OR_VACANT, self._variable(code))
             return 1
-        if code.kind is ast.Call and code[1] == _READ and isinstance(code[2], tuple):
+        if code.kind == nodes.Call and code[1] == _READ and isinstance(code[2], tuple):
             number = code[2][0]
             if isinstance(number, Lifted) and self._numbers and self._numbers[number.place] == 0:
                 self.done += (Operation.VACANT, 0)
@@ -130,12 +130,12 @@ class Postfix:
         if isinstance(code, Lifted):
             self.done += (Operation.NUMBER, self._literals[code.place])
             return 1
-        if code.kind is ast.Subscript:
+        if code.kind == nodes.Subscript:
             self.done += (Operation.VARIABLE, self._variable(code))
             return 1
-        if code.kind is ast.BoolOp:
+        if code.kind == nodes.BoolOp:
             return self._put_or_zero(code)
-        if code.kind is ast.BinOp:
+        if code.kind == nodes.BinOp:
             _, left, operator, right = code
             assert isinstance(left, Code)
             assert isinstance(right, Code)
@@ -148,18 +148,18 @@ class Postfix:
         """A variable that counts as zero while it is vacant."""
         parts = code[2]
         assert isinstance(parts, tuple)
-        if code[1] is not ast.Or or parts[0].kind is not ast.Subscript or parts[1] != _ZERO:
+        if code[1] != nodes.Or or parts[0].kind != nodes.Subscript or parts[1] != _ZERO:
             raise OtherError
         self.done += (Operation.VARIABLE_OR_ZERO, self._variable(parts[0]))
         return 1
 
     def _put_applied(self, code: Code) -> int:
         """A sign or a function."""
-        if code.kind is ast.UnaryOp and code[1] in (ast.USub, ast.UAdd):
-            operand, operation = code[2], Operation.NEGATIVE if code[1] is ast.USub else None
-        elif code.kind is ast.Call and isinstance(code[2], tuple) and len(code[2]) == 2:
+        if code.kind == nodes.UnaryOp and code[1] in (nodes.USub, nodes.UAdd):
+            operand, operation = code[2], Operation.NEGATIVE if code[1] == nodes.USub else None
+        elif code.kind == nodes.Call and isinstance(code[2], tuple) and len(code[2]) == 2:
             function = code[1]
-            name = function[1] if isinstance(function, Code) and function.kind is ast.Name else None
+            name = function[1] if isinstance(function, Code) and function.kind == nodes.Name else None
             operand, operation = code[2][1], _FUNCTIONS.get(str(name)) or _other()
         else:
             raise OtherError
@@ -172,7 +172,7 @@ class Postfix:
     def _variable(self, code: Code) -> int:
         """Where the number of a variable stands that lies in the memory."""
         base, index = code[1], code[2]
-        if not (isinstance(base, Code) and base.kind is ast.Attribute and isinstance(index, Lifted)):
+        if not (isinstance(base, Code) and base.kind == nodes.Attribute and isinstance(index, Lifted)):
             raise OtherError
         return self._literals[index.place]
 

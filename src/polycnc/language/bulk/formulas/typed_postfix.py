@@ -7,13 +7,13 @@ has no sign, and what only types tell apart is left to the interpreter.
 
 from __future__ import annotations
 
-import ast
 from enum import Enum, auto
 from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.language.bulk.formulas.postfix import OtherError
 from polycnc.language.bulk.layout import HELD, STACK, Operation
+from polycnc.language.expressions import nodes
 from polycnc.language.expressions.code import Code, Lifted, constant
 from polycnc.language.expressions.operators import checked_value
 
@@ -76,20 +76,20 @@ _FUNCTIONS = {
     "real_quotient": Function(_TWO, Operation.QUOTIENT, Sort.REAL),
 }
 _OPERATORS: dict[object, int] = {
-    ast.Add: Operation.ADD,
-    ast.Sub: Operation.SUBTRACT,
-    ast.Mult: Operation.MULTIPLY,
-    ast.Div: Operation.DIVIDE,
+    nodes.Add: Operation.ADD,
+    nodes.Sub: Operation.SUBTRACT,
+    nodes.Mult: Operation.MULTIPLY,
+    nodes.Div: Operation.DIVIDE,
 }
 _COMPARISONS: dict[object, int] = {
-    ast.Eq: Operation.EQUAL,
-    ast.NotEq: Operation.NOT_EQUAL,
-    ast.Gt: Operation.GREATER,
-    ast.GtE: Operation.GREATER_OR_EQUAL,
-    ast.Lt: Operation.LESS,
-    ast.LtE: Operation.LESS_OR_EQUAL,
+    nodes.Eq: Operation.EQUAL,
+    nodes.NotEq: Operation.NOT_EQUAL,
+    nodes.Gt: Operation.GREATER,
+    nodes.GtE: Operation.GREATER_OR_EQUAL,
+    nodes.Lt: Operation.LESS,
+    nodes.LtE: Operation.LESS_OR_EQUAL,
 }
-_LOGIC: dict[object, int] = {ast.And: Operation.AND, ast.Or: Operation.OR}
+_LOGIC: dict[object, int] = {nodes.And: Operation.AND, nodes.Or: Operation.OR}
 #: Constants of the language's own code that go onto the stack.
 _LARGEST_ARGUMENT = 2**31 - 1
 _HALF = constant(0.5)
@@ -118,16 +118,16 @@ class TypedPostfix:
         self._sort_of_number, self._literal, self._locate = sort_of_number, literal, locate
         self._objects = objects
         self._ways: dict[object, Callable[[Code], Sort]] = {
-            ast.Constant: self._put_constant,
-            ast.Subscript: self._put_variable,
-            ast.NamedExpr: self._put_bound,
-            ast.Name: self._put_name,
-            ast.BinOp: self._put_calculated,
-            ast.UnaryOp: self._put_signed,
-            ast.Compare: self._put_comparison,
-            ast.BoolOp: self._put_logic,
-            ast.Call: self._put_call,
-            ast.IfExp: self._put_chosen,
+            nodes.Constant: self._put_constant,
+            nodes.Subscript: self._put_variable,
+            nodes.NamedExpr: self._put_bound,
+            nodes.Name: self._put_name,
+            nodes.BinOp: self._put_calculated,
+            nodes.UnaryOp: self._put_signed,
+            nodes.Compare: self._put_comparison,
+            nodes.BoolOp: self._put_logic,
+            nodes.Call: self._put_call,
+            nodes.IfExp: self._put_chosen,
         }
         self._held: dict[object, tuple[int, Sort]] = {}
         self._depth = 0
@@ -254,7 +254,7 @@ class TypedPostfix:
         if operation is None:
             raise OtherError
         self._add(operation, 0, -1)
-        if Sort.REAL in sorts or operator is ast.Div:
+        if Sort.REAL in sorts or operator == nodes.Div:
             return Sort.REAL
         self._add(Operation.EXACT)
         return Sort.WHOLE
@@ -263,13 +263,13 @@ class TypedPostfix:
         operator, operand = code[1], code[2]
         assert isinstance(operand, Code)
         sort = self._put(operand)
-        if operator is ast.Not:
+        if operator == nodes.Not:
             self._need(sort, Sort.TRUTH)
             self._add(Operation.NOT)
             return sort
-        if operator not in (ast.USub, ast.UAdd):
+        if operator not in (nodes.USub, nodes.UAdd):
             raise OtherError
-        if operator is ast.USub:
+        if operator == nodes.USub:
             self._add(Operation.NEGATIVE)
         if sort is Sort.REAL:
             return sort
@@ -303,7 +303,7 @@ class TypedPostfix:
         function, arguments = code[1], code[2]
         assert isinstance(function, Code)
         assert isinstance(arguments, tuple)
-        name = function[1] if function.kind is ast.Name else None
+        name = function[1] if function.kind == nodes.Name else None
         known = _FUNCTIONS.get(str(name))
         if known is not None:
             return self._put_function(known, arguments)
@@ -335,8 +335,8 @@ class TypedPostfix:
         test, otherwise = code[1], code[3]
         assert isinstance(test, Code)
         assert isinstance(otherwise, Code)
-        function = otherwise[1] if otherwise.kind is ast.Call else None
-        name = function[1] if isinstance(function, Code) and function.kind is ast.Name else None
+        function = otherwise[1] if otherwise.kind == nodes.Call else None
+        name = function[1] if isinstance(function, Code) and function.kind == nodes.Name else None
         if name == "remainder":
             return self._put_remainder(test)
         others = test[3]
@@ -346,7 +346,7 @@ class TypedPostfix:
         self._need(self._put(value), Sort.WHOLE)
         if name == "checked_int":
             self._add(Operation.INTEGER)
-        elif limit.kind is ast.Constant and isinstance(limit[1], int):
+        elif limit.kind == nodes.Constant and isinstance(limit[1], int):
             self._add(Operation.WITHIN, limit[1])
         else:
             raise OtherError
@@ -370,7 +370,7 @@ class TypedPostfix:
 
 def _without_half(code: Code) -> Code:
     """`x` of `floor(x + 0.5)`."""
-    if code.kind is not ast.BinOp or code[2] is not ast.Add or code[3] != _HALF:
+    if code.kind != nodes.BinOp or code[2] != nodes.Add or code[3] != _HALF:
         raise OtherError
     assert isinstance(code[1], Code)
     return code[1]

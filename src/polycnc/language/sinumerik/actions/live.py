@@ -7,9 +7,9 @@ in the tuple of these values stands for it (10.1.2).
 
 from __future__ import annotations
 
-import ast
 from typing import TYPE_CHECKING, Any
 
+from polycnc.language.expressions import nodes
 from polycnc.language.expressions.code import Code, call, constant, given, item, name, quoted, sequence
 from polycnc.language.expressions.shapes import Function, TooDeepError
 from polycnc.language.sinumerik import keywords
@@ -330,7 +330,7 @@ class LiveReader(ExpressionReader):
     # ---- code ----------------------------------------------------------------------------------------------
 
     def _do(self, method: str, *arguments: Code) -> None:
-        self.emitter.run(call(Code((ast.Attribute, _ACTING, method, ast.Load)), *arguments))
+        self.emitter.run(call(Code((nodes.Attribute, _ACTING, method, nodes.Load)), *arguments))
 
     def calls(self, cycle: object, arguments: Code) -> None:
         """Add the call of a technology cycle."""

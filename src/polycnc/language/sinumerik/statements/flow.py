@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import ast
 from typing import TYPE_CHECKING
 
 from polycnc.channel.stack import LevelKind
 from polycnc.deferred.records import replace
+from polycnc.language.expressions import nodes
 from polycnc.language.expressions.code import (
     Code,
     assigned,
@@ -108,7 +108,7 @@ def case(compiler: BlockCompiler) -> None:
         if compiler.accept("DEFAULT"):
             compiler.emitter.add(read_jump(compiler))
             return
-        meant = compared(chosen, ast.Eq, compiler.value(Type.INT))
+        meant = compared(chosen, nodes.Eq, compiler.value(Type.INT))
         compiler.emitter.add(when(meant, (read_jump(compiler),)))
 
 
@@ -212,7 +212,7 @@ def _count(compiler: BlockCompiler, *, first: bool) -> Code:
         compiler, compiler.converted(Expr(counted, Type.INT if first else place.type), place.type, token)
     )
     compiler.expect("TO")
-    return compared(value.code, ast.LtE, compiler.value(Type.INT))
+    return compared(value.code, nodes.LtE, compiler.value(Type.INT))
 
 
 # ---- repetition of program sections (1.11) -----------------------------------------------------------------

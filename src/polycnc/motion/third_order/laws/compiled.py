@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.kernels.library import Library
-from polycnc.motion.third_order.laws import barrier, courses, grid, joining, phases, records, search
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -16,17 +15,26 @@ if TYPE_CHECKING:
     from polycnc.motion.third_order.laws.courses import Axes, Course, Known, Nodes
     from polycnc.motion.third_order.laws.records import RowEnds, Track, Walk
 
+_LAWS = "polycnc.motion.third_order.laws"
 LIBRARY = Library(
     "jerk_laws",
-    (courses, grid, barrier, phases, search, joining, records),
     (
-        search.place_nodes,
-        grid.merge,
-        search.find_law,
-        joining.look_ahead,
-        joining.cut_law,
-        records.put_records,
-        records.add_times,
+        f"{_LAWS}.courses",
+        f"{_LAWS}.grid",
+        f"{_LAWS}.barrier",
+        f"{_LAWS}.phases",
+        f"{_LAWS}.search",
+        f"{_LAWS}.joining",
+        f"{_LAWS}.records",
+    ),
+    (
+        f"{_LAWS}.search.place_nodes",
+        f"{_LAWS}.grid.merge",
+        f"{_LAWS}.search.find_law",
+        f"{_LAWS}.joining.look_ahead",
+        f"{_LAWS}.joining.cut_law",
+        f"{_LAWS}.records.put_records",
+        f"{_LAWS}.records.add_times",
     ),
 )
 
@@ -43,10 +51,13 @@ class Kernels(NamedTuple):
     add_times: Callable[[Floats, RowEnds, Walk, Floats, Floats, int], None]
 
 
-PLAIN = Kernels._make(LIBRARY.kernels)
-
-
 @cache
 def kernels() -> Kernels:
     """The compiled kernels; the plain ones where there are none."""
-    return PLAIN if LIBRARY.lack is not None else Kernels._make(map(LIBRARY.compiled, PLAIN))
+    return Kernels._make(map(LIBRARY.kernel, LIBRARY.names))
+
+
+@cache
+def plain() -> Kernels:
+    """The kernels as they are written."""
+    return Kernels._make(map(LIBRARY.plain, LIBRARY.names))

@@ -7,8 +7,11 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.fanuc.lathe.coordinates.barrier import barrier, is_described
-from polycnc.control.word_address.coordinates.stroke_check import StrokeZone, refuse_others, zone_between
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field, replace
+
+with loaded_when_called():
+    from polycnc.control.word_address.coordinates import stroke_check
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -17,6 +20,7 @@ if TYPE_CHECKING:
     from polycnc.channel.moves.travel import Travel
     from polycnc.control.fanuc.lathe.family import LatheChannel
     from polycnc.control.word_address.block.words import Words
+    from polycnc.control.word_address.coordinates.stroke_check import StrokeZone
 
 
 @dataclass(slots=True)
@@ -88,7 +92,7 @@ def renew_zones(channel: LatheChannel) -> None:
 
 def _zone_of_words(channel: LatheChannel, words: Words) -> StrokeZone | None:
     upper = {axis: value for axis, value, _ in words.axes()}
-    refuse_others(channel, words)
+    stroke_check.refuse_others(channel, words)
     named: list[tuple[int, float, float]] = []
     for letter, axis in zip("IJK", channel.coordinates.geometry, strict=True):
         low = words.length(letter, diameter=axis >= 0 and channel.control.is_diameter(channel, axis))
@@ -125,7 +129,7 @@ def _zone_3(channel: LatheChannel) -> StrokeZone | None:
 def _zone(channel: LatheChannel, named: list[tuple[int, float, float]]) -> StrokeZone | None:
     if not named:
         return None
-    return zone_between(named, inside=not channel.memory.parameters.OUT)
+    return stroke_check.zone_between(named, inside=not channel.memory.parameters.OUT)
 
 
 def hand_range(channel: LatheChannel, axis: int) -> tuple[float, float]:

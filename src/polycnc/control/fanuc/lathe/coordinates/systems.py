@@ -8,18 +8,21 @@ from typing import TYPE_CHECKING, TypeVar
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.fanuc.lathe.cycles.modal import SingleCycleState
-from polycnc.control.fanuc.lathe.motion.corners import corner_waits
 from polycnc.control.fanuc.lathe.tools.offsets import refresh
 from polycnc.control.word_address.block import repeated_codes
 from polycnc.control.word_address.coordinates import systems
 from polycnc.control.word_address.coordinates.frames import RotationState, rotation_frame
 from polycnc.control.word_address.coordinates.systems import ZeroState
-from polycnc.control.word_address.motion import planes
 from polycnc.control.word_address.tools.radius import RadiusState, active_compensation, suspended
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.planes import PLANES
 from polycnc.toolpath import Kind
+
+with loaded_when_called():
+    from polycnc.control.fanuc.lathe.motion import corners
+    from polycnc.control.word_address.motion import planes
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -229,7 +232,7 @@ def select_plane(channel: LatheChannel, words: Words) -> None:
 
 def _refuse_corner(channel: LatheChannel, words: Words, code: str) -> None:
     """A plane code behind a chamfer or corner R is an alarm, even if it names the same plane (II.4.7)."""
-    if corner_waits(channel):
+    if corners.corner_waits(channel):
         drawing = channel.memory.parameters.CRD
         raise words.fail("drawing_increment" if drawing else "corner_no_move", code)
 

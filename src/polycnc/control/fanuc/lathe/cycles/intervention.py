@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.channel.intervention import TakesBack
-from polycnc.control.fanuc.lathe.cycles import single as turning_single
-from polycnc.control.word_address.block.rules import Rule
+from polycnc.control.fanuc.lathe.cycles.modal import CYCLES
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY
 
@@ -29,7 +28,7 @@ def takes_back(builder: Builder, _plan: Plan) -> TakesBack | None:
         return TakesBack(_mask(named)) if named else None
     cuts_shape = codes & _SHAPE_CYCLES and builder.has("P") and builder.has("Q")
     threads = "G76" in codes and named
-    single = builder.mode["motion"] in turning_single.CYCLES and builder.mode["cycle"] == "G80"
+    single = builder.mode["motion"] in CYCLES and builder.mode["cycle"] == "G80"
     return TakesBack(_mask(plane)) if cuts_shape or threads or single else None
 
 
@@ -61,13 +60,3 @@ def _axis(builder: Builder, letter: str) -> int:
 
 def _mask(axes: set[int]) -> int:
     return sum(1 << axis for axis in axes)
-
-
-#: A turning cycle begins where the tool was before it was moved by hand.
-RULE = Rule(
-    "manual intervention and turning cycles",
-    modes={"motion": turning_single.CYCLES},
-    codes=_SHAPE_CYCLES | _NAMED_AXES | {"G76"},
-    before=plan_return,
-    takes_back=takes_back,
-)

@@ -13,6 +13,9 @@ if TYPE_CHECKING:
     from polycnc.control.fanuc.lathe.family import LatheChannel
     from polycnc.control.word_address.block.plan import Builder
 
+#: Codes of single cycles, and of grinding cycles as the control names them inside.
+CYCLES = frozenset({"G90", "G92", "G94"})
+GRINDING = frozenset({"G71 grinding", "G72 grinding", "G73 grinding", "G74 grinding"})
 #: Group and codes of the modal state in which the blocks of a shape are read for a cycle, or run by G70.
 GROUP, READING, FINISHING = "shape", "reading", "finishing"
 #: Kind of the level in which G70 runs the blocks of a shape.

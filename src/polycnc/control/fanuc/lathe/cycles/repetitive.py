@@ -32,7 +32,6 @@ from polycnc.control.fanuc.lathe.cycles.strokes import (
 )
 from polycnc.control.fanuc.lathe.motion.threads import CHAMFERS, lead_in_force, refuse_corners, start_angle
 from polycnc.control.fanuc.lathe.parameters import LatheParameters
-from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.tools.radius import RadiusState, active_compensation
 from polycnc.cycles.turning.contour import points, reversal, swapped, swapped_stroke
 from polycnc.cycles.turning.cuts import Roughing
@@ -59,6 +58,7 @@ if TYPE_CHECKING:
     from polycnc.geometry.arcs import Point
 
 #: All words that a cycle block may hold beside axis words.
+#: Words of the cycles.
 WORDS = "P Q U V W R D I J K A E"
 #: Increment words of the plane's first and second axis.
 INCREMENTS = {"G18": ("W", "U"), "G17": ("U", "V"), "G19": ("V", "W")}
@@ -80,7 +80,7 @@ CALL_CODES, CALL_M_CODES = frozenset({"G65", "G66", "G66.1"}), frozenset({98, 19
 # ---- shape cycles ----------------------------------------------------------------------------------------------
 
 
-def _check_block(builder: Builder, plan: Plan) -> None:
+def check_block(builder: Builder, plan: Plan) -> None:
     """G70 to G73 share their block with no call of a program (II.4.2.8), G76 as a thread with no corner (II.4.2.7)."""
     codes = {row.code for row in builder.codes}
     if "G76" in codes:
@@ -557,7 +557,3 @@ def _count(words: Words, address: str) -> int:
     if words.form(address) not in ("", "#"):
         raise words.fail("point", address)
     return abs(words.integer(address) or 0)
-
-
-#: What the cycles G70 to G73 and G76 refuse beside them.
-RULE = Rule("company of repetitive cycles", codes=(*SHAPE_CYCLES, "G76"), after=_check_block)

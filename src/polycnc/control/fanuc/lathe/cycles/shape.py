@@ -19,10 +19,9 @@ from polycnc.control.fanuc.code_calls import PROGRAM_M
 from polycnc.control.fanuc.lathe.coordinates.systems import plane_axes
 from polycnc.control.fanuc.lathe.cycles.modal import FINISHING, GROUP, READING
 from polycnc.control.fanuc.lathe.motion.corners import corner_waits
-from polycnc.control.fanuc.lathe.motion.drawing import DrawingState
+from polycnc.control.fanuc.lathe.states import DrawingState
 from polycnc.control.fanuc.lathe.tools.offset_memory import OffsetMemory
 from polycnc.control.fanuc.lathe.tools.offsets import nose_radius, nose_tip
-from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.macro_b import interruption
 from polycnc.control.word_address.tools.radius import RadiusState, side_on_display, violation_codes
 from polycnc.cycles.turning.contour import Contour, Piece
@@ -263,9 +262,3 @@ def interruptible(builder: Builder, plan: Plan, motion: Step | None) -> Step | N
         (motion if channel.level.kind is LevelKind.SHAPE else cut)(channel, values)
 
     return move
-
-
-#: What the blocks of a shape may hold, and what its reader is told of them.
-RULE = Rule("shapes", modes={GROUP: (READING, FINISHING)}, after=plan_note)
-#: What an interruption macro cuts outside of shapes.
-INTERRUPTION_RULE = replace(interruption.RULE, wrap=interruptible)

@@ -11,9 +11,8 @@ from polycnc.control.fanuc.lathe.coordinates.systems import (
     senses,
     without_rotation,
 )
-from polycnc.control.fanuc.lathe.cycles import grinding
 from polycnc.control.fanuc.lathe.cycles.drilling import is_series_15
-from polycnc.control.fanuc.lathe.cycles.modal import GrindingState, SingleCycleState
+from polycnc.control.fanuc.lathe.cycles.modal import CYCLES, GRINDING, GrindingState, SingleCycleState
 from polycnc.control.fanuc.lathe.cycles.strokes import compensated_cycle, uncompensated_cycle
 from polycnc.control.fanuc.lathe.motion.threads import (
     CORNER_WORDS,
@@ -22,7 +21,6 @@ from polycnc.control.fanuc.lathe.motion.threads import (
     plan_start_angle,
     refuse_corners,
 )
-from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion.skip import signal_position
 from polycnc.cycles.turning import single
 from polycnc.cycles.turning.thread import Runout, thread_pass
@@ -37,7 +35,6 @@ if TYPE_CHECKING:
 
 #: Name of the feed hold input.
 FEED_HOLD = "*SP"
-CYCLES = frozenset({"G90", "G92", "G94"})
 #: Codes of group 00 that leave a cycle its words: the dwell, and the two that are not one-shot (II.2, 4.1.6).
 _KEEPING = frozenset({"G4", "G10", "G11"})
 #: Groups of codes that do not repeat a cycle where they stand without its words: one-shot codes, macro calls, G80.
@@ -188,7 +185,7 @@ def plan_clearing(builder: Builder, _plan: Plan) -> Step | None:
     """A one-shot code, but for G04, or another motion code, makes the control forget the cycle's words."""
     forgets: tuple[tuple[frozenset[str], Step], ...] = (
         (CYCLES, lambda channel, _values: SingleCycleState.of(channel).forget()),
-        (grinding.CODES, lambda channel, _values: GrindingState.of(channel).words.clear()),
+        (GRINDING, lambda channel, _values: GrindingState.of(channel).words.clear()),
     )
     for codes, forget in forgets:
         if builder.before["motion"] not in codes:
@@ -199,14 +196,6 @@ def plan_clearing(builder: Builder, _plan: Plan) -> Step | None:
     return None
 
 
-def _straight(builder: Builder, _plan: Plan, step: Step | None) -> Step | None:
+def unrotated(builder: Builder, _plan: Plan, step: Step | None) -> Step | None:
     """Coordinate rotation has no effect in a single cycle."""
     return step if step is None or builder.mode["motion"] not in CYCLES else without_rotation(step)
-
-
-#: Single cycles are not rotated.
-ROTATION_RULE = Rule(
-    "single cycles without rotation", modes={"motion": CYCLES}, in_cycles=False, wrap=_straight
-)
-#: What makes the control forget the words of a single cycle or of a grinding cycle.
-CLEARING_RULE = Rule("words of single cycles", modes={"motion": CYCLES | grinding.CODES}, after=plan_clearing)

@@ -8,11 +8,9 @@ from __future__ import annotations
 from math import nan, pi, radians, sin
 from typing import TYPE_CHECKING
 
-from polycnc.channel.states.state import Lifetime, State
-from polycnc.control.word_address.block.rules import Rule
+from polycnc.control.fanuc.lathe.states import BesideState
 from polycnc.control.word_address.motion.oscillation import Fixed, Oscillator, Strokes, speed_of_feed
 from polycnc.control.word_address.motion.spindle_led import Lead, SpindleLed
-from polycnc.deferred.records import dataclass
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 from polycnc.transformation.couplings.laws import Ratio
@@ -31,30 +29,6 @@ MOST_TURNS, PAIRS = 5000, 2
 #: Codes whose axis words are no moves.
 NO_MOVES = frozenset({"G4", "G81.5", "G80.5"})
 TURN = 360.0
-
-
-@dataclass(slots=True)
-class BesideState(State, lifetime=Lifetime.RESET):
-    """Axes that move beside the program, by their columns; -1 for none.
-
-    Attributes:
-        polygon: The tool axis of polygon turning.
-        gear: The workpiece axis of the gear box.
-        oscillating: The axis that oscillates.
-        pairs: Those of G81.5.
-        slaves: Those that follow another axis (G51.4).
-    """
-
-    polygon: int = -1
-    gear: int = -1
-    oscillating: int = -1
-    pairs: frozenset[int] = frozenset()
-    slaves: frozenset[int] = frozenset()
-
-    @property
-    def columns(self) -> set[int]:
-        """All of them."""
-        return {self.polygon, self.gear, self.oscillating, *self.pairs, *self.slaves} - {-1}
 
 
 def _took(channel: LatheChannel, **columns: int | frozenset[int]) -> None:
@@ -237,7 +211,7 @@ def start_oscillation(channel: LatheChannel, words: Words) -> None:
     _took(channel, oscillating=axis)
 
 
-def _check_block(builder: Builder) -> None:
+def check_block(builder: Builder) -> None:
     """Refuse words of an axis that moves beside the program."""
     state = BesideState.of(builder.channel)
     mistakes = {
@@ -255,17 +229,6 @@ def _check_block(builder: Builder) -> None:
             raise builder.control.fail(mistakes[target[0]], address=address)
 
 
-def _end_by_drilling_code(_builder: Builder, _plan: Plan) -> Step:
+def end_by_drilling_code(_builder: Builder, _plan: Plan) -> Step:
+    """G80 ends the gear box in front of its block."""
     return end_gear
-
-
-def _none_moves(channel: LatheChannel) -> bool:
-    return not BesideState.of(channel).columns
-
-
-#: Axes that move beside the program belong to none of its blocks.
-RULE = Rule("axes beside the program", rests=_none_moves, check=_check_block)
-#: G80 ends them beside the drilling cycle: a rule, so that it does nothing where none moves.
-END_RULE = Rule(
-    "end of axes beside the program", codes=("G80",), rests=_none_moves, before=_end_by_drilling_code
-)

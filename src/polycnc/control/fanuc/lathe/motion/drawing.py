@@ -9,12 +9,11 @@ from __future__ import annotations
 from math import nan, radians, sin, tan
 from typing import TYPE_CHECKING
 
-from polycnc.channel.states.state import Lifetime, State
 from polycnc.compensation.corner import Shape
 from polycnc.control.fanuc.lathe.coordinates.systems import plane_axes
 from polycnc.control.fanuc.lathe.motion.corners import LEAST_ANGLE_DEG, corner_stage, corner_waits
+from polycnc.control.fanuc.lathe.states import DrawingState
 from polycnc.control.word_address.block.numbers import Convert, angle_converter
-from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion import path
 from polycnc.control.word_address.motion.line_by_angle import leaves_line
 from polycnc.deferred.records import dataclass, field
@@ -57,13 +56,6 @@ class OpenLine:
     corner: tuple[Shape, float] | None
     idle: int = 0
     behind: list[tuple[int, Callable[[], None]]] = field(default_factory=list)
-
-
-@dataclass(slots=True)
-class DrawingState(State, lifetime=Lifetime.RESET):
-    """The line that waits for the next block; None for none."""
-
-    open_line: OpenLine | None = None
 
 
 def is_on(builder: Builder) -> bool:
@@ -269,7 +261,3 @@ def _is_forbidden(row: GCode) -> bool:
 def is_word(address: str) -> bool:
     """Whether an address is a word of drawing dimensions."""
     return address in (",A", ",C", ",R")
-
-
-#: Lines by drawing dimensions, and what may stand between the blocks of a figure.
-RULE = Rule("drawing dimensions", rests=_rests, motion=plan_line, after=plan_check)

@@ -9,13 +9,11 @@ from __future__ import annotations
 from math import nan
 from typing import TYPE_CHECKING
 
-from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.fanuc.lathe.motion.threads import ThreadState
+from polycnc.control.fanuc.lathe.states import RetractState
 from polycnc.control.fanuc.lathe.tools.offsets import THREADS
-from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion.arc_signals import made_arc
 from polycnc.control.word_address.motion.skip import fraction_at
-from polycnc.deferred.records import dataclass, field
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
@@ -31,17 +29,6 @@ LINES = frozenset({"G0", "G1"})
 MOTIONS = LINES | {"G2", "G3"} | THREADS
 
 
-@dataclass(slots=True)
-class RetractState(State, lifetime=Lifetime.RESET):
-    """Where G10.6 leads each axis, and whether the signal has come.
-
-    `ends` has the column of an axis, its value (internal units, as programmed), and whether it is an increment.
-    """
-
-    ends: list[tuple[int, float, bool]] = field(default_factory=list)
-    came: bool = False
-
-
 def prepare(channel: LatheChannel, words: Words) -> None:
     """G10.6 X Z: where the tool retracts to, U W: how far; alone, how far 7741 says for each axis."""
     state, of = RetractState.of(channel), channel.memory.parameters.of
@@ -53,11 +40,7 @@ def prepare(channel: LatheChannel, words: Words) -> None:
     channel.modes.forget_plans()
 
 
-def _rests(channel: LatheChannel) -> bool:
-    return not RetractState.of(channel).ends or SIGNAL not in channel.setup.switches.signals_at
-
-
-def _with_retract(builder: Builder, _plan: Plan, step: Step | None) -> Step | None:
+def with_retract(builder: Builder, _plan: Plan, step: Step | None) -> Step | None:
     """A move that the signal may cut."""
     motion = builder.mode["motion"]
     if step is None or motion not in MOTIONS:
@@ -113,7 +96,3 @@ def _retracted(channel: LatheChannel, left: list[float]) -> list[float]:
     for axis, value, incremental in RetractState.of(channel).ends:
         point[axis] = point[axis] + value if incremental else value
     return list(c.to_position(point))
-
-
-#: What the retract cuts; drilling cycles it leaves alone.
-RULE = Rule("tool retract", rests=_rests, in_cycles=False, wrap=_with_retract)

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.fanuc.lathe.coordinates.systems import feed_number, plane_axes
-from polycnc.control.fanuc.lathe.motion import drawing
 from polycnc.control.fanuc.lathe.tools.offsets import THREADS
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion.arcs import center_by_radius
 from polycnc.control.word_address.motion.path import CENTER_WORDS, reach
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, replace
 from polycnc.geometry import arcs
 from polycnc.geometry.planes import PLANES
@@ -19,6 +19,9 @@ from polycnc.geometry.tolerances import NO_WAY
 from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath import Kind
 from polycnc.toolpath.modes import FeedMode
+
+with loaded_when_called():
+    from polycnc.control.fanuc.lathe.motion import drawing
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

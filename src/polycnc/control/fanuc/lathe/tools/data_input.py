@@ -8,7 +8,6 @@ from polycnc.control.fanuc.lathe.coordinates import limits
 from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.fanuc.lathe.tools.offset_memory import OffsetMemory, y_offset_axis
 from polycnc.control.fanuc.lathe.tools.offsets import MAX_OFFSETS, offset_changed, refresh
-from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.macro_b import parameter_input
 from polycnc.control.word_address.tools.data_input import (
     TOOL_LIFE,
@@ -159,7 +158,3 @@ def _is_in_use(channel: LatheChannel, name: str) -> bool:
         return False
     has_y_offset = memory.parameters.YOF and axis == y_offset_axis(channel)
     return not has_y_offset
-
-
-#: Between G10 L52 and G11 blocks are parameters.
-RULE = Rule("input of parameters", unless={"data_input": "G11"}, replace=plan_parameter_block)

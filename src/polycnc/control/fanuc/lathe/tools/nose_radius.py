@@ -9,7 +9,6 @@ from polycnc.compensation.policy import Approach, Policy
 from polycnc.control.fanuc.lathe.cycles.modal import is_reading
 from polycnc.control.fanuc.lathe.motion import corners
 from polycnc.control.fanuc.lathe.tools.offsets import OffsetState
-from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.tools import look_ahead, radius
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.deferred.records import replace
@@ -143,15 +142,3 @@ def plan_line_words(builder: Builder) -> Callable[[LatheChannel, list[float]], o
             stage.forced_vector(radius.on_display(channel, direction[0], direction[1]))
 
     return force
-
-
-#: What nose radius compensation makes of straight blocks.
-RULE = Rule(
-    "nose radius compensation",
-    unless={"compensation": "G40"},
-    codes=("G39",),
-    in_cycles=False,
-    wrap=plan_travel,
-)
-#: Corner words, and vectors of the compensation.
-CORNER_RULE = Rule("corners and vectors", words=("C", *"IJKR"), corner=plan_line_words)

@@ -10,10 +10,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.auxiliary import load_tool
-from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.variables.stored import Stored
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.messages import AlarmError
+
+with loaded_when_called():
+    from polycnc.control.sinumerik.block import arguments
 
 if TYPE_CHECKING:
     from collections.abc import Callable

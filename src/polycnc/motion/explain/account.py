@@ -11,61 +11,35 @@ told apart what uses more of some axis's acceleration or jerk: the change of the
 from __future__ import annotations
 
 from array import array
-from enum import StrEnum
+from importlib.util import find_spec
 from math import hypot, inf, sqrt
 from typing import TYPE_CHECKING
 
-from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.motion.explain.causes import EVEN, SAME, Cause, Part, asked_speed, is_uneven
 from polycnc.motion.kernels.columns import PLACES, UNEVEN_FORMS, Form, PieceRecord, piece_width
 from polycnc.motion.time_constants import Use
 from polycnc.toolpath import Kind
-from polycnc.toolpath.kinds import HELIX_KINDS, RAPID_KINDS
-from polycnc.toolpath.modes import FeedMode
-from polycnc.toolpath.table import CURVE_WIDTH
+from polycnc.toolpath.kinds import ARC_KINDS, CURVE_WIDTH, RAPID_KINDS
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
+    from polycnc.motion.explain.columns import Columns
     from polycnc.motion.planner import Planner
     from polycnc.toolpath import Context, Toolpath
     from polycnc.toolpath.table import Chunk
 
-#: Part by which speeds that count as one may differ.
-SAME = 1e-6
 #: Real axes under a transformation are looked at in differences, as the planner looks at them: these differ by less.
 REAL = 1.0 + 1e-3
 #: Part by which the speed of a law of limited jerk stays below that which bounds it; change of the speed along a bent
 #: path, in parts of acceleration or jerk of an axis, that counts as none.
 BELOW, STEADY = 0.01, 0.05
-#: Part by which the squared speed on a piece of a curve may change that counts as steady.
-EVEN = 0.05
 #: Part by which a squared speed may be off that of a joint.
 EVEN_JOINT = 1e-5
+#: Rows from which on they are worth to be looked at as columns.
+MANY = 4096
 #: Part of the way of a row that turns which a tip that stands may seem to go.
 STANDS = 1e-6
-ARC_KINDS = frozenset((Kind.CW, Kind.CCW)) | HELIX_KINDS
-
-
-class Cause(StrEnum):
-    """What bounds the motion."""
-
-    FEED = "feed"
-    AXES = "axes"
-    CORNERS = "corners"
-    ACCELERATION = "acceleration"
-    JERK = "jerk"
-    TIME_CONSTANT = "time-constant"
-    CORNER_STEP = "corner-step"
-    """A parameter for the change of an axis's speed at corners."""
-    ARC_PULL = "arc-pull"
-    """A parameter for the acceleration on arcs."""
-
-
-class Part(NamedTuple):
-    """Seconds and millimetres for which one cause held."""
-
-    seconds: float
-    way: float
 
 
 class _Joint:
@@ -150,6 +124,7 @@ class TimeAccount:
         self._contexts: dict[int, Context] = {}
         self._seconds = dict.fromkeys(Cause, 0.0)
         self._ways = dict.fromkeys(Cause, 0.0)
+        self._columns: Columns | None = None
         self._next = planner.on_pieces
         planner.on_pieces = self._pieces
 
@@ -165,51 +140,61 @@ class TimeAccount:
 
     def take(self, chunk: Chunk) -> None:
         """Note what the program asks for in a chunk's rows; comes before the planner takes the chunk."""
-        for row in range(len(chunk)):
-            kind = chunk.kind[row]
-            if kind not in (Kind.EVENT, Kind.DWELL):
-                context = self._toolpath.contexts[chunk.context[row]]
-                self._asked[chunk.first + row] = self._asked_speed(chunk, row, context), kind == Kind.RAPID
-                if self._planner.use_of(kind, context) is Use.AFTER:
-                    self._after.add(chunk.first + row)
-                if kind not in RAPID_KINDS and self._planner.is_ahead(context):
-                    self._ahead[chunk.first + row] = _normal(chunk, row, context)
-                    self._behind[chunk.first + row] = self._planner.behind_s(context)
-                if kind == Kind.RAPID or context.transformation is not None:
-                    self._contexts[chunk.first + row] = context
-                if context.degree_mm != 1.0 and self._planner.rotary_weight(context) == 0.0:
-                    self._degrees[chunk.first + row] = context.degree_mm
+        if len(chunk) >= MANY and self._columns is None and find_spec("numpy") is not None:
+            from polycnc.motion.explain.columns import Columns
+
+            self._columns = Columns(self._toolpath, self._planner, self._tops)
+        for row in range(len(chunk)) if self._columns is None else self._columns.take(chunk):
+            if chunk.kind[row] not in (Kind.EVENT, Kind.DWELL):
+                self._note(chunk, row)
+
+    def _note(self, chunk: Chunk, row: int) -> None:
+        """Note what the program asks for in a row."""
+        kind, number = chunk.kind[row], chunk.first + row
+        context = self._toolpath.contexts[chunk.context[row]]
+        self._asked[number] = self._asked_speed(chunk, row, context), kind == Kind.RAPID
+        if self._planner.use_of(kind, context) is Use.AFTER:
+            self._after.add(number)
+        if kind not in RAPID_KINDS and self._planner.is_ahead(context):
+            self._ahead[number] = _normal(chunk, row, context)
+            self._behind[number] = self._planner.behind_s(context)
+        if kind == Kind.RAPID or context.transformation is not None:
+            self._contexts[number] = context
+        if context.degree_mm != 1.0 and self._planner.rotary_weight(context) == 0.0:
+            self._degrees[number] = context.degree_mm
 
     def _asked_speed(self, chunk: Chunk, row: int, context: Context) -> float:
         """Path speed that the program asks for, mm/s; 0 where that changes along the row, or F counts a part of it."""
-        kind, feed, pace = chunk.kind[row], chunk.feed[row], context.pace
-        if kind == Kind.RAPID:
-            return context.rapid_speed or inf
-        if (
-            context.surface_speed
-            or (pace is not None and (pace.weights or pace.turning))
-            or kind in HELIX_KINDS
-        ):
-            return 0.0
-        turns = self._planner.rpm(context, 0.0) / 60.0
-        if kind in (Kind.THREAD, Kind.TAP) and chunk.curve[row] >= 0:
-            return chunk.curves[chunk.curve[row] * CURVE_WIDTH] * turns
-        if context.feed_mode is FeedMode.INVERSE_TIME:
-            return 0.0
-        asked = feed * turns if context.feed_mode is FeedMode.PER_REVOLUTION else feed
-        return asked * (pace.feed if pace is not None else 1.0) if asked > 0.0 else inf
+        kind = chunk.kind[row]
+        if kind in (Kind.THREAD, Kind.TAP) and chunk.curve[row] >= 0 and not is_uneven(kind, context):
+            return chunk.curves[chunk.curve[row] * CURVE_WIDTH] * self._planner.rpm(context, 0.0) / 60.0
+        return asked_speed(kind, chunk.feed[row], context, self._planner)
 
     def _pieces(self, records: array[float], count: int) -> None:
         width = piece_width(self._n)
-        for at in range(0, count * width, width):
-            self._piece(records, at)
+        for piece in range(count) if self._columns is None else self._without_simple(records, count):
+            self._piece(records, piece * width)
         done = int(records[(count - 1) * width + PieceRecord.ROW])
         for rows in (self._asked, self._contexts, self._ahead, self._behind, self._degrees):
             for row in [row for row in rows if row < done]:
                 del rows[row]
         self._after = {row for row in self._after if row >= done}
+        if self._columns is not None:
+            self._columns.forget(done)
         if self._next is not None:
             self._next(records, count)
+
+    def _without_simple(self, records: array[float], count: int) -> list[int]:
+        """Count the simple pieces, and give the others."""
+        import numpy as np
+
+        assert self._columns is not None
+        width = piece_width(self._n)
+        pieces = np.frombuffer(records, count=count * width).reshape(count, width)
+        simple = self._columns.known(pieces)
+        for cause, part in self._columns.parts(pieces[simple]).items():
+            self._count(cause, *part)
+        return np.flatnonzero(~simple).tolist()
 
     def _piece(self, records: array[float], at: int) -> None:
         """Share the seconds and the way of a piece out."""

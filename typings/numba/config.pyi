@@ -1,0 +1,1 @@
+LOOP_VECTORIZE: int
