@@ -65,3 +65,23 @@ def test_degrees_are_as_fast_for_an_acceleration_that_is_reduced_at_speed(unit: 
         keep=False,
     )
     assert session.run().plan.times.cutting_s == pytest.approx(0.125, abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("control", "metric", "inches"),
+    [("fanuc-m", "G21", "G20"), ("meldas-m", "G21", "G20"), ("syntec-mill", "G71", "G70")],
+)
+def test_a_corner_from_a_turn_into_a_slow_cut_takes_as_long_in_inches(
+    control: str, metric: str, inches: str
+) -> None:
+    """A degree counts as an inch there: the axis accelerates by its degrees all the same; it took a second longer."""
+    text = "{unit} G90 G64 G1 X{x} F{f}\nA4.8 F1000.\nX0 F{f}\nM30\n"
+    seconds = [
+        open_session(
+            text.format(unit=unit, x=part, f=f"{4.0 * part:.1f}").encode(), control=control, machine="mill4"
+        )
+        .run()
+        .plan.total_s
+        for unit, part in ((metric, 25.4), (inches, 1.0))
+    ]
+    assert seconds[1] == pytest.approx(seconds[0], abs=0.3)

@@ -155,9 +155,7 @@ def context_fields(
         highest,
         spindle.acceleration_rpm_s / 60.0 if spindle else inf,
         context.stops,
-        ANY_MM
-        if after or (behind_s(context, settings) > 0.0 and context.tolerance_mm == 0.0)
-        else (_kept_tolerance if averages[0] > 0.0 else _tolerance)(context, settings),
+        ANY_MM if after else _corner_tolerance(context, settings, soft=averages[0] > 0.0),
         rotary_weight(context, settings),
         station,
         not context.frame.is_identity,
@@ -174,7 +172,7 @@ def context_fields(
         NO_LAG_S if after else context.lag_s,
         inf if after else context.lag_from,
         context.pace.rapid if context.pace is not None else 1.0,
-        context.tolerance_mm or inf if context.corner_mode is CornerMode.ROUNDED_FROM else inf,
+        _rounding(context),
         context.turn_tolerance_deg,
         context.turn_distance_mm,
         is_led(context, settings),
@@ -183,6 +181,7 @@ def context_fields(
         settings.turn_speed if settings.turn_speed > 0.0 and _is_tip(context) else 0.0,
         context.degree_mm,
         averages[0] > 0.0 and not after and is_bent_by_way(context, settings),
+        context.chords,
         *(a, b, c, d, e, f, g, h, i),
         *context.frame.t,
         *(context.offsets or [0.0] * axes),
@@ -194,7 +193,8 @@ def averages(context: Context, machine: Machine, settings: Settings) -> tuple[fl
 
     RAMP_S is the time in which the slowest axis builds up its acceleration: a balance between short ways, which it
     delays, and long ones, which need acceleration. Lines from rest to rest choose theirs (`kernels/alone.py`).
-    BLEND_S lets a corner use up its parts of the tolerance and of the jerk alike (`kernels/jerk.py`). Where rotary axes
+    BLEND_S lets a corner use up its parts of the tolerance and of the jerk alike (`kernels/jerk.py`): of linear axes,
+    behind the tip of a tool of all, for there it is the rotary ones that turn from row to row. Where rotary axes
     have a tolerance of their own it is no longer than they may, so that none of them leaves its way by more. A time
     constant behind the interpolation is not for the plan to choose.
     """
@@ -204,7 +204,8 @@ def averages(context: Context, machine: Machine, settings: Settings) -> tuple[fl
         return 0.0, 0.0
     ramp = RAMPS * max(pull / jerk for _, pull, jerk in axes)
     tolerance = _kept_tolerance(context, settings)
-    jerk = min((jerk for rotary, _, jerk in axes if not rotary), default=axes[0][2])
+    turns = _is_tip(context)
+    jerk = min((jerk for rotary, _, jerk in axes if turns or not rotary), default=axes[0][2])
     blends = [_blend(tolerance, jerk)]
     if context.turn_tolerance_deg > 0.0:
         blends += [_blend(context.turn_tolerance_deg, jerk) for rotary, _, jerk in axes if rotary]
@@ -270,6 +271,7 @@ def is_led(context: Context, settings: Settings) -> bool:
         context.transformation is not None
         and acceleration is AccelerationMode.CONSTANT
         and context.frame.is_identity
+        and not context.chords
         and context.pace is None
         and context.turn_tolerance_deg == 0.0
         and context.turn_distance_mm == 0.0
@@ -331,6 +333,21 @@ def _is_tip(context: Context) -> bool:
     from polycnc.transformation.orientation.linked import is_tip
 
     return is_tip(context.transformation)
+
+
+def _corner_tolerance(context: Context, settings: Settings, *, soft: bool) -> float:
+    """How far corners may leave the path; an average behind the interpolator is not for the plan to choose."""
+    if behind_s(context, settings) > 0.0 and context.tolerance_mm == 0.0:
+        return ANY_MM
+    return (
+        _kept_tolerance(context, settings) if soft else max(_tolerance(context, settings), context.knot_deg)
+    )
+
+
+def _rounding(context: Context) -> float:
+    """How far from a corner its rounding reaches at most."""
+    is_from = context.corner_mode is CornerMode.ROUNDED_FROM and context.knot_deg == 0.0
+    return context.tolerance_mm or inf if is_from else inf
 
 
 def _kept_tolerance(context: Context, settings: Settings) -> float:

@@ -399,8 +399,11 @@ class RealAxes:
             return self._corners(context, length, look, shares, rests)
         if kind in ARC_KINDS and not uneven:
             inside = [look(k / count, lateral=False) for k in range(count + 1)]
-            return self._corners(context, length, look, [(1.0, *self._within(inside, length))], rests)
-        if kind in (Kind.SPLINE, Kind.THREAD, Kind.TAP) or not uneven:
+            found = self._corners(context, length, look, [(1.0, *self._within(inside, length))], rests)
+            # What holds at corners all along the row lets their averages reach as far as they like.
+            top, ease = self._within(looks, length)
+            return RowShares([(1.0, top, ease)], ease, ease) if top > found.shares[0][1] else found
+        if kind in (Kind.SPLINE, Kind.THREAD, Kind.TAP) or context.chords or not uneven:
             top, ease = self._within(looks, length)
             return RowShares([(1.0, top, ease)], ease, ease)
         worst = self._worst(context, path, sizes.index(max(sizes)) / count)

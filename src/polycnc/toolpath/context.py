@@ -112,6 +112,8 @@ class Context:
             empty where the channel's names hold, an empty one for a column that it uses up.
         knot: Rows end at a knot within a motion, which the next row goes on with; displays show the motion as one, if
             not each point of a curve (`shows_knot`).
+        chords: Rows of feed are chords of a smooth curve of the rotary axes; the tip goes straight along them.
+        knot_deg: As much may the rotary axes at least leave their way at a knot, degrees; nothing but them turns there.
         share: Part of its motion that a row of inverse time makes: displays show the feed of the whole.
         finishes: The move belongs to strokes that a hold and a reset let come to their end (SYNTEC taps).
         origin: What has made a row of the program's blocks: `PROGRAMMED` nothing, `SHORTENED` one that a chamfer or the
@@ -162,6 +164,8 @@ class Context:
     shown_by: Transformation | None = None
     names: tuple[str, ...] = ()
     knot: bool = False
+    chords: bool = False
+    knot_deg: float = 0.0
     shows_knot: bool = False
     share: float = 1.0
     finishes: bool = False

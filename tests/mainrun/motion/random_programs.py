@@ -192,12 +192,61 @@ class FiveAxes(Writer):
         return "\n".join([*self.lines, "TRAFOOF", "M30", ""])
 
 
+class Vectors(Writer):
+    """Lines and arcs of a tool centre point along which the tool turns on great circles."""
+
+    machine = "mill5-ca-head"
+
+    def program(self) -> str:
+        draw = self.random
+        self.lines = [f"G90 G94 {self.modes()}", "T1 D1", "TRAORI", "ORIVECT"]
+        x, y = 0.0, 0.0
+        for k in range(draw.randint(2, 4)):
+            reach = draw.choice((3.0, 20.0))
+            before, (x, y) = (x, y), (round(v + draw.uniform(-reach, reach), 3) for v in (x, y))
+            radius = 0.5 * hypot(x - before[0], y - before[1]) * draw.uniform(1.05, 2.0) + 0.01
+            code, more = draw.choice((("G1", ""), ("G2", f" CR={radius:.3f}"), ("G3", f" CR={radius:.3f}")))
+            a, b = draw.uniform(-0.6, 0.6), draw.choice((0.02, draw.uniform(-0.6, 0.6)))
+            feed = f" F{draw.choice(FEEDS)}" if k == 0 or draw.random() < 0.4 else ""
+            self.lines.append(f"{code} X{x} Y{y}{more} A3={a:.4f} B3={b:.4f} C3=1{feed}")
+        return "\n".join([*self.lines, "TRAFOOF", "M30", ""])
+
+
+class TurningWork(Writer):
+    """Splines and lines along which a rotary axis turns the work."""
+
+    machine = "mill4"
+
+    def program(self) -> str:
+        draw = self.random
+        self.lines = [f"G71 G90 {self.modes()}", f"G1 X0 Y0 A0 F{draw.choice(FEEDS)}"]
+        x, y, reach = 0.0, 0.0, draw.choice((2.0, 12.0))
+        for _ in range(draw.randint(1, 2)):
+            code, turns = draw.choice(("ASPLINE", "BSPLINE", "CSPLINE")), draw.choice((5.0, 60.0))
+            for _ in range(draw.randint(4, 7)):
+                x, y = (
+                    round(x + draw.uniform(0.2, 1.0) * reach, 3),
+                    round(y + draw.uniform(-0.5, 0.5) * reach, 3),
+                )
+                self.lines.append(f"{code} X{x} Y{y} A=IC({draw.uniform(-turns, turns):.3f})")
+                code = ""
+            x = round(x + draw.uniform(1.0, 20.0), 3)
+            self.lines.append(f"G1 X{x} A=IC({draw.uniform(-turns, turns):.3f})")
+        return "\n".join([*self.lines, "M30", ""])
+
+
 def writer(seed: int) -> Writer:
-    """The writer of a program: of every ten, six write for mills without a transformation."""
+    """The writer of a program: of every ten, five write for mills without a transformation."""
     random = Random(seed)
     control, kind = random.choice(CONTROLS), seed % 10
     if kind in (3, 6):
         return Threads(random, random.choice(("sinumerik-840d", "fanuc-0i-tf")))
     if kind == 7:
         return Polar(random, random.choice(("sinumerik-840d", "fanuc-0i-tf")))
-    return FiveAxes(random, "sinumerik-840d") if kind == 9 else Writer(random, control)
+    if kind in OF_SINUMERIK:
+        return random.choice(OF_SINUMERIK[kind])(random, "sinumerik-840d")
+    return Writer(random, control)
+
+
+#: Writers for SINUMERIK alone, by the last digit of the seed.
+OF_SINUMERIK = {8: (TurningWork,), 9: (FiveAxes, Vectors)}

@@ -1,7 +1,8 @@
 """The stage in which rotary axes turn along a move: it becomes as many as they need to go evenly in each.
 
 What lies between two of them is no corner of the program: the axes go through without an exact stop, and displays show
-one motion.
+one motion. A line becomes chords of a spline, along which the rotary axes change their pace smoothly while the tip
+stays on it; an arc becomes so many arcs that they hardly change it from one to the next.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from polycnc.channel.moves.knots import share_time
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move, Rank, Stage
 from polycnc.deferred.records import replace
+from polycnc.toolpath.kinds import Kind
 from polycnc.toolpath.modes import CornerMode
 
 if TYPE_CHECKING:
@@ -21,6 +23,8 @@ if TYPE_CHECKING:
 
 #: As much may the rotary axes leave their way at a knot, degrees: what its direction may be off.
 TOLERANCE_DEG = 0.02
+#: From knot to knot of an arc the rotary axes turn by so many degrees at most.
+ARC_DEG = 0.5
 
 
 class TurningStage(Stage):
@@ -43,19 +47,29 @@ class TurningStage(Stage):
             self.after.move(move)
             return
         path = MovePath(replace(move, turning=None), self._channel.coordinates.geometry)
+        standing = [move.start[column] for column in turning.columns]
+        is_smooth = move.kind is Kind.FEED and turning.is_smooth(standing)
         if turning.course is not None:
-            turning = turning.paced([move.start[column] for column in turning.columns], path.length)
+            turning = turning.paced(standing, path.length)
+        elif move.is_arc:
+            turning = turning.finer(standing, ARC_DEG)
         within = self._through(move)
         before, start, pieces = 0.0, move.start, []
         for share, places in zip(turning.shares, turning.places, strict=True):
             piece = path.between(before, share)
             piece.start, piece.end = start, placed(piece.end, turning, places)
             piece.context = move.context if share == 1.0 else within
+            piece.context = self._as_chord(piece.context) if is_smooth else piece.context
             pieces.append(piece)
             before, start = share, piece.end
         share_time(self._channel, pieces)
         for piece in pieces:
             self.after.move(piece)
+
+    def _as_chord(self, context: int) -> int:
+        """The context of a row that is a chord of the curve of its rotary axes."""
+        toolpath = self._channel.toolpath
+        return toolpath.context_number(replace(toolpath.contexts[context], chords=True))
 
     def _through(self, move: Move) -> int:
         """The context in which the axes go through the knots within a move.
@@ -64,11 +78,10 @@ class TurningStage(Stage):
         """
         toolpath = self._channel.toolpath
         context = toolpath.contexts[move.context]
-        if not move.is_arc and not context.tolerance_mm > TOLERANCE_DEG:
-            context = replace(context, corner_mode=CornerMode.ROUNDED, tolerance_mm=TOLERANCE_DEG)
-        elif context.corner_mode is CornerMode.EXACT_STOP:
+        if context.corner_mode is CornerMode.EXACT_STOP:
             context = replace(context, corner_mode=CornerMode.CONTINUOUS)
-        return toolpath.context_number(replace(context, knot=True))
+        own = 0.0 if move.is_arc or context.tolerance_mm > TOLERANCE_DEG else TOLERANCE_DEG
+        return toolpath.context_number(replace(context, knot=True, knot_deg=own))
 
 
 def placed(position: list[float], turning: Turning, places: tuple[float, ...]) -> list[float]:

@@ -98,7 +98,8 @@ class Queue:
         elif zone == 0.0:
             self._rounds = False
         self._nears_corner = zone == TO_CORNER
-        if self._rounds or (move.kind == SPLINE and zone == 0.0):
+        is_chord = move.kind == SPLINE or move.context.chords
+        if self._rounds or (is_chord and zone == 0.0):
             return piece_cubic(record, len(move.way.start))
         return None
 

@@ -2,17 +2,21 @@
 
 The tangent at the end of a chord is known when the next row comes. Until then the chord is open, and with limited jerk
 nothing is bounded by it; it is closed when the next chord goes on with it, or when something else follows.
+
+Without limited jerk a chord whose curve is known is parted: along it q'' changes, and an axis that keeps its
+acceleration at both ends of a part keeps it between them too, if the part is short enough (`part_chord`).
 """
 
 from __future__ import annotations
 
-from math import inf, sqrt
+from math import ceil, inf, sqrt
 
 from polycnc.kernels.layout import Floats
 from polycnc.motion.kernels.alone import settle_alone
 from polycnc.motion.kernels.columns import (
     AT_END,
     AT_START,
+    CHORD_PARTS,
     CLOSED,
     OPEN,
     PLACES,
@@ -25,7 +29,7 @@ from polycnc.motion.kernels.columns import (
     square,
 )
 from polycnc.motion.kernels.feeds import norm
-from polycnc.motion.kernels.hold import hold
+from polycnc.motion.kernels.hold import cut, hold
 from polycnc.motion.kernels.jerk import (
     ARC_ACROSS,
     ARC_DEVIATION,
@@ -40,6 +44,8 @@ from polycnc.motion.kernels.jerk import (
 
 #: A q'' smaller than this (1/mm) counts as none.
 NO_BEND = 1e-12
+#: Largest MARGIN of the parts of a chord beyond 1, if no more than CHORD_PARTS are needed for it.
+PART_MARGIN = 0.01
 
 
 def lay_chord(
@@ -89,9 +95,9 @@ def lay_chord(
         bend_chord(pieces, at, n)
         state.run.chord_entry2 = pieces[at + PieceRecord.ENTRY2]
         pieces[at + PieceRecord.ENTRY2] = min(state.run.chord_entry2, bend2(pieces, here, n, limits))
+    state.run.chord_ease = min(state.row.ease, state.share_ease[AT_START], state.share_ease[AT_END])
     if soft:
         state.run.chord, state.run.tolerance = OPEN, contexts[record + ContextRecord.TOLERANCE]
-        state.run.chord_ease = min(state.row.ease, state.share_ease[AT_START], state.share_ease[AT_END])
 
 
 def meet_chord(
@@ -107,6 +113,7 @@ def meet_chord(
     """Let a chord go on smoothly with the one before: one tangent for both. Largest x where they meet.
 
     Without limited jerk the curvature there bounds it, the change of direction over the mean length, and q'' of both.
+    A chord before it that is parted already, for the one at hand is laid again, stays as it is.
     """
     unit, tangent, bend = state.unit, state.tangent, state.bend
     here, before = at + PieceRecord.VECTORS, at + PieceRecord.VECTORS - piece_width(n)
@@ -114,24 +121,29 @@ def meet_chord(
     for i in range(n):
         bend[i] += unit[i] * state.run.length + tangent[i] * length
     size, mean = norm(bend, n, limits, weight), 0.5 * (length + state.run.length)
+    known = not soft and state.run.is_bent != 0.0
     cap2, turn2 = pieces[at + PieceRecord.ENTRY2], 0.0
     for i in range(n):
         turn = (unit[i] - tangent[i]) * (weight if limits.rotary[i] != 0.0 else 1.0)
         turn2 += turn * turn
         direction, curvature = bend[i] / size, (unit[i] - tangent[i]) / mean
-        pieces[before + n + i] = pieces[here + i] = direction
+        pieces[here + i] = direction
+        if not known:
+            pieces[before + n + i] = direction
         if curvature != 0.0 and not soft:
             cap2 = min(cap2, limits.acceleration[i] / abs(curvature))
         bend[i] = 0.0
     if not soft:
         chord = at - piece_width(n)
-        bend_chord(pieces, chord, n)
-        pieces[chord + PieceRecord.ENTRY2] = min(state.run.chord_entry2, bend2(pieces, before, n, limits))
+        if not known:
+            bend_chord(pieces, chord, n)
+            pieces[chord + PieceRecord.ENTRY2] = min(state.run.chord_entry2, bend2(pieces, before, n, limits))
         cap2 = min(cap2, bend2(pieces, before + n, n, limits))
     if soft and pieces[at - piece_width(n) + PieceRecord.PAUSE] > 0.0:
         mirror(pieces, before, before + n, n, limits, tangent, weight)
     # In the middle of its chord the curve is longer than the chord by `turn²/16` at most (a cubic, `run.py`).
-    for chord in (at - piece_width(n), at):
+    for k in range(1 if known else 0, 2):
+        chord = at - (1 - k) * piece_width(n)
         top2 = chord_top2(pieces, chord, n, limits)
         longer = 1.0 - 0.125 * min(turn2, 4.0)
         pieces[chord + PieceRecord.CAP2] = min(pieces[chord + PieceRecord.CAP2] * longer, top2)
@@ -257,6 +269,8 @@ def settle(pieces: Floats, n: int, limits: Limits, state: State) -> None:
         last, state.run.stop = state.run.pieces - 1, 1.0
         end_chord(pieces, n, limits, state)
         hold(pieces, last, n, state)
+    elif state.run.smooth != 0.0 and state.run.window == 0.0:
+        part_chord(pieces, state.run.pieces - 1, n, limits, state, state.run.chord_ease)
     settle_alone(pieces, n, limits, state)
 
 
@@ -272,6 +286,68 @@ def bend_chord(pieces: Floats, at: int, n: int) -> None:
         leave, arrive = pieces[here + i] - unit, pieces[here + n + i] - unit
         first, last = -(4.0 * leave + 2.0 * arrive) / length, (2.0 * leave + 4.0 * arrive) / length
         pieces[here + 2 * n + i], pieces[here + 3 * n + i] = first, last
+
+
+def part_chord(pieces: Floats, p: int, n: int, limits: Limits, state: State, ease: float) -> int:
+    """Without limited jerk: part the chord of a spline that is piece p; how many pieces more it has then.
+
+    Along a part of the length ℓ q'' changes by c, x and q' with it: between its ends an axis has up to `5/8·u·ℓ·c` more
+    than at them, u being the acceleration along the path. MARGIN leaves so much, and u has a bound. `ease` is the part
+    of the limits that a transformation leaves the columns.
+    """
+    width, at = piece_width(n), p * piece_width(n)
+    if p < 0 or pieces[at + PieceRecord.FORM] != Form.CURVED:
+        return 0
+    here, most = at + PieceRecord.VECTORS, between_ends(pieces, at, n, limits)
+    parts = min(max(ceil(sqrt(most / PART_MARGIN) - NO_BEND), 1), CHORD_PARTS)
+    margin = (1.0 + most / (parts * parts)) / ease
+    if margin <= pieces[at + PieceRecord.MARGIN]:
+        return 0  # it is parted already
+    factor, pull = margin / pieces[at + PieceRecord.MARGIN], pieces[at + PieceRecord.PATH_PULL]
+    for i in range(n):
+        change = abs(pieces[here + 3 * n + i] - pieces[here + 2 * n + i]) / pieces[at + PieceRecord.MARGIN]
+        asked = 0.625 * pieces[at + PieceRecord.LENGTH] * change / (parts * parts)
+        if asked > NO_BEND:
+            pull = min(pull, (ease - 1.0 / margin) * limits.acceleration[i] / asked)
+    for k in range(here, here + PLACES * n):
+        pieces[k] *= factor
+    pieces[at + PieceRecord.MARGIN], pieces[at + PieceRecord.PATH_PULL] = margin, pull
+    entry2, last = min(pieces[at + PieceRecord.ENTRY2], bend2(pieces, here, n, limits)), p
+    pieces[at + PieceRecord.ENTRY2] = entry2
+    for part in range(parts, 1, -1):
+        if not cut(pieces, last, n, state, pieces[last * width + PieceRecord.LENGTH] / part):
+            break
+        last += 1
+        rest = last * width + PieceRecord.VECTORS
+        cap2 = min(pieces[last * width + PieceRecord.CAP2], bend2(pieces, rest, n, limits))
+        pieces[last * width + PieceRecord.ENTRY2] = cap2
+    if last + 1 < state.run.pieces:
+        exit2 = bend2(pieces, last * width + PieceRecord.VECTORS + n, n, limits)
+        behind = (last + 1) * width + PieceRecord.ENTRY2
+        pieces[behind], state.run.chord_entry2 = (
+            min(pieces[behind], exit2),
+            min(state.run.chord_entry2, exit2),
+        )
+    return last - p
+
+
+def between_ends(pieces: Floats, at: int, n: int, limits: Limits) -> float:
+    """Part of its acceleration that an axis may have more between the ends of a chord than at them."""
+    here, length, margin = (
+        at + PieceRecord.VECTORS,
+        pieces[at + PieceRecord.LENGTH],
+        pieces[at + PieceRecord.MARGIN],
+    )
+    pull, most = pieces[at + PieceRecord.PATH_PULL], 0.0
+    for i in range(n):
+        share = max(abs(pieces[here + i]), abs(pieces[here + n + i])) / margin
+        if share > 0.0:
+            pull = min(pull, limits.acceleration[i] / share)
+    for i in range(n):
+        change = abs(pieces[here + 3 * n + i] - pieces[here + 2 * n + i]) / margin
+        if length * change > NO_BEND:
+            most = max(most, 0.625 * pull * length * change / limits.acceleration[i])
+    return most
 
 
 def bend2(pieces: Floats, tangents: int, n: int, limits: Limits) -> float:

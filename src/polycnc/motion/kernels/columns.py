@@ -166,6 +166,8 @@ class ContextRecord(Places):
     TURN_WEIGHT = place()
     #: With limited jerk: the path is bent by its way, and a law leads along it (1), in place of averages.
     BY_WAY = place()
+    #: Rows of feed are chords of a smooth curve of the rotary axes (1).
+    CHORDS = place()
     #: Nine numbers by rows, then the shift.
     FRAME = place(12)
     OFFSETS = place(0)
@@ -455,6 +457,8 @@ FACTOR, LARGEST_OVERRIDE = 2, 3
 SPARE_PIECES, CUTS_PER_PIECE = 64, 3
 #: Without it: pieces that bending a corner cuts off the rows before and behind it.
 BEND_PIECES = 2
+#: Without it: pieces that a chord of a spline is parted into at most.
+CHORD_PARTS = 12
 #: Pieces of a full turn. Over 7.5° an axis exceeds what holds at both ends by little; `lay_arc` says by how
 #: much.
 PIECES_PER_TURN = 48

@@ -7,12 +7,14 @@ from math import inf, pi, sqrt
 from polycnc.kernels.layout import Floats
 from polycnc.motion.kernels.columns import (
     BEND_PIECES,
+    CHORD_PARTS,
     CUTS_PER_PIECE,
     FACTOR,
     PLACES,
     RAPID,
     REF,
     SPARE_PIECES,
+    SPLINE,
     TAP,
     THREAD,
     ContextRecord,
@@ -222,6 +224,8 @@ def has_room(pieces: Floats, contexts: Floats, record: int, state: State, parts:
         parts = CUTS_PER_PIECE * parts + SPARE_PIECES
     else:
         parts += BEND_PIECES
+        if state.row.kind == SPLINE or state.run.smooth != 0.0:
+            parts += 2 * CHORD_PARTS  # those of the chord before, and of the one at hand
     return (state.run.pieces + parts) * piece_width(n) <= len(pieces)
 
 

@@ -65,14 +65,16 @@ def axis_pull(ramp: float, limits: Limits, i: int) -> float:
 def line_pull(contexts: Floats, record: int, n: int, limits: Limits, state: State, alone: bool) -> float:
     """Acceleration along the row at hand, from `unit`; `alone`: from rest to rest.
 
-    Else it does not depend on the direction: then it is the same on both sides of most joints.
+    Else it does not depend on the direction: then it is the same on both sides of most joints. Of a rotary axis whose
+    degrees count as so many millimetres no more than one of them falls to a millimetre.
     """
-    pull = inf
+    pull, weight = inf, contexts[record + ContextRecord.ROTARY_WEIGHT]
     for i in range(n):
         share = abs(state.unit[i])
         if share > 0.0:
             own = axis_pull(contexts[record + ContextRecord.RAMP_S], limits, i)
-            pull = lowered(pull, own, share if alone else max(share, 1.0))
+            most = 1.0 / weight if limits.rotary[i] != 0.0 and weight > 0.0 else 1.0
+            pull = lowered(pull, own, share if alone else max(share, most))
     return pull
 
 
@@ -85,20 +87,22 @@ def corner_hold2(
     how fast the last lone joint is passed: as long as the average sees that one, no other one may need a part.
     """
     run, pull, is_spline = state.run, state.joint.pull, state.row.kind == SPLINE or state.run.chord != 0.0
-    blend, turn, bow = contexts[record + ContextRecord.BLEND_S], 0.0, 0.0
+    blend, turn, bow, curved = contexts[record + ContextRecord.BLEND_S], 0.0, 0.0, False
     run.gap += run.length
     for i in range(n):
         step, before = state.unit[i] - state.tangent[i], 0.0 if run.chord != 0.0 else state.bent_before[i]
         turn = max(turn, abs(step), abs(state.bow[i]) * run.length)
-        bow += max(state.bend[i] * state.bend[i], before * before)
+        curved = curved or abs(state.bend[i]) > NO_TURN or abs(before) > NO_TURN
+        if limits.rotary[i] == 0.0:
+            bow += max(state.bend[i] * state.bend[i], before * before)
     bow = sqrt(bow)
-    if turn <= NO_TURN and bow <= NO_TURN and not is_spline:
+    if turn <= NO_TURN and not curved and not is_spline:
         forget_bow(n, state)
         return cap2
     if run.lone > 0.0:
         left = max(run.gap / blend - run.lone, 0.0)
         cap2 = min(cap2, left * left)
-    x2 = row_hold2(contexts, record, n, limits, state, length, cap2, bow, is_spline or bow > NO_TURN)
+    x2 = row_hold2(contexts, record, n, limits, state, length, cap2, bow, is_spline or curved)
     lone, pull_in_row, state.joint.pull = 0.0, state.joint.pull, pull
     if not is_spline:
         lone = lone_speed(contexts, record, n, limits, state, length, cap2, bow, x2)
@@ -134,7 +138,8 @@ def lone_speed(
 
     It sees none on τ before and behind the joint, nor one that is seen with that: the next joint must be so far away
     that both can be passed so. The jerk of a corner is `Δq'·v/τ²`, that of a step of curvature `Δq''·v²/τ`, that of the
-    curves themselves `κ·ω·v³` (`arc_hold`); by a change of speed come `2·q'·u/T`, `Δq'·u/τ` and `3·κ·v·u`. `bow` is κ.
+    curves themselves `κ·ω·v³` (`arc_hold`); by a change of speed come `2·q'·u/T`, `Δq'·u/τ` and `3·κ·v·u`. `bow` is κ,
+    of a rotary axis its own q''.
     """
     ramp, blend = contexts[record + ContextRecord.RAMP_S], contexts[record + ContextRecord.BLEND_S]
     unit, tangent, bend, before = state.unit, state.tangent, state.bend, state.bent_before
@@ -156,10 +161,11 @@ def lone_speed(
         step, change = abs(unit[i] - tangent[i]), abs(bend[i] - before[i])
         way = max(abs(unit[i]), abs(tangent[i]))
         if way > 0.0 or bend[i] != 0.0 or before[i] != 0.0:
-            push = v * (step / blend + v * bow)
-            asks = v * (step / blend + v * change) / blend + bow * max(bow, state.run.rate) * v * v * v
+            arc = own_bow(limits, state, i, bow)
+            push = v * (step / blend + v * arc)
+            asks = v * (step / blend + v * change) / blend + arc * max(arc, state.run.rate) * v * v * v
             slow = min(slow, (LONE - LONE_ALONG) * j / max(asks, 1e-300), ARC_ACROSS * a / max(push, 1e-300))
-            along = LONE_ALONG * j / (2.0 * way / ramp + step / blend + 3.0 * v * bow)
+            along = LONE_ALONG * j / (2.0 * way / ramp + step / blend + 3.0 * v * arc)
             state.joint.pull = min(state.joint.pull, along, (1.0 - ARC_ACROSS) * a / max(way, 1e-3))
     return v * slow
 
@@ -263,9 +269,17 @@ def curve_joint2(blend: float, tolerance: float, n: int, limits: Limits, state: 
             bow[i] = 0.0
         if change > NO_TURN:
             x2 = min(x2, JERK_ENTRY * j * blend / change)
-        if arc > NO_TURN and (unit[i] != 0.0 or bend[i] != 0.0 or before[i] != 0.0):
-            x2 = min(x2, ACROSS * a / arc, (JERK_CURVE * j / (arc * max(arc, state.run.rate))) ** (2.0 / 3.0))
+        own = own_bow(limits, state, i, arc)
+        if own > NO_TURN and (unit[i] != 0.0 or bend[i] != 0.0 or before[i] != 0.0):
+            x2 = min(x2, ACROSS * a / own, (JERK_CURVE * j / (own * max(own, state.run.rate))) ** (2.0 / 3.0))
     return x2
+
+
+def own_bow(limits: Limits, state: State, i: int, arc: float) -> float:
+    """The curvature of arcs at the joint at hand that counts for an axis: for a rotary one that of its own way."""
+    if limits.rotary[i] == 0.0:
+        return arc
+    return max(abs(state.bend[i]), abs(state.bent_before[i]))
 
 
 def row_step(state: State, i: int, mean: float) -> float:
@@ -341,8 +355,9 @@ def row_pull(
                 parts = min(parts, JERK_TURN * j * blend / step)
                 if step_jerk(v, blend, abs(bowed - state.bow[i]), mean) < v * v * bow / blend:
                     parts = min(parts, JERK_BOTH * j / max(3.0 * v * bow, 1e-300))
-            if arc > NO_TURN:
-                parts = min(parts, JERK_BOTH * j / max(3.0 * v * arc, 1e-300))
+            curvature = own_bow(limits, state, i, arc)
+            if curvature > NO_TURN:
+                parts = min(parts, JERK_BOTH * j / max(3.0 * v * curvature, 1e-300))
         if way > 0.0:
             asked = of_way * way + step * seen + 2.0 * bow * v
             left = lowered(left, LONE * j - state.asked[i], asked)

@@ -7,7 +7,7 @@ from math import inf
 from polycnc.kernels.layout import Floats
 from polycnc.motion.kernels.alone import alone_pull, alone_top, best_ramp, goes_straight_on, settle_alone
 from polycnc.motion.kernels.arcs import find_arc, lay_arc
-from polycnc.motion.kernels.chords import end_chord, lay_chord
+from polycnc.motion.kernels.chords import end_chord, lay_chord, part_chord
 from polycnc.motion.kernels.columns import (
     AT_END,
     AT_START,
@@ -16,6 +16,7 @@ from polycnc.motion.kernels.columns import (
     DWELL,
     EVENT,
     FACING_PIECES,
+    FEED,
     HELIX_CCW,
     OPEN,
     PLACES,
@@ -125,10 +126,12 @@ def lay_row(
 
 def take_row(rows: Rows, row: int, number: int, contexts: Floats, limits: Limits, state: State) -> int:
     """Make a move the row at hand, and set where it leads; where the record of its context begins."""
-    n, kind = axes_of(state), rows.kind[row]
+    n, kind = axes_of(state), int(rows.kind[row])
     record: int = rows.context[row] * (ContextRecord.OFFSETS + n)
     if kind == THREAD and state.row.kind != THREAD:
         state.run.stop = 1.0  # the axes wait for the spindle's zero mark
+    if kind == FEED and contexts[record + ContextRecord.CHORDS] != 0.0:
+        kind = SPLINE
     state.row.kind, state.row.number, state.row.feed = kind, number + row, rows.feed[row]
     state.row.curve = rows.curve[row] * CURVE_WIDTH
     take_shares(rows, row, state)
@@ -195,6 +198,7 @@ def lay_move(
     if first == 0:
         state.run.chord = 0.0
     not_held = first - (1 if state.run.chord != 0.0 else 0)
+    is_whole, ease = state.run.smooth != 0.0 and state.run.window == 0.0, state.run.chord_ease
     rapid = is_rapid(state)
     stands = kind in (TAP, SKIP) or (rapid and limits.path.rapid_stops != 0.0)
     if stands or contexts[record + ContextRecord.STATION] != state.run.station:
@@ -219,6 +223,8 @@ def lay_move(
     if contexts[record + ContextRecord.RAMP_S] > 0.0:
         hold(pieces, not_held, n, state)
     else:
+        if is_whole and state.run.pieces > first:
+            first += part_chord(pieces, first - 1, n, limits, state, ease)
         round_joint(pieces, first, n, limits, state)
     for i in range(n):
         state.position[i] = state.target[i]

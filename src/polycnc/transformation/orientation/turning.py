@@ -10,7 +10,8 @@ linear axes all the way: it does not notice.
 from __future__ import annotations
 
 from itertools import pairwise
-from math import dist, radians, sqrt
+from math import ceil, dist, radians, sqrt
+from operator import sub
 from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass, replace
@@ -32,6 +33,8 @@ TOLERANCE = radians(0.02)
 SAME_SHARE = 1e-9
 #: Where a turn at both ends of a move is parted.
 HALF = 0.5
+#: From step to step of a smooth turn the pace changes by less than this part of the largest pace.
+LEAP = 0.5
 #: Places at which the length of a way is looked at; steps of the search for the edge of a pole's cone.
 LOOKS, SEARCH = 16, 24
 
@@ -103,6 +106,37 @@ class Turning:
         inner = [(s, p) for s, p in zip(self.shares, self.places, strict=True) if first < s < last]
         shares = (*((share - first) / width for share, _ in inner), 1.0)
         return Turning(self.columns, shares, (*(places for _, places in inner), self.at(start, last)))
+
+    def is_smooth(self, start: Sequence[float]) -> bool:
+        """Whether the steps are chords of a smooth curve: the pace of no axis leaps, as it does at a pole and its cone.
+
+        What has a course keeps its rate.
+        """
+        if self.course is not None or len(self.shares) == 1:
+            return False
+        widths = map(sub, self.shares, (0.0, *self.shares))
+        paces = [
+            [(b - a) / width for a, b in zip(before, after, strict=True)]
+            for before, after, width in zip((start, *self.places), self.places, widths, strict=False)
+        ]
+        return all(
+            max(map(abs, map(sub, two, one))) <= LEAP * max(map(abs, (*one, *two)))
+            for one, two in pairwise(paces)
+        )
+
+    def finer(self, start: Sequence[float], most_deg: float) -> Turning:
+        """The same knots on a smooth curve, and so many between them that no axis turns by more in one step."""
+        if len(self.shares) == 1:
+            return self
+        shares, before, first = list[float](), tuple(start), 0.0
+        for last, places in zip(self.shares, self.places, strict=True):
+            turned = max(abs(b - a) for a, b in zip(before, places, strict=True))
+            parts = max(ceil(turned / most_deg), 1)
+            shares += (first + (last - first) * k / parts for k in range(1, parts))
+            shares.append(last)
+            before, first = places, last
+        curve = self.smoothed(start)
+        return Turning(self.columns, tuple(shares), tuple(curve.at(start, share) for share in shares))
 
     def smoothed(self, start: Sequence[float]) -> Turning:
         """The same knots on a smooth curve, for a move that becomes chords; `start` are the positions in front of it.
