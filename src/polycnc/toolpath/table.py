@@ -203,6 +203,19 @@ class Chunk:
         self.curves.extend(other.curves)
         self.events.extend(other.events)
 
+    def only(self, rows: Sequence[int]) -> Chunk:
+        """A chunk of some of the rows, in order, with the same curves and events; this one where they are all."""
+        if len(rows) == len(self):
+            return self
+        made, n = Chunk(self.axes, self.first), self.axes
+        for row in rows:
+            made.add(
+                self.kind[row], self.program[row], self.line[row], self.context[row], self.feed[row],
+                self.end[row * n : (row + 1) * n], self.curve[row],
+            )  # fmt: skip
+        made.curves, made.events = self.curves, self.events
+        return made
+
     def numpy(self) -> Columns:
         """The columns as NumPy views of the same memory."""
         import numpy as np
