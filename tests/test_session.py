@@ -69,6 +69,17 @@ def test_moves_tell_tool_start_duration_length_and_feed_as_executed() -> None:
     assert 0.9 * 600.0 < line["feed_executed"] < 600.0
 
 
+def test_a_motion_of_many_rows_is_one_of_the_moves_with_all_its_time() -> None:
+    program = 'TRAORI\nG1 X10 LEAD=10 F1000\nG3 X20 Y10 CR=10 LEAD=10\nMSG("a")\nG1 X0\nM30\n'
+    result = polycnc.run(program, control="sinumerik-840d", machine="mill5-ca-head")
+    rows: list[dict[str, Any]] = result.moves.to_pylist()
+    assert len(rows) == len(result.rows) < len(result.toolpath)
+    assert sum(row["wait"] + row["duration"] for row in rows) == pytest.approx(result.time)
+    (arc,) = (row for row in rows if row["type"] == "ccw")
+    assert arc["length"] == pytest.approx(5.0 * math.pi, abs=1e-3)
+    assert arc["start"] == pytest.approx(rows[0]["start"] + rows[0]["duration"])
+
+
 @pytest.mark.parametrize("control", ["fanuc-m", "fanuc-0i-tf", "meldas-m", "syntec-mill", "sinumerik-840d"])
 def test_a_variable_that_does_not_exist_is_not_in_the_variables(control: str) -> None:
     variables = polycnc.run("G0 X0\nM30\n", control=control).variables

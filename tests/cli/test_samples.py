@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import sys
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
@@ -51,6 +52,22 @@ def test_samples_are_parquet_by_the_suffix(console: Console) -> None:
     table = parquet.read_table(console.folder / "out.parquet")
     assert table["time"][1].as_py() == pytest.approx(0.002)
     assert table.schema.metadata[b"machine"] == b"mill3"
+    assert str(table.schema.field("program").type) == "dictionary<values=string, indices=int32, ordered=0>"
+    assert str(table.schema.field("line").type) == "int32"
+    console("run", "good.nc", *FANUC, "--sample", "2ms", "out.csv")
+    rows = csv.DictReader(io.StringIO((console.folder / "out.csv").read_text(encoding="utf-8")))
+    assert [{name: str(value) for name, value in row.items()} for row in table.to_pylist()] == list(rows)
+
+
+def test_samples_need_numpy_alone(console: Console, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("pyarrow", "pyarrow.parquet"):
+        monkeypatch.setitem(sys.modules, name, None)
+    console.file("good.nc", GOOD)
+    assert console("run", "good.nc", *FANUC, "--sample", "2ms", "out.parquet").status == 0
+    assert (console.folder / "out.parquet").read_bytes()[-4:] == b"PAR1"
+    monkeypatch.setattr("polycnc.cli.commands.run.find_spec", lambda name: None if name == "numpy" else name)
+    said = console("run", "good.nc", *FANUC, "--sample", "2ms", "out.csv")
+    assert (said.status, "needs NumPy: pip install" in said.err) == (2, True)
 
 
 def test_a_profile_is_a_drawing(console: Console) -> None:

@@ -42,6 +42,18 @@ def test_cycles_in_which_actions_look_count_as_blocks() -> None:
     assert not whole.alarms
 
 
+def test_rows_of_blocks_in_time_are_handed_on_as_one_chunk() -> None:
+    lines = "".join(f'MSG("{i}")\nG1 X{i} F6000\n' for i in range(1, 20))
+    session = open_session(f"ID=1 DO $AC_PARAM[0]=1\n{lines}M30\n", control=CONTROL, keep=False)
+    rows: list[int] = []
+    session.consumers.append(lambda chunk: rows.append(len(chunk)))
+    result = session.run()
+    assert result.ok
+    assert result.main_run_s is not None
+    assert [count > 38 for count in rows if count] == [True]
+    assert result.plan.total_s > 0.0
+
+
 # ---- in time from the first block on a program does what it does without a clock
 
 

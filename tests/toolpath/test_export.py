@@ -74,6 +74,35 @@ def test_an_arrow_table_holds_the_same_values_with_null_for_what_is_absent(draft
     assert table.schema.metadata == {b"control": b"fanuc-m"}
 
 
+def test_a_motion_of_several_rows_is_one_row_of_every_table() -> None:
+    draft = Draft(chunk_rows=3)
+    knot = Context(knot=True)
+    assert knot.is_hidden
+    draft.under(knot)
+    for x in range(1, 4):
+        draft.end = [x, 0.0, 0.0]
+        draft.toolpath.append(Kind.FEED, draft.program, 1, draft.context, 100.0, draft.end)
+    draft.event(Message("broken off"))
+    draft.toolpath.append(Kind.FEED, draft.program, 5, draft.context, 100.0, [4.0, 0.0, 0.0])
+    draft.under(Context()).line = 4
+    draft.move(Kind.CW, 20, 10, 5, feed=2, curve=(20, 0, 5, *Z_UP, 0)).event(Message("end"))
+    records = list(draft.display().records())
+    assert [record.get("to", {}).get("X") for record in records] == [3.0, None, 20.0, None]
+    table = arrow_table(draft.display(), draft.toolpath.chunks, {}).to_pylist()
+    assert [{key: value for key, value in row.items() if value is not None} for row in table] == [
+        flattened(record) for record in records
+    ]
+    assert len(written_text(Csv, draft).splitlines()) == 1 + len(records)
+    from pyarrow import parquet
+
+    stream = io.BytesIO()
+    writer = Parquet(stream, draft.display(), {})
+    for chunk in draft.toolpath.chunks:
+        writer.take(chunk)
+    writer.close()
+    assert parquet.read_table(stream).to_pylist() == table
+
+
 ROW = st.tuples(
     st.sampled_from([Kind.RAPID, Kind.FEED, Kind.THREAD]), *[st.floats(-1e4, 1e4)] * 3, st.floats(0.01, 99)
 )

@@ -261,7 +261,7 @@ class Result:
         from polycnc.toolpath.export import with_times
 
         table = self.channels[self.channel.number].moves
-        return with_times(table, self.plan) if self.timed and self.planner is None else table
+        return with_times(table, self.plan, self.display) if self.timed and self.planner is None else table
 
     @property
     def metadata(self) -> dict[str, str]:

@@ -127,7 +127,7 @@ class Session:
         self._in_time = False
         self.result.stops.extend(main_run.halts)
         self.result.main_run_s = main_run.seconds
-        for chunk in toolpath.chunks[first:-1]:
+        for chunk in toolpath.join_chunks(first):
             if self._take(chunk):
                 toolpath.chunks.remove(chunk)
 

@@ -135,13 +135,14 @@ class Parquet:
         contents |= dict.fromkeys(TEXTS, Content.TEXT)
         self._fields = [Field(name, contents.get(name, Content.NUMBER)) for name in table_columns(display)]
         self._texts = frozenset((*NAMES, *TEXTS))
-        self._numbers = Numbers(display)
+        self._display, self._numbers = display, Numbers(display)
         self._writer = Writer(stream, self._fields, metadata, f"polycnc version {__version__}")
 
     def take(self, chunk: Chunk) -> None:
         """Write the rows of a chunk."""
         if not len(chunk):
             return
+        chunk = chunk.only(self._display.shown_rows(chunk))
         numbers, writer = self._numbers, self._writer
         numbers.take(chunk)
         writer.begin(len(chunk))
@@ -170,8 +171,8 @@ WRITERS: dict[str, tuple[str, Callable[[IO[Any], Display, Metadata], TraceWriter
 }
 
 
-def with_times(table: pa.Table, plan: RowTimes) -> pa.Table:
-    """A table of all rows with what the plan says of each: `TIMES` are its further columns.
+def with_times(table: pa.Table, plan: RowTimes, display: Display) -> pa.Table:
+    """A table of all chunks with what the plan says of each row: `TIMES` are its further columns.
 
     `wait` is how long the axes stand before the row (tool change, spindle, auxiliary functions), `start` and `duration`
     are of the motion or dwell behind it, all in seconds. `length` is mm as the feed counts it (degrees
@@ -180,9 +181,13 @@ def with_times(table: pa.Table, plan: RowTimes) -> pa.Table:
     import numpy as np
     import pyarrow as pa
 
-    whole, length = np.asarray(plan.row_s), np.asarray(plan.row_mm)
-    wait = np.zeros(len(whole))
+    wait = np.zeros(len(plan.row_s))
     wait[list(plan.row_waits)] = list(plan.row_waits.values())
+    ends = [chunk.first + row for chunk in display.toolpath.chunks for row in display.shown_rows(chunk)]
+    first = np.array([-1, *ends[:-1]]) + 1
+    whole, length, wait = (
+        np.add.reduceat(column, first) if ends else np.zeros(0) for column in (plan.row_s, plan.row_mm, wait)
+    )
     duration = np.maximum(whole - wait, 0.0)
     feed = np.full(len(whole), np.nan)
     np.divide(60.0 * length, duration, out=feed, where=(length > 0.0) & (duration > 0.0))
@@ -210,7 +215,8 @@ def arrow_table(display: Display, chunks: Iterable[Chunk], metadata: Metadata) -
     from polycnc.toolpath.columns.numbers import Numbers
 
     schema, numbers = arrow_schema(display, metadata), Numbers(display)
-    batches = [_batch(numbers, chunk, schema) for chunk in chunks if len(chunk)]
+    filled = (chunk.only(display.shown_rows(chunk)) for chunk in chunks if len(chunk))
+    batches = [_batch(numbers, chunk, schema) for chunk in filled]
     return pa.Table.from_batches(batches, schema=schema)
 
 

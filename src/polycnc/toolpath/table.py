@@ -189,6 +189,33 @@ class Chunk:
         """Add the first rows of a column of curve parameters, which comes as bytes."""
         self.curves.frombytes(curves[: count * CURVE_WIDTH * self.curves.itemsize])
 
+    def take_over(self, other: Chunk) -> None:
+        """Add the rows of the chunk behind this one."""
+        events, curves = len(self.events), len(self.curves) // CURVE_WIDTH
+        for kind, place in zip(other.kind, other.curve, strict=True):
+            self.curve.append(place + (events if kind == Kind.EVENT else curves) if place >= 0 else place)
+        self.kind.extend(other.kind)
+        self.program.extend(other.program)
+        self.line.extend(other.line)
+        self.context.extend(other.context)
+        self.feed.extend(other.feed)
+        self.end.extend(other.end)
+        self.curves.extend(other.curves)
+        self.events.extend(other.events)
+
+    def only(self, rows: Sequence[int]) -> Chunk:
+        """A chunk of some of the rows, in order, with the same curves and events; this one where they are all."""
+        if len(rows) == len(self):
+            return self
+        made, n = Chunk(self.axes, self.first), self.axes
+        for row in rows:
+            made.add(
+                self.kind[row], self.program[row], self.line[row], self.context[row], self.feed[row],
+                self.end[row * n : (row + 1) * n], self.curve[row],
+            )  # fmt: skip
+        made.curves, made.events = self.curves, self.events
+        return made
+
     def numpy(self) -> Columns:
         """The columns as NumPy views of the same memory."""
         import numpy as np
@@ -327,6 +354,20 @@ class Toolpath:
             return kept is not None and kept(chunk)
 
         self._chunk_rows, self._on_full = 1, on_full if keep else take
+
+    def join_chunks(self, first: int) -> list[Chunk]:
+        """Put chunks of single blocks (`hand_on_blocks`) together, as many as fill one; gives those that come of it.
+
+        Args:
+            first: Index of the first of them. The chunk that is written stays as it is.
+        """
+        joined: list[Chunk] = []
+        for chunk in self.chunks[first:-1]:
+            if not joined or len(joined[-1]) >= CHUNK_ROWS:
+                joined.append(Chunk(chunk.axes, chunk.first))
+            joined[-1].take_over(chunk)
+        self.chunks[first:-1] = joined
+        return joined
 
     def block_boundary(self) -> None:
         """Called between blocks: hands on a full chunk and starts the next one."""

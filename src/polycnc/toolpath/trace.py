@@ -164,6 +164,22 @@ class Display:
         if held is not None:
             yield self.record(held)
 
+    def shown_rows(self, chunk: Chunk) -> Sequence[int]:
+        """The rows of a chunk that have a record: events, and of each motion its last row."""
+        contexts, every = self.toolpath.contexts, range(len(chunk))
+        hidden = {number for number, _, _ in chunk.context_runs() if contexts[number].is_hidden}
+        if not hidden:
+            return every
+        kinds, lines, programs = chunk.kind, chunk.line, chunk.program
+        goes_on = [
+            number in hidden and kind != Kind.EVENT != after and (line, program) == behind
+            for number, kind, after, line, program, behind in zip(
+                chunk.context, kinds, kinds[1:], lines, programs, zip(lines[1:], programs[1:], strict=True),
+                strict=False,
+            )
+        ]  # fmt: skip
+        return [row for row in every if row == len(goes_on) or not goes_on[row]]
+
     def records_of(self, chunk: Chunk) -> Iterator[Record]:
         """The records of one chunk. Long chunks go by whole columns, which gives the same values."""
         contexts = self.toolpath.contexts

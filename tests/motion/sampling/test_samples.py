@@ -65,6 +65,16 @@ def test_a_longer_period_takes_some_of_the_same_samples() -> None:
     assert np.allclose(fine.position[::4][: len(coarse.time)], coarse.position, atol=1e-9)
 
 
+@pytest.mark.parametrize("lead", [SOFT, Settings()], ids=["soft", "brisk"])
+@pytest.mark.parametrize("period", [40, 300, 5_000])
+def test_a_single_move_begins_at_rest_whatever_the_period(lead: Settings, period: int) -> None:
+    fine = sampled(Build().feed(5.0, 2.0, 0.0), lead=lead)[1]
+    coarse = sampled(Build().feed(5.0, 2.0, 0.0), period=0.001 * period, lead=lead)[1]
+    assert coarse.position[0].tolist() == [0.0, 0.0, 0.0]
+    for values, some in zip(fine, coarse, strict=True):
+        assert np.allclose(values[::period], some, atol=1e-6)
+
+
 def test_every_sample_knows_its_line() -> None:
     _, samples = sampled(program())
     assert sorted(set(samples.line.tolist())) == [1, 2, 3, 4, 5, 6]

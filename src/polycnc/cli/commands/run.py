@@ -62,7 +62,7 @@ def run(
     if trace is not None and trace.suffix.lower() not in TRACES:
         return fail(text("run.suffix", file=trace, known=listed(TRACES)), 2)
     period = period_s(sample[0]) if sample is not None else 0.0
-    if sample is not None and find_spec("pyarrow") is None:
+    if sample is not None and find_spec("numpy") is None:
         return fail(text("run.no-samples"), 2)
     if sample is not None and (period is None or sample[1].suffix.lower() not in SAMPLES):
         return fail(text("run.sample", period=sample[0], file=sample[1], known=listed(SAMPLES)), 2)

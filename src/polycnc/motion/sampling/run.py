@@ -98,7 +98,9 @@ class Run:
 
     def forget(self, before: float) -> None:
         """Nobody asks for a time before this one: what the averages do not reach from there on is dropped."""
-        before = max(before - self._ramp - 2.0 * self._blend, 0.0)
+        before -= self._ramp + 2.0 * self._blend
+        if before <= 0.0:  # averages reach to where it still rests
+            return
         kept = min(int(self._index(np.array([self.law.at(before)]))[0]), len(self.rows) - 1)
         self.law.forget(before)
         self.rows, self._length, self._ways = self.rows[kept:], self._length[kept:], self._ways[kept:]

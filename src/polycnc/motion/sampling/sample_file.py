@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from array import array
 from typing import IO, TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
@@ -60,20 +61,19 @@ class _Gathered:
 
 
 class Parquet:
-    """An Arrow table in Parquet. Needs pyarrow."""
+    """An Arrow table in Parquet, one row group a batch."""
 
     def __init__(
         self, stream: IO[bytes], axes: tuple[str, ...], programs: list[str], metadata: Mapping[str, str]
     ) -> None:
-        import pyarrow as pa
-        from pyarrow import parquet
+        from polycnc import __version__
+        from polycnc.parquet.schema import Content, Field
+        from polycnc.parquet.writer import Writer
 
+        contents = {"program": Content.NAME, "line": Content.WHOLE}
+        fields = [Field(name, contents.get(name, Content.NUMBER)) for name in names(axes)]
         self._programs = programs
-        types = {"program": pa.dictionary(pa.int32(), pa.string()), "line": pa.int32()}
-        fields = [pa.field(name, types.get(name, pa.float64())) for name in names(axes)]
-        self._schema = pa.schema(fields, metadata=dict(metadata))
-        # Every value of a motion is another one: only names repeat.
-        self._writer = parquet.ParquetWriter(stream, self._schema, use_dictionary=["program"])
+        self._writer = Writer(stream, fields, metadata, f"polycnc version {__version__}")
         self._gathered = _Gathered()
 
     def take(self, samples: Samples) -> None:
@@ -83,14 +83,17 @@ class Parquet:
     def _write(self, samples: Samples | None) -> None:
         if samples is None:
             return
-        import pyarrow as pa
+        import numpy as np
 
-        *numbers, program, line = columns(samples)
-        named = pa.DictionaryArray.from_arrays(
-            pa.array(program, pa.int32()), pa.array(self._programs, pa.string())
-        )
-        arrays = [*(pa.array(column) for column in numbers), named, pa.array(line, pa.int32())]
-        self._writer.write_table(pa.Table.from_arrays(arrays, schema=self._schema))
+        writer, height = self._writer, len(samples.time)
+        *each, line = columns(samples)
+        # A dictionary would give rows that stand -0.0 or 0.0 as the first of them is.
+        numbers = array("d", (np.array(each, np.float64) + 0.0).tobytes())
+        writer.begin(height)
+        for place in range(len(each) - 1):
+            writer.numbers(numbers, place * height)
+        writer.names(numbers, (len(each) - 1) * height, self._programs)
+        writer.whole(array("I", line.astype(np.uint32).tobytes()))
 
     def close(self) -> None:
         """Write the end of the file."""
