@@ -217,9 +217,10 @@ def _with_slots(cls: type, noted: Mapping[str, object], added: Mapping[str, obje
     for each in cls.__mro__[1:-1]:
         slots = each.__dict__.get("__slots__", ())
         inherited.update((slots,) if isinstance(slots, str) else slots)
-        noted = {**dict.fromkeys(_noted(each), MISSING), **noted}
+        if _OF_LIBRARY in each.__dict__:
+            noted = {**dict.fromkeys(_noted(each), MISSING), **noted}
     body = {**cls.__dict__, **added}
-    body["__slots__"] = tuple(name for name in noted if name not in inherited)
+    body["__slots__"] = (*[name for name in noted if name not in inherited],)
     for name in (*noted, "__dict__", "__weakref__"):
         body.pop(name, None)
     body["__qualname__"] = cls.__qualname__
