@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import ast
 import builtins
+import copy
 import inspect
 import pickle
 import subprocess
 import sys
 import threading
 from functools import wraps
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -86,6 +88,57 @@ def test_objects_are_told_by_their_class() -> None:
 def test_constants_are_not_to_be_had() -> None:
     with pytest.raises(AttributeError, match="IDENTITY is no function"):
         _ = frames.IDENTITY
+
+
+def test_what_stands_for_a_module_answers_what_the_library_asks() -> None:
+    module: Any = vectors
+    for same in (copy.copy(module), pickle.loads(pickle.dumps(module)), inspect.unwrap(module)):
+        assert same.dot((1.0, 0.0, 0.0), (1.0, 0.0, 0.0)) == 1.0
+    assert not hasattr(module, "__file__")
+
+
+def test_an_error_in_a_module_shows_where_it_is_and_is_found_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "wrong_package").mkdir()
+    (tmp_path / "wrong_package" / "__init__.py").touch()
+    (tmp_path / "wrong_package" / "wrong.py").write_text("def act(): pass\nHALF = 1 / 0\n", encoding="utf-8")
+    monkeypatch.syspath_prepend(tmp_path)
+    act: Any = Deferred("wrong_package.wrong", "act")
+    for _ in range(2):
+        with pytest.raises(ZeroDivisionError) as error:
+            act()
+        assert (error.traceback[-1].path, error.traceback[-1].lineno) == (
+            tmp_path / "wrong_package" / "wrong.py", 1,
+        )  # fmt: skip
+
+
+def test_two_modules_may_defer_each_other_in_any_thread(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    text = (
+        "from polycnc.deferred.functions import loaded_when_called\n"
+        "with loaded_when_called():\n    from mutual_package import {other}\n"
+        "def act(left):\n    return {other}.act(left - 1) if left else 'done'\n"
+    )
+    (tmp_path / "mutual_package").mkdir()
+    (tmp_path / "mutual_package" / "__init__.py").touch()
+    for name, other in (("one", "another"), ("another", "one")):
+        (tmp_path / "mutual_package" / f"{name}.py").write_text(text.format(other=other), encoding="utf-8")
+    monkeypatch.syspath_prepend(tmp_path)
+    done: list[str] = []
+    start = threading.Barrier(8)
+
+    def act(name: str) -> None:
+        start.wait()
+        done.append(Deferred(f"mutual_package.{name}", "act")(5))
+
+    threads = [threading.Thread(target=act, args=[name]) for name in ("one", "another") * 4]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join(timeout=30)
+    assert done == ["done"] * 8
 
 
 def test_only_names_can_be_imported() -> None:
@@ -195,6 +248,8 @@ def test_what_is_deferred_is_called_or_handed_on(path: Path, tree: ast.Module) -
         module = target.rpartition(".")[0] if is_class else target
         assert file_of(module).exists(), f"{target} is no module, and no class of one"
         defined = definitions(file_of(module))
+        if is_class:
+            assert defined.get(target.rpartition(".")[2]) is ast.ClassDef, f"{target} is no class"
         for node in ast.walk(tree):
             if not (isinstance(node, ast.Name) and node.id == name) or is_annotation(node, parents):
                 continue
@@ -213,6 +268,19 @@ def test_what_is_deferred_is_called_or_handed_on(path: Path, tree: ast.Module) -
             assert isinstance(call, ast.Call), f"line {node.lineno}: {ast.unparse(parent)}"
             assert call.func is (parent if isinstance(parent, ast.Attribute) else used), ast.unparse(call)
             assert called is not None
+
+
+@pytest.mark.parametrize(
+    ("path", "tree"), DEFERRING, ids=[str(path.relative_to(SOURCE)) for path, _ in DEFERRING]
+)
+def test_what_is_deferred_is_there_when_it_is_called(path: Path, tree: ast.Module) -> None:
+    names = deferred_names(tree)
+    for name, target in names.items():
+        place, _, of = target.rpartition(".")
+        stands_for = import_module(target) if of.islower() else getattr(import_module(place), of)
+        for node in ast.walk(tree):
+            if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id == name:
+                assert callable(getattr(stands_for, node.attr)), f"{target}.{node.attr}"
 
 
 def definitions(path: Path) -> dict[str, type[ast.AST]]:

@@ -9,12 +9,16 @@ import tomllib
 from pathlib import Path
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 import polycnc
 from polycnc.deferred.toml import loads, plain
+from polycnc.machine import documents
 
 SOURCE = Path(polycnc.__file__).parent
 SHIPPED = sorted(SOURCE.rglob("*.toml"))
+MACHINES = [path.read_text(encoding="utf-8") for path in SHIPPED if path.parent.name == "builtin"]
 DOCUMENT = """\
 # A comment with "a text" in it
 whole = 12
@@ -48,7 +52,7 @@ def outcome(text: str) -> dict[str, object] | None:
     """What the library reads; None where it refuses."""
     try:
         return tomllib.loads(text)
-    except tomllib.TOMLDecodeError:
+    except ValueError:  # with those of numbers that `int` refuses
         return None
 
 
@@ -100,6 +104,71 @@ def test_documents_with_mistakes_are_never_plain() -> None:
             text = text[:at] + chosen.choice(("", chosen.choice(signs))) + text[at + chosen.randint(0, 2) :]
         found = plain(text)
         assert found is None or repr(found) == repr(outcome(text)), text
+
+
+KEYS = st.sampled_from(
+    ["a", "b", "1", "-", '"a"', '"b.c"', "'a'", "a.b", '"#"', "é", '""', "a b", '"a=b"', "a . b", '"a".b']
+)  # fmt: skip
+ATOMS = st.sampled_from(
+    [
+        "1", "-1", "+1", "01", "-0", "1.5", "-0.0", "1.", ".5", "1e3", "1_0", "999999999999999", "9999999999999999",
+        "0.1234567890123", "12345678901.5", "1" * 5000, "inf", "-nan", "true", "false", "True", "1979-05-27",
+        "1979-05-27T07:32:00Z", "07:32:00", '"x"', '"x # y"', '"x, y"', '"[x]"', "'x'", "'\"'", '"\\n"', '""',
+        '"""x"""', '"""\nx"""', "'''x'''", '"é\u3000"', '"\t"', '"\x7f"', '"\x01"', "\u0661", "²", '"a" "b"',
+        '"\U0001f600"', "0x1F", "0b1", "+", "", "1 1", "[", "}", '"', "{}", "[]", "\ufeff1", '"\xa0"', "1\xa0",
+    ]
+)  # fmt: skip
+VALUES = st.recursive(
+    ATOMS,
+    lambda inner: st.one_of(
+        st.tuples(st.lists(inner, max_size=3), st.sampled_from(["[{}]", "[ {} ]", "[{},]", "[\n{}]"])).map(
+            lambda made: made[1].format(", ".join(made[0]))
+        ),
+        st.tuples(
+            st.lists(st.tuples(KEYS, inner), max_size=3), st.sampled_from(["{{ {} }}", "{{{}}}", "{{{},}}"])
+        ).map(lambda made: made[1].format(", ".join(f"{key} = {value}" for key, value in made[0]))),
+    ),
+    max_leaves=4,
+)
+HEADS = st.tuples(
+    st.lists(KEYS, min_size=1, max_size=3).map(".".join),
+    st.sampled_from(["[{}]", "[[{}]]", "[ {} ]", "[[ {} ]]", "[{}", "[{}]]", "[[{}] ]", "[{}] x"]),
+).map(lambda made: made[1].format(made[0]))
+LINES = st.tuples(
+    st.one_of(HEADS, st.tuples(KEYS, VALUES).map(" = ".join), st.sampled_from(["", "a", "= 1", "\ufeff"])),
+    st.sampled_from(["", "", " # x", '# "x', ' # "x"', "# it's", '# "a" = #', " #\t", "#\x01"]),
+    st.sampled_from(["\n", "\n", "\n", "\r\n", "\r", " \n", "\t\n", "\n ", "\x0b", "\x85"]),
+)
+
+
+@settings(max_examples=500, deadline=None)
+@given(st.lists(LINES.map("".join), max_size=6).map("".join))
+def test_documents_of_all_that_toml_has_mean_what_the_library_reads(text: str) -> None:
+    found = plain(text)
+    assert found is None or repr(found) == repr(outcome(text))
+
+
+@settings(max_examples=200, deadline=None)
+@given(st.data())
+def test_mistakes_in_machines_are_told_as_by_the_library(data: st.DataObject) -> None:
+    text = data.draw(st.sampled_from(MACHINES))
+    lines = text.split("\n")
+    at = data.draw(st.integers(0, len(lines) - 1))
+    changed = data.draw(
+        st.sampled_from([lines[data.draw(st.integers(0, len(lines) - 1))], lines[at] + '"', "[a"])
+    )
+    text = "\n".join([*lines[:at], changed, *lines[at + data.draw(st.integers(0, 1)) :]])
+
+    def told() -> object:
+        try:
+            return repr(documents.toml_values(text))
+        except documents.DocumentError as error:
+            return error.line, error.column, error.message, error.args_by_name
+
+    ours = told()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(documents, "plain", lambda _text: None)
+        assert ours == told()
 
 
 def test_a_plain_run_loads_no_library(tmp_path: Path) -> None:

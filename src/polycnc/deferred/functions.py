@@ -86,6 +86,8 @@ class _DeferredModule:
         self._module = module
 
     def __getattr__(self, name: str) -> Deferred:
+        if name.startswith("_"):  # what the library asks of everything that it copies, unwraps or describes
+            raise AttributeError(name)
         if name.isupper():
             raise AttributeError(
                 f"{self._module} is loaded when it is called: {name} is no function and no class"

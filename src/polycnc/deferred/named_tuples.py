@@ -31,8 +31,13 @@ class _Maker(type):
             return super().__new__(cls, name, bases, body)
         names = tuple(body.get("__annotations__", ()))
         members: dict[str, Any] = {each: _getter_at(number, each) for number, each in enumerate(names)}
+        defaults = {each: body[each] for each in names if each in body}
+        if len(bases) > 1 or "__new__" in body:
+            raise TypeError(f"{name} has a `__new__` or a base that no named tuple has")
+        if names[len(names) - len(defaults) :] != (*defaults,):
+            raise TypeError(f"Non-default field of {name} follows a default field")
         members |= {"_fields": names, "__match_args__": names, "__slots__": ()}
-        members["_field_defaults"] = {each: body[each] for each in names if each in body}
+        members["_field_defaults"] = defaults
         members["__new__"] = _first_new(lambda: made)
         made = type(name, (tuple,), _METHODS | body | members)
         return made
@@ -42,7 +47,7 @@ def _first_new(made: Callable[[], Any]) -> Callable[..., Any]:
     """`__new__` for the first objects of a class. When it has made `_FEW`, it leaves its place to a written one."""
     left = _FEW
 
-    def __new__(cls: Any, *args: object, **named: object) -> Any:  # noqa: N807
+    def __new__(cls: Any, /, *args: object, **named: object) -> Any:  # noqa: N807
         nonlocal left
         own = made()
         left -= 1
@@ -65,8 +70,17 @@ def written(cls: Any) -> type:
     source = f"lambda {', '.join(['_cls', *taken])}: _new(_cls, ({values}))"
     method = eval(source, {"_new": tuple.__new__, **defaults})  # the text comes from names of fields
     method.__name__, method.__qualname__ = "__new__", f"{cls.__qualname__}.__new__"
-    cls.__new__ = method
+    method.__annotations__ = {**vars(cls).get("__annotations__", {})}
+    cls.__new__ = staticmethod(method)
     return cls  # type: ignore[no-any-return]
+
+
+class _Signed:
+    """Writes `__new__` for who looks for a signature, and lets him find that of the method."""
+
+    def __get__(self, instance: object, owner: type) -> Any:
+        written(next(each for each in owner.__mro__ if "_field_defaults" in each.__dict__))
+        raise AttributeError("__signature__")
 
 
 # ---- methods that all have -------------------------------------------------------------------------------------
@@ -109,6 +123,7 @@ _METHODS = {
     "_make": classmethod(_make),
     "_replace": _replace,
     "_asdict": _asdict,
+    "__signature__": _Signed(),
 }
 
 if not TYPE_CHECKING:

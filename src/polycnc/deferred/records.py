@@ -55,9 +55,16 @@ else:
 
     def replace(thing, /, **changes):
         """An object like another one but for some fields; see `dataclasses.replace`."""
+        if isinstance(thing, type):
+            raise TypeError("replace() should be called on dataclass instances")
         for each in fields(thing):
-            if each.init and each.name not in changes:
-                changes[each.name] = getattr(thing, each.name)
+            if each.init:
+                if each.name not in changes:
+                    changes[each.name] = getattr(thing, each.name)
+            elif each.name in changes:
+                raise ValueError(
+                    f"field {each.name} is declared with init=False, it cannot be specified with replace()"
+                )
         return type(thing)(**changes)
 
     class MISSING:
@@ -67,8 +74,6 @@ else:
 __all__ = ["MISSING", "dataclass", "field", "fields", "is_dataclass", "is_frozen", "replace"]
 #: So many objects of a class are made field by field before an `__init__` is written for it.
 _FEW = 32
-#: What a parameter holds whose value comes from a `default_factory`.
-_LATER = object()
 #: Where a class keeps its own annotated names with what was assigned to them; where its fields, when asked for.
 _NOTED, _FIELDS = "__noted_fields__", "__described_fields__"
 #: Where a class keeps what `_put_values` does for its objects.
@@ -84,6 +89,18 @@ _BEHIND: dict[type, str] = {
 }
 #: Where the library keeps its fields.
 _OF_LIBRARY = "__dataclass_fields__"
+
+
+class _Later:
+    """What a parameter holds whose value comes from a `default_factory`."""
+
+    def __repr__(self) -> str:
+        return "<factory>"
+
+
+_LATER = _Later()
+#: What a class says of fields that is no dataclass.
+_NOTHING: dict[str, object] = {}
 
 
 def is_frozen(cls: type) -> bool:
@@ -130,12 +147,17 @@ class Field:
 def _dataclass(cls: Any, *, frozen: bool, slots: bool, eq: bool) -> type:
     body = cls.__dict__
     noted: dict[str, object] = {}
+    inherits = cls.__bases__ != (object,)
+    if inherits:
+        _check_bases(cls, frozen=frozen)
     for name, hint in body.get("__annotations__", {}).items():
         if not _is_of_class(hint):
             value = body.get(name, MISSING)
+            if value is MISSING and inherits:
+                value = getattr(cls, name, MISSING)
             noted[name] = value if type(value) in _OURS else _told(value)
     added = _methods(lambda: cls, body, frozen=frozen, eq=eq)
-    added |= {_NOTED: noted, _OF_LIBRARY: _DESCRIBED, "__frozen__": frozen}
+    added |= {_NOTED: noted, _OF_LIBRARY: _DESCRIBED, "__frozen__": frozen, "__signature__": _SIGNED}
     # Else the library would write down its signature.
     added["__doc__"] = body.get("__doc__") or cls.__name__
     if "__match_args__" not in body:
@@ -156,6 +178,18 @@ def _dataclass(cls: Any, *, frozen: bool, slots: bool, eq: bool) -> type:
     for name, value in added.items():
         setattr(cls, name, value)
     return cls  # type: ignore[no-any-return]
+
+
+def _check_bases(cls: type, *, frozen: bool) -> None:
+    """Refuse that some fields of an object change and others do not."""
+    base: Any
+    for base in cls.__bases__:
+        is_other: bool | None = getattr(base, "__frozen__", None)
+        if is_other is None and hasattr(base, _OF_LIBRARY):
+            is_other = base.__dataclass_params__.frozen
+        if is_other not in (None, frozen):
+            words = ("non-frozen", "frozen") if is_other else ("frozen", "non-frozen")
+            raise TypeError("cannot inherit {} dataclass from a {} one".format(*words))
 
 
 def _told(value: object) -> object:
@@ -183,9 +217,10 @@ def _with_slots(cls: type, noted: Mapping[str, object], added: Mapping[str, obje
     for each in cls.__mro__[1:-1]:
         slots = each.__dict__.get("__slots__", ())
         inherited.update((slots,) if isinstance(slots, str) else slots)
-        noted = {**dict.fromkeys(each.__dict__.get(_NOTED, ()), MISSING), **noted}
+        if _OF_LIBRARY in each.__dict__:
+            noted = {**dict.fromkeys(_noted(each), MISSING), **noted}
     body = {**cls.__dict__, **added}
-    body["__slots__"] = tuple(name for name in noted if name not in inherited)
+    body["__slots__"] = (*[name for name in noted if name not in inherited],)
     for name in (*noted, "__dict__", "__weakref__"):
         body.pop(name, None)
     body["__qualname__"] = cls.__qualname__
@@ -207,13 +242,23 @@ def _lead_super(cls: type, body: Mapping[str, object]) -> None:
 # ---- fields ----------------------------------------------------------------------------------------------------
 
 
+def _noted(base: type) -> Mapping[str, object]:
+    """What a class itself says of fields, one of the library as well."""
+    body = base.__dict__
+    if _NOTED in body:
+        return body[_NOTED]  # type: ignore[no-any-return]
+    if _OF_LIBRARY in body:
+        return {name: _told(value) for name, value in body[_OF_LIBRARY].items()}
+    return _NOTHING
+
+
 def _fields_of(cls: type) -> tuple[Field, ...]:
     """All fields of a class of ours, those of its bases first."""
     known: tuple[Field, ...] | None = cls.__dict__.get(_FIELDS)
     if known is None:
         found: dict[str, Field] = {}
         for base in reversed(cls.__mro__):
-            if _NOTED in base.__dict__:
+            if _OF_LIBRARY in base.__dict__:
                 found |= _described(base)
         known = tuple(found.values())
         setattr(cls, _FIELDS, known)
@@ -223,10 +268,12 @@ def _fields_of(cls: type) -> tuple[Field, ...]:
 def _described(cls: type) -> dict[str, Field]:
     """The fields that a class itself adds."""
     found: dict[str, Field] = {}
-    for name, value in cls.__dict__[_NOTED].items():
+    of_library = {} if _NOTED in cls.__dict__ else cls.__dict__.get(_OF_LIBRARY, {})
+    for name, value in _noted(cls).items():
         each = value if isinstance(value, Field) else Field(default=value)
         each.default = _checked(name, each.default)
-        each.name, each.type = name, cls.__annotations__[name]
+        each.name = name
+        each.type = of_library[name].type if of_library else cls.__annotations__[name]
         found[name] = each
     return found
 
@@ -270,7 +317,17 @@ class _Positional:
         return names
 
 
-_DESCRIBED, _POSITIONAL = _Described(), _Positional()
+class _Signed:
+    """Writes `__init__` for who looks for a signature, and lets him find that of the method."""
+
+    def __get__(self, instance: object, owner: type) -> Any:
+        cls: Any = next(each for each in owner.__mro__ if "__init__" in each.__dict__)
+        if getattr(cls.__init__, "__module__", "") == __name__:
+            cls.__init__ = _init(cls)
+        raise AttributeError("__signature__")
+
+
+_DESCRIBED, _POSITIONAL, _SIGNED = _Described(), _Positional(), _Signed()
 
 
 # ---- methods that are written ----------------------------------------------------------------------------------
@@ -284,7 +341,8 @@ def _methods(
     if eq:
         added["__eq__"] = _made_later(made, "__eq__", _eq)
     kept = {name: method for name, method in added.items() if name not in body}
-    if eq and body.get("__hash__") is None:
+    # A class that has `__eq__` of its own and no `__hash__` has None there.
+    if eq and ("__hash__" not in body or (body["__hash__"] is None and "__eq__" in body)):
         kept["__hash__"] = _made_later(made, "__hash__", _hash) if frozen else None
     if frozen:
         kept["__setattr__"], kept["__delattr__"] = _refuse_to_set, _refuse_to_delete
@@ -325,16 +383,17 @@ def _hash(cls: type) -> Callable[..., Any]:
 
 def _getter(names: list[str]) -> Callable[[object], tuple[object, ...]]:
     """What gives the values of these fields as a tuple."""
-    if len(names) > 1:
-        return attrgetter(*names)
-    return lambda thing: tuple(getattr(thing, name) for name in names)
+    if not names:
+        return lambda _thing: ()
+    value: Callable[[object], Any] = attrgetter(*names)
+    return value if len(names) > 1 else lambda thing: (value(thing),)
 
 
 def _first_init(made: Callable[[], type]) -> Callable[..., None]:
     """`__init__` for the first objects of a class. When it has made `_FEW`, it leaves its place to a written one."""
     left = _FEW
 
-    def __init__(self: object, *args: object, **named: object) -> None:  # noqa: N807
+    def __init__(self: object, /, *args: object, **named: object) -> None:  # noqa: N807
         nonlocal left
         cls = made()
         left -= 1
@@ -348,7 +407,7 @@ def _first_init(made: Callable[[], type]) -> Callable[..., None]:
 def _put_values(cls: type, thing: object, args: tuple[object, ...], named: dict[str, object]) -> bool:
     """Do what the written `__init__` does, field by field; False where it would refuse these arguments."""
     steps, put, goes_on = cls.__dict__.get(_STEPS) or _steps_of(cls)
-    values: list[tuple[str, object]] = []
+    values: list[tuple[str, object, Any]] = []
     given = iter(args)
     taken = 0
     for name, is_taken, default, factory in steps:
@@ -359,14 +418,14 @@ def _put_values(cls: type, thing: object, args: tuple[object, ...], named: dict[
             value = named[name]
             taken += 1
         elif value is MISSING:
-            value = default if factory is MISSING else factory()
-            if value is MISSING:
+            value = default
+            if value is MISSING and factory is MISSING:
                 return False
-        values.append((name, value))
+        values.append((name, value, factory))
     if taken < len(named) or next(given, MISSING) is not MISSING:
         return False
-    for name, value in values:
-        put(thing, name, value)
+    for name, value, factory in values:
+        put(thing, name, factory() if value is MISSING else value)
     if goes_on:
         thing.__post_init__()  # type: ignore[attr-defined]
     return True
@@ -379,26 +438,39 @@ def _steps_of(cls: type) -> _Steps:
     value is put in, and whether `__post_init__` follows.
     """
     slots = "__slots__" in cls.__dict__
-    steps: dict[str, tuple[str, bool, object, Any]] = {}
+    noted: dict[str, object] = {}
     for base in reversed(cls.__mro__):
-        for name, value in base.__dict__.get(_NOTED, {}).items():
-            if not isinstance(value, Field):
-                steps[name] = name, True, _checked(name, value), MISSING
-            elif (
-                value.init or value.default_factory is not MISSING or (slots and value.default is not MISSING)
-            ):
-                steps[name] = name, value.init, _checked(name, value.default), value.default_factory
-    made = [*steps.values()], object.__setattr__ if is_frozen(cls) else setattr, hasattr(cls, "__post_init__")
+        if _OF_LIBRARY in base.__dict__:
+            noted |= _noted(base)
+    steps: list[tuple[str, bool, object, Any]] = []
+    is_optional = False
+    for name, value in noted.items():
+        is_taken, default = True, value
+        factory: Any = MISSING
+        if isinstance(value, Field):
+            is_taken, default, factory = value.init, value.default, value.default_factory
+        default = _checked(name, default)
+        if default is not MISSING or factory is not MISSING:
+            is_optional |= is_taken
+        elif is_taken and is_optional:
+            raise TypeError(f"non-default argument {name!r} follows default argument")
+        if is_taken or factory is not MISSING or (slots and default is not MISSING):
+            steps.append((name, is_taken, default, factory))
+    made = steps, object.__setattr__ if is_frozen(cls) else setattr, hasattr(cls, "__post_init__")
     setattr(cls, _STEPS, made)
     return made
 
 
 def _init(cls: type) -> Callable[..., Any]:
+    if _STEPS not in cls.__dict__:
+        _steps_of(cls)  # which may refuse them
     frozen, slots = is_frozen(cls), "__slots__" in cls.__dict__
-    names: dict[str, Any] = {"_LATER": _LATER, "_set": object.__setattr__}
-    parameters, values = ["self"], {}
-    for each in _fields_of(cls):
-        names[f"_default_{each.name}"] = (
+    names: dict[str, Any] = {"__LATER": _LATER, "__set": object.__setattr__}
+    fields_of = _fields_of(cls)
+    own = "__self" if any(each.name == "self" for each in fields_of) else "self"
+    parameters, values = [own], {}
+    for each in fields_of:
+        names[f"__default_{each.name}"] = (
             each.default if each.default_factory is MISSING else each.default_factory
         )
         parameter, value = _parameter_and_value(each, slots=slots)
@@ -411,28 +483,29 @@ def _init(cls: type) -> Callable[..., Any]:
         for name, value in values.items():
             slot = getattr(cls, name, None)
             if not frozen:
-                yield f"self.{name} = {value}"
+                yield f"{own}.{name} = {value}"
             elif isinstance(slot, MemberDescriptorType):
-                names[f"_set_{name}"] = slot.__set__
-                yield f"_set_{name}(self, {value})"
+                names[f"__set_{name}"] = slot.__set__
+                yield f"__set_{name}({own}, {value})"
             else:
-                yield f"_set(self, {name!r}, {value})"
-        yield "self.__post_init__()" if hasattr(cls, "__post_init__") else "pass"
+                yield f"__set({own}, {name!r}, {value})"
+        yield f"{own}.__post_init__()" if hasattr(cls, "__post_init__") else "pass"
 
     lines = [f"def __init__({', '.join(parameters)}):", *body()]
     exec("\n ".join(lines), names)  # the text comes from names of fields
     method: Callable[..., Any] = names["__init__"]
     method.__qualname__ = f"{cls.__qualname__}.__init__"
+    method.__annotations__ = {each.name: each.type for each in fields_of if each.init} | {"return": None}
     return method
 
 
 def _parameter_and_value(each: Field, *, slots: bool) -> tuple[str, str]:
     """How `__init__` declares a field and what it puts into it; empty where it does not."""
-    name, default = each.name, f"_default_{each.name}"
+    name, default = each.name, f"__default_{each.name}"
     if each.default_factory is not MISSING:
         if not each.init:
             return "", f"{default}()"
-        return f"{name}=_LATER", f"{default}() if {name} is _LATER else {name}"
+        return f"{name}=__LATER", f"{default}() if {name} is __LATER else {name}"
     if each.init:
         return (name if each.default is MISSING else f"{name}={default}"), name
     # Without slots the class itself has the default.
