@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import pairwise
 from math import hypot, pi
 from typing import Any
@@ -228,3 +229,57 @@ def real_motion(run: Run, context: Context, times: Any, machine: Machine) -> tup
     for way in ways:
         way[:, turning] = (way[:, turning] + 180.0) % 360.0 - 180.0
     return now, (ways[0] + ways[1]) / (2.0 * short), (ways[1] - ways[0]) / short**2
+
+
+@pytest.mark.parametrize(
+    "rows",
+    [
+        "G60 X1 Y1 F4000\nG2 X0.001 Y-1 CR=2.8888\nG1 X-1 Y1 F12000\nX1 Y1\nG2 X1 Y-0.034 CR=1.1092",
+        "G64 X-2 Y1.5 F6000\nG3 X-1.5 Y-2 CR=2.9\nX1 Y-1.2 CR=1.9",
+    ],
+)
+def test_beside_the_centre_an_arc_leaves_the_rotary_axis_its_acceleration(rows: str) -> None:
+    """The columns have hardly any of theirs there: the rotary axis had 2.3 times its own."""
+    text = f"BRISK\nT1 D1\nG0 X60 Z5\nTRANSMIT\nG1 X3 Y1 F2000\n{rows}\nTRAFOOF\nM30\n"
+    setup = {"tools": {1: {"length": 50}}}
+    result = polycnc.run(text, control="sinumerik-840d", machine="lathe-c-transmit", setup=setup)
+    assert not result.alarms
+    keeps_limits(result, MACHINE, jerk=False)
+
+
+@pytest.mark.parametrize(
+    ("machine", "begin", "rows"),
+    [
+        (
+            "grinder-mu-mz",
+            "G18 TRAANG(60)\nG0 X10 Z0",
+            "X20 Z2 F12000\nX21 Z20 F4000\nG3 X12 Z28 CR=9\nG1 X3 Z28.5 F900",
+        ),
+        (
+            "lathe-c-transmit",
+            "G19 T1 D1\nG0 X60 Z0\nTRACYL(40)\nG1 X20 Y0 Z-5 F3000",
+            "Y5.273 Z-10.197 F300\nY0.479 Z-9.751 F4000\nY2.177 Z-13.919 F1500\nG2 Y6.583 Z-7.241 CR=5 F9000\nG1 Y20",
+        ),
+        (
+            "mill3",
+            "ACC[X]=30\nG0 X0 Y0",
+            "X10 Y4 F12000\nX20 Y-3 F4000\nG3 X30 Y5 CR=8 F9000\nG1 X20 Y9 F2000",
+        ),
+    ],
+)
+@pytest.mark.parametrize("corners", ["G641 ADIS=0.5", "G642", "G64"])
+def test_on_the_bend_of_a_corner_bend_and_speed_share_what_is_left_to_the_axes(
+    machine: str, begin: str, rows: str, corners: str
+) -> None:
+    """Each of both had all of it: the axes exceeded their acceleration by up to 60 %."""
+    text = f"BRISK {corners}\n{begin}\nG1 {rows}\nTRAFOOF\nM30\n"
+    setup = {"tools": {1: {"length": 50}}}
+    result = polycnc.run(text, control="sinumerik-840d", machine=machine, setup=setup)
+    assert not result.alarms
+    axes = tuple(
+        replace(axis, acceleration=0.3 * axis.acceleration)
+        if machine == "mill3" and axis.name == "X"
+        else axis
+        for axis in load_machine(machine).axes
+    )
+    keeps_limits(result, replace(load_machine(machine), axes=axes), jerk=False)
