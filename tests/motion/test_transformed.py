@@ -228,3 +228,59 @@ def real_motion(run: Run, context: Context, times: Any, machine: Machine) -> tup
     for way in ways:
         way[:, turning] = (way[:, turning] + 180.0) % 360.0 - 180.0
     return now, (ways[0] + ways[1]) / (2.0 * short), (ways[1] - ways[0]) / short**2
+
+
+@pytest.mark.parametrize(
+    "rows",
+    [
+        "G60 X1 Y1 F4000\nG2 X0.001 Y-1 CR=2.8888\nG1 X-1 Y1 F12000\nX1 Y1\nG2 X1 Y-0.034 CR=1.1092",
+        "G64 X-2 Y1.5 F6000\nG3 X-1.5 Y-2 CR=2.9\nX1 Y-1.2 CR=1.9",
+    ],
+)
+def test_beside_the_centre_an_arc_leaves_the_rotary_axis_its_acceleration(rows: str) -> None:
+    """The columns have hardly any of theirs there: the rotary axis had 2.3 times its own."""
+    text = f"BRISK\nT1 D1\nG0 X60 Z5\nTRANSMIT\nG1 X3 Y1 F2000\n{rows}\nTRAFOOF\nM30\n"
+    setup = {"tools": {1: {"length": 50}}}
+    result = polycnc.run(text, control="sinumerik-840d", machine="lathe-c-transmit", setup=setup)
+    assert not result.alarms
+    keeps_limits(result, MACHINE, jerk=False)
+
+
+@pytest.mark.parametrize(
+    ("machine", "begin", "rows"),
+    [
+        (
+            "grinder-mu-mz",
+            "G18 TRAANG(60)\nG0 X10 Z0",
+            "X20 Z2 F12000\nX21 Z20 F4000\nG3 X12 Z28 CR=9\nG1 X3 Z28.5 F900",
+        ),
+        (
+            "lathe-c-transmit",
+            "G19 T1 D1\nG0 X60 Z0\nTRACYL(40)\nG1 X20 Y0 Z-5 F3000",
+            "Y5.273 Z-10.197 F300\nY0.479 Z-9.751 F4000\nY2.177 Z-13.919 F1500\nG2 Y6.583 Z-7.241 CR=5 F9000\nG1 Y20",
+        ),
+    ],
+)
+@pytest.mark.parametrize("corners", ["G641 ADIS=0.5", "G642", "G64"])
+def test_on_the_bend_of_a_corner_bend_and_speed_share_what_is_left_to_the_axes(
+    machine: str, begin: str, rows: str, corners: str
+) -> None:
+    """Each of both had all of it: the axes exceeded their acceleration by up to 60 %."""
+    text = f"BRISK {corners}\n{begin}\nG1 {rows}\nTRAFOOF\nM30\n"
+    setup = {"tools": {1: {"length": 50}}}
+    result = polycnc.run(text, control="sinumerik-840d", machine=machine, setup=setup)
+    assert not result.alarms
+    keeps_limits(result, load_machine(machine), jerk=False)
+
+
+@pytest.mark.parametrize("corners", ["G641 ADIS=0.5", "G642", "G64"])
+def test_at_corners_axes_keep_what_acc_leaves_them(corners: str) -> None:
+    """Along Y the row before accelerates as Y may, but X has its part of the bend: it had three times what it may."""
+    text = (
+        f"BRISK {corners}\nACC[X]=20\nG0 X0 Y0\nG1 X0.1 Y10 F12000\nX2 Y28\nX2.1 Y40\nX20 Y37\nX30 Y60\nM30\n"
+    )
+    result, machine = polycnc.run(text, control="sinumerik-840d", machine="mill3"), load_machine("mill3")
+    assert not result.alarms
+    for run, context in runs_of(result, machine):
+        _, _, acceleration = real_motion(run, context, np.arange(0.0, run.seconds, 0.001), machine)
+        assert np.abs(acceleration[:, 0]).max() <= 0.2 * machine.axis["X"].acceleration * SLACK
