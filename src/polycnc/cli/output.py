@@ -14,7 +14,7 @@ from polycnc.messages.files import OutputError
 from polycnc.program.folders import SUFFIXES
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
 #: Suffixes of files that are part programs and nothing else.
 PROGRAMS = frozenset(SUFFIXES) - {"", ".txt", ".h", ".min"}
@@ -59,6 +59,16 @@ def whole_file(path: Path, mode: str = "w") -> Iterator[IO[Any]]:
         if name:
             Path(name).unlink(missing_ok=True)
         raise
+
+
+def refuse_twice(outputs: Iterable[Path | None]) -> None:
+    """Raise `OutputError` where two outputs would be one file, of which the first would be lost; devices take both."""
+    files = [each for each in outputs if each is not None and (each.is_file() or not each.exists())]
+    taken: set[Path] = set()
+    for file in files:
+        if file.resolve() in taken:
+            raise OutputError("output.is-twice", file=file)
+        taken.add(file.resolve())
 
 
 class _File(io.FileIO):
