@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Annotated
 from polycnc.cli import diagnostics, options
 from polycnc.cli.console import note, show, standard_input
 from polycnc.cli.declaration import Argument, Commands, Option
+from polycnc.cli.progress import away
 from polycnc.deferred.records import dataclass
 from polycnc.messages import UserError, text
 from polycnc.messages.catalogue import language, listed, set_language
@@ -114,7 +115,7 @@ def _shared(
     workers.enter_context(pool)
     others = active_children()
     workers.push(lambda error, *_: _kill_where(error, others))
-    with _no_interrupt():
+    with away(), _no_interrupt():  # nobody writes or loads anything else while the process is copied
         return chain((first,), pool.map(run, files[1:], chunksize=SHARED))
 
 
