@@ -259,3 +259,42 @@ def test_a_mistake_that_shows_its_way_ends_the_process_as_python_does(tmp_path: 
     )
     assert done.returncode == 1
     assert done.stderr.splitlines()[-1] == "ValueError: here"
+
+
+@pytest.mark.parametrize("closed", ["2>&-", ">&-", "<&- >&- 2>&-"])
+@pytest.mark.skipif(sys.platform == "win32", reason="needs a POSIX shell")
+def test_a_closed_stream_takes_all(tmp_path: Path, closed: str) -> None:
+    (tmp_path / "a.nc").write_text(GOOD, encoding="utf-8")
+    command = f"{sys.executable} -m polycnc run a.nc --control fanuc-m --state a.json {closed}"
+    run = subprocess.run(command, shell=True, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert (run.returncode, run.stderr) == (0, "")
+    assert (tmp_path / "a.json").read_text(encoding="utf-8").startswith("{")
+
+
+CHECKING = """
+import sys
+from polycnc.cli import main
+from polycnc.cli.commands import check
+check._cores = lambda: 2
+def seldom(opening, file):
+    if file[0] != "0.nc":
+        print(file[0], flush=True)
+        import time; time.sleep(60)
+    return check._Checked([])
+check._one_checked = seldom
+main(["check", "--control", "fanuc-m", *(f"{each}.nc" for each in range(40))])
+"""
+
+
+@pytest.mark.parametrize("number", ["SIGINT", "SIGTERM"])
+@pytest.mark.skipif(sys.platform == "win32", reason="has other signals")
+def test_whoever_interrupts_a_check_ends_its_workers_at_once(tmp_path: Path, number: str) -> None:
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "start_new_session": True}
+    with subprocess.Popen([sys.executable, "-c", CHECKING], cwd=tmp_path, **pipes) as process:  # type: ignore[call-overload]
+        assert process.stdout.readline().endswith(b".nc\n")
+        for _ in range(3):  # of a terminal every process of the group gets them
+            with suppress(ProcessLookupError):
+                os.killpg(process.pid, getattr(signal, number))
+        _, err = process.communicate(timeout=20)  # also where the workers have closed their ends
+        assert err == b"polycnc: interrupted\n"
+        assert process.returncode == 130

@@ -3,6 +3,8 @@ from __future__ import annotations
 import io
 import json
 import sys
+from contextlib import nullcontext
+from threading import Thread
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 from xml.etree import ElementTree
@@ -11,11 +13,14 @@ import jsonschema
 import pytest
 
 from polycnc.cli.commands import check
+from polycnc.cli.progress import Watch
 from polycnc.session import Session
 from tests.cli.console import BAD, GOOD
 from tests.cli.sarif_schema import SARIF
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
     from polycnc.session import Result
     from tests.cli.console import Console
 
@@ -242,3 +247,26 @@ def test_many_files_are_checked_on_all_cores_in_their_order(
     alone = console("check", *names, *FANUC, "--lang", "zh-TW")
     assert shared == alone
     assert [line[:9] for line in shared.out.splitlines() if line.startswith("part")] == names[::5]
+
+
+def test_nobody_looks_on_while_the_process_is_copied(
+    console: Console, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A worker would have the locks of a thread that it has not."""
+    watch, free = Watch("polycnc check"), []
+
+    def copied(_: object, run: Callable[[Any], Any], files: list[Any], **__: int) -> Iterable[Any]:
+        look = Thread(target=lambda: free.append(watch.lock.acquire(blocking=False)))
+        look.start()
+        look.join()
+        return map(run, files)
+
+    monkeypatch.setattr(check, "_cores", lambda: 2)
+    monkeypatch.setattr("concurrent.futures.ProcessPoolExecutor.map", copied)
+    monkeypatch.setattr("polycnc.cli.app.watched", lambda _: nullcontext())
+    monkeypatch.setattr(Watch, "of_command", watch)
+    names = [f"{number}.nc" for number in range(2 * check.SHARED)]
+    for name in names:
+        console.file(name, GOOD)
+    assert console("check", *names, "--control", "fanuc-m").status == 0
+    assert free == [False]

@@ -142,3 +142,24 @@ def test_no_output_replaces_an_input(console: Console, inputs: dict[str, str], w
         assert said.status == 2
         assert "not overwritten" in said.err
     Path("../LINK").unlink()
+
+
+def test_a_full_disk_is_told_with_the_file(console: Console, tmp_path: Path) -> None:
+    full = Path("/dev/full")
+    if not full.exists():
+        pytest.skip("no such device")
+    console.file("a.nc", GOOD)
+    (tmp_path / "full.jsonl").symlink_to(full)
+    said = console("run", "a.nc", "--control", "fanuc-m", "--trace", str(tmp_path / "full.jsonl"))
+    assert said.status == 2
+    assert said.err == f"polycnc: {tmp_path / 'full.jsonl'}: the disk is full\n"
+
+
+def test_two_outputs_are_two_files(console: Console, inputs: dict[str, str]) -> None:
+    assert inputs
+    said = console("run", "a.nc", "--control", "fanuc-m", "--trace", "x.csv", "--state", "./x.csv")
+    assert said.status == 2
+    assert "x.csv is named for two outputs" in said.err
+    assert not Path("x.csv").exists()
+    devices = ("--print", os.devnull, "--state", os.devnull)
+    assert console("run", "b.nc", "--control", "fanuc-m", *devices).status == 1

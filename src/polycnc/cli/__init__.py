@@ -36,6 +36,7 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
     gc.set_threshold(_NEW_OBJECTS)
     leaving = _Leaving()
     if arguments is None:
+        _open_closed_streams()
         os.environ.setdefault(_MATRIX_THREADS, "1")
         atexit.register(leaving.end)  # as the first, so that it is called last
     try:
@@ -49,6 +50,17 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
             leaving.status = left.code
         raise
     raise SystemExit(leaving.status)
+
+
+def _open_closed_streams() -> None:
+    """A stream that whoever starts the process has closed (`2>&-`) takes all and gives nothing.
+
+    Its number is taken, too, so that no output file gets it, to which something else may write.
+    """
+    for name, mode in ("stdin", "r"), ("stdout", "w"), ("stderr", "w"):
+        if getattr(sys, name) is None:
+            nothing = os.open(os.devnull, os.O_RDWR)
+            setattr(sys, name, open(nothing, mode, encoding="utf-8", closefd=False))  # noqa: SIM115
 
 
 class _Leaving:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import signal
 import sys
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, NoReturn
 
 from polycnc.cli import plain
@@ -45,6 +45,8 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
     except SystemExit:  # Typer's own answer to a broken pipe
         status = BAD_USE
     except KeyboardInterrupt:
+        with suppress(ValueError):  # only the main thread may answer signals
+            signal.signal(signal.SIGINT, signal.SIG_IGN)  # it ends already
         status = INTERRUPTED
     if status == INTERRUPTED:
         note(f"polycnc: {text('cli.interrupted')}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 import stat
 import tempfile
@@ -13,10 +14,13 @@ from polycnc.messages.files import OutputError
 from polycnc.program.folders import SUFFIXES
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
 #: Suffixes of files that are part programs and nothing else.
 PROGRAMS = frozenset(SUFFIXES) - {"", ".txt", ".h", ".min"}
+
+#: So many bytes are handed to the system at a time.
+_BUFFERED = 1 << 16
 
 
 def refuse_programs(output: Path | None) -> None:
@@ -32,9 +36,8 @@ def whole_file(path: Path, mode: str = "w") -> Iterator[IO[Any]]:
     Until then it has no name where the system can do that, so that nothing is left of it if the process is killed. A
     file that was there before keeps its mode. A device or pipe is written directly. Raises `OSError` as `open` does.
     """
-    options: dict[str, Any] = {} if "b" in mode else {"encoding": "utf-8", "newline": "\n"}
     if path.exists() and not path.is_file():
-        with path.open(mode, **options) as stream:
+        with _stream(str(path), path, mode) as stream:
             yield stream
         return
     target = path.resolve()
@@ -43,9 +46,9 @@ def whole_file(path: Path, mode: str = "w") -> Iterator[IO[Any]]:
         if handle < 0:
             handle, name = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
     except OSError as error:
-        raise type(error)(error.errno, error.strerror, str(path)) from error
+        raise _named_error(error, path) from error
     try:
-        with os.fdopen(handle, mode, **options) as stream:
+        with _stream(handle, path, mode) as stream:
             yield stream
             stream.flush()
             if not name:
@@ -56,6 +59,43 @@ def whole_file(path: Path, mode: str = "w") -> Iterator[IO[Any]]:
         if name:
             Path(name).unlink(missing_ok=True)
         raise
+
+
+def refuse_twice(outputs: Iterable[Path | None]) -> None:
+    """Raise `OutputError` where two outputs would be one file, of which the first would be lost; devices take both."""
+    files = [each for each in outputs if each is not None and (each.is_file() or not each.exists())]
+    taken: set[Path] = set()
+    for file in files:
+        if file.resolve() in taken:
+            raise OutputError("output.is-twice", file=file)
+        taken.add(file.resolve())
+
+
+class _File(io.FileIO):
+    """A file whose errors say which one it is: where several are written, one may be on a full disk."""
+
+    def __init__(self, file: str | int, path: Path) -> None:
+        super().__init__(file, "w")
+        self._path = path
+
+    def write(self, data: Any, /) -> int:
+        """Write as `FileIO` does. Raises `OSError` with the name of the file."""
+        try:
+            return super().write(data)
+        except BrokenPipeError:
+            raise
+        except OSError as error:
+            raise _named_error(error, self._path) from error
+
+
+def _named_error(error: OSError, path: Path) -> OSError:
+    return type(error)(error.errno, error.strerror, str(path))
+
+
+def _stream(file: str | int, path: Path, mode: str) -> IO[Any]:
+    """The stream of a file (by name or number): of bytes, else of text in UTF-8."""
+    stream = io.BufferedWriter(_File(file, path), _BUFFERED)
+    return stream if "b" in mode else io.TextIOWrapper(stream, encoding="utf-8", newline="\n")
 
 
 def _nameless(folder: Path) -> tuple[int, str]:

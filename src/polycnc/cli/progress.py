@@ -127,6 +127,7 @@ class Watch:
         total = None if share is None else 1.0
         percent = "" if share is None else f"{100.0 * share:3.0f}%  "
         bar.update(task, description=work.what, completed=share or 0.0, total=total, told=percent + told)
+        bar.start()
         bar.refresh()
 
 
@@ -187,9 +188,7 @@ def _bar() -> tuple[Progress, TaskID]:
         *columns, told, console=Console(stderr=True), transient=True, auto_refresh=False,
         redirect_stdout=False, redirect_stderr=False,
     )  # fmt: skip
-    task = bar.add_task("", total=None, told="")
-    bar.start()
-    return bar, task
+    return bar, bar.add_task("", total=None, told="")
 
 
 @contextmanager

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import gc
 import os
+import signal
 import sys
-from contextlib import ExitStack, nullcontext
+from contextlib import ExitStack, contextmanager, nullcontext
 from enum import StrEnum
 from functools import partial
 from itertools import chain
@@ -15,17 +16,21 @@ from typing import TYPE_CHECKING, Annotated
 from polycnc.cli import diagnostics, options
 from polycnc.cli.console import note, show, standard_input
 from polycnc.cli.declaration import Argument, Commands, Option
+from polycnc.cli.progress import away
 from polycnc.deferred.records import dataclass
 from polycnc.messages import UserError, text
 from polycnc.messages.catalogue import language, listed, set_language
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Iterator
+    from multiprocessing.process import BaseProcess
 
 commands = Commands()
 STDIN = "-"
 #: So many files are worth a process of their own.
 SHARED = 16
+#: What ends the command, with its workers.
+_INTERRUPTS = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
 #: So many files are named where a line tells of all.
 NAMED = 3
 
@@ -101,14 +106,49 @@ def _shared(
     if count == 1:
         return map(run, files)
     from concurrent.futures import ProcessPoolExecutor
-    from multiprocessing import get_context
+    from multiprocessing import active_children, get_context
 
     first = run(files[0])  # with it everything is loaded that the workers need
     gc.freeze()  # so that no worker looks through it again
     context = get_context("fork" if sys.platform == "linux" else "spawn")
-    pool = ProcessPoolExecutor(count, mp_context=context, initializer=set_language, initargs=(language(),))
+    pool = ProcessPoolExecutor(count, mp_context=context, initializer=_begin_worker, initargs=(language(),))
     workers.enter_context(pool)
-    return chain((first,), pool.map(run, files[1:], chunksize=SHARED))
+    others = active_children()
+    workers.push(lambda error, *_: _kill_where(error, others))
+    with away(), _no_interrupt():  # nobody writes or loads anything else while the process is copied
+        return chain((first,), pool.map(run, files[1:], chunksize=SHARED))
+
+
+@contextmanager
+def _no_interrupt() -> Iterator[None]:
+    """Workers that begin are not interrupted before they have said who ends them (`_begin_worker`)."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, _INTERRUPTS)
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _begin_worker(chosen: str) -> None:
+    """In a worker: who interrupts the command ends it, and it says nothing of its own."""
+    for each in _INTERRUPTS:
+        signal.signal(each, signal.SIG_IGN)
+    if hasattr(signal, "pthread_sigmask"):
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, _INTERRUPTS)
+    set_language(chosen)
+
+
+def _kill_where(error: type[BaseException] | None, others: list[BaseProcess]) -> None:
+    """End the workers where nobody waits for what they find: each has files before it that may take minutes."""
+    from multiprocessing import active_children
+
+    if error is not None:
+        for each in active_children():
+            if each not in others:
+                each.kill()
 
 
 def _cores() -> int:

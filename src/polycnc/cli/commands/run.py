@@ -72,6 +72,10 @@ def run(
     is_stdin = file == "-"
     outputs = [trace, sample[1] if sample is not None else None, state, print_to]
     refuse_inputs(outputs, opening.inputs(file, *([memory] if memory else [])))
+    if any(outputs):
+        from polycnc.cli.output import refuse_twice
+
+        refuse_twice(outputs)
     source = standard_input() if is_stdin else Path(file)
     session = opening.session(source, keep=False, timed=not no_time, memory=memory)
     happenings = Happenings(session.result.display)
