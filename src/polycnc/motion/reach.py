@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 PARTS = 28
 #: Part of the largest x that a row has where it may be entered or left at speed.
 AT_JOINT = 0.6
-#: No share has less than this of the acceleration that it has at rest, so that the path comes along it.
+#: No share has less than this of the acceleration, so that the path comes along it.
 LEAST_EASE = 0.02
 
 
@@ -114,7 +114,7 @@ def shares_of(
     shares = []
     for k, part in enumerate(parts):
         x = max(min(forth[k], back[k]), NOTHING)
-        shares.append(((k + 1) / count, sqrt(x), max(ease_at(part, x), LEAST_EASE * ease_at(part, 0.0))))
+        shares.append(((k + 1) / count, sqrt(x), max(ease_at(part, x), LEAST_EASE)))
     return shares
 
 

@@ -43,7 +43,7 @@ from polycnc.motion.demand import (
     share_ends,
 )  # fmt: skip
 from polycnc.motion.frames import carried, machine_of, path_of, real_of, real_rows, work_of
-from polycnc.motion.kernels.columns import AT_END, AT_START, SHARES, Limits, Rows
+from polycnc.motion.kernels.columns import SHARES, Limits, Rows
 from polycnc.motion.limits import NO_LINKAGE, averages, axis_limits, channel_axes, is_led, rotary_weight
 from polycnc.motion.pace import Travel, following_top, left_of, pace_of
 from polycnc.motion.pole import (
@@ -257,12 +257,12 @@ class RealAxes:
         weight = rotary_weight(context, self._settings)
         weights = [weight if self._rotary(i) else 1.0 for i in range(len(goal))]
         way, limits = self._way_of(chunk, row, goal, context), self.limits(context.transformation)
-        bounds.feed[row], top, ease, at_corners = pace_of(
+        bounds.feed[row], top, ease = pace_of(
             context, way, weights, limits, rapid=chunk.kind[row] in RAPID_KINDS
         )
         for k in range(row * SHARES, (row + 1) * SHARES):
             bounds.shares.top[k] = min(bounds.shares.top[k], top)
-            bounds.shares.ease[k] *= at_corners if k - row * SHARES in (AT_START, AT_END) else ease
+            bounds.shares.ease[k] *= ease
 
     def _way_of(self, chunk: Chunk, row: int, goal: list[float], context: Context) -> Travel:
         """The way of a row in the columns' machine coordinates."""

@@ -107,10 +107,8 @@ def add_bend(
     here, sense = at + PieceRecord.VECTORS, 1.0 if end > start else -1.0
     if int(pieces[at + PieceRecord.SLOT]) % 2 == 0:
         tops = limits.top_rapid
-    ease = state.joint.ease
     if pieces[at + PieceRecord.FORM] == Form.LED:
         lead_bend(pieces, at, n, limits, state)
-        ease = 1.0  # it has a part of its own for the bend
     if pieces[at + PieceRecord.FORM] == Form.STRAIGHT:
         pieces[at + PieceRecord.FORM], pieces[at + PieceRecord.PATH_PULL] = (
             Form.CURVED,
@@ -120,7 +118,7 @@ def add_bend(
             place = here + PLACES * n + i
             pieces[here + i] = pieces[here + n + i] = (pieces[place + n] - pieces[place]) / length
             pieces[here + 2 * n + i] = pieces[here + 3 * n + i] = 0.0
-    spare(pieces, at, n, ease)
+    spare(pieces, at, n)
     cap2, margin = pieces[at + PieceRecord.CAP2], pieces[at + PieceRecord.MARGIN]
     for k in range(2):
         far = end if k == 1 else start
@@ -130,12 +128,12 @@ def add_bend(
             pieces[q + PLACES * n] += 0.5 * bend * far * far
             pieces[q] += margin * sense * bend * far
             pieces[q + 2 * n] += margin * bend
-            share, curvature = ease * abs(pieces[q]), ease * abs(pieces[q + 2 * n])
+            share, curvature = abs(pieces[q]), abs(pieces[q + 2 * n])
             if share > SAME_DIRECTION:
                 cap2 = min(cap2, square(tops[i] / share))
             if curvature > SAME_DIRECTION:
                 cap2 = min(cap2, state.joint.ease * limits.acceleration[i] / curvature)
-    keep_between(pieces, at, n, limits, ease)
+    keep_between(pieces, at, n, limits)
     pieces[at + PieceRecord.CAP2], pieces[at + PieceRecord.ZONE] = (
         cap2,
         TO_CORNER if sense > 0.0 else FROM_CORNER,
@@ -179,26 +177,21 @@ def keep_at_cut(pieces: Floats, p: int, n: int, limits: Limits, state: State) ->
             pieces[at + PieceRecord.ENTRY2] = min(pieces[at + PieceRecord.ENTRY2], cap2)
 
 
-def spare(pieces: Floats, at: int, n: int, ease: float) -> None:
-    """Give a piece that is to be bent the MARGIN that leaves its axes `ease` of their acceleration, for bend and speed.
-
-    A chord of a spline has some more of it, for its q'' changes like that of an arc's part.
-    """
-    here, length = at + PieceRecord.VECTORS, pieces[at + PieceRecord.LENGTH]
-    margin = pieces[at + PieceRecord.MARGIN]
+def spare(pieces: Floats, at: int, n: int) -> None:
+    """Give a chord of a spline that is to be bent a MARGIN: its q'' changes like that of an arc's part."""
+    here = at + PieceRecord.VECTORS
     uneven = False
     for i in range(n):
         change = abs(pieces[here + 3 * n + i] - pieces[here + 2 * n + i])
-        uneven = uneven or change * length > SAME_DIRECTION
-    wanted = (CHORD_MARGIN if uneven else 1.0) / ease
-    if wanted > margin:
-        factor = wanted / margin
+        uneven = uneven or change * pieces[at + PieceRecord.LENGTH] > SAME_DIRECTION
+    if uneven and pieces[at + PieceRecord.MARGIN] < CHORD_MARGIN:
+        factor = CHORD_MARGIN / pieces[at + PieceRecord.MARGIN]
         for k in range(here, here + PLACES * n):
             pieces[k] *= factor
-        pieces[at + PieceRecord.MARGIN] = wanted
+        pieces[at + PieceRecord.MARGIN] = CHORD_MARGIN
 
 
-def keep_between(pieces: Floats, at: int, n: int, limits: Limits, ease: float) -> None:
+def keep_between(pieces: Floats, at: int, n: int, limits: Limits) -> None:
     """Bound the acceleration u along a piece of an arc that is bent, so that its axes keep theirs between its ends too.
 
     Over the piece q'' changes by c, x and q' with it: between the ends an axis has up to `5/8·u·length·c` more than at
@@ -210,6 +203,6 @@ def keep_between(pieces: Floats, at: int, n: int, limits: Limits, ease: float) -
     for i in range(n):
         change = abs(pieces[here + 3 * n + i] - pieces[here + 2 * n + i]) / margin
         if change * length > SAME_DIRECTION:
-            left = (ease - 1.0 / margin) * limits.acceleration[i]
+            left = (1.0 - 1.0 / margin) * limits.acceleration[i]
             pull = min(pull, left / (0.625 * length * change))
     pieces[at + PieceRecord.PATH_PULL] = pull
