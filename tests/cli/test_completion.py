@@ -139,3 +139,15 @@ def test_a_powershell_loads_the_script_by_its_profile(console: Console, home: Pa
     script = home / "PowerShell" / "polycnc-completion.ps1"
     assert profile.read_text(encoding="utf-8") == f". '{script}'\n"
     assert "Register-ArgumentCompleter" in script.read_text(encoding="utf-8")
+
+
+def test_a_startup_file_stays_as_it_is_to_the_byte(console: Console, home: Path) -> None:
+    startup = home / ".bashrc"
+    startup.write_bytes(b"alias x=y\r\nalias p='\x0c'\r\n")
+    assert console("--install-completion", "bash").status == 0
+    assert startup.read_bytes() == (b"alias x=y\r\nalias p='\x0c'\r\nsource ~/.bash_completions/polycnc.sh\n")
+    startup.write_bytes(b"alias x='\xff'\n")
+    said = console("--install-completion", "bash")
+    assert said.status == 2
+    assert "source ~/.bash_completions/polycnc.sh" in said.err
+    assert startup.read_bytes() == b"alias x='\xff'\n"

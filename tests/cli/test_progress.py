@@ -160,7 +160,7 @@ def test_a_terminal_with_few_characters_gets_those_that_it_has(monkeypatch: pyte
     waiting.reach(500)
     watch.look(waiting, 4.0)
     watch.end()
-    shown = seen.buffer.getvalue().decode("latin-1")  # type: ignore[attr-defined]
+    shown = seen.buffer.getvalue().decode("latin-1")
     assert "??.nc ####" in shown
     assert "  50%  ?? 125 ?????? 0:04" in shown
 

@@ -88,10 +88,19 @@ def _install(shell: str, script: str) -> None:
     file.parent.mkdir(parents=True, exist_ok=True)
     write_whole(file, script)
     if startup is not None:
-        before = startup.read_text(encoding="utf-8") if startup.exists() else ""
-        if line not in before.splitlines():
-            write_whole(startup, "\n".join([*before.splitlines(), line, ""]))
+        _load(startup, line)
     say(text("completion.installed", shell=shell, file=file))
+
+
+def _load(startup: Path, line: str) -> None:
+    """Have a shell load the script when it starts; all else in that file stays as it is, to the byte."""
+    try:
+        before = startup.read_bytes().decode() if startup.exists() else ""
+    except UnicodeDecodeError as error:
+        raise click.UsageError(text("completion.startup", file=startup, line=line)) from error
+    if line not in before.splitlines():
+        end = "\n" if before and not before.endswith("\n") else ""
+        write_whole(startup, f"{before}{end}{line}\n")
 
 
 def _places(shell: str) -> tuple[Path, Path | None, str]:
