@@ -3,22 +3,24 @@
 from __future__ import annotations
 
 import os
-import signal
 import sys
-from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, NoReturn
 
 from polycnc.cli import plain
 from polycnc.cli.console import fail, note
 from polycnc.cli.progress import watched
 from polycnc.cli.usage import help_in_language, language_of, translated
+from polycnc.deferred.contexts import contextmanager, suppress
 from polycnc.messages import text
 from polycnc.messages.catalogue import set_language
 from polycnc.messages.errors import place_of_failure
 from polycnc.messages.files import reason_of
 
 if TYPE_CHECKING:
+    import signal
     from collections.abc import Iterator, Sequence
+else:
+    import _signal as signal  # a twentieth of what it costs to make enumerations of its constants
 
 BAD_USE, INTERRUPTED = 2, 130
 #: With this variable of the environment a mistake of polycnc shows all of its way.
@@ -58,7 +60,7 @@ def _termination_interrupts() -> Iterator[None]:
     """Who is told to end takes half-written files away first, as where the user interrupts."""
     ends = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
     # Who has been told to outlive the terminal (nohup) does.
-    before = {each: signal.getsignal(each) for each in ends if signal.getsignal(each) is not signal.SIG_IGN}
+    before = {each: signal.getsignal(each) for each in ends if signal.getsignal(each) != signal.SIG_IGN}
     try:
         for each in before:
             signal.signal(each, signal.default_int_handler)

@@ -8,12 +8,11 @@ whatever is wrong, Typer reads, which knows how to say it.
 from __future__ import annotations
 
 import os
-from pathlib import Path
 from types import GenericAlias, UnionType
 from typing import TYPE_CHECKING, Any
 
 from polycnc.cli.commands import COMMANDS, commands_of
-from polycnc.cli.declaration import REQUIRED, Argument
+from polycnc.cli.declaration import REQUIRED, Argument, Path
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence

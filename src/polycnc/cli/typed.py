@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import inspect
+import pathlib
+from types import GenericAlias, UnionType
 from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 import typer
@@ -10,7 +12,7 @@ from typer.core import TyperGroup
 
 from polycnc.cli import options
 from polycnc.cli.commands import COMMANDS, commands_of
-from polycnc.cli.declaration import REQUIRED, Argument, Command
+from polycnc.cli.declaration import REQUIRED, Argument, Command, Path
 from polycnc.cli.usage import HELP
 from polycnc.messages import text
 from polycnc.messages.catalogue import LANGUAGES
@@ -116,13 +118,23 @@ def _signed(function: Function, parameters: Iterable[Parameter], **others: type)
             each.name,
             kinds.KEYWORD_ONLY,
             default=empty if each.default is REQUIRED else each.default,
-            annotation=Annotated[each.kind, _role(each)],
+            annotation=Annotated[_kind(each.kind), _role(each)],
         )
         for each in parameters
     ]
     function.__signature__ = inspect.Signature(signed)  # type: ignore[attr-defined]
     function.__annotations__ = {each.name: each.annotation for each in signed}
     return function
+
+
+def _kind(kind: Any) -> Any:
+    """A type as Typer knows it: with the library's own class of paths."""
+    if isinstance(kind, UnionType):
+        return _kind(kind.__args__[0]) | None
+    if isinstance(kind, GenericAlias):
+        outer: Any = kind.__origin__
+        return outer[tuple(map(_kind, kind.__args__))]
+    return pathlib.Path if kind is Path else kind
 
 
 def _role(parameter: Parameter) -> object:

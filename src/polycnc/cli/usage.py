@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import re
-from contextlib import contextmanager, redirect_stdout
 from functools import cache
 from io import StringIO
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from polycnc.cli.console import show
+from polycnc.deferred.contexts import contextmanager
+from polycnc.deferred.paths import package_path, read_text
 from polycnc.messages.catalogue import LANGUAGES, language, language_of_environment
 
 if TYPE_CHECKING:
@@ -44,6 +44,8 @@ def help_in_language(words: Sequence[str]) -> Iterator[None]:
     ):
         yield
         return
+    from contextlib import redirect_stdout
+
     page = StringIO()
     try:
         with redirect_stdout(page):
@@ -56,6 +58,5 @@ def help_in_language(words: Sequence[str]) -> Iterator[None]:
 def _phrases(lang: str) -> tuple[tuple[re.Pattern[str], str], ...]:
     import tomllib
 
-    source = Path(__file__).with_name("usage.toml").read_text(encoding="utf-8")
-    table: dict[str, list[dict[str, str]]] = tomllib.loads(source)
+    table: dict[str, list[dict[str, str]]] = tomllib.loads(read_text(package_path("cli", "usage.toml")))
     return tuple((re.compile(row["pattern"], re.MULTILINE), row[lang]) for row in table["phrase"])
