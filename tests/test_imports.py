@@ -204,18 +204,31 @@ def test_a_small_run_loads_no_heavy_library(tmp_path: Path, command: str) -> Non
     assert loaded_by(probe, tmp_path) & (HEAVY | NOT_AT_START) == set()
 
 
-#: What a start does without: a tenth of a short run. Start scripts load `re`; that, and what it needs, costs nothing.
+#: What a start does without: a tenth of a short run, and more. `re`, which start scripts load, brings what it needs.
 NOT_OF_LIBRARY = {
-    "contextlib", "dataclasses", "fnmatch", "importlib", "inspect", "ipaddress", "ntpath", "pathlib", "signal",
-    "tempfile", "threading", "traceback", "urllib", "warnings",
+    "ast", "contextlib", "copy", "dataclasses", "datetime", "fnmatch", "hashlib", "importlib", "inspect", "ipaddress",
+    "ntpath", "pathlib", "random", "signal", "string", "tempfile", "threading", "tomllib", "traceback", "urllib",
+    "warnings",
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("options", ["", "--no-time", "--machine mill3 --encoding utf-8"])
-def test_a_start_loads_little_of_the_library(tmp_path: Path, options: str) -> None:
-    (tmp_path / "part.nc").write_text("O1\nG90 G0 X1.\nM98 P7\nM30\n", encoding="utf-8")
-    (tmp_path / "O0007.nc").write_text("O7\nG1 X2. F100.\nM99\n", encoding="utf-8")
-    words = ["polycnc", "run", "part.nc", "--control", "fanuc-m", *options.split()]
+@pytest.mark.parametrize(
+    ("options", "call"),
+    [
+        ("fanuc-m", "M98 P7"),
+        ("fanuc-m --no-time", "M98 P7"),
+        ("fanuc-m --machine mill3 --encoding utf-8", "#1=2*[3+4]"),
+        ("fanuc-0i-tf", "M98 P7"),
+        ("meldas-m", "M98 P7"),
+        ("syntec-mill", "M98 P7"),
+        ("sinumerik-840d", "SUB"),
+    ],
+)
+def test_a_start_loads_little_of_the_library(tmp_path: Path, options: str, call: str) -> None:
+    (tmp_path / "part.nc").write_text(f"G90 G0 X1.\n{call}\nM30\n", encoding="utf-8")
+    for name, end in (("O0007.nc", "M99"), ("SUB.SPF", "M17")):
+        (tmp_path / name).write_text(f"G1 X2. F100.\n{end}\n", encoding="utf-8")
+    words = ["polycnc", "run", "part.nc", "--control", *options.split()]
     main = "from polycnc.cli import main\ntry: main()\nexcept SystemExit as left: assert not left.code"
     loaded = loaded_by(f"sys.argv = {words!r}\n{main}", tmp_path)
     of_typing = {"contextlib", "warnings"} if "typing" in loaded else set()

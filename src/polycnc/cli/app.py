@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     import signal
     from collections.abc import Iterator, Sequence
 else:
-    import _signal as signal  # a twentieth of what it costs to make enumerations of its constants
+    import _signal as signal  # what makes no enumerations of them at every start
 
 BAD_USE, INTERRUPTED = 2, 130
 #: With this variable of the environment a mistake of polycnc shows all of its way.

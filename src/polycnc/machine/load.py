@@ -10,19 +10,8 @@ from functools import cache
 from math import inf
 from typing import TYPE_CHECKING, Literal, TypeVar, cast
 
+from polycnc.deferred import paths
 from polycnc.deferred.named_tuples import NamedTuple
-from polycnc.deferred.paths import (
-    is_file,
-    joined,
-    names_in,
-    package_path,
-    parent_of,
-    read_text,
-    resolved,
-    stem_of,
-    suffix_of,
-    text_of,
-)  # fmt: skip
 from polycnc.deferred.toml import loads
 from polycnc.machine.builder import BUILDERS, Builder, builder_names
 from polycnc.machine.documents import DocumentError, toml_values
@@ -76,7 +65,7 @@ if TYPE_CHECKING:
     ]  # fmt: skip
 
 T = TypeVar("T")
-BUILTIN = package_path("machine", "builtin")
+BUILTIN = paths.package_path("machine", "builtin")
 _PER_MINUTE = 60.0
 #: Axis letters that turn (ISO 841); an axis with another letter is linear unless its table says otherwise.
 _ROTARY_LETTERS = "ABC"
@@ -107,7 +96,7 @@ _TOOL_AXIS = (0.0, 0.0, 1.0)
 
 def builtin_ids() -> tuple[str, ...]:
     """Ids of the machines that come with polycnc, sorted."""
-    return tuple(sorted(map(stem_of, _toml_files(BUILTIN))))
+    return tuple(sorted(map(paths.stem_of, _toml_files(BUILTIN))))
 
 
 def load_machine(id_or_path: str | Path) -> Machine:
@@ -117,14 +106,14 @@ def load_machine(id_or_path: str | Path) -> Machine:
         MachineFileError: There is no such machine, or the file is wrong; the error names the line.
     """
     path = _find(str(id_or_path))
-    if parent_of(path) == BUILTIN:
+    if paths.parent_of(path) == BUILTIN:
         return _builtin(path)
     from polycnc.machine.check import contradictions, gaps
 
     text = _read(path)
     data = cast("MachineData", _checked_data(path, text, ()))
     _raise_first(path, text, gaps(data))
-    machine = build(stem_of(path), data, _builder_data(path, text, data.get("rules", "")))
+    machine = build(paths.stem_of(path), data, _builder_data(path, text, data.get("rules", "")))
     _raise_first(path, text, contradictions(machine))
     return machine
 
@@ -133,29 +122,29 @@ def load_machine(id_or_path: str | Path) -> Machine:
 def _builtin(path: str) -> Machine:
     """A built-in machine, which is read once."""
     data = cast("MachineData", _builtin_data(path))
-    return build(stem_of(path), data, _shipped_builder(data.get("rules", "")))
+    return build(paths.stem_of(path), data, _shipped_builder(data.get("rules", "")))
 
 
 def _find(name: str) -> str:
     if not name.endswith(".toml"):
-        builtin = joined(BUILTIN, f"{name}.toml")
-        if parent_of(builtin) == BUILTIN and _is_file(builtin):
+        builtin = paths.joined(BUILTIN, f"{name}.toml")
+        if paths.parent_of(builtin) == BUILTIN and _is_file(builtin):
             return builtin
     if _is_file(name):
-        return text_of(name)
+        return paths.text_of(name)
     raise MachineFileError(name, 0, 0, "no-such-machine", machine=name)
 
 
 def _is_file(path: str) -> bool:
     """Whether there is such a file, where nobody may look as well; a name that no file system takes is none."""
     try:
-        return is_file(path)
+        return paths.is_file(path)
     except OSError:
         return False
 
 
 def _toml_files(folder: str) -> list[str]:
-    return [joined(folder, name) for name in names_in(folder) if suffix_of(name) == ".toml"]
+    return [paths.joined(folder, name) for name in paths.names_in(folder) if paths.suffix_of(name) == ".toml"]
 
 
 def _read(path: str) -> str:
@@ -168,9 +157,9 @@ def _read(path: str) -> str:
 @cache
 def _builtin_data(path: str) -> Mapping[str, object]:
     """The data of a built-in machine, read once; machines are made of them anew."""
-    data: dict[str, object] = loads(read_text(path))
+    data: dict[str, object] = loads(paths.read_text(path))
     base = data.pop("base", None)
-    return _built_on(_builtin_data(joined(BUILTIN, f"{base}.toml")), data) if base else data
+    return _built_on(_builtin_data(paths.joined(BUILTIN, f"{base}.toml")), data) if base else data
 
 
 def _checked_data(path: str, text: str, below: tuple[str, ...]) -> dict[str, object]:
@@ -181,19 +170,19 @@ def _checked_data(path: str, text: str, below: tuple[str, ...]) -> dict[str, obj
     base = data.pop("base", None)
     if base is None:
         return data
-    return _built_on(_base_data(path, text, str(base), (*below, resolved(path))), data)
+    return _built_on(_base_data(path, text, str(base), (*below, paths.resolved(path))), data)
 
 
 def _base_data(path: str, text: str, base: str, below: tuple[str, ...]) -> Mapping[str, object]:
     """The data of the machine that a file builds on: a built-in one, or a file beside it."""
     line, column = toml_place(text, ("base",))
-    beside = joined(parent_of(path), base)
+    beside = paths.joined(paths.parent_of(path), base)
     if base.endswith(".toml") and _is_file(beside):
-        if resolved(beside) in below:
+        if paths.resolved(beside) in below:
             raise MachineFileError(path, line, column, "base-of-itself", base=base)
         return _checked_data(beside, _read(beside), below)
     if base in builtin_ids():
-        return _builtin_data(joined(BUILTIN, f"{base}.toml"))
+        return _builtin_data(paths.joined(BUILTIN, f"{base}.toml"))
     raise MachineFileError(path, line, column, "no-such-machine", machine=base)
 
 
@@ -207,7 +196,7 @@ def _builder_data(path: str, text: str, name: str) -> BuildersData:
     from polycnc.machine.check import conditions, functions
     from polycnc.machine.schema import BuilderTable, mistakes
 
-    beside = joined(parent_of(path), name)
+    beside = paths.joined(paths.parent_of(path), name)
     data = _toml(beside, _read(beside))
     _raise_first(beside, _read(beside), mistakes(data, BuilderTable))
     tables = cast("BuilderData", data)
@@ -221,10 +210,10 @@ def _shipped_builder(name: str) -> BuildersData:
         return NOTHING
     shared: dict[str, object] = {}
     alarms: dict[str, BuilderData] = {}
-    for file in _toml_files(joined(BUILDERS, name)):
-        data = _toml(file, read_text(file))
+    for file in _toml_files(paths.joined(BUILDERS, name)):
+        data = _toml(file, paths.read_text(file))
         if "alarm" in data:
-            alarms[stem_of(file)] = cast("BuilderData", data)
+            alarms[paths.stem_of(file)] = cast("BuilderData", data)
         else:
             shared |= data
     return BuildersData(name, cast("BuilderData", shared), alarms)

@@ -440,7 +440,6 @@ def _surface(where: Where, value: object) -> Surface:
         _bad((*where, "direction"), "out-of-range", value, detail="X, Y, Z")
     if "radius" in needed and not record["radius"] > 0.0:
         _bad((*where, "radius"), "out-of-range", record["radius"], detail="> 0")
-
     from polycnc.geometry.surfaces import Surface
 
     return Surface(**record)

@@ -6,10 +6,10 @@ on 840D sl.
 
 from __future__ import annotations
 
-import tomllib
 from typing import TYPE_CHECKING
 
 from polycnc.deferred.paths import package_path, read_text
+from polycnc.deferred.toml import loads
 
 if TYPE_CHECKING:
     from collections.abc import Collection
@@ -23,7 +23,7 @@ def refused(variant: str, options: Collection[str]) -> frozenset[str]:
     """The words that a variant does not have, with the options that are on; none without a variant."""
     if not variant:
         return frozenset()
-    table = tomllib.loads(read_text(TABLE))
+    table = loads(read_text(TABLE))
     column = table["variants"].index(variant)
     return frozenset(
         word
