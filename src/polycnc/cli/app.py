@@ -14,13 +14,13 @@ from polycnc.deferred.contexts import contextmanager, suppress
 from polycnc.messages import text
 from polycnc.messages.catalogue import set_language
 from polycnc.messages.errors import place_of_failure
-from polycnc.messages.files import reason_of
+from polycnc.messages.files import reason_with_file
 
 if TYPE_CHECKING:
     import signal
     from collections.abc import Iterator, Sequence
 else:
-    import _signal as signal  # what makes no enumerations of them at every start
+    import _signal as signal  # what the library's own module makes enumerations of, at every start
 
 BAD_USE, INTERRUPTED = 2, 130
 #: With this variable of the environment a mistake of polycnc shows all of its way.
@@ -100,7 +100,7 @@ def _told(error: Exception) -> str:
         context = getattr(error, "ctx", None)
         return text("cli.usage", message=told, command=context.command_path) if context is not None else told
     if isinstance(error, OSError) and not isinstance(error, BrokenPipeError):
-        return f"{error.filename or ''}: {reason_of(error)}".removeprefix(": ")
+        return reason_with_file(error)
     if isinstance(error, ModuleNotFoundError) and error.name in EXTRAS:
         return text("cli.extra", library=error.name, extra=EXTRAS[error.name])
     if isinstance(error, MemoryError):

@@ -69,6 +69,11 @@ def reason_of(error: Exception) -> str:
     return messages().text(key) if key in messages() else getattr(error, "strerror", None) or str(error)
 
 
+def reason_with_file(error: OSError) -> str:
+    """Which file cannot be used, and why, in the active language."""
+    return f"{error.filename or ''}: {reason_of(error)}".removeprefix(": ")
+
+
 class OutputError(UserError):
     """A file that must not be written."""
 
