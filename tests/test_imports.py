@@ -49,7 +49,7 @@ LAYERS = (
 NOT_AT_START = {
     "polycnc.compensation.cutter", "polycnc.language.bulk.scanner",
     "polycnc.transformation.couplings.coupled", "polycnc.transformation.planes.tilted",
-    "ast", "datetime", "tomllib", "typer",
+    "ast", "click", "datetime", "tomllib", "tqdm",
 }  # fmt: skip
 #: Functions of each control that a program of a few moves does not use.
 NOT_USED = {
@@ -75,7 +75,7 @@ NOT_USED = {
         "sinumerik.tools.stages",
     ),
 }
-HEAVY = {"numpy", "numba", "pyarrow", "pydantic", "rich", "asyncua", "pygls", "nicegui"}
+HEAVY = {"numpy", "numba", "pyarrow", "pydantic", "asyncua", "pygls", "nicegui"}
 MODULES = sorted(SOURCE.rglob("*.py"))
 FOLDERS = [path.parent for path in MODULES if path.name == "__init__.py" and path.parent != SOURCE]
 

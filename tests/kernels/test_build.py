@@ -50,9 +50,12 @@ def test_a_pure_wheel_can_be_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
     assert data == {"artifacts": []}
 
 
-def test_a_build_that_fails_gives_a_pure_wheel_and_says_why(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("error", [OSError("no place"), AttributeError("no place in this Numba")])
+def test_a_build_that_fails_gives_a_pure_wheel_and_says_why(
+    error: Exception, monkeypatch: pytest.MonkeyPatch
+) -> None:
     def fails() -> None:
-        raise OSError("no place")
+        raise error
 
     warnings: list[str] = []
     hook = made_hook(monkeypatch, "/usr/bin/cc")

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NoReturn
 from polycnc.cli import plain
 from polycnc.cli.console import fail, note
 from polycnc.cli.progress import watched
-from polycnc.cli.usage import help_in_language, language_of, translated
+from polycnc.cli.usage import language_of, translated
 from polycnc.deferred.contexts import contextmanager, suppress
 from polycnc.messages import text
 from polycnc.messages.catalogue import set_language
@@ -44,7 +44,7 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
         # Whoever read our output has gone; Python would complain once more when it exits.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         status = BAD_USE
-    except SystemExit:  # Typer's own answer to a broken pipe
+    except SystemExit:  # the answer of the panel's server where its address is taken
         status = BAD_USE
     except KeyboardInterrupt:
         with suppress(ValueError):  # only the main thread may answer signals
@@ -78,18 +78,17 @@ def _run(words: list[str]) -> int:
         set_language(language_of(words))
         asked = plain.read(words)
         with watched(" ".join(["polycnc", *words[:1]])):
-            status = asked() if asked is not None else _run_by_typer(words)
+            status = asked() if asked is not None else _run_by_click(words)
             sys.stdout.flush()
     except Exception as error:  # noqa: BLE001 - `_told` says what it was
         return fail(_told(error), BAD_USE)
     return status if isinstance(status, int) else 0
 
 
-def _run_by_typer(words: list[str]) -> object:
-    from polycnc.cli import typed
+def _run_by_click(words: list[str]) -> object:
+    from polycnc.cli import clicks
 
-    with help_in_language(words):
-        return typed.run(words)
+    return clicks.run(words)
 
 
 def _told(error: Exception) -> str:

@@ -68,7 +68,9 @@ Setup = Annotated[Path | None, _option("help.option.setup", "--setup", metavar="
 Search = Annotated[list[Path] | None, _option("help.option.search", "--search", metavar="DIR")]
 Encoding = Annotated[str | None, _option("help.option.encoding", "--encoding", metavar="NAME")]
 Lang = Annotated[Language | None, _option("help.option.lang", "--lang", metavar="en|zh-TW")]
-BlockLimit = Annotated[int, Option("help.option.block-limit", "--block-limit", limits=(1, None))]
+BlockLimit = Annotated[
+    int, Option("help.option.block-limit", "--block-limit", metavar="NUMBER", limits=(1, None))
+]
 Memory = Annotated[Path | None, _option("help.option.memory", "--memory", metavar="FILE")]
 NoBulk = Annotated[bool, Option("help.option.no-bulk", "--no-bulk")]
 Output = Annotated[Path | None, _option("help.option.output", "--output", "-o", metavar="FILE")]

@@ -53,7 +53,7 @@ def import_file(
     control: options.Control = None,
     machine: options.Machine = None,
     setup: options.Setup = None,
-    folder: Annotated[Path, Option("help.data.folder", "--folder")] = Path(),
+    folder: Annotated[Path, Option("help.data.folder", "--folder", metavar="DIR")] = Path(),
     overwrite: Annotated[bool, Option("help.data.overwrite", "--overwrite")] = False,
     _lang: options.Lang = None,
 ) -> int:

@@ -81,7 +81,7 @@ def export(
     file: File,
     kinds: Annotated[list[str] | None, Argument("help.memory.kinds", metavar="KIND…")] = None,
     machine: options.Machine = None,
-    folder: Annotated[Path | None, Option("help.memory.folder", "--folder")] = None,
+    folder: Annotated[Path | None, Option("help.memory.folder", "--folder", metavar="DIR")] = None,
     output: options.Output = None,
     overwrite: Annotated[bool, Option("help.memory.overwrite", "--overwrite")] = False,
     _lang: options.Lang = None,
