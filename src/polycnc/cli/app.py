@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import os
-import signal
 import sys
-from contextlib import contextmanager, suppress
 from time import monotonic
 from typing import TYPE_CHECKING, NoReturn
 
@@ -13,13 +11,17 @@ from polycnc.cli import plain
 from polycnc.cli.console import fail, note
 from polycnc.cli.progress import watched
 from polycnc.cli.usage import language_of, translated
+from polycnc.deferred.contexts import contextmanager, suppress
 from polycnc.messages import text
 from polycnc.messages.catalogue import set_language
 from polycnc.messages.errors import place_of_failure
-from polycnc.messages.files import reason_of
+from polycnc.messages.files import reason_with_file
 
 if TYPE_CHECKING:
+    import signal
     from collections.abc import Iterator, Sequence
+else:
+    import _signal as signal  # what the library's own module makes enumerations of, at every start
 
 BAD_USE, INTERRUPTED = 2, 130
 #: Who waits for a command as long as this is told what makes it slow, seconds.
@@ -61,7 +63,7 @@ def _termination_interrupts() -> Iterator[None]:
     """Who is told to end takes half-written files away first, as where the user interrupts."""
     ends = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
     # Who has been told to outlive the terminal (nohup) does.
-    before = {each: signal.getsignal(each) for each in ends if signal.getsignal(each) is not signal.SIG_IGN}
+    before = {each: signal.getsignal(each) for each in ends if signal.getsignal(each) != signal.SIG_IGN}
     try:
         for each in before:
             signal.signal(each, signal.default_int_handler)
@@ -114,7 +116,7 @@ def _told(error: Exception) -> str:
         context = getattr(error, "ctx", None)
         return text("cli.usage", message=told, command=context.command_path) if context is not None else told
     if isinstance(error, OSError) and not isinstance(error, BrokenPipeError):
-        return f"{error.filename or ''}: {reason_of(error)}".removeprefix(": ")
+        return reason_with_file(error)
     if isinstance(error, ModuleNotFoundError) and error.name in EXTRAS:
         return text("cli.extra", library=error.name, extra=EXTRAS[error.name])
     if isinstance(error, MemoryError):

@@ -9,10 +9,10 @@ from __future__ import annotations
 import _thread  # a fraction of what `threading` costs at every start
 import os
 import sys
-from contextlib import contextmanager
 from time import monotonic
 from typing import TYPE_CHECKING, ClassVar, Never, Protocol, Self, TypeVar
 
+from polycnc.deferred.contexts import contextmanager
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.messages import text
 
