@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import time
+import tomllib
 from contextlib import suppress
 from pathlib import Path
 from threading import Thread
@@ -32,6 +33,11 @@ def test_without_a_command_the_help_is_shown_and_the_status_tells_wrong_use(cons
 
 def test_the_version_is_told(console: Console) -> None:
     assert console("--version").out == f"polycnc {__version__}\n"
+
+
+def test_it_is_that_of_the_project() -> None:
+    project = tomllib.loads((Path(__file__).parents[2] / "pyproject.toml").read_text(encoding="utf-8"))
+    assert project["project"]["version"] == __version__
 
 
 def test_a_thread_may_call_it_though_it_cannot_answer_signals() -> None:
