@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from array import array
 from random import Random
@@ -11,6 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import polycnc
+from polycnc.cli.report import as_state, extents
 from polycnc.session import Result
 from polycnc.toolpath import Kind, compiled
 from polycnc.toolpath.compiled import LIBRARY
@@ -85,6 +87,17 @@ def test_whatever_changes_between_moves_each_row_counts_as_alone(codes: list[str
         for row in range(len(chunk)):
             alone.take(chunk.only([row]) if len(chunk) > 1 else chunk)
     assert (alone.tools, alone.machine, alone.offsets) == (used.tools, used.machine, used.offsets)
+
+
+def test_cuts_reach_along_what_the_display_calls_the_axes() -> None:
+    polar = "G0 X40 Z5 C0\nTRANSMIT\nG1 X20 Y10 F500\nX-20\nTRAFOOF\nM30\n"
+    result, used = usage(polar, "sinumerik-840d", machine="lathe-c-transmit")
+    reached = dict(zip(result.display.names, range(9), strict=False))
+    assert box(used.tools[0].work, reached["Y"]) == (0, 10)
+    assert box(used.tools[0].work, reached["C"]) == (math.inf, -math.inf)
+    assert json.loads(as_state(result, used))["extents"]["tools"][0]["work"].keys() == {"X", "Y", "Z"}
+    reported = extents(result.display.names, used.tools[0].work)
+    assert reported == "X -20.000 … 40.000  Z 5.000  Y 0.000 … 10.000"
 
 
 def test_rapids_count_for_the_machine_alone() -> None:

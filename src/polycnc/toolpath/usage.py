@@ -44,7 +44,7 @@ MANY, PARTS, VERY_MANY = 200, 4, 5000
 
 @dataclass(slots=True)
 class Extents:
-    """The least and the greatest position of each axis; `low` above `high` as long as none is known."""
+    """The least and the greatest position by axis or name; `low` above `high` as long as none is known."""
 
     low: list[float]
     high: list[float]
@@ -71,7 +71,7 @@ class ToolUsage:
 
     Attributes:
         tool: Number or name; 0 for none.
-        work: Extents of its cuts on the work display.
+        work: Extents of its cuts on the work display, by the display's names.
         machine: The same on the machine display, mm.
         units: Of the work display while it cut, `mm` or `inch`, in order of use.
         speeds: Programmed spindle speeds (rpm), in order of use.
@@ -237,13 +237,14 @@ class Usage:
         name = context.tool_name or context.tool
         tool = self.tools.get(name)
         if tool is None:
-            tool = self.tools[name] = ToolUsage(name, Extents.empty(self._axes), Extents.empty(self._axes))
+            work = Extents.empty(len(self._display.names))
+            tool = self.tools[name] = ToolUsage(name, work, Extents.empty(self._axes))
         scale = self._display.scale(context)
-        work = [
-            [value * factor for value, factor in zip(corner, scale.work, strict=True)]
-            for corner in (low, high)
-        ]
-        tool.work.include(*work)
+        for i, shown in enumerate(context.names or self._display.axes):
+            if shown:
+                place, factor = self._display.names.index(shown), scale.work[i]
+                tool.work.low[place] = min(tool.work.low[place], low[i] * factor)
+                tool.work.high[place] = max(tool.work.high[place], high[i] * factor)
         tool.machine.include(*machine)
         tool.units.setdefault(scale.unit)
         if context.spindle_rpm and context.spindle_direction:

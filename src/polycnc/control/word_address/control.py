@@ -84,6 +84,7 @@ class WordAddressControl:
         form: How program files are marked off.
         default_machine: Built-in machine of a run that names none.
         tools_have_names: Programs may call a tool by its name.
+        display_names: As `Control` says.
         last_bit: The last bit of a parameter.
         g_codes: The G table.
         m_codes: The M table; a number that is not in it passes as an event.
@@ -152,6 +153,7 @@ class WordAddressControl:
     form: ClassVar[Form] = Form.WORD_ADDRESS
     default_machine: ClassVar[str] = "mill3"
     tools_have_names: ClassVar[bool] = False
+    display_names: ClassVar[tuple[str, ...]] = ()
     last_bit: ClassVar[int] = 7
     mdi_intervenes: ClassVar[bool] = True
     presets_by_hand: ClassVar[bool] = False
