@@ -158,8 +158,8 @@ SINUMERIK = Language(
     (
         "G1 X10 Y5", "G0 Z5", "X=R1+COUNT Y=IC(2)", "G3 X0 Y-5 CR=15", "CIP X5 Y5 I1=3 J1=4", "G1 X1 Y2\nCT X8 Y9",
         "G91 G1 X1 Y-1\nG90", "R1=R1+1.5 R2=$P_EP[X]", "COUNT=COUNT+1", "FOUND[1]=DEPTH*2\nFOUND=REP(R1)", "T2 D1 M6",
-        "G41 G1 X5 Y10\nX20\nY30", "G40 G1 X0 Y0", "G1 X0 Y0 CHF=1\nX10 RND=2\nY10", "G41 G1 X9 Y1\nX30 RND=9\nG40\nY20",
-        "RNDM=1\nX5\nY8\nX1\nRNDM=0",
+        "G41 G1 X5 Y10\nX20\nY30", "G40 G1 X0 Y0", "G1 X0 Y0 CHF=1\nX10 RND=2\nY10", "RNDM=1\nX5\nY8\nX1\nRNDM=0",
+        "G41 G1 X9 Y1\nX30 RND=9\nG40\nY20",
         "CYCLE81(5,0,1,-4)", "CYCLE83(5,0,1,-20,,-5,,2,,,1,0)", "CYCLE84(5,0,1,-10,,,3,,1.5,0,400)",
         "MCALL CYCLE82(5,0,1,-4,,1)", "HOLES1(0,0,30,5,8,3)", "HOLES2(0,0,10,0,0,4)", "X20", "MCALL L1\nX3\nMCALL",
         "POCKET4(10,0,2,-4,9,0,0,4,0,0,500,100,2,11)", 'CYCLE72("CON",10,0,2,-4,4,0,0,500,100,1,42,1,8,900,1,8)',
