@@ -158,6 +158,27 @@ def test_ctrl_c_ends_a_long_run_with_one_line_and_leaves_no_half_written_file(tm
     assert [path.name for path in tmp_path.iterdir()] == ["long.nc"]
 
 
+#: Ctrl-C comes while a module is looked for.
+INTERRUPTED_AT = """
+import runpy, sys
+
+class Finder:
+    def find_spec(self, name, path=None, target=None):
+        if name == {name!r}:
+            raise KeyboardInterrupt
+
+sys.meta_path.insert(0, Finder())
+runpy.run_module("polycnc", run_name="__main__", alter_sys=True)
+"""
+
+
+@pytest.mark.parametrize("name", ["polycnc.cli", "polycnc.cli.app", "polycnc.cli.plain"])
+def test_ctrl_c_while_it_is_loaded_is_no_traceback(tmp_path: Path, name: str) -> None:
+    command = [sys.executable, "-c", INTERRUPTED_AT.format(name=name)]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, timeout=30, check=False)
+    assert (done.returncode, done.stderr) == (130, b"")
+
+
 def test_a_reader_that_goes_away_ends_the_output_quietly(tmp_path: Path) -> None:
     process = _polycnc("machines", cwd=tmp_path, stdout=subprocess.PIPE)
     assert process.stdout is not None
