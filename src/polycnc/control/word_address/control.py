@@ -79,12 +79,11 @@ class WordAddressControl:
 
     Attributes:
         id: Control id.
-        alarm_series: As `Control` says.
+        alarm_series, display_names: As `Control` says.
         alarm_files: Files with the alarm texts, as `folder/file`; of two texts for a number the later counts.
         form: How program files are marked off.
         default_machine: Built-in machine of a run that names none.
         tools_have_names: Programs may call a tool by its name.
-        display_names: As `Control` says.
         last_bit: The last bit of a parameter.
         g_codes: The G table.
         m_codes: The M table; a number that is not in it passes as an event.
