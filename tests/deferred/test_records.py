@@ -146,7 +146,7 @@ def test_an_object_like_another_one_has_all_that_is_not_changed(by: Any) -> None
         with pytest.raises(TypeError):
             replace(point, other=8)
         with pytest.raises(TypeError, match="dataclass instances"):
-            replace(type(point), x=2.0)
+            replace(type(point), x=2.0)  # type: ignore[type-var]
     assert replace(made["Point"](1.0), x=3.0) == made["Point"](3.0)
 
 

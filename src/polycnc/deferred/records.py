@@ -279,7 +279,7 @@ def _described(cls: type) -> dict[str, Field]:
     return found
 
 
-def _given(thing: object) -> tuple[tuple[str, ...], Callable[[object], tuple[object, ...]], tuple[str, ...]]:
+def _given(thing: Any) -> tuple[tuple[str, ...], Callable[[object], tuple[object, ...]], tuple[str, ...]]:
     """What `replace` takes over: names of the fields that `__init__` takes, what gives their values, other names."""
     if isinstance(thing, type):
         raise TypeError("replace() should be called on dataclass instances")
