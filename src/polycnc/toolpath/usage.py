@@ -260,7 +260,8 @@ class Usage:
     ) -> tuple[list[float], list[float]]:
         """A box on the machine display, around the images of its corners: under a turned frame a little too large."""
         toolpath, geometry = self._display.toolpath, self._display.layout.geometry
-        moved = [i for i in range(self._axes) if i in geometry and low[i] != high[i]]
+        turns = context.transformation is not None or not context.frame.is_identity
+        moved = [i for i in range(self._axes) if turns and i in geometry and low[i] != high[i]]
         corners = []
         for sides in product((low, high), repeat=len(moved)):
             corner = list(low)
