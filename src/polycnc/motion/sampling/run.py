@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from functools import cached_property
 from math import sqrt
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
     from polycnc.motion.limits import AxisRapid
 
+_Kind = TypeVar("_Kind", bound=np.generic)
 Numbers: TypeAlias = "NDArray[np.float64]"
 #: Indices: of rows, axes, pieces.
 Places: TypeAlias = "NDArray[np.int64]"
@@ -77,15 +78,16 @@ class Run:
         forms = pieces[:, PieceRecord.FORM]
         bent = ((forms == Form.BENT) | (forms == Form.CURVED) | (forms == Form.JERKED))[:, None]
         scale = (length / pieces[:, PieceRecord.MARGIN])[:, None]
-        chord = end - start
-        self.rows = np.concatenate([self.rows, pieces[:, PieceRecord.ROW].astype(np.int64)])
-        ways = np.cumsum(np.concatenate([self._ways[-1:], pieces[:, PieceRecord.LENGTH]]))
-        self._ways = np.concatenate([self._ways[:-1], ways])
-        self._length = np.concatenate([self._length, length])
-        self._start, self._end = np.concatenate([self._start, start]), np.concatenate([self._end, end])
-        self._is_bent |= bool(bent.any())
-        self._leave = np.concatenate([self._leave, np.where(bent, block[0] * scale, chord)])
-        self._arrive = np.concatenate([self._arrive, np.where(bent, block[1] * scale, chord)])
+        chord = leave = arrive = end - start
+        if bent.any():
+            self._is_bent = True
+            leave, arrive = (np.where(bent, side * scale, chord) for side in block[:2])
+        self.rows = _joined(self.rows, pieces[:, PieceRecord.ROW].astype(np.int64))
+        ways = np.cumsum(_joined(self._ways[-1:], pieces[:, PieceRecord.LENGTH]))
+        self._ways = _joined(self._ways[:-1], ways)
+        self._length = _joined(self._length, length)
+        self._start, self._end = _joined(self._start, start), _joined(self._end, end)
+        self._leave, self._arrive = _joined(self._leave, leave), _joined(self._arrive, arrive)
         self.__dict__.pop("_edges", None)
         if self._bends is not None:
             bends = zip(self._bends, (block[2], block[3]), strict=True)
@@ -244,6 +246,11 @@ class Run:
                 position[:, i], velocity[:, i] = start + sense * way, sense * speed
                 acceleration[:, i] = sense * rate
         return position, velocity, acceleration
+
+
+def _joined(known: NDArray[_Kind], more: NDArray[_Kind]) -> NDArray[_Kind]:
+    """What is known, and more behind it: most runs have but one part."""
+    return np.concatenate([known, more]) if len(known) else more
 
 
 def _phases(pieces: Numbers) -> Moved:
