@@ -127,8 +127,9 @@ def between(demand: Demand, angle: float) -> Demand:
 
 def within(demands: list[Demand], length: float) -> tuple[float, float]:
     """Speed and `ease` that meet all of some demands along a length."""
-    tops, *others, along = zip(*demands, strict=True)
-    return kernels.within(min(tops), *map(max, others), length, max(along))
+    _, bend, pull, jerk, turn, along = (max(values) for values in zip(*demands, strict=True))
+    top = min(each.top for each in demands)
+    return kernels.within(top, bend, pull, jerk, turn, length, along)
 
 
 def even_row(top: float, ease: float) -> RowShares:

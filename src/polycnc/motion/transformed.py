@@ -262,7 +262,7 @@ class RealAxes:
         bounds.feed[row], top, ease, at_corners = pace_of(
             context, way, weights, limits, rapid=chunk.kind[row] in RAPID_KINDS
         )
-        if chunk.kind[row] == Kind.SPLINE or context.chords:  # along a curve its axes do not keep their shares
+        if chunk.kind[row] == Kind.SPLINE or context.chords:  # a curve moves its axes as its chord does not
             ease = min(ease, at_corners)
         for k in range(row * SHARES, (row + 1) * SHARES):
             bounds.shares.top[k] = min(bounds.shares.top[k], top)

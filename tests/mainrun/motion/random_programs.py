@@ -235,7 +235,8 @@ class Plane(Writer):
         here = begin
         for _ in range(draw.randint(2, 7)):
             span = reach * draw.choice((0.05, 0.3, 1.0))
-            before, here = here, tuple(round(v + draw.uniform(-span, span), 3) for v in here)
+            x, y = (round(v + draw.uniform(-span, span), 3) for v in here)
+            before, here = here, (x, y)
             code, radius = "G1", ""
             if draw.random() < 0.4:
                 code = draw.choice(("G2", "G3"))
