@@ -33,7 +33,7 @@ __all__ = [
 PATH_STEP = 5e-3
 #: The turn of a full circle; rows are looked at after so much of it at most, radians.
 FULL, LOOK = 2.0 * pi, radians(LOOK_DEG)
-#: A corner reaches as far along a row as there is so much left of what there is at the row's end; parts looked at.
+#: A corner reaches as far along a row as there is so much left of what there is at the row's end; looks.
 KEPT, FAR_LOOKS = 0.8, 4
 #: Shares become shorter by this factor towards the worst place, or by a smaller one.
 SHORTER = 0.5
@@ -137,14 +137,14 @@ def even_row(top: float, ease: float) -> RowShares:
     return RowShares([(1.0, top, ease)], Corner(ease), Corner(ease))
 
 
-def farthest(around: Callable[[float, int], tuple[float, float]], near: Corner) -> Corner:
+def farthest(beside: Callable[[list[float]], tuple[float, float]], near: Corner) -> Corner:
     """What holds at a corner as far along a row as little changes, up to half of it; `near` is what holds next to it.
 
-    `around` gives speed and `ease` for a share of the row beside the corner, looked at in so many parts.
+    `beside` gives speed and `ease` for places of the row, by how far they are from the corner.
     """
     reach = 0.5
     while reach > near.reach:
-        _, ease = around(reach, FAR_LOOKS)
+        _, ease = beside([reach * k / FAR_LOOKS for k in range(1, FAR_LOOKS + 1)])
         if ease >= KEPT * near.ease:
             return Corner(min(ease, near.ease), reach)
         reach *= 0.5

@@ -458,14 +458,16 @@ class RealAxes:
                 begin = shares[-2][0] if end and len(shares) > 1 else 0.0
                 reach = CORNER_REACH * (shares[k][0] - begin)
 
-                def around(reach: float, parts: int, *, end: int = end) -> tuple[float, float]:
-                    places = [abs(end - reach * k / parts) for k in range(parts + 1)]
-                    return within([demand(place, lateral=True) for place in places], reach * length)
+                def beside(places: list[float], *, end: int = end) -> tuple[float, float]:
+                    demands = [demand(abs(end - place), lateral=True) for place in places]
+                    return within(demands, places[-1] * length)
 
-                top, ease = around(reach, 2)
-                corners[end] = Corner(ease, reach) if window > 0.0 else farthest(around, Corner(ease, reach))
+                top, ease = beside([0.0, 0.5 * reach, reach])
+                corners[end] = Corner(ease, reach)
                 if window > 0.0:
                     top = min(top, 2.0 * reach * length / window)
+                else:
+                    corners[end] = farthest(beside, corners[end])
                 shares[k] = (shares[k][0], min(top, shares[k][1]), shares[k][2])
         return RowShares(shares, *corners)
 
