@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 SOURCE = Path(polycnc.__file__).parent
 #: From the ground up: a folder (or module) imports only those that stand before it.
 LAYERS = (
+    "finder",
     "deferred",
     "kernels",
     "parquet",
