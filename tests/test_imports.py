@@ -50,7 +50,7 @@ LAYERS = (
 NOT_AT_START = {
     "polycnc.compensation.cutter", "polycnc.language.bulk.scanner",
     "polycnc.transformation.couplings.coupled", "polycnc.transformation.planes.tilted",
-    "ast", "datetime", "tomllib", "typer",
+    "ast", "ctypes", "datetime", "signal", "tomllib", "typer",
 }  # fmt: skip
 #: Functions of each control that a program of a few moves does not use.
 NOT_USED = {

@@ -6,11 +6,12 @@ No compiler is needed when it runs, and only this file is ever loaded. A source 
 
 from __future__ import annotations
 
-import ctypes
 import os
 import sys
 from functools import cache
 from pathlib import Path
+
+from polycnc.kernels.c_types import SharedObject
 
 #: Where this variable of the environment says `python`, kernels run as they are written.
 CHOICE = "POLYCNC_KERNELS"
@@ -27,10 +28,10 @@ class Lack:
 
 
 @cache
-def load(file: Path) -> ctypes.CDLL | None:
+def load(file: Path) -> SharedObject | None:
     """A shared object; None where there is none, none that can be loaded here, or where plain kernels are chosen."""
     try:
-        return ctypes.CDLL(str(file)) if is_wanted() else None
+        return SharedObject(str(file)) if is_wanted() else None
     except OSError:
         return None
 
