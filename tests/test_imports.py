@@ -21,7 +21,6 @@ if TYPE_CHECKING:
 SOURCE = Path(polycnc.__file__).parent
 #: From the ground up: a folder (or module) imports only those that stand before it.
 LAYERS = (
-    "finder",
     "deferred",
     "kernels",
     "parquet",
@@ -50,7 +49,7 @@ LAYERS = (
 NOT_AT_START = {
     "polycnc.compensation.cutter", "polycnc.language.bulk.scanner",
     "polycnc.transformation.couplings.coupled", "polycnc.transformation.planes.tilted",
-    "ast", "ctypes", "datetime", "tomllib", "typer",
+    "ast", "datetime", "tomllib", "typer",
 }  # fmt: skip
 #: Functions of each control that a program of a few moves does not use.
 NOT_USED = {
@@ -76,8 +75,6 @@ NOT_USED = {
         "sinumerik.tools.stages",
     ),
 }
-#: Modules of the library that functions of a control need, and no program of a few moves.
-OF_LIBRARY = {"ast", "copy", "ctypes", "hashlib", "random", "signal", "string", "struct", "tomllib"}
 HEAVY = {"numpy", "numba", "pyarrow", "pydantic", "rich", "asyncua", "pygls", "nicegui"}
 MODULES = sorted(SOURCE.rglob("*.py"))
 FOLDERS = [path.parent for path in MODULES if path.name == "__init__.py" and path.parent != SOURCE]
@@ -204,8 +201,7 @@ def test_a_small_run_loads_no_heavy_library(tmp_path: Path, command: str) -> Non
     probe = (
         f"from polycnc.cli import main\ntry: main({words!r})\nexcept SystemExit as left: assert not left.code"
     )
-    unused = NOT_AT_START | ({"signal"} if command == "run" else set())  # `check` has workers to end
-    assert loaded_by(probe, tmp_path) & (HEAVY | unused) == set()
+    assert loaded_by(probe, tmp_path) & (HEAVY | NOT_AT_START) == set()
 
 
 @pytest.mark.parametrize("control_id", NOT_USED)
@@ -216,7 +212,7 @@ def test_a_control_loads_no_function_that_a_program_does_not_use(tmp_path: Path,
         f"from polycnc.cli import main\ntry: main({words!r})\nexcept SystemExit as left: assert not left.code"
     )
     unused = {f"polycnc.control.{name}" for name in NOT_USED[control_id]} | {"polycnc.compensation.corner"}
-    assert loaded_by(probe, tmp_path) & (HEAVY | OF_LIBRARY | unused) == set()
+    assert loaded_by(probe, tmp_path) & (HEAVY | unused) == set()
 
 
 #: Modules with nothing but kernels.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import sys
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, NoReturn
@@ -17,10 +18,7 @@ from polycnc.messages.errors import place_of_failure
 from polycnc.messages.files import reason_of
 
 if TYPE_CHECKING:
-    import signal
     from collections.abc import Iterator, Sequence
-else:
-    import _signal as signal  # what the library's own module makes enumerations of, at every start
 
 BAD_USE, INTERRUPTED = 2, 130
 #: With this variable of the environment a mistake of polycnc shows all of its way.
@@ -60,7 +58,7 @@ def _termination_interrupts() -> Iterator[None]:
     """Who is told to end takes half-written files away first, as where the user interrupts."""
     ends = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
     # Who has been told to outlive the terminal (nohup) does.
-    before = {each: signal.getsignal(each) for each in ends if signal.getsignal(each) != signal.SIG_IGN}
+    before = {each: signal.getsignal(each) for each in ends if signal.getsignal(each) is not signal.SIG_IGN}
     try:
         for each in before:
             signal.signal(each, signal.default_int_handler)

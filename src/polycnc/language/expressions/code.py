@@ -226,18 +226,16 @@ def quoted(text: str, *parts: Code | Plain) -> Code:
 @lru_cache(maxsize=512)
 def _quotation(text: str) -> Code:
     """A text as a tree, once for each text of our own sources; a hole is the tree of a set with a number."""
-    import _ast as ast  # the nodes, without what `ast` does with them
+    import ast
 
-    module = compile(text, "<quotation>", "exec", ast.PyCF_ONLY_AST)
-    assert isinstance(module, ast.Module)
-    (statement,) = module.body
+    statement = ast.parse(text).body[0]
     code = _tree(statement.value if isinstance(statement, ast.Expr) else statement)
     assert isinstance(code, Code)
     return code
 
 
 def _tree(part: object) -> object:
-    import _ast as ast
+    import ast
 
     if isinstance(part, ast.expr_context | ast.operator | ast.unaryop | ast.cmpop | ast.boolop):
         return Kind(type(part).__name__)
@@ -313,6 +311,6 @@ def _fixed(kind: Kind) -> object:
 
 @cache
 def _class_of(kind: Kind) -> Any:
-    import _ast as ast
+    import ast
 
     return getattr(ast, kind)

@@ -6,6 +6,7 @@ on 840D sl.
 
 from __future__ import annotations
 
+import tomllib
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -21,8 +22,6 @@ def refused(variant: str, options: Collection[str]) -> frozenset[str]:
     """The words that a variant does not have, with the options that are on; none without a variant."""
     if not variant:
         return frozenset()
-    import tomllib
-
     table = tomllib.loads(TABLE.read_text(encoding="utf-8"))
     column = table["variants"].index(variant)
     return frozenset(

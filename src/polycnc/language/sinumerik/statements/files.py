@@ -6,6 +6,7 @@ an alarm.
 
 from __future__ import annotations
 
+import hashlib
 from typing import TYPE_CHECKING, Any
 
 from polycnc.deferred.records import replace
@@ -200,9 +201,7 @@ def checksum(channel: NcChannel, result: Reference, name: str, first: int | None
     content = repr((variable.type.value, array.items[start * width : (end + 1) * width]))
     if result.variable.length < CHECKSUM_LENGTH:
         return 10
-    from hashlib import sha256  # it loads a library of ciphers
-
-    result.value = sha256(content.encode()).hexdigest()[:CHECKSUM_LENGTH].upper()
+    result.value = hashlib.sha256(content.encode()).hexdigest()[:CHECKSUM_LENGTH].upper()
     return 0
 
 
