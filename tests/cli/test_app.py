@@ -62,16 +62,6 @@ def test_h_shows_the_same_help(console: Console, words: tuple[str, ...]) -> None
     assert console(*words, "-h", "--lang", "zh-TW").out == console(*words, "--help", "--lang", "zh-TW").out
 
 
-@pytest.mark.parametrize(
-    ("words", "offered"), [("run --control s", "sinumerik-840d"), ("run --machine lathe2", "lathe2-2path")]
-)
-def test_the_shell_is_offered_controls_and_machines(words: str, offered: str, tmp_path: Path) -> None:
-    environment = {"_POLYCNC_COMPLETE": "complete_bash", "COMP_WORDS": f"polycnc {words}", "COMP_CWORD": "3"}
-    process = _polycnc(cwd=tmp_path, stdout=subprocess.PIPE, env={**os.environ, **environment})
-    out, _ = process.communicate(timeout=30)
-    assert offered in out.decode().split()
-
-
 def test_help_comes_in_chinese_too(tmp_path: Path) -> None:
     process = _polycnc("run", "--help", "--lang", "zh-TW", cwd=tmp_path, stdout=subprocess.PIPE)
     out, _ = process.communicate(timeout=30)

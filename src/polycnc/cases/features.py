@@ -15,6 +15,7 @@ from xml.etree import ElementTree
 from polycnc.cases.reading import UnreadableError, read_cases
 from polycnc.cases.runner import run_cases
 from polycnc.cases.selection import Selection
+from polycnc.deferred.paths import package_path
 from polycnc.messages import Catalogue
 from polycnc.messages.files import reason_of
 
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
 #: Control id to feature id to number of cases.
 Features = dict[str, dict[str, int]]
 
-_DATA = Path(__file__).parents[1] / "data"
+_DATA = Path(package_path("data"))
 #: What a test says of itself in the report: its property of this name is `<control> <feature>`.
 PROPERTY = "feature"
 #: Elements of the report below a test that did not pass.

@@ -7,7 +7,6 @@ language compiled, and what differs between controls lies behind `Control`.
 
 from __future__ import annotations
 
-from contextlib import contextmanager
 from math import nan
 from typing import TYPE_CHECKING, ClassVar, Generic
 
@@ -32,6 +31,7 @@ from polycnc.channel.waits import (
     Wait,
     Why,
 )
+from polycnc.deferred.contexts import contextmanager
 from polycnc.geometry.tolerances import FARTHEST
 from polycnc.memory.retained import InMemoryStore
 from polycnc.messages import AlarmError

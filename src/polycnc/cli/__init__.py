@@ -1,8 +1,8 @@
 """The command line: one module for each command in `commands/`, imported when it is called.
 
 `declaration` says what commands and options are, `options` has those that several share. `app` has the words read:
-plain ones by `plain`, all others by Typer, for which `typed` makes its commands of the same declarations; `usage` is
-the language of help and refusals.
+plain ones by `plain`, all others by Click, for which `clicks` makes its commands of the same declarations; `usage` is
+the language of help and refusals, `completion` the script by which a shell completes words.
 `diagnostics` says what a run found, `formats` and `sarif` how that is written, `report` what `run` tells, `told`
 what of a setup has no effect; `console` and `output` write, `progress` tells those who wait how far a command is;
 `freed` is about memory.

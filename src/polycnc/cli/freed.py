@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import sys
-from contextlib import suppress
 
+from polycnc.deferred.contexts import suppress
 from polycnc.kernels.c_types import SharedObject
 
 #: `mallopt` of the GNU C library: from which size on a piece of memory is a mapping of its own, and how much may lie

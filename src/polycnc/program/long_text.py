@@ -14,7 +14,6 @@ from array import array
 from bisect import bisect_right
 from collections.abc import Sequence
 from functools import lru_cache
-from pathlib import Path
 from stat import S_ISREG
 from typing import TYPE_CHECKING, overload
 
@@ -253,7 +252,7 @@ def _look_through(file: TextFile) -> LongText | None:
     """Find the pages of a file; None where its line ends or its encoding ask for the whole of it."""
     sample = bytearray()
     beyond_ascii: list[int] = []
-    with Path(file.path).open("rb") as stream:
+    with open(file.path, "rb") as stream:  # noqa: PTH123 - a path is a text here
         while page := stream.read(PAGE_BYTES):
             page += stream.readline(MAX_LINE + 1)
             if len(file.places) == 1 and has_byte_order_mark(page):

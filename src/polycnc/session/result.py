@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
-from importlib import import_module
-from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
 from polycnc.control.alarm_text import catalogue_of
+from polycnc.deferred.modules import import_module, is_installed
 from polycnc.deferred.records import dataclass, field
 from polycnc.machine.layout import axis_layout
 from polycnc.messages import AlarmError, text
@@ -358,5 +357,5 @@ def _itself(record: RunRecord) -> RunRecord:
 
 def _need(library: str) -> None:
     """A table can only be made where its library is installed."""
-    if find_spec(library) is None:
+    if not is_installed(library):
         raise SessionError("session.no-library", library=library)

@@ -7,9 +7,9 @@ within one turn.
 
 from __future__ import annotations
 
-from importlib.util import find_spec
 from typing import TYPE_CHECKING, cast
 
+from polycnc.deferred.modules import is_installed
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.units import INCH_MM
@@ -184,7 +184,7 @@ class Display:
         """The records of one chunk. Long chunks go by whole columns, which gives the same values."""
         contexts = self.toolpath.contexts
         single = any(each.names or each.shown_by is not None or each.is_hidden for each in contexts)
-        if len(chunk) >= COLUMN_ROWS and not single and find_spec("numpy") is not None:
+        if len(chunk) >= COLUMN_ROWS and not single and is_installed("numpy"):
             yield from self._records_by_column(chunk)
         else:
             yield from self._motions(self.toolpath.rows_of(chunk))

@@ -8,11 +8,11 @@ image of their box.
 from __future__ import annotations
 
 from array import array
-from importlib.util import find_spec
 from itertools import product
 from math import inf
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.modules import is_installed
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass, field
 from polycnc.toolpath.compiled import survey
@@ -264,7 +264,7 @@ def _is_led(context: Context) -> bool:
 
 def _far_rows(chunk: Chunk, rows: range, start: Sequence[float], seers: Sequence[Seen]) -> Iterable[int]:
     """Rows of a run among which are those that reach farthest: of many straight ones only these."""
-    if len(rows) < MANY or find_spec("numpy") is None:
+    if len(rows) < MANY or not is_installed("numpy"):
         return rows
     import numpy as np
 

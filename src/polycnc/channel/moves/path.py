@@ -11,12 +11,12 @@ out; `Path.divert` lays the whole path aside while a control reads a contour wit
 from __future__ import annotations
 
 from array import array
-from contextlib import contextmanager
 from enum import IntEnum, auto
 from itertools import pairwise
 from math import nan
 from typing import TYPE_CHECKING, ClassVar, TypeVar
 
+from polycnc.deferred.contexts import contextmanager
 from polycnc.deferred.records import dataclass, replace
 from polycnc.toolpath.context import PROGRAMMED
 from polycnc.toolpath.kinds import Kind

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import re
-from contextlib import ExitStack
-from importlib.util import find_spec
-from pathlib import Path
 from typing import IO, TYPE_CHECKING, Annotated, Any
 
 from polycnc.cli import options
 from polycnc.cli.console import fail, note, show, standard_input
-from polycnc.cli.declaration import Argument, Commands, Option
+from polycnc.cli.declaration import Argument, Commands, Option, Path
 from polycnc.cli.progress import WaitingForRun
+from polycnc.deferred.contexts import ExitStack
+from polycnc.deferred.modules import is_installed
 from polycnc.deferred.regexes import regex
 from polycnc.messages import text
 from polycnc.messages.catalogue import listed
@@ -62,7 +61,7 @@ def run(
     if trace is not None and trace.suffix.lower() not in TRACES:
         return fail(text("run.suffix", file=trace, known=listed(TRACES)), 2)
     period = period_s(sample[0]) if sample is not None else 0.0
-    if sample is not None and find_spec("numpy") is None:
+    if sample is not None and not is_installed("numpy"):
         return fail(text("run.no-samples"), 2)
     if sample is not None and (period is None or sample[1].suffix.lower() not in SAMPLES):
         return fail(text("run.sample", period=sample[0], file=sample[1], known=listed(SAMPLES)), 2)
@@ -76,7 +75,7 @@ def run(
         from polycnc.cli.output import refuse_twice
 
         refuse_twice(outputs)
-    source = standard_input() if is_stdin else Path(file)
+    source = standard_input() if is_stdin else file
     session = opening.session(source, keep=False, timed=not no_time, memory=memory)
     happenings = Happenings(session.result.display)
     session.consumers.append(happenings.take)

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from array import array
-from importlib.util import find_spec
 from math import nan
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.modules import is_installed
 from polycnc.toolpath.columns.compiled import LIBRARY, show
 from polycnc.toolpath.columns.names import NUMBERS, POSITIONS, TEXTS, flattened
 from polycnc.toolpath.columns.shown import FEED, PLACES, PROGRAM, TOOL, TURNS, TYPE, UNIT, Rows, View
@@ -92,7 +92,7 @@ class Numbers:
             for number in numbers
         ):
             return True
-        return LIBRARY.lack is not None and len(chunk) >= COLUMN_ROWS and find_spec("numpy") is not None
+        return LIBRARY.lack is not None and len(chunk) >= COLUMN_ROWS and is_installed("numpy")
 
     def _by_kernel(self, chunk: Chunk, *, arcs: bool) -> Iterable[int]:
         """Fill the columns; gives the rows that have more than these."""
