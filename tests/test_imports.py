@@ -207,9 +207,9 @@ def test_a_small_run_loads_no_heavy_library(tmp_path: Path, command: str) -> Non
 
 #: What a start does without: a tenth of a short run, and more. `re`, which start scripts load, brings what it needs.
 NOT_OF_LIBRARY = {
-    "ast", "contextlib", "copy", "ctypes", "dataclasses", "datetime", "fnmatch", "hashlib", "importlib", "inspect", "ipaddress",
-    "ntpath", "pathlib", "random", "signal", "string", "struct", "tempfile", "threading", "tomllib", "traceback", "urllib",
-    "warnings",
+    "ast", "contextlib", "copy", "ctypes", "dataclasses", "datetime", "fnmatch", "hashlib", "importlib", "inspect",
+    "ipaddress", "ntpath", "pathlib", "random", "signal", "string", "struct", "tempfile", "threading", "tomllib",
+    "traceback", "urllib", "warnings",
 }  # fmt: skip
 
 
