@@ -13,8 +13,11 @@ from typing import TYPE_CHECKING
 import pytest
 
 from polycnc import __version__
+from polycnc.cli import app
 from polycnc.cli.app import main
 from polycnc.cli.commands import COMMANDS
+from polycnc.language.bulk.compiled import LIBRARY as READING
+from polycnc.motion.compiled import LIBRARY as PLANNING
 from tests.cli.console import BAD, GOOD
 
 if TYPE_CHECKING:
@@ -47,6 +50,22 @@ def test_a_thread_may_call_it_though_it_cannot_answer_signals() -> None:
     thread.start()
     thread.join()
     assert statuses == [0]
+
+
+@pytest.mark.parametrize(
+    "words", [("run",), ("check",), ("plot", "-o", "good.svg")], ids=lambda words: words[0]
+)
+@pytest.mark.parametrize("lack", ["missing", "stale", "chosen"])
+def test_who_waits_for_plain_kernels_is_told_so(
+    console: Console, monkeypatch: pytest.MonkeyPatch, words: tuple[str, ...], lack: str
+) -> None:
+    console.file("good.nc", GOOD)
+    program = ("good.nc", "--control", "fanuc-m")
+    monkeypatch.setitem(vars(READING), "lack", None)
+    monkeypatch.setitem(vars(PLANNING), "lack", lack)
+    assert "kernels" not in console(*words, *program).err
+    monkeypatch.setattr(app, "SLOW_S", 0.0)
+    assert console(*words, *program).err.count("kernels") == (lack != "chosen")
 
 
 @pytest.mark.parametrize("command", COMMANDS)

@@ -20,9 +20,11 @@ from polycnc.messages import Catalogue
 from polycnc.messages.files import reason_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
+    from collections.abc import Callable, Iterable, Iterator, Mapping
 
     from polycnc.cases.runner import Outcome
+
+    Counted = Callable[[Iterable[Path]], Iterable[Path]]
 
 #: Control id to feature id to number of cases.
 Features = dict[str, dict[str, int]]
@@ -77,13 +79,18 @@ def case_files(folder: Path) -> list[Path]:
     return sorted(folder.rglob("*.yaml"))
 
 
-def proved(folder: Path | None, report: Path | None = None) -> Features:
+def proved(folder: Path | None, report: Path | None = None, each: Counted = iter) -> Features:
     """Run all cases of a folder, read the report of the tests, and give the features that work.
+
+    Args:
+        folder: With files of cases.
+        report: What pytest wrote.
+        each: Gives the files of cases on, where somebody counts them.
 
     Raises:
         UnreadableError: A case file or the report cannot be read.
     """
-    outcomes = () if folder is None else _outcomes(folder)
+    outcomes = () if folder is None else _outcomes(each(case_files(folder)))
     return counted(outcomes, () if report is None else tested(report))
 
 
@@ -132,6 +139,6 @@ def claimed(cases: Iterable[Mapping[str, Any]]) -> Features:
     return {control: dict(sorted(features[control].items())) for control in sorted(features)}
 
 
-def _outcomes(folder: Path) -> Iterator[Outcome]:
-    for path in case_files(folder):
+def _outcomes(files: Iterable[Path]) -> Iterator[Outcome]:
+    for path in files:
         yield from run_cases(read_cases(path), Selection(), path.parent)

@@ -40,7 +40,7 @@ class Reached(NamedTuple):
     """How far a work is.
 
     Attributes:
-        unit: What is counted: `blocks`, `files`, `cases`, `rows`, `samples` or `seconds` (of machining).
+        unit: What is counted: `blocks`, `files`, `cases`, `rows`, `points`, `samples` or `seconds` (of machining).
         done: How many are done.
         share: The part of the work that is done, 0 to 1; None where nobody can know.
     """
@@ -278,8 +278,8 @@ class Waiting:
             self._share = min(done / max(self._total, 1), 1.0) if share is None else share
 
     def each(self, parts: Iterable[Part]) -> Iterator[Part]:
-        """The parts, which are counted."""
-        for done, part in enumerate(parts):
+        """The parts, which are counted; further ones on top of those before."""
+        for done, part in enumerate(parts, round(self._done)):
             self.reach(done)
             yield part
 

@@ -96,7 +96,9 @@ def _drawing(result: Result, view: ViewName | None, title: str) -> str:
     with Waiting(title, len(result.toolpath), "rows") as waiting:
         rows = waiting.each(result.toolpath.rows())
         drawn = list(strokes(result.toolpath, geometry, rows=rows))
-    return svg(drawn, views, title, labels)
+    points = sum(len(stroke.points) for stroke in drawn)
+    with Waiting(title, len(views) * points, "points") as waiting:
+        return svg(drawn, views, title, labels, waiting.each)
 
 
 def _write_png(output: Path, drawing: str) -> None:
