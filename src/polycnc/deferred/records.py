@@ -70,17 +70,14 @@ else:
 
     def replace(thing, /, **changes):
         """An object like another one but for some fields; see `dataclasses.replace`."""
-        if isinstance(thing, type):
-            raise TypeError("replace() should be called on dataclass instances")
-        for each in fields(thing):
-            if each.init:
-                if each.name not in changes:
-                    changes[each.name] = getattr(thing, each.name)
-            elif each.name in changes:
+        cls = type(thing)
+        names, values, others = cls.__dict__.get(_GIVEN) or _given(thing)
+        for name in others:
+            if name in changes:
                 raise ValueError(
-                    f"field {each.name} is declared with init=False, it cannot be specified with replace()"
+                    f"field {name} is declared with init=False, it cannot be specified with replace()"
                 )
-        return type(thing)(**changes)
+        return cls(**{**dict(zip(names, values(thing), strict=True)), **changes})
 
     class MISSING:
         """What stands for no default."""
@@ -91,6 +88,10 @@ __all__ = ["MISSING", "dataclass", "field", "fields", "is_dataclass", "is_frozen
 _FEW = 32
 #: Where a class keeps its own annotated names with what was assigned to them; where its fields, when asked for.
 _NOTED, _FIELDS = "__noted_fields__", "__described_fields__"
+#: Where a class keeps what `replace` takes over.
+_GIVEN = "__given_fields__"
+#: So many calls of a method look fields up before it is written out for a class, which takes as long as some hundred.
+_MANY = 512
 #: Where a class keeps what `_put_values` does for its objects.
 _STEPS = "__steps_of_init__"
 #: Where members of a class that are no functions have theirs.
@@ -329,6 +330,17 @@ def _described(cls: type) -> dict[str, Field]:
     return found
 
 
+def _given(thing: Any) -> tuple[tuple[str, ...], Callable[[object], tuple[object, ...]], tuple[str, ...]]:
+    """What `replace` takes over: names of the fields that `__init__` takes, what gives their values, other names."""
+    if isinstance(thing, type):
+        raise TypeError("replace() should be called on dataclass instances")
+    known = fields(thing)
+    names = [each.name for each in known if each.init]
+    found = (*names,), _getter(names), (*[each.name for each in known if not each.init],)
+    setattr(type(thing), _GIVEN, found)
+    return found
+
+
 def _checked(name: str, default: object) -> object:
     """The default of a field; none is the slot of one that has none."""
     if isinstance(default, MemberDescriptorType):
@@ -399,9 +411,16 @@ def _made_later(
 
 
 def _eq(cls: type) -> Callable[..., Any]:
-    values = _getter([each.name for each in _fields_of(cls) if each.compare])
+    names = [each.name for each in _fields_of(cls) if each.compare]
+    values, left = _getter(names), _MANY
 
     def __eq__(self: object, other: object) -> bool:  # noqa: N807
+        nonlocal left
+        left -= 1
+        if left == 0:
+            ours, theirs = _tuple("self", names), _tuple("other", names)
+            text = f"return {ours} == {theirs} if other.__class__ is self.__class__ else NotImplemented"
+            cls.__eq__ = _written(cls, "__eq__(self, other)", text)  # type: ignore[method-assign]
         if other.__class__ is self.__class__:
             return values(self) == values(other)
         return NotImplemented
@@ -410,10 +429,31 @@ def _eq(cls: type) -> Callable[..., Any]:
 
 
 def _hash(cls: type) -> Callable[..., Any]:
-    values = _getter(
-        [each.name for each in _fields_of(cls) if (each.compare if each.hash is None else each.hash)]
-    )
-    return lambda self: hash(values(self))
+    names = [each.name for each in _fields_of(cls) if (each.compare if each.hash is None else each.hash)]
+    values, left = _getter(names), _MANY
+
+    def __hash__(self: object) -> int:  # noqa: N807
+        nonlocal left
+        left -= 1
+        if left == 0:
+            cls.__hash__ = _written(cls, "__hash__(self)", f"return hash({_tuple('self', names)})")  # type: ignore[method-assign]
+        return hash(values(self))
+
+    return __hash__
+
+
+def _tuple(thing: str, names: list[str]) -> str:
+    """The text of a tuple of fields."""
+    return f"({''.join(f'{thing}.{name}, ' for name in names)})"
+
+
+def _written(cls: type, head: str, body: str, names: dict[str, Any] | None = None) -> Callable[..., Any]:
+    """A method of a class, of a text that comes from names of fields."""
+    scope = {} if names is None else names
+    exec(f"def {head}:\n {body}", scope)
+    method: Callable[..., Any] = scope[head.partition("(")[0]]
+    method.__qualname__ = f"{cls.__qualname__}.{method.__name__}"
+    return method
 
 
 def _getter(names: list[str]) -> Callable[[object], tuple[object, ...]]:
@@ -526,10 +566,7 @@ def _init(cls: type) -> Callable[..., Any]:
                 yield f"__set({own}, {name!r}, {value})"
         yield f"{own}.__post_init__()" if hasattr(cls, "__post_init__") else "pass"
 
-    lines = [f"def __init__({', '.join(parameters)}):", *body()]
-    exec("\n ".join(lines), names)  # the text comes from names of fields
-    method: Callable[..., Any] = names["__init__"]
-    method.__qualname__ = f"{cls.__qualname__}.__init__"
+    method = _written(cls, f"__init__({', '.join(parameters)})", "\n ".join(body()), names)
     method.__annotations__ = {each.name: each.type for each in fields_of if each.init} | {"return": None}
     return method
 

@@ -107,6 +107,8 @@ class Planner:
         self._rests: set[int] = set()
         self._come_to_rest: dict[int, float] = {}  # by row: averages of a run that a function outlasts
         self._runs: LawRuns | None = None  # until a context asks for it
+        self._rapid_context: Context | None = None  # whose rapids were looked at last
+        self._rapids_are_soft = False
         self._compiled = compiled
 
     @property
@@ -152,8 +154,11 @@ class Planner:
 
     def rapids(self, ways: Sequence[float], context: Context) -> list[AxisRapid]:
         """How each axis runs a rapid by itself: none does under a transformation."""
-        soft = averages(context, self._machine, self._settings)[0] > 0.0
-        return axis_rapids(ways, context, self._real.limits(None, self._use_of_rapids), soft=soft)
+        if context is not self._rapid_context:
+            self._rapid_context = context
+            self._rapids_are_soft = averages(context, self._machine, self._settings)[0] > 0.0
+        limits = self._real.limits(None, self._use_of_rapids)
+        return axis_rapids(ways, context, limits, soft=self._rapids_are_soft)
 
     def rapids_of(self, piece: Sequence[float], context: Context) -> list[AxisRapid]:
         """How each axis runs a planned piece by itself; empty where they go together."""

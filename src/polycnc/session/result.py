@@ -230,7 +230,11 @@ class Result:
         for channel in (self.channel, *others):
             if channel.number not in self._channels:
                 layout = axis_layout(self.machine, channel.number)
-                display = self.display if channel is self.channel else Display(channel.toolpath, layout)
+                display = (
+                    self.display
+                    if channel is self.channel
+                    else Display(channel.toolpath, layout, names=self.control.display_names)
+                )
                 self._channels[channel.number] = ChannelResult(
                     channel, display, self.metadata, self.catalogue
                 )

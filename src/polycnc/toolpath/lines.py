@@ -213,9 +213,7 @@ class _Rows:
             record["feed"] = _mark(1 + 2 * count)
         if "center" in record:
             centers = cast("dict[str, float]", record["center"])
-            record["center"] = {
-                name: self._mark_of(f"center_{display.axes[names.index(name)]}") for name in centers
-            }
+            record["center"] = {name: self._mark_of(f"center_{name}") for name in centers}
         if "turns" in record:
             record["turns"] = self._mark_of("turns")
         return cast("Record", record)

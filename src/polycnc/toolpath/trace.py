@@ -133,6 +133,10 @@ class Display:
         toolpath: The toolpath that the rows belong to.
         layout: Geometry and rotary axes of the channel.
         alarm_text: Gives the text of an alarm.
+        names: What the work display may call an axis beside its own name (`Context.names`).
+
+    Attributes:
+        names: All names of the work display, those of the axes first.
     """
 
     def __init__(
@@ -140,8 +144,10 @@ class Display:
         toolpath: Toolpath,
         layout: AxisLayout,
         alarm_text: Callable[[Raised], str] | None = None,
+        names: Sequence[str] = (),
     ) -> None:
         self.axes = toolpath.axes
+        self.names = (*self.axes, *(name for name in names if name not in self.axes))
         self.toolpath = toolpath
         self.layout = layout
         self._alarm_text = alarm_text
@@ -391,7 +397,8 @@ class Display:
             tilted = along.sum(axis=1) > 1
             for k, i in enumerate(geometry):
                 if i >= 0:
-                    column = found.setdefault(f"center_{self.axes[i]}", np.full(len(is_arc), np.nan))
+                    name = (context.names or self.axes)[i]
+                    column = found.setdefault(f"center_{name}", np.full(len(is_arc), np.nan))
                     values = np.rint(center[:, k] * scale.work[i] * STEPS) / STEPS + 0.0
                     column[rows] = np.where(tilted | ~along[:, k], values, np.nan)
             turns = np.rint((curves[:, 6] + 1.0) * STEPS) / STEPS
