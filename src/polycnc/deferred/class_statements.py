@@ -10,12 +10,21 @@ from __future__ import annotations
 
 import builtins
 import sys
+from functools import cached_property
+from types import FunctionType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["ClassStatement"]
+__all__ = ["ClassStatement", "body_of", "lead_super"]
+#: Where members of a class that are no functions have theirs.
+_BEHIND: dict[type, str] = {
+    classmethod: "__func__",
+    staticmethod: "__func__",
+    property: "fget",
+    cached_property: "func",
+}
 
 
 class ClassStatement:
@@ -51,3 +60,26 @@ class ClassStatement:
         """Wait no longer."""
         if builtins.__build_class__ is self:
             builtins.__build_class__ = self.before
+
+
+# ---- classes that are made twice -------------------------------------------------------------------------------
+
+
+def body_of(cls: type) -> dict[str, Any]:
+    """What a class can be made of once more."""
+    body = {**cls.__dict__, "__qualname__": cls.__qualname__}
+    for each in ("__dict__", "__weakref__"):
+        body.pop(each, None)
+    return body
+
+
+def lead_super(made: type, cls: type) -> None:
+    """Let `super()` in the methods of a class mean the one that was made of it."""
+    for member in cls.__dict__.values():
+        behind = _BEHIND.get(type(member))
+        function = getattr(member, behind) if behind else member
+        if type(function) is FunctionType and function.__closure__ is not None:
+            free = function.__code__.co_freevars
+            if "__class__" in free:  # a cell that all methods share
+                function.__closure__[free.index("__class__")].cell_contents = made
+                return

@@ -13,13 +13,12 @@ What nothing here uses is left out: `InitVar`, `kw_only`, `order` and `unsafe_ha
 from __future__ import annotations
 
 import sys
-from functools import cached_property
 from operator import attrgetter
 from reprlib import recursive_repr
-from types import FunctionType, MappingProxyType, MemberDescriptorType
+from types import MappingProxyType, MemberDescriptorType
 from typing import TYPE_CHECKING, Any, ClassVar, get_origin
 
-from polycnc.deferred.class_statements import ClassStatement
+from polycnc.deferred.class_statements import ClassStatement, body_of, lead_super
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -94,13 +93,6 @@ _GIVEN = "__given_fields__"
 _MANY = 512
 #: Where a class keeps what `_put_values` does for its objects.
 _STEPS = "__steps_of_init__"
-#: Where members of a class that are no functions have theirs.
-_BEHIND: dict[type, str] = {
-    classmethod: "__func__",
-    staticmethod: "__func__",
-    property: "fget",
-    cached_property: "func",
-}
 #: Where the library keeps its fields.
 _OF_LIBRARY = "__dataclass_fields__"
 #: How the annotations of what is no field begin.
@@ -165,11 +157,8 @@ def _dataclass(cls: Any, *, frozen: bool, slots: bool, eq: bool) -> type:
     name, bases = cls.__name__, cls.__bases__
     like = cls if bases != (object,) else object
     if slots:
-        body = {**cls.__dict__, "__qualname__": cls.__qualname__}
-        for each in ("__dict__", "__weakref__"):
-            body.pop(each, None)
-        made = _with_slots(type(cls), name, bases, body, {}, like, frozen=frozen, eq=eq)
-        _lead_super(made, cls.__dict__)
+        made = _with_slots(type(cls), name, bases, body_of(cls), {}, like, frozen=frozen, eq=eq)
+        lead_super(made, cls)
         return made
     noted, members = _members(lambda: cls, name, bases, cls.__dict__, like, frozen=frozen, eq=eq)
     for each, value in noted.items():
@@ -221,7 +210,9 @@ def _members(
     noted: dict[str, object] = {
         each: take(each, MISSING)
         for each, hint in take("__annotations__", _NOTHING).items()
-        if not (hint.startswith(_CLASS_VARIABLES) if type(hint) is str else _is_of_class(hint))
+        if not (
+            hint.startswith(_CLASS_VARIABLES) if type(hint) is str else ClassVar in (hint, get_origin(hint))
+        )
     }
     if like is not object:
         noted = {
@@ -272,23 +263,6 @@ def _told(value: object) -> object:
         return value
     told = {name: getattr(value, name) for name in Field.__slots__ if name not in ("name", "type")}
     return Field(**{name: each for name, each in told.items() if each is not dataclasses.MISSING})
-
-
-def _is_of_class(hint: object) -> bool:
-    """Whether an annotation that is no text is no field's."""
-    return hint is ClassVar or get_origin(hint) is ClassVar
-
-
-def _lead_super(cls: type, body: Mapping[str, object]) -> None:
-    """Let `super()` in the methods of `body` mean the class that has slots, not the one whose body was read."""
-    for member in body.values():
-        behind = _BEHIND.get(type(member))
-        function = getattr(member, behind) if behind else member
-        if type(function) is FunctionType and function.__closure__ is not None:
-            free = function.__code__.co_freevars
-            if "__class__" in free:  # a cell that all methods share
-                function.__closure__[free.index("__class__")].cell_contents = cls
-                return
 
 
 # ---- fields ----------------------------------------------------------------------------------------------------
