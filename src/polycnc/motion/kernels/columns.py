@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from array import array
 from collections.abc import Sequence
-from ctypes import Structure
 from math import inf
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.kernels.c_types import Structure
 from polycnc.kernels.layout import Bytes, Floats, Ints, Ints32, Places, Words32, place, record
 from polycnc.transformation.orientation.linkage import room_for
 
