@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from polycnc.channel.states.unchanging import unchanging
 from polycnc.language.bulk.layout import Columns, NoteRecord
 from polycnc.program.long_text import LongText
+from polycnc.program.pages import CONTROLS
 from polycnc.toolpath.kinds import CURVE_WIDTH
 
 if TYPE_CHECKING:
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 FEWEST_LINES, MORE_LINES, MOST_LINES = 64, 4, 16_384
 #: Room for rows, and for notes and curves, at first; what has been filled becomes so much larger. Room for rows does
 #: when so many times as many have come: its memory is touched whole, and costs a short program more than its blocks.
-FIRST_ROWS, FIRST_OTHERS, MORE_ROOM = 1024, 64, 4
+FIRST_ROWS, FIRST_OTHERS, MORE_ROOM = 2048, 64, 4
 
 
 class Window:
@@ -58,6 +59,13 @@ class Window:
             )
             self.line = line
         return self.place < len(self.text)
+
+    def next_line(self) -> str:
+        """That line as text; empty behind the last one that has been read."""
+        if self.place == len(self.text):
+            return ""
+        text = self.text[self.place : self.text.index(_NEWLINE, self.place)].tobytes()
+        return text.translate(None, CONTROLS).decode("utf-8")
 
     def _read(self, lines: Sequence[str], line: int, end: int) -> None:
         self.lines, self.line, self.place = lines, line, 0

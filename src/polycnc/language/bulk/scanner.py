@@ -215,7 +215,7 @@ class Scanner:
             return False
         outcome = self._scanned(channel) if channel.path.is_idle else self._staged(channel)
         if outcome == layout.Outcome.UNKNOWN:
-            return self._learn(channel, lines[window.line]) and channel.level is level
+            return self._learn(channel, window.next_line()) and channel.level is level
         if channel.level is not level:
             return False
         if self._routines is not None:
@@ -407,15 +407,12 @@ class Scanner:
         room = self._room
         room.make_fit(at)
         chunk, c = channel.toolpath.chunk, channel.coordinates
-        # A new context is that of the first row: it must be known before the modal state goes on.
-        rows = 1 if channel.context_is_new else min(room.rows, max(CHUNK_ROWS - len(chunk), 0))
         window, spelling = self._window, dialect.spelling
         at.place, at.end = window.place, len(window.text)
         at.line = channel.level.code.program.first_line + window.line
         at.routine, at.frames, at.most_frames = NO_ROUTINE, 0, 0
         at.program = at.text_program = channel.level.program_number
         at.blocks, at.most_blocks = 0, channel.block_limit - channel.blocks
-        at.rows, at.most_rows = 0, rows
         at.notes, at.most_notes = 0, room.notes
         at.curves, at.most_curves = 0, room.curves
         at.first_curve = len(chunk.curves) // CURVE_WIDTH
@@ -440,6 +437,7 @@ class Scanner:
         at.turned, state.tool[0] = 0, -1.0
         _put(state.tool, dialect.tool(channel))
         _put_strokes(state.strokes, at.root, dialect.drilled(channel))
+        at.rows, at.most_rows = 0, self._most_rows(channel)
         _put(state.position, c.position)
         _put(state.programmed, c.programmed)
         _put(state.pending, c.pending)
@@ -447,6 +445,15 @@ class Scanner:
         _put(state.offsets, c.offsets)
         _put(state.low, [low for low, _ in limits])
         _put(state.high, [high for _, high in limits])
+
+    def _most_rows(self, channel: Channel) -> int:
+        """Rows that the next call of the kernel may give; a hole may go beyond the end of a chunk, as elsewhere."""
+        if channel.context_is_new:
+            return 1  # it is that of the first row, and must be known before the modal state goes on
+        left = CHUNK_ROWS - len(channel.toolpath.chunk)
+        if left > 0:
+            left = max(left, int(self._state.strokes[layout.Strokes.COUNT]) + 2)
+        return min(self._room.rows, max(left, 0))
 
     def _take_rows(self, channel: ScannedChannel) -> None:
         """Rows into the chunk; where a block has left a note, its steps act between them, as they would have there."""
