@@ -61,7 +61,7 @@ def scanned(
     control_id: str,
     setup: Mapping[str, Any] | None = None,
     *,
-    rooms: int = PLAIN.rooms,
+    bulk: Bulk = PLAIN,
     **limits: Any,
 ) -> int:
     """How many blocks of a program the scanner takes."""
@@ -73,7 +73,7 @@ def scanned(
         taken += state.scan.blocks
         return outcome
 
-    run(text, control_id, setup, replace(PLAIN, scan=scan, rooms=rooms), **limits)
+    run(text, control_id, setup, replace(bulk, scan=scan), **limits)
     return taken
 
 

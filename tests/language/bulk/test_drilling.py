@@ -100,5 +100,7 @@ def test_no_hole_is_the_interpreters_where_the_room_ends(cycle: str) -> None:
         "M30",
         "",
     ]
-    wide, narrow = (scanned("\n".join(lines), "fanuc-m", rooms=rooms) for rooms in (16_384, 50))
+    wide, narrow = (
+        scanned("\n".join(lines), "fanuc-m", bulk=replace(PLAIN, rooms=rooms)) for rooms in (16_384, 50)
+    )
     assert narrow == wide >= 300

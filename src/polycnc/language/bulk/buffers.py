@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 FEWEST_LINES, MORE_LINES, MOST_LINES = 64, 4, 16_384
 #: Room for rows, and for notes and curves, at first; what has been filled becomes so much larger. Room for rows does
 #: when so many times as many have come: its memory is touched whole, and costs a short program more than its blocks.
-FIRST_ROWS, FIRST_OTHERS, MORE_ROOM = 2048, 64, 4
+FIRST_ROWS, FIRST_OTHERS, MORE_ROOM = 4096, 64, 4
 
 
 class Window:
