@@ -56,7 +56,7 @@ class KernelHook(BuildHookInterface[BuilderConfig]):
                 return
         if version == "editable":
             return  # the source tree has them
-        build_data["artifacts"].append(f"/{native.FILE.relative_to(ROOT).as_posix()}")
+        build_data["artifacts"].append(f"/{Path(native.FILE).relative_to(ROOT).as_posix()}")
         build_data["pure_python"] = False
         build_data["tag"] = f"py3-none-{next(platform_tags())}"
 

@@ -13,13 +13,18 @@ import pytest
 from tqdm.utils import disp_len
 
 from polycnc.cli import progress
+from polycnc.cli.commands import features, plot
 from polycnc.cli.console import say
 from polycnc.cli.progress import Reached, Waiting, WaitingForRun, Watch, watched
 from polycnc.messages.catalogue import set_language
 from polycnc.session import open_session
+from tests.cli.console import GOOD
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+    from types import ModuleType
+
+    from tests.cli.console import Console
 
 
 class Terminal(io.StringIO):
@@ -211,6 +216,48 @@ def test_parts_are_counted_as_they_are_taken() -> None:
     waiting = Waiting("part.nc", 4, "rows")
     for part in waiting.each("abcd"):
         assert waiting.reached(0.0) == Reached("rows", "abcd".index(part), "abcd".index(part) / 4)
+
+
+def test_parts_that_are_gone_through_in_several_turns_count_on() -> None:
+    waiting: Any = Waiting("part.svg", 6, "points")
+    seen = [waiting.reached(0.0).done for turn in ("abc", "def") for _ in waiting.each(turn)]
+    assert seen[:3] == [0, 1, 2]
+    assert seen[3] == 2
+    assert seen[-1] >= 4
+
+
+def counted_by(monkeypatch: pytest.MonkeyPatch, module: ModuleType) -> list[Any]:
+    """What a command counts: number of parts, and what they are."""
+    told: list[Any] = []
+
+    class Counting(Waiting):
+        def __init__(self, what: str, total: int | None, unit: str) -> None:
+            super().__init__(what, total, unit)
+            told.append(self)
+
+    monkeypatch.setattr(module, "Waiting", Counting)
+    return told
+
+
+def test_a_drawing_counts_its_rows_and_then_its_points(
+    console: Console, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    told = counted_by(monkeypatch, plot)
+    console.file("good.nc", GOOD)
+    console("plot", "good.nc", "--control", "fanuc-m", "-o", "good.svg")
+    assert [waiting.reached(0.0).unit for waiting in told] == ["rows", "points"]
+    assert told[-1].reached(0.0).share > 0.9
+
+
+def test_features_of_a_folder_are_counted_by_files(console: Console, monkeypatch: pytest.MonkeyPatch) -> None:
+    told = counted_by(monkeypatch, features)
+    (console.folder / "cases").mkdir()
+    for name in "abc":
+        console.file(
+            f"cases/{name}.yaml", "- {id: 1, feature: f, control: fanuc-m, program: M30, expect: {}}\n"
+        )
+    console("features", "--from", "cases")
+    assert told[0].reached(0.0) == Reached("files", 2, 2 / 3)
 
 
 # ---- a run -----------------------------------------------------------------------------------------------------------

@@ -73,7 +73,7 @@ def test_the_wheel_has_the_object_and_the_tag_of_its_platform(monkeypatch: pytes
     monkeypatch.setattr(shared_object, "is_current", lambda: True)
     data: dict[str, object] = {"artifacts": []}
     hook.initialize("standard", data)
-    assert data["artifacts"] == [f"/src/polycnc/kernels/{native.FILE.name}"]
+    assert data["artifacts"] == [f"/src/polycnc/kernels/{Path(native.FILE).name}"]
     assert data["pure_python"] is False
     assert re.fullmatch(r"py3-none-\w+", str(data["tag"]))
     assert data["tag"] != "py3-none-any"

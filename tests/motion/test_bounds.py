@@ -119,6 +119,22 @@ CASES = {
     "curve, BRISK": Case(
         SINUMERIK, ("BRISK G64", "G2 X2 Y0 CR=1 F6000", "X0 CR=1"), Cause.CURVATURE, 40.0, "Y"
     ),
+    "curve, ACC": Case(
+        SINUMERIK, ("ACC[X]=10 ACC[Y]=10", "G64 G2 X40 Y0 CR=20 F12000"), Cause.CURVATURE, 30.0, "Y"
+    ),
+    "F on a curve, ACC": Case(
+        SINUMERIK, ("ACC[X]=10 ACC[Y]=10", "G64 G2 X40 Y0 CR=20 F2000"), Cause.FEED, 80.0
+    ),
+    "velocity on a curve, ACC": Case(
+        SINUMERIK, ("ACC[X]=50 VELOLIM[X]=2", "G64 G2 X400 Y0 CR=200 F12000"), Cause.PROGRAM_AXIS, 95.0, "X"
+    ),
+    "velocity on a curve, SOFT": Case(
+        SINUMERIK,
+        ("SOFT VELOLIM[X]=2", "G64 G2 X400 Y0 CR=200 F12000", "X0 CR=200"),
+        Cause.PROGRAM_AXIS,
+        90.0,
+        "X",
+    ),
     "curve, SOFT": Case(SINUMERIK, ("SOFT G64", "G2 X0 I20 F40000 TURN=3"), Cause.CURVATURE, 40.0, "X"),
     "ACC": Case(SINUMERIK, ("ACC[X]=10", "G1 X5 F6000"), Cause.ACCELERATION, 45.0, "X"),
     "acceleration, SOFT": Case(SINUMERIK, ("SOFT", "G1 X150 F90000"), Cause.ACCELERATION, 5.0, "X"),

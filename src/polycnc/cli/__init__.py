@@ -16,6 +16,8 @@ import os
 import sys
 from typing import TYPE_CHECKING, NoReturn
 
+from polycnc import finder
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -33,13 +35,14 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
     Without arguments of its own it is that of the process, which ends with it. Whoever interrupts it while its parts
     are still being loaded gets the same answer as later.
     """
-    gc.set_threshold(_NEW_OBJECTS)
     leaving = _Leaving()
-    if arguments is None:
-        _open_closed_streams()
-        os.environ.setdefault(_MATRIX_THREADS, "1")
-        atexit.register(leaving.end)  # as the first, so that it is called last
     try:
+        gc.set_threshold(_NEW_OBJECTS)
+        if arguments is None:
+            finder.install()
+            _open_closed_streams()
+            os.environ.setdefault(_MATRIX_THREADS, "1")
+            atexit.register(leaving.end)  # as the first, so that it is called last
         from polycnc.cli.app import main as run
 
         run(arguments)

@@ -9,7 +9,6 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from enum import StrEnum
-from pathlib import Path
 from types import GenericAlias
 from typing import TYPE_CHECKING, Any
 
@@ -20,7 +19,7 @@ from click.shell_completion import CompletionItem, shell_complete
 from polycnc.cli import completion, options
 from polycnc.cli.commands import COMMANDS, commands_of
 from polycnc.cli.console import say
-from polycnc.cli.declaration import REQUIRED, Argument, Command, without_none
+from polycnc.cli.declaration import REQUIRED, Argument, Command, Path, without_none
 from polycnc.cli.plain import COMPLETION
 from polycnc.cli.usage import HELP, translated
 from polycnc.messages import text

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import os
 import sys
-from contextlib import nullcontext
 
 from polycnc.cli.progress import away, encodable
+from polycnc.deferred.contexts import nullcontext
 
 _COLOURS = {"red": 31, "green": 32, "yellow": 33, "bold": 1}
 

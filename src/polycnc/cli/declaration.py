@@ -16,8 +16,21 @@ from polycnc.deferred.named_tuples import NamedTuple
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
+    from pathlib import Path
 
     Function = Callable[..., int | None]
+else:
+
+    class Path:
+        """The type of parameters that are files or folders: that of `pathlib`, which is loaded with the first."""
+
+        def __new__(cls, *parts):  # noqa: D102 - as that of the library
+            from pathlib import Path
+
+            return Path(*parts)
+
+
+__all__ = ["REQUIRED", "Argument", "Command", "Commands", "Option", "Parameter", "Path", "without_none"]
 
 #: The default of a parameter that must be given.
 REQUIRED = object()

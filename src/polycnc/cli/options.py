@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from enum import StrEnum
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from polycnc.channel.channel import DEFAULT_BLOCK_LIMIT
-from polycnc.cli.declaration import Option
+from polycnc.cli.declaration import Option, Path
+from polycnc.deferred.paths import text_of
 from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:
@@ -46,6 +46,12 @@ def expanded(names: Iterable[str]) -> list[str]:
         found = sorted(glob(name)) if has_magic(name) and not Path(name).exists() else []  # noqa: PTH207 - names stay as typed
         files += found or [name]
     return files
+
+
+def _file(name: str | Path) -> str | Path:
+    """A file as `open_session` takes it for one: a text of several lines would be a program."""
+    path = text_of(name)
+    return Path(path) if "\n" in path else path
 
 
 def _option(
@@ -89,18 +95,20 @@ class Opening:
 
     def session(
         self,
-        source: bytes | Path,
+        source: bytes | str | Path,
         *,
         name: str = "",
         keep: bool,
         timed: bool = True,
         memory: Path | None = None,
     ) -> Session:
-        """Open a session of a file, or of a text that has no file; `session.open_session` has the errors."""
+        """Open a session of a file, or of the bytes of a program without one; `session.open_session` has the errors."""
         from polycnc.cli.freed import keep_freed_memory
         from polycnc.session import open_session
 
         keep_freed_memory()
+        if not isinstance(source, bytes):
+            source = _file(source)
         return open_session(
             source, name=name, control=self.control, machine=self.machine, setup=self.setup,
             search=self.search or (), encoding=self.encoding, block_limit=self.block_limit,

@@ -8,12 +8,11 @@ whatever is wrong, Click reads, which knows how to say it.
 from __future__ import annotations
 
 import os
-from pathlib import Path
 from types import GenericAlias
 from typing import TYPE_CHECKING, Any
 
 from polycnc.cli.commands import COMMANDS, commands_of
-from polycnc.cli.declaration import REQUIRED, Argument, without_none
+from polycnc.cli.declaration import REQUIRED, Argument, Path, without_none
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence

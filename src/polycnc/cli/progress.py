@@ -9,10 +9,10 @@ from __future__ import annotations
 import _thread  # a fraction of what `threading` costs at every start
 import os
 import sys
-from contextlib import contextmanager
 from time import monotonic
 from typing import TYPE_CHECKING, ClassVar, Never, Protocol, Self, TypeVar
 
+from polycnc.deferred.contexts import contextmanager
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.messages import text
 
@@ -40,7 +40,7 @@ class Reached(NamedTuple):
     """How far a work is.
 
     Attributes:
-        unit: What is counted: `blocks`, `files`, `cases`, `rows`, `samples` or `seconds` (of machining).
+        unit: What is counted: `blocks`, `files`, `cases`, `rows`, `points`, `samples` or `seconds` (of machining).
         done: How many are done.
         share: The part of the work that is done, 0 to 1; None where nobody can know.
     """
@@ -278,8 +278,8 @@ class Waiting:
             self._share = min(done / max(self._total, 1), 1.0) if share is None else share
 
     def each(self, parts: Iterable[Part]) -> Iterator[Part]:
-        """The parts, which are counted."""
-        for done, part in enumerate(parts):
+        """The parts, which are counted; further ones on top of those before."""
+        for done, part in enumerate(parts, round(self._done)):
             self.reach(done)
             yield part
 

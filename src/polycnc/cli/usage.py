@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from functools import cache
-from pathlib import Path
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.paths import package_path, read_text
 from polycnc.messages.catalogue import LANGUAGES, language, language_of_environment
 
 if TYPE_CHECKING:
@@ -37,6 +37,5 @@ def translated(told: str) -> str:
 def _phrases(lang: str) -> tuple[tuple[re.Pattern[str], str], ...]:
     import tomllib
 
-    source = Path(__file__).with_name("usage.toml").read_text(encoding="utf-8")
-    table: dict[str, list[dict[str, str]]] = tomllib.loads(source)
+    table: dict[str, list[dict[str, str]]] = tomllib.loads(read_text(package_path("cli", "usage.toml")))
     return tuple((re.compile(row["pattern"], re.MULTILINE), row[lang]) for row in table["phrase"])

@@ -69,15 +69,19 @@ def top_of(records: Floats, at: int, n: int, tables: Tables, note: int, ledger: 
     own, pace = limits_of(tables, note, n), pace_of(tables, note, n)
     faster = tables.contexts[int(notes[note + Note.RECORD]) + ContextRecord.RAPID_SHARE] if rapid else 1.0
     tops = own + (Limit.TOP_RAPID if rapid else Limit.TOP_FEED) * n
-    paced = tables.paces[pace + Pacing.PACED] != 0.0
+    paced, larger = tables.paces[pace + Pacing.PACED] != 0.0, 1.0
+    if records[at + PieceRecord.FORM] == Form.CURVED and notes[note + Note.SHARED] == 0.0:
+        larger = notes[note + Note.EASE]  # MARGIN has it in it (`shared_ease`)
     for i in range(n):
-        share = share_of(records, at, n, i)
+        share = larger * share_of(records, at, n, i)
         if share > 0.0:
             if faster * tables.limits[tops + i] < top * share:
                 top, ledger.axis = faster * tables.limits[tops + i] / share, i
                 capped = tables.limits[own + Limit.CAPPED * n + i] != 0.0
                 ledger.cause = Held.RAPID if rapid else Held.AXIS_FEED if capped else Held.AXES
             if paced:
+                if records[at + PieceRecord.VECTORS + 2 * n + i] != 0.0:
+                    share = max(share, notes[note + Note.PLANAR])  # one bound for all of an arc
                 top = paced_top(tables, pace, n, i, rapid, share, top, ledger)
     return top
 

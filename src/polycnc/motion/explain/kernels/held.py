@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from ctypes import Structure
-
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.kernels.c_types import Structure
 from polycnc.kernels.layout import Floats, Places, place, record
 
 #: Part by which speeds that count as one may differ; squares of the speeds at a joint; a speed that follows the turning
@@ -55,10 +54,11 @@ class Note(Places):
     RECORD says where the record of its context begins, KIND is that of the kernels, LIMITS the number of its limits.
     ASKED is the speed that the program asks for, 0 where it asks for none; RADIUS the turning radius for which it does,
     0 where it holds all along, FACING what X of the work is above X of the machine, and COLUMN that of X. PATH is the
-    control's highest feed, BLOCK what it keeps up with, ARC what parameters allow on the arc, TOP what pace and
-    transformation do, on its first share where it is SHARED (1). AFTER says that it is accelerated after the
-    interpolation (1), RAPID that it is a rapid (1). EASE is the part of the acceleration of its axes that it may use,
-    TAP_PULL what the spindle allows a tap, else 0. STOP says that the axes rest before it whatever its corner is (1).
+    control's highest feed, BLOCK what it keeps up with, ARC what parameters allow on the arc, PLANAR the part of its
+    way that lies in its plane (0 of lines), TOP what pace and transformation do, on its first share where it is SHARED
+    (1). AFTER says that it is accelerated after the interpolation (1), RAPID that it is a rapid (1). EASE is the part
+    of the acceleration of its axes that it may use, TAP_PULL what the spindle allows a tap, else 0. STOP says that the
+    axes rest before it whatever its corner is (1).
 
     Of the joint at its start STEP2 is the squared speed by parameters, of which JOINT is the cause and JOINT_AXIS the
     axis. With averages CORNER2 is that by tolerance and geometry, PULL2 that by the acceleration of PULL_AXIS, and
@@ -75,6 +75,7 @@ class Note(Places):
     PATH = place()
     BLOCK = place()
     ARC = place()
+    PLANAR = place()
     TOP = place()
     SHARED = place()
     AFTER = place()

@@ -84,8 +84,9 @@ def note_rows(
             notes[at + Note.PATH], notes[at + Note.RAPID], notes[at + Note.AFTER] = inf, 1.0, 0.0
         for i in range(axes_of(state)):
             state.position[i] = state.target[i]
-        state.run.ease = state.share_ease[max(state.row.shares - 1, 0)]
-        state.run.corner_ease = state.share_ease[AT_END]
+        if moves:
+            state.run.ease = state.share_ease[max(state.row.shares - 1, 0)]
+            state.run.corner_ease = state.share_ease[AT_END]
 
 
 def note_stops(
@@ -112,6 +113,7 @@ def note_row(
     n, kind, weight = axes_of(state), state.row.kind, contexts[record + ContextRecord.ROTARY_WEIGHT]
     follows, radius, length, end_way = follows_radius(contexts, record), state.row.facing, 0.0, 0.0
     notes[at + Note.PATH], notes[at + Note.ARC], notes[at + Note.RAPID] = limits.path.path_feed, inf, 0.0
+    notes[at + Note.PLANAR] = 0.0
     arc = (CW <= kind <= HELIX_CCW or kind == THREAD) and state.row.curve >= 0.0
     if arc and find_arc(curves, contexts, record, limits, state):
         end_way = arc_point(state.arc.sweep, n, limits, weight, state)
@@ -119,6 +121,7 @@ def note_row(
         length, radius = 0.5 * (way + end_way) * state.arc.sweep, facing_radius(0.0, limits, state)
         asked = asked_on_arc(curves, contexts, record, limits, state, length, radius)
         notes[at + Note.ARC] = arc_top(contexts, record, way, end_way, limits, state)
+        notes[at + Note.PLANAR] = (state.arc.radius + 0.5 * state.arc.growth) * state.arc.sweep / length
     else:
         length, weight = counted_length(contexts, record, n, limits, state)
         if follows:
