@@ -15,11 +15,11 @@ from typing import TYPE_CHECKING
 
 from polycnc.motion.compiled import kernels, plain
 from polycnc.motion.kernels.columns import PLACES, Form, PieceRecord, Rows, new_state, piece_width
-from polycnc.motion.limits import ContextTables, averages, axis_rapids, is_bent_by_way, rotary_weight
+from polycnc.motion.limits import ContextTables, averages, axis_rapids, is_bent_by_way
 from polycnc.motion.settings import DEFAULT, Settings
 from polycnc.motion.standing.beside import Awaits, Beside
 from polycnc.motion.standing.waits import Waits, least_seconds
-from polycnc.motion.time_constants import Use, behind_s, is_ahead, use_of, uses_of
+from polycnc.motion.time_constants import Use, use_of, uses_of
 from polycnc.motion.times import Plan, Times, ToolTimes
 from polycnc.motion.transformed import RealAxes
 from polycnc.toolpath import Kind
@@ -28,13 +28,15 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
     from polycnc.machine import Machine
-    from polycnc.motion.kernels.columns import Limits
+    from polycnc.motion.kernels.columns import Limits, State
     from polycnc.motion.limits import AxisRapid
     from polycnc.motion.pole import PathLeg, Turn
     from polycnc.motion.standing.beside import Begins
     from polycnc.motion.third_order.laying.leading import LawRuns
     from polycnc.toolpath import Context, Toolpath
     from polycnc.toolpath.table import Chunk
+
+    _TakesRows = Callable[[Rows, int, array[float], int, array[float], Limits, State, bool], None]
 
 #: Pieces that the buffer takes at first, and pieces that it takes before it is looked at: twice as many each time that
 #: it has been looked at so often, for memory costs a short path more than looking; but no more than the last number.
@@ -60,6 +62,8 @@ class Planner:
 
     Attributes:
         on_pieces: See above; can be set as long as nothing is planned.
+        on_rows: Called with rows as they are laid out, from one on, with their curve parameters and number, contexts,
+            limits, the state before them, and whether they are accelerated after the interpolation.
         on_wait: Called when a row must wait, with row number, share (a field of `Times`), context number and seconds;
             before its pieces become final, but for what runs beside motion and outlasts it.
     """
@@ -86,6 +90,8 @@ class Planner:
         self._keep_rows = keep_rows
         self.on_pieces = on_pieces
         self.on_wait: Callable[[int, str, int, float], None] | None = None
+        self.on_rows: _TakesRows | None = None
+        self._laid = 0
         self._feed_profile = feed_profile
         self._kernels = kernels() if compiled else plain()
         self._state = new_state(self._axes, start)
@@ -113,6 +119,12 @@ class Planner:
         self._compiled = compiled
 
     @property
+    def unlaid(self) -> int:
+        """Rows of the chunk at hand that are not laid out yet; another thread may ask."""
+        laid = self._laid if self._runs is None else max(self._laid, self._runs.reached)
+        return max(self._next_row - laid, 0)
+
+    @property
     def facing(self) -> int:
         """The column of X, -1 for none."""
         return self._limits.geometry[0]
@@ -137,21 +149,9 @@ class Planner:
         return self._limits.top_feed, self._limits.top_rapid
 
     @property
-    def cut_limits(self) -> Limits:
-        """What bounds cuts without a transformation."""
-        return self._real.limits(None)
-
-    def rotary_weight(self, context: Context) -> float:
-        """Millimetres that a degree counts in the length that the feed refers to."""
-        return rotary_weight(context, self._settings)
-
-    def is_ahead(self, context: Context) -> bool:
-        """Whether parameters for corners and arcs of cuts that are planned ahead hold."""
-        return is_ahead(context, self._settings)
-
-    def behind_s(self, context: Context) -> float:
-        """The time constant behind the interpolation of cuts that are planned ahead, seconds."""
-        return 2.0 * behind_s(context, self._settings)
+    def settings(self) -> Settings:
+        """How the control leads the axes."""
+        return self._settings
 
     def rapids(self, ways: Sequence[float], context: Context) -> list[AxisRapid]:
         """How each axis runs a rapid by itself: none does under a transformation."""
@@ -211,6 +211,7 @@ class Planner:
             if edge in bounds.legs:
                 self._through_pole(bounds.legs[edge], chunk, edge, feed[edge])
                 row = edge + 1
+        self._laid = self._next_row
         return True
 
     def _is_outlasted(self, row: int) -> bool:
@@ -272,6 +273,10 @@ class Planner:
     def _lay(self, rows: Rows, row: int, curves: array[float], number: int) -> None:
         """Lay rows out from one on."""
         contexts = self._tables.of(self._use)
+        if self.on_rows is not None:
+            runs, after = self._runs, self._use is Use.AFTER
+            state = self._state if runs is None or not runs.is_open else runs.room.lead
+            self.on_rows(rows, row, curves, number, contexts, self._limits, state, after)
         if self._runs is not None:
             self._lay_runs(self._runs, rows, row, curves, number, contexts)
             return
@@ -279,6 +284,7 @@ class Planner:
             row = self._kernels.lay(
                 rows, row, curves, number, contexts, self._limits, self._pieces, self._state
             )
+            self._laid = number + row
             if row < len(rows.kind):
                 self._make_room()
 
@@ -290,6 +296,7 @@ class Planner:
 
         while row < len(rows.kind):
             row, why = runs.lay(rows, row, curves, number, contexts, self._limits, self._pieces, self._state)
+            self._laid = number + row
             self._take_windows(runs)
             if why == NO_PIECE:
                 self._make_room()
