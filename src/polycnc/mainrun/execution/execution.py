@@ -361,10 +361,13 @@ class Execution:
                 self.halted_behind = item.code
                 self.stop("single-block")
         elif isinstance(item, Standing):
+            self._turn_spindle(item.context)
             self.context = item.context
             self.rates.enter(item.context)
             self._until = self.clock.time + item.wait_s(self.clock.time)
             self._dwell_signal, self.stands_for = item.context.dwell_signal, item.why
+            if item.is_asked_again and self._until > self.clock.time:
+                self.preprocessing.items.appendleft(item)
         else:
             self.context = item.context
             self._machinery.perform(item)
@@ -373,6 +376,10 @@ class Execution:
             if self._machinery.busy:
                 self._look_ahead()
         return self.running
+
+    def _turn_spindle(self, context: Context) -> None:
+        """The spindle's angle follows what the operator has set."""
+        self.preprocessing.turn_spindle(context, self.rates.spindle, self.clock.time)
 
     def _work(self) -> None:
         """A block costs the control its time: a loop without a way, which has used up what was prepared, lasts."""
@@ -425,6 +432,7 @@ class Execution:
 
     def _take_up(self, piece: Piece, cap2: float) -> None:
         """A piece, or a row, is in execution."""
+        self._turn_spindle(piece.context)
         self._cap2, self.context, self.place = cap2, piece.context, piece.context
         if self.block is not None and (self.block.program, self.block.line) != (piece.program, piece.line):
             self._enter(self.block.followed_by(piece.program, piece.line, self.modal))
@@ -460,6 +468,7 @@ class Execution:
     def revise(self) -> None:
         """Something that bounds the speed has changed: the motion goes on accordingly from where it is."""
         self._blocked = False
+        self._turn_spindle(self.context)
         motion = self.motion
         if motion is None:
             at_rest = self._x2 == 0.0
