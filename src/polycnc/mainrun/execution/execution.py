@@ -91,7 +91,7 @@ class Execution:
         self._gated = self._waiting = self._blocked = self._moved_on = False
         self._by_hand: tuple[float, ...] = ()
         self._skip_after_s, self._skips_at = skip_after_s, inf
-        self._worked_until = -inf
+        self._worked_until = self._synchronised = -inf
         self._pieces = ByPieces(preprocessing, self.rates, clock)
         self._by_law = ByLaw(preprocessing, self.rates, clock, self._rest_before)
 
@@ -313,7 +313,9 @@ class Execution:
             return self._end(waiting.reason)
         if waiting.reason is Why.PREPROCESSING:
             self._machinery.synchronise()
-            self._until = self.clock.time + self.clock.cycle_s
+            if self._synchronised == self.clock.time:  # it looks again and again
+                self._until = self.clock.time + self.clock.cycle_s
+            self._synchronised = self.clock.time
         self.preprocessing.proceed()
         return True
 
@@ -574,7 +576,7 @@ class Execution:
 
     def start(self) -> None:
         """Go on, or begin."""
-        self.running, self.halt = True, ""
+        self.running, self.halt, self._synchronised = True, "", self.clock.time
         self.revise()
 
     def stop(self, reason: str) -> None:
