@@ -171,7 +171,7 @@ def test_an_angle_that_nobody_knows_takes_half_a_turn_again(why: str) -> None:
 
 def test_what_the_row_waits_for_besides_comes_first() -> None:
     """The axes settle and a function runs on before the thread begins: it still meets the first one."""
-    function = MFunction(8, Text("coolant"), 0.777, "with")  # type: ignore[arg-type]
+    function = MFunction(8, Text("coolant"), 0.777, "with")
     machine = replace(LATHE, settle_fine_s=0.05, m_functions={8: function})
     rows = Build(axes=("X", "Z"), context=replace(TURNING, corner_mode=CornerMode.EXACT_STOP))
     cut(rows, 19.0)
