@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from polycnc.mainrun import State
-from polycnc.session import open_session
-from tests.mainrun.support import power_on, recorded
+from tests.mainrun.support import power_on
 
 if TYPE_CHECKING:
     from polycnc.mainrun import VirtualControl
@@ -82,17 +81,3 @@ def test_a_spindle_override_between_two_cuts_counts() -> None:
     virtual.override(spindle=1.0)
     second = passes(virtual)
     assert is_whole((second - first - 0.5 * 0.732) * RPM / 60.0)
-
-
-@pytest.mark.parametrize(
-    "program", ["G31 X50. F500.", "#1=#5021\nG1 X[#1+50.] F500.\n#2=#5021", "G1 X50. F500.\n#2=#5021\nX20."]
-)
-def test_what_a_program_reads_behind_a_motion_costs_no_time(program: str) -> None:
-    text = f"O1\nG21 G90\nG0 X10.\n{program}\nG1 X0 F3000.\nM30\n"
-    planned = open_session(text.encode(), control="fanuc-m", keep=False).run().plan.total_s
-    virtual = power_on(text, "fanuc-m")
-    records, begun = recorded(virtual), virtual.time
-    virtual.cycle_start()
-    assert virtual.run(limit_s=100.0) is State.READY
-    end = next(record.time for record in reversed(records) if record.what == "state")
-    assert end - begun == pytest.approx(planned, abs=1e-6)

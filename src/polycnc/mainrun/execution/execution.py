@@ -91,7 +91,7 @@ class Execution:
         self._gated = self._waiting = self._blocked = self._moved_on = False
         self._by_hand: tuple[float, ...] = ()
         self._skip_after_s, self._skips_at = skip_after_s, inf
-        self._worked_until = self._synchronised = -inf
+        self._worked_until, self._has_skipped = -inf, False
         self._pieces = ByPieces(preprocessing, self.rates, clock)
         self._by_law = ByLaw(preprocessing, self.rates, clock, self._rest_before)
 
@@ -313,9 +313,9 @@ class Execution:
             return self._end(waiting.reason)
         if waiting.reason is Why.PREPROCESSING:
             self._machinery.synchronise()
-            if self._synchronised == self.clock.time:  # it looks again and again
+            if not self._has_skipped:  # behind a skip move a program waits for where it has ended, as planned
                 self._until = self.clock.time + self.clock.cycle_s
-            self._synchronised = self.clock.time
+            self._has_skipped = False
         self.preprocessing.proceed()
         return True
 
@@ -435,6 +435,7 @@ class Execution:
     def _take_up(self, piece: Piece, cap2: float) -> None:
         """A piece, or a row, is in execution."""
         self._turn_spindle(piece.context)
+        self._has_skipped = piece.kind == Kind.SKIP
         self._cap2, self.context, self.place = cap2, piece.context, piece.context
         if self.block is not None and (self.block.program, self.block.line) != (piece.program, piece.line):
             self._enter(self.block.followed_by(piece.program, piece.line, self.modal))
@@ -576,7 +577,7 @@ class Execution:
 
     def start(self) -> None:
         """Go on, or begin."""
-        self.running, self.halt, self._synchronised = True, "", self.clock.time
+        self.running, self.halt = True, ""
         self.revise()
 
     def stop(self, reason: str) -> None:
