@@ -19,6 +19,7 @@ from polycnc.motion.limits import ContextTables, averages, axis_rapids, is_bent_
 from polycnc.motion.settings import DEFAULT, Settings
 from polycnc.motion.standing.beside import Awaits, Beside
 from polycnc.motion.standing.waits import Waits, least_seconds
+from polycnc.motion.standing.zero_mark import lag_s
 from polycnc.motion.time_constants import Use, use_of, uses_of
 from polycnc.motion.times import Plan, Times, ToolTimes
 from polycnc.motion.transformed import RealAxes
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
     from polycnc.motion.kernels.columns import Limits, State
     from polycnc.motion.limits import AxisRapid
     from polycnc.motion.pole import PathLeg, Turn
-    from polycnc.motion.standing.beside import Begins
+    from polycnc.motion.standing.beside import Step
     from polycnc.motion.third_order.laying.leading import LawRuns
     from polycnc.toolpath import Context, Toolpath
     from polycnc.toolpath.table import Chunk
@@ -110,7 +111,8 @@ class Planner:
         self._next_row = 0
         self._waits = Waits(machine, toolpath.contexts, tool, self._wait)
         self._waits.rapid_stops, self._waits.spindle_wait = settings.rapid_stops, settings.spindle_wait
-        self._waits.step, self._beside = self._step, Beside()
+        self._waits.step, self._beside = self._step, Beside(self._lag_of)
+        self._final_row = 0  # rows before it are planned
         self._rests: set[int] = set()
         self._come_to_rest: dict[int, float] = {}  # by row: averages of a run that a function outlasts
         self._runs: LawRuns | None = None  # until a context asks for it
@@ -232,6 +234,15 @@ class Planner:
                 return pause if piece < first else 0.0
         return 0.0
 
+    def _lag_of(self, row: int) -> float | None:
+        """Seconds by which the axes of a thread are behind its spindle, up to speed; None before the row is planned."""
+        if row >= self._final_row:
+            return None
+        self._settle_parallel(row)
+        at = self._piece_of(row) * self._width
+        laid = at < self._state.run.pieces * self._width and self._pieces[at + PieceRecord.ROW] == row
+        return lag_s(self._pieces, at) if laid else 0.0
+
     def _piece_of(self, row: int) -> int:
         """The first piece in the buffer that belongs to a row or to one behind it."""
         piece = self._state.run.pieces
@@ -239,7 +250,7 @@ class Planner:
             piece -= 1
         return piece
 
-    def _step(self, step: Begins | Awaits) -> None:
+    def _step(self, step: Step) -> None:
         """Something begins beside the axes, or a row waits for it."""
         self._beside.note(step)
         if isinstance(step, Awaits) and step.rests:
@@ -386,6 +397,7 @@ class Planner:
         self._waits.settle(self._next_row)
         self._rest()
         self._look_ahead(self._next_row)
+        self._final_row = self._next_row
         self._beside.settle(self._next_row, self._seconds, self._wait)
         self._settle_parallel(self._next_row)
         return self._plan()
@@ -414,6 +426,7 @@ class Planner:
         reach back; the joint before them is taken as a stop.
         """
         count, width = self._state.run.pieces, self._width
+        self._final_row = self._final_row if end is None else end
         last = self._settled(count) if end is None else count
         if last <= 0:
             return
@@ -435,6 +448,7 @@ class Planner:
             self._first_row,
         )
         last_row = int(pieces[(final - 1) * width + PieceRecord.ROW]) if end is None else end
+        self._final_row = last_row + 1 if end is None else end
         self._beside.settle(last_row, self._seconds, self._wait)
         planned_rows = int(rest[PieceRecord.ROW]) if end is None else end
         self._settle_parallel(planned_rows)
@@ -449,6 +463,7 @@ class Planner:
     def _forget_rows(self, planned_rows: int) -> None:
         """All rows before one are planned: where rows are not kept, they are forgotten."""
         if not self._keep_rows:
+            self._final_row = planned_rows
             self._beside.settle(planned_rows, self._seconds, self._wait)
             needed = min([planned_rows, *(entry.row for entry in self._waits.parallel)])
             del self._rows[: 2 * (needed - self._first_row)]

@@ -2,7 +2,8 @@
 
 The times agree, and by the differences of the sampled positions themselves no axis exceeds its velocity, acceleration
 (what `ACC` leaves it) or, but under BRISK, its jerk. The main run passes the same places at the same times. Programs
-have lines, facets, arcs, helices, splines, rounded corners, rapids, threads, and lines and arcs under transformations.
+have lines, facets, arcs, helices, splines, rounded corners, rapids, threads and taps at several speeds of the spindle,
+and lines and arcs under transformations.
 `pytest --hypothesis-profile=explore` draws 2,000 others.
 """
 
@@ -20,7 +21,7 @@ from polycnc.mainrun import State
 from polycnc.motion.limits import channel_axes
 from polycnc.motion.sampling.samples import Samples
 from polycnc.session import open_session
-from tests.mainrun.motion.random_programs import Threads, Writer, writer
+from tests.mainrun.motion.random_programs import Writer, writer
 from tests.mainrun.support import power_on, recorded
 
 if TYPE_CHECKING:
@@ -80,13 +81,8 @@ def check(seed: int) -> None:
     total, end, samples, machine = planned(text, written)
     axes = channel_axes(machine, 1, machine.channels[0].names)
     rotary = [axis is not None and axis.rotary for axis in axes]
-    # In the samples a thread waits for the spindle's mark, for which plan and main run count half a turn.
-    threads = isinstance(written, Threads)
-    assert threads or end == pytest.approx(total, abs=1e-6), text
-    compared = 0 if threads else min(len(samples.time), PLACES)
-    assert executed(text, written, samples.position[:compared], rotary) == pytest.approx(total, abs=0.001), (
-        text
-    )
+    assert end == pytest.approx(total, abs=1e-6), text
+    assert executed(text, written, samples.position[:PLACES], rotary) == pytest.approx(total, abs=0.001), text
     steps = np.diff(samples.position, axis=0)
     middle = 0.5 * PERIOD * (samples.velocity[1:] + samples.velocity[:-1])
     change = np.diff(samples.acceleration, axis=0) * PERIOD**2 / 12.0

@@ -17,6 +17,7 @@ from polycnc.motion.kernels.columns import MAIN_RUN, TAP, Form, Limits, PieceRec
 from polycnc.motion.kernels.jerk import window_s
 from polycnc.motion.limits import ContextTables
 from polycnc.motion.standing.waits import least_seconds
+from polycnc.motion.standing.zero_mark import lag_s
 from polycnc.motion.time_constants import Use
 
 if TYPE_CHECKING:
@@ -252,6 +253,11 @@ class PieceBuffer:
     def front(self, name: int) -> float:
         """A field of the piece in front."""
         return self._records[self._taken * self._width + name]
+
+    @property
+    def lag(self) -> float:
+        """Seconds by which the axes are behind a spindle that the piece in front follows, up to speed."""
+        return lag_s(self._records, self._taken * self._width) if len(self) else 0.0
 
     @property
     def is_last_of_row(self) -> bool:
