@@ -156,7 +156,7 @@ class PieceBuffer:
             self._records[at + PieceRecord.FORM] = Form.CURVED  # its bounds reach ahead, and it is never cut
         rows[0].before.restore(state)
         state.run.is_bent = 1.0
-        if way is None:
+        if way is None or rows[0].rests:
             state.run.stop, state.run.alone = 1.0, 0.0
         state.run.pieces = first
         for k, prepared in enumerate(rows):
@@ -204,6 +204,15 @@ class PieceBuffer:
     def goes_on(self, row: float) -> bool:
         """Whether the piece in front belongs to a row."""
         return len(self) > 0 and self._row_of(self._taken) == row
+
+    @property
+    def rests_around(self) -> bool:
+        """Whether the axes rest before the piece in front, and behind its row."""
+        width, at, end = self._width, self._taken * self._width, self.state.run.pieces * self._width
+        row, rests = self._records[at + PieceRecord.ROW], self._records[at + PieceRecord.PAUSE] > 0.0
+        while at < end and self._records[at + PieceRecord.ROW] == row:
+            at += width
+        return rests and (at >= end or self._records[at + PieceRecord.PAUSE] > 0.0)
 
     def rows_from_rest(self) -> set[float]:
         """The rows ahead before which the axes rest."""
