@@ -156,7 +156,7 @@ class PieceBuffer:
             self._records[at + PieceRecord.FORM] = Form.CURVED  # its bounds reach ahead, and it is never cut
         rows[0].before.restore(state)
         state.run.is_bent = 1.0
-        if way is None or rows[0].rests:
+        if way is None:
             state.run.stop, state.run.alone = 1.0, 0.0
         state.run.pieces = first
         for k, prepared in enumerate(rows):
