@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from math import cos, degrees, hypot, sin
+from math import cos, degrees, hypot, radians, sin
 from random import Random
 from typing import TYPE_CHECKING, ClassVar
 
@@ -326,6 +326,46 @@ class Paced(Writer):
             self.left[axis] = 0.01 * per_cent
             words += f"\nACC[{axis}]={per_cent}"
         return words
+
+
+class Back(Writer):
+    """Lines, arcs and splines in a plane; many turn back on the one before, not quite in its direction."""
+
+    heading: float = 0.0
+
+    def program(self) -> str:
+        draw = self.random
+        self.lines = [f"G71 G90 {self.modes()}"]
+        for k in range(draw.randint(2, 7)):
+            self.feed = f" F{draw.choice(FEEDS)}." if k == 0 or draw.random() < 0.3 else ""
+            turn = draw.uniform(-14.0, 14.0) + 180.0 if draw.random() < 0.6 else draw.uniform(-180.0, 180.0)
+            self.heading += turn
+            draw.choice((self.ahead, self.ahead, self.bow, self.curve))()
+        return "\n".join([*self.lines, "M30", ""])
+
+    def go(self, way: float, turn: float = 0.0) -> None:
+        x, y, z = self.place
+        angle = radians(self.heading + turn)
+        self.place = round(x + way * cos(angle), 4), round(y + way * sin(angle), 4), z
+
+    def ahead(self) -> None:
+        self.go(self.random.choice((0.3, 3.0, 25.0)))
+        self.write("G1")
+
+    def bow(self) -> None:
+        draw = self.random
+        radius, sweep = draw.uniform(0.5, 15.0), draw.choice((1.0, -1.0)) * draw.uniform(10.0, 170.0)
+        self.go(2.0 * radius * sin(radians(0.5 * abs(sweep))), 0.5 * sweep)
+        self.heading += sweep
+        self.write("G3" if sweep > 0.0 else "G2", rest=f" CR={radius:.4f}")
+
+    def curve(self) -> None:
+        for k in range(self.random.randint(3, 5)):
+            self.go(self.random.uniform(0.5, 4.0))
+            self.write("ASPLINE" if k == 0 else "")
+            self.heading += self.random.uniform(-40.0, 40.0)
+        self.go(2.0)
+        self.write("G1")
 
 
 class Plane(Writer):

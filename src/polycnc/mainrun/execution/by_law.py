@@ -150,6 +150,8 @@ class ByLaw:
         self._fed, closed = move.row, False
         while not closed and len(rows.rows) < 2:
             closed = self._feed() or (len(rows.rows) < 2 and not self._fill_on())
+        if rows.is_one_line:
+            self._preprocessing.revised |= self._preprocessing.queue.lay_alone(self._rates)
         if not rows.rows or rows.is_one_line:
             return None
         assert move.prepared is not None

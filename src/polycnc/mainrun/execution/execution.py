@@ -418,6 +418,7 @@ class Execution:
             self.motion = led
             self._take_up(led.piece, cap2)
             return True
+        cap2 = self.preprocessing.front_cap2(self.rates)  # it may have been laid out again
         if self.preprocessing.is_last_piece:
             self.preprocessing.end_in_rest()
             self.preprocessing.revised = True

@@ -206,6 +206,15 @@ class PieceBuffer:
         """Whether the piece in front belongs to a row."""
         return len(self) > 0 and self._row_of(self._taken) == row
 
+    @property
+    def rests_around(self) -> bool:
+        """Whether the axes rest before the piece in front, and behind its row."""
+        width, at, end = self._width, self._taken * self._width, self.state.run.pieces * self._width
+        row, rests = self._records[at + PieceRecord.ROW], self._records[at + PieceRecord.PAUSE] > 0.0
+        while at < end and self._records[at + PieceRecord.ROW] == row:
+            at += width
+        return rests and (at >= end or self._records[at + PieceRecord.PAUSE] > 0.0)
+
     def rows_from_rest(self) -> set[float]:
         """The rows ahead before which the axes rest."""
         found: set[float] = set()

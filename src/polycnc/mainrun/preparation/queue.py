@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from itertools import islice
 from math import inf
 from typing import TYPE_CHECKING, Any
 
+from polycnc.deferred.records import replace
 from polycnc.mainrun.motion.geometry import piece_cubic
 from polycnc.mainrun.preparation.items import Block, BlockEnd, Move, Piece
 from polycnc.mainrun.preparation.layout import Layout
@@ -161,6 +163,20 @@ class Queue:
             self.items.appendleft(front)
         front.done = max(done - on_piece, 0.0) / front.total
         return self._piece(front, record, is_last=is_last), record, on_piece
+
+    def lay_alone(self, rates: ChannelRates) -> bool:
+        """The straight row in front is a run of its own, from rest to rest: lay it out so; whether it was not.
+
+        Where a law rests, as at a turn back, is known only when it is found; averages may pass such a corner.
+        """
+        if self._buffer.rests_around:
+            return False
+        moves = (item for item in self.items if isinstance(item, Move))
+        for move in islice(moves, 2):  # and what comes behind it
+            if move.prepared is not None:
+                move.prepared = replace(move.prepared, rests=True)
+        self.lay_again(rates, at_rest=True)
+        return True
 
     def _row_is_prepared(self, move: Move) -> bool:
         """Whether pieces of a row are still to come."""
