@@ -1,0 +1,213 @@
+"""Kernel: the ends of short cuts become points of a smoother path, none of them farther off than it may be.
+
+A block that a CAM system has written ends beside the surface by what its tolerance and its decimals leave. Where the path
+really goes is told by the ends around: at each end a parabola is fitted to those within `reach` of it, by the way along the
+lines, the nearer ones with more weight (local regression; Savitzky and Golay, Cleveland). It keeps lines, and curves as
+far as they bend evenly: points of a circle stay on it. What the parabola misses an end by is the `fit`.
+
+Where the fit is more than the deviation allowed, the ends around are no noise but a corner, and stay: `free` falls from 1
+there to 0 at twice the deviation. An end is moved by its fit times the mean, over its reach, of the least `free` within
+reach of each: so the path fades into corners without kinks of its own. That mean is not above the end's own `free`, and
+`free` times the fit never above the deviation. Between two ends the lines are off by no more than at these.
+
+What the fit sees shrinks evenly to the first and the last end of a run, which stay. Every end depends on those within
+three times its reach alone: it does not matter in what parts a run comes.
+"""
+
+from __future__ import annotations
+
+from ctypes import Structure
+from math import sqrt
+
+from polycnc.kernels.layout import Floats, Ints, Ints32, record
+from polycnc.toolpath.kinds import CURVE_WIDTH, NO_CURVE
+
+#: So little of its scale is a determinant that tells no parabola.
+_FLAT = 1e-9
+#: Numbers of a point.
+POINT = 3
+
+
+@record
+class FairedRun(Structure):
+    """A run on its way through the kernel; its arrays hold the points that are still needed.
+
+    Attributes:
+        points: How many they hold.
+        before: How many of the run have been forgotten.
+        measured: Points whose way is known; `fitted`: those whose fit is; `lessened`: those with a least `free`;
+            `settled`: those whose shift is.
+        reach: As `Fairing` says.
+        ended: No more points come.
+        deviation: How far a point may be moved, mm.
+    """
+
+    points: int
+    before: int
+    measured: int
+    fitted: int
+    lessened: int
+    settled: int
+    reach: int
+    ended: int
+    deviation: float
+
+
+def fair(
+    run: FairedRun, place: Floats, way: Floats, fit: Floats, free: Floats, least: Floats, shift: Floats
+) -> int:
+    """Work off what is known of a run; gives how many points are settled.
+
+    Args:
+        run: The run.
+        place: Where its points are, mm, `POINT` numbers each.
+        way: Room for the way up to each point, mm.
+        fit: Room for what the parabola at each point misses it by, mm, `POINT` numbers each.
+        free: Room for the part of the fit that one point allows.
+        least: Room for the least part within reach.
+        shift: Room for how far each point is moved, mm, `POINT` numbers each.
+    """
+    reach, count = run.reach, run.points
+    while run.measured < count:
+        measure(run, place, way)
+    while run.fitted < count and (run.ended != 0 or run.fitted + reach < count):
+        fit_point(run, place, way, fit, free)
+    while run.lessened < run.fitted and (run.ended != 0 or run.lessened + reach < run.fitted):
+        i, part = run.lessened, 1.0
+        for j in range(max(i - reach, 0), min(i + reach + 1, run.fitted)):
+            part = min(part, free[j])
+        least[i] = part
+        run.lessened += 1
+    while run.settled < run.lessened and (run.ended != 0 or run.settled + reach < run.lessened):
+        i, total = run.settled, 0.0
+        first, end = max(i - reach, 0), min(i + reach + 1, run.lessened)
+        for j in range(first, end):
+            total += least[j]
+        part = min(total / (end - first), free[i])
+        for k in range(POINT):
+            shift[POINT * i + k] = part * fit[POINT * i + k]
+        run.settled += 1
+    return run.settled
+
+
+def measure(run: FairedRun, place: Floats, way: Floats) -> None:
+    """Add the line to the next point to the way."""
+    i, line2 = run.measured, 0.0
+    if i == 0:
+        way[0] = 0.0
+    else:
+        for k in range(POINT):
+            step = place[POINT * i + k] - place[POINT * (i - 1) + k]
+            line2 += step * step
+        way[i] = way[i - 1] + sqrt(line2)
+    run.measured += 1
+
+
+def fit_point(run: FairedRun, place: Floats, way: Floats, fit: Floats, free: Floats) -> None:
+    """Fit a parabola around the next point, as far to either side as the way goes on the shorter one."""
+    i = run.fitted
+    side = min(run.reach, run.before + i)
+    if run.ended != 0:
+        side = min(side, run.points - 1 - i)
+    off = 0.0
+    for k in range(POINT):
+        fit[POINT * i + k] = 0.0
+    if side > 1:
+        off = put_fit(i, side, place, way, fit)
+    free[i] = 1.0
+    if off > run.deviation:
+        free[i] = max(2.0 - off / run.deviation, 0.0)
+    run.fitted += 1
+
+
+def put_fit(i: int, side: int, place: Floats, way: Floats, fit: Floats) -> float:
+    """Write the fit of point i by so many points on either side; gives its size, mm."""
+    half = min(way[i] - way[i - side], way[i + side] - way[i]) * (side + 1.0) / side
+    m0, m1, m2, m3, m4 = 0.0, 0.0, 0.0, 0.0, 0.0
+    x0, x1, x2, y0, y1, y2, z0, z1, z2 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    for j in range(i - side, i + side + 1):
+        t = (way[j] - way[i]) / half
+        near = 1.0 - t * t
+        if near > 0.0:
+            weight = near * near * near
+            first, second = weight * t, weight * t * t
+            m0, m1, m2, m3, m4 = m0 + weight, m1 + first, m2 + second, m3 + second * t, m4 + second * t * t
+            x, y, z = (
+                place[POINT * j] - place[POINT * i],
+                place[POINT * j + 1] - place[POINT * i + 1],
+                place[POINT * j + 2] - place[POINT * i + 2],
+            )
+            x0, x1, x2 = x0 + weight * x, x1 + first * x, x2 + second * x
+            y0, y1, y2 = y0 + weight * y, y1 + first * y, y2 + second * y
+            z0, z1, z2 = z0 + weight * z, z1 + first * z, z2 + second * z
+    a, b, c = m2 * m4 - m3 * m3, m1 * m4 - m2 * m3, m1 * m3 - m2 * m2
+    determinant = m0 * a - m1 * b + m2 * c
+    if determinant <= _FLAT * m0 * m2 * m4:
+        return 0.0
+    x, y, z = (
+        (x0 * a - x1 * b + x2 * c) / determinant,
+        (y0 * a - y1 * b + y2 * c) / determinant,
+        (z0 * a - z1 * b + z2 * c) / determinant,
+    )
+    fit[POINT * i], fit[POINT * i + 1], fit[POINT * i + 2] = x, y, z
+    return sqrt(x * x + y * y + z * z)
+
+
+def add_points(
+    ends: Floats, n: int, geometry: Ints, frame: Floats, longest: float, run: FairedRun, place: Floats
+) -> int:
+    """Add where rows end to the points of a run, up to a row that is too long or has no way; gives how many.
+
+    Args:
+        ends: Ends of rows, n numbers each.
+        n: Number of axes.
+        geometry: Columns of X, Y and Z, -1 for a missing one.
+        frame: Where X, Y and Z of the ends lead, nine numbers by rows.
+        longest: Longest row, mm.
+        run: The run, which has a point at least.
+        place: Its points, with room for all.
+    """
+    for row in range(len(ends) // n):
+        at, line2 = POINT * run.points, 0.0
+        for j in range(POINT):
+            value = 0.0
+            for k in range(POINT):
+                if geometry[k] >= 0:
+                    value += frame[POINT * j + k] * ends[row * n + geometry[k]]
+            step = value - place[at - POINT + j]
+            place[at + j] = value
+            line2 += step * step
+        if not 0.0 < line2 <= longest * longest:
+            return row
+        run.points += 1
+    return len(ends) // n
+
+
+def note_shifts(shift: Floats, first: int, count: int, curves: Floats, numbers: Ints32) -> int:
+    """Write the curve parameters of rows (`CURVE_WIDTH`); gives how many have any.
+
+    Args:
+        shift: How far points are moved.
+        first: The point at which the first row ends; the one in front is its start.
+        count: Of the rows.
+        curves: Room for their parameters.
+        numbers: Gets the number of each row's parameters, `NO_CURVE` for one that is led as it is programmed.
+    """
+    found, before = 0, size(shift, first - 1)
+    for row in range(count):
+        own, at = size(shift, first + row), CURVE_WIDTH * found
+        numbers[row] = NO_CURVE
+        if before > 0.0 or own > 0.0:
+            for k in range(POINT):
+                curves[at + k] = shift[POINT * (first + row) + k]
+            curves[at + POINT] = max(before, own)
+            numbers[row] = found
+            found += 1
+        before = own
+    return found
+
+
+def size(shift: Floats, i: int) -> float:
+    """How far point i is moved, mm."""
+    x, y, z = shift[POINT * i], shift[POINT * i + 1], shift[POINT * i + 2]
+    return sqrt(x * x + y * y + z * z)
