@@ -23,8 +23,11 @@ LIBRARY = Library(
     "toolpath",
     ("polycnc.toolpath.survey", "polycnc.toolpath.digits", _FAIRING),
     (
-        "polycnc.toolpath.survey.survey", "polycnc.toolpath.digits.fill",
-        f"{_FAIRING}.add_points", f"{_FAIRING}.fair", f"{_FAIRING}.note_shifts",
+        "polycnc.toolpath.survey.survey",
+        "polycnc.toolpath.digits.fill",
+        f"{_FAIRING}.add_points",
+        f"{_FAIRING}.fair",
+        f"{_FAIRING}.note_shifts",
     ),
     inline=True,
 )

@@ -88,7 +88,7 @@ class FairingStage(Stage):
             self._end_run()
             return self.after.run(run)
         count = min(run.kinds.tobytes().find(Kind.RAPID) % (len(run.kinds) + 1), AT_ONCE)
-        return self._take(run.part(count)) if count and not self._channel.single_block else 0
+        return self._take(run.part(count)) if count and not self._halts else 0
 
     def flush(self) -> None:
         """The run ends here."""
@@ -99,8 +99,14 @@ class FairingStage(Stage):
         """Whether a move may belong to a run, as far as it tells by itself."""
         context = self._channel.toolpath.contexts[move.context]
         is_line = move.kind is Kind.FEED and move.center is None and not move.parameters
-        as_written = move.origin == PROGRAMMED and move.turning is None and not self._channel.single_block
+        as_written = move.origin == PROGRAMMED and move.turning is None and not self._halts
         return is_line and as_written and _fairing(context) is not None
+
+    @property
+    def _halts(self) -> bool:
+        """Whether every block is to end where it is programmed, because the operator halts there."""
+        main_run = self._channel.main_run
+        return self._channel.single_block if main_run is None else main_run.one_block
 
     # ---- the run -------------------------------------------------------------------------------------------
 
@@ -175,9 +181,7 @@ class FairingStage(Stage):
         """Pass on the rows whose ends are settled, and forget what no other end asks for."""
         rows, run = self._rows, self._run
         assert rows is not None
-        settled = fairing().fair(
-            run, self._place, self._way, self._fit, self._free, self._least, self._shift
-        )
+        settled = fairing().fair(run, self._place, self._way, self._fit, self._free, self._least, self._shift)
         count = settled - self._passed
         if count <= 0:
             return
@@ -207,17 +211,25 @@ class FairingStage(Stage):
         self._passed -= count
 
     def _pass_run(self, run: Run) -> int:
-        """Pass cuts on, one by one where the next stage wants that."""
-        count, axes = len(run.kinds), len(run.start)
-        done = self.after.run(run)
+        """Pass cuts on; who executes them is told where each block ends."""
+        main_run, count = self._channel.main_run, len(run.kinds)
+        done = self.after.run(run) if main_run is None else 0
         for i in range(done, count):
-            start = run.ends[(i - 1) * axes : i * axes].tolist() if i else run.start
-            end, at = run.ends[i * axes : (i + 1) * axes].tolist(), CURVE_WIDTH * run.curves[i]
-            move = Move(Kind.FEED, start, end, run.feeds[i], run.program, run.lines[i], run.context)
-            if run.parameters is not None and at >= 0:
-                move.parameters = tuple(run.parameters[at : at + CURVE_WIDTH])
-            self.after.move(move)
+            if main_run is not None:
+                main_run.end_held_block()
+            self.after.move(_move(run, i))
         return count
+
+
+def _move(run: Run, i: int) -> Move:
+    """A cut of a run."""
+    axes, at = len(run.start), CURVE_WIDTH * run.curves[i]
+    start = run.ends[(i - 1) * axes : i * axes].tolist() if i else run.start
+    end = run.ends[i * axes : (i + 1) * axes].tolist()
+    move = Move(Kind.FEED, start, end, run.feeds[i], run.program, run.lines[i], run.context)
+    if run.parameters is not None and at >= 0:
+        move.parameters = tuple(run.parameters[at : at + CURVE_WIDTH])
+    return move
 
 
 def _fairing(context: Context) -> Fairing | None:
