@@ -67,12 +67,12 @@ class Fairing:
     """How far cuts that follow each other in short blocks may be led beside their ends, to be smoother (`fairing.py`).
 
     Attributes:
-        deviation_mm: An end may be moved by so much.
+        tolerance_mm: The path may leave the programmed lines by so much, rounding included.
         reach: So many ends before and behind it tell where the smooth path lies.
         longest_mm: Longer blocks stay as they are.
     """
 
-    deviation_mm: float
+    tolerance_mm: float
     reach: int
     longest_mm: float
 

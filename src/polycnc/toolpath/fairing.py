@@ -1,14 +1,16 @@
 """Kernel: the ends of short cuts become points of a smoother path, none of them farther off than it may be.
 
-A block that a CAM system has written ends beside the surface by what its tolerance and its decimals leave. Where the path
-really goes is told by the ends around: at each end a parabola is fitted to those within `reach` of it, by the way along the
-lines, the nearer ones with more weight (local regression; Savitzky and Golay, Cleveland). It keeps lines, and curves as
-far as they bend evenly: points of a circle stay on it. What the parabola misses an end by is the `fit`.
+A block that a CAM system has written ends beside the surface by what its tolerance and its decimals leave. Where the
+path really goes is told by the ends around: at each end a parabola is fitted to those within `reach` of it, by the way
+along the lines, the nearer ones with more weight (local regression; Savitzky and Golay, Cleveland). It keeps lines, and
+curves as far as they bend evenly: points of a circle stay on it. What the parabola misses an end by is the `fit`.
 
-Where the fit is more than the deviation allowed, the ends around are no noise but a corner, and stay: `free` falls from 1
-there to 0 at twice the deviation. An end is moved by its fit times the mean, over its reach, of the least `free` within
-reach of each: so the path fades into corners without kinks of its own. That mean is not above the end's own `free`, and
-`free` times the fit never above the deviation. Between two ends the lines are off by no more than at these.
+Of the tolerance comes first what the parabola's own bend asks for, so that its corners can be rounded from line to line
+(`BEND`); an end may be moved by what is left, and by no more than `PART` of the tolerance. Where the fit is more than
+that, the ends around are no noise but a corner, and stay: `free` falls from 1 there to 0 at twice as much. An end is
+moved by its fit times the mean, over its reach, of the least `free` within reach of each: so the path fades into corners
+without kinks of its own. That mean is not above the end's own `free`, and `free` times the fit never above what the end
+may be moved by. Between two ends the lines are off by no more than at these.
 
 What the fit sees shrinks evenly to the first and the last end of a run, which stay. Every end depends on those within
 three times its reach alone: it does not matter in what parts a run comes.
@@ -22,6 +24,11 @@ from math import sqrt
 from polycnc.kernels.layout import Floats, Ints, Ints32, record
 from polycnc.toolpath.kinds import CURVE_WIDTH, NO_CURVE
 
+#: Part of the tolerance by which an end is moved at most; `LEAST_LEFT` of `motion/kernels/feeds.py` is for rounding.
+PART = 0.8
+#: Rounding the corners of chords of a curve from line to line takes it off them by their height (an eighth of the turn
+#: times the length), where its curvature is even by a third more.
+BEND = 1.5
 #: So little of its scale is a determinant that tells no parabola.
 _FLAT = 1e-9
 #: Numbers of a point.
@@ -39,7 +46,7 @@ class FairedRun(Structure):
             `settled`: those whose shift is.
         reach: As `Fairing` says.
         ended: No more points come.
-        deviation: How far a point may be moved, mm.
+        tolerance: How far the path may leave the lines, mm.
     """
 
     points: int
@@ -50,7 +57,7 @@ class FairedRun(Structure):
     settled: int
     reach: int
     ended: int
-    deviation: float
+    tolerance: float
 
 
 def fair(
@@ -109,19 +116,19 @@ def fit_point(run: FairedRun, place: Floats, way: Floats, fit: Floats, free: Flo
     side = min(run.reach, run.before + i)
     if run.ended != 0:
         side = min(side, run.points - 1 - i)
-    off = 0.0
     for k in range(POINT):
         fit[POINT * i + k] = 0.0
+    free[i], height = 1.0, 0.0
     if side > 1:
-        off = put_fit(i, side, place, way, fit)
-    free[i] = 1.0
-    if off > run.deviation:
-        free[i] = max(2.0 - off / run.deviation, 0.0)
+        height = put_fit(i, side, place, way, fit)
+    off, left = size(fit, i), min(PART * run.tolerance, run.tolerance - BEND * height)
+    if off > left:
+        free[i] = max(2.0 - off / left, 0.0) if left > 0.0 else 0.0
     run.fitted += 1
 
 
 def put_fit(i: int, side: int, place: Floats, way: Floats, fit: Floats) -> float:
-    """Write the fit of point i by so many points on either side; gives its size, mm."""
+    """Write the fit of point i by so many points on either side; gives the height of the parabola over its lines, mm."""
     half = min(way[i] - way[i - side], way[i + side] - way[i]) * (side + 1.0) / side
     m0, m1, m2, m3, m4 = 0.0, 0.0, 0.0, 0.0, 0.0
     x0, x1, x2, y0, y1, y2, z0, z1, z2 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
@@ -144,13 +151,15 @@ def put_fit(i: int, side: int, place: Floats, way: Floats, fit: Floats) -> float
     determinant = m0 * a - m1 * b + m2 * c
     if determinant <= _FLAT * m0 * m2 * m4:
         return 0.0
-    x, y, z = (
-        (x0 * a - x1 * b + x2 * c) / determinant,
-        (y0 * a - y1 * b + y2 * c) / determinant,
-        (z0 * a - z1 * b + z2 * c) / determinant,
-    )
-    fit[POINT * i], fit[POINT * i + 1], fit[POINT * i + 2] = x, y, z
-    return sqrt(x * x + y * y + z * z)
+    fit[POINT * i] = (x0 * a - x1 * b + x2 * c) / determinant
+    fit[POINT * i + 1] = (y0 * a - y1 * b + y2 * c) / determinant
+    fit[POINT * i + 2] = (z0 * a - z1 * b + z2 * c) / determinant
+    e, f = m0 * m3 - m1 * m2, m0 * m2 - m1 * m1
+    x = (x0 * c - x1 * e + x2 * f) / determinant
+    y = (y0 * c - y1 * e + y2 * f) / determinant
+    z = (z0 * c - z1 * e + z2 * f) / determinant
+    line = max(way[i] - way[i - 1], way[i + 1] - way[i]) / half
+    return sqrt(x * x + y * y + z * z) * line * line / 4.0
 
 
 def add_points(
@@ -208,6 +217,6 @@ def note_shifts(shift: Floats, first: int, count: int, curves: Floats, numbers: 
 
 
 def size(shift: Floats, i: int) -> float:
-    """How far point i is moved, mm."""
+    """Length of the vector of point i."""
     x, y, z = shift[POINT * i], shift[POINT * i + 1], shift[POINT * i + 2]
     return sqrt(x * x + y * y + z * z)

@@ -137,7 +137,7 @@ class FairingStage(Stage):
 
     def _begin(self, cuts: Run, rule: Fairing, context: Context) -> None:
         """A run begins where the first cut does."""
-        self._run = FairedRun(points=1, reach=rule.reach, deviation=rule.deviation_mm)
+        self._run = FairedRun(points=1, reach=rule.reach, tolerance=rule.tolerance_mm)
         self._rows, self._passed = cuts.part(0), 1
         self._place[:] = array("d", _seen(cuts.start, self._channel.coordinates.geometry, context))
         for room, width in self._room():

@@ -35,8 +35,6 @@ NOT_COMPRESSED = frozenset((*CONES, *BY_PATH, "ORICURVE"))
 BY_CONTOUR, BY_ORIENTATION = (1, 3), (2, 3)
 
 
-#: Part of the tolerance that a compressor leads ends of blocks beside the programmed ones by, at most.
-PART = 0.8
 #: How many ends before and behind one tell a compressor where the path goes: COMPCURV makes it smoother than COMPON,
 #: whose velocity alone is continuous, COMPCAD takes the most blocks together.
 REACH = {"COMPON": 4, "COMPCURV": 8, "COMPCAD": 12}
@@ -80,8 +78,8 @@ def fairing(channel: SinumerikChannel, mode: Mode) -> Fairing | None:
     if not is_compressed(mode) or channel.coordinates.transformation is not None:
         return None
     longest = channel.memory.data.number("$MC_COMPRESS_BLOCK_PATH_LIMIT")
-    deviation = PART * _own_contour(channel)
-    return Fairing(deviation, REACH[mode["compressor"]], longest) if deviation > 0.0 < longest else None
+    tolerance = _own_contour(channel)
+    return Fairing(tolerance, REACH[mode["compressor"]], longest) if tolerance > 0.0 < longest else None
 
 
 def select(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
