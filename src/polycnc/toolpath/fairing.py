@@ -1,19 +1,20 @@
 """Kernel: the ends of short cuts become points of a smoother path, none of them farther off than it may be.
 
 A block that a CAM system has written ends beside the surface by what its tolerance and its decimals leave. Where the
-path really goes is told by the ends around: at each end a parabola is fitted to those within `reach` of it, by the way
+path really goes is told by the ends around: at each end a parabola is fitted to some of them on either side, by the way
 along the lines, the nearer ones with more weight (local regression; Savitzky and Golay, Cleveland). It keeps lines, and
-curves as far as they bend evenly: points of a circle stay on it. What the parabola misses an end by is the `fit`.
+curves as far as they bend evenly: points of a circle stay on it. Wider parabolas, up to `reach`, count as far as they
+agree with it. What all that misses an end by is the `fit`.
 
 Of the tolerance comes first what the parabola's own bend asks for, so that its corners can be rounded from line to line
 (`BEND`); an end may be moved by what is left, and by no more than `PART` of the tolerance. Where the fit is more than
 that, the ends around are no noise but a corner, and stay: `free` falls from 1 there to 0 at twice as much. An end is
-moved by its fit times the mean, over its reach, of the least `free` within reach of each: so the path fades into corners
-without kinks of its own. That mean is not above the end's own `free`, and `free` times the fit never above what the end
-may be moved by. Between two ends the lines are off by no more than at these.
+moved by its fit times the mean, over `FADE` ends to either side, of the least `free` as near to each: so the path
+fades into corners without kinks of its own. The end's own `free` bounds that mean, and `free` times the fit is never
+above what the end may be moved by. Between two ends the lines are off by no more than at these.
 
-What the fit sees shrinks evenly to the first and the last end of a run, which stay. Every end depends on those within
-three times its reach alone: it does not matter in what parts a run comes.
+The parabola shrinks towards the first and the last end of a run, which stay. Every end depends on those within `reach`
+and twice `FADE` alone: it does not matter in what parts a run comes.
 """
 
 from __future__ import annotations
@@ -29,6 +30,11 @@ PART = 0.8
 #: Rounding the corners of chords of a curve from line to line takes it off them by their height (an eighth of the turn
 #: times the length), where its curvature is even by a third more.
 BEND = 1.5
+#: So many ends before and behind a corner the path fades into it, twice over.
+FADE = 4
+#: Reach of the parabola that wider ones must agree with: where they are off it by this part of what an end may be moved
+#: by, their weight begins to fall from 1, to 0 at twice as much. There the path bends less evenly than they.
+LEAST_REACH, AGREES = 4, 0.25
 #: So little of its scale is a determinant that tells no parabola.
 _FLAT = 1e-9
 #: Numbers of a point.
@@ -79,15 +85,15 @@ def fair(
         measure(run, place, way)
     while run.fitted < count and (run.ended != 0 or run.fitted + reach < count):
         fit_point(run, place, way, fit, free)
-    while run.lessened < run.fitted and (run.ended != 0 or run.lessened + reach < run.fitted):
+    while run.lessened < run.fitted and (run.ended != 0 or run.lessened + FADE < run.fitted):
         i, part = run.lessened, 1.0
-        for j in range(max(i - reach, 0), min(i + reach + 1, run.fitted)):
+        for j in range(max(i - FADE, 0), min(i + FADE + 1, run.fitted)):
             part = min(part, free[j])
         least[i] = part
         run.lessened += 1
-    while run.settled < run.lessened and (run.ended != 0 or run.settled + reach < run.lessened):
+    while run.settled < run.lessened and (run.ended != 0 or run.settled + FADE < run.lessened):
         i, total = run.settled, 0.0
-        first, end = max(i - reach, 0), min(i + reach + 1, run.lessened)
+        first, end = max(i - FADE, 0), min(i + FADE + 1, run.lessened)
         for j in range(first, end):
             total += least[j]
         part = min(total / (end - first), free[i])
@@ -111,24 +117,33 @@ def measure(run: FairedRun, place: Floats, way: Floats) -> None:
 
 
 def fit_point(run: FairedRun, place: Floats, way: Floats, fit: Floats, free: Floats) -> None:
-    """Fit a parabola around the next point, as far to either side as the way goes on the shorter one."""
-    i = run.fitted
-    side = min(run.reach, run.before + i)
+    """Fit a parabola around the next point, wider ones as far as they agree with it."""
+    i, most = run.fitted, min(run.reach, run.before + run.fitted)
     if run.ended != 0:
-        side = min(side, run.points - 1 - i)
-    for k in range(POINT):
-        fit[POINT * i + k] = 0.0
-    free[i], height = 1.0, 0.0
+        most = min(most, run.points - 1 - i)
+    side, left = min(LEAST_REACH, most), PART * run.tolerance
+    x, y, z, part = 0.0, 0.0, 0.0, 1.0
     if side > 1:
-        height = put_fit(i, side, place, way, fit)
-    off, left = size(fit, i), min(PART * run.tolerance, run.tolerance - BEND * height)
+        x, y, z, height = missed(i, side, place, way)
+        left = min(left, run.tolerance - BEND * height)
+    while side < most and left > 0.0 and part > 0.0:
+        side = min(2 * side, most)
+        wide_x, wide_y, wide_z, _ = missed(i, side, place, way)
+        off = length(wide_x - x, wide_y - y, wide_z - z)
+        part = min(max(2.0 - off / (AGREES * left), 0.0), 1.0)
+        x, y, z = x + part * (wide_x - x), y + part * (wide_y - y), z + part * (wide_z - z)
+    off = length(x, y, z)
+    fit[POINT * i], fit[POINT * i + 1], fit[POINT * i + 2], free[i] = x, y, z, 1.0
     if off > left:
         free[i] = max(2.0 - off / left, 0.0) if left > 0.0 else 0.0
     run.fitted += 1
 
 
-def put_fit(i: int, side: int, place: Floats, way: Floats, fit: Floats) -> float:
-    """Write the fit of point i by so many points on either side; gives the height of the parabola over its lines, mm."""
+def missed(i: int, side: int, place: Floats, way: Floats) -> tuple[float, float, float, float]:
+    """By how much a parabola misses point i, as a vector, and its height over the lines beside the point, mm.
+
+    It is fitted to so many points on either side, as far as the way goes on the shorter one.
+    """
     half = min(way[i] - way[i - side], way[i + side] - way[i]) * (side + 1.0) / side
     m0, m1, m2, m3, m4 = 0.0, 0.0, 0.0, 0.0, 0.0
     x0, x1, x2, y0, y1, y2, z0, z1, z2 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
@@ -139,27 +154,28 @@ def put_fit(i: int, side: int, place: Floats, way: Floats, fit: Floats) -> float
             weight = near * near * near
             first, second = weight * t, weight * t * t
             m0, m1, m2, m3, m4 = m0 + weight, m1 + first, m2 + second, m3 + second * t, m4 + second * t * t
-            x, y, z = (
-                place[POINT * j] - place[POINT * i],
-                place[POINT * j + 1] - place[POINT * i + 1],
-                place[POINT * j + 2] - place[POINT * i + 2],
-            )
+            x = place[POINT * j] - place[POINT * i]
+            y = place[POINT * j + 1] - place[POINT * i + 1]
+            z = place[POINT * j + 2] - place[POINT * i + 2]
             x0, x1, x2 = x0 + weight * x, x1 + first * x, x2 + second * x
             y0, y1, y2 = y0 + weight * y, y1 + first * y, y2 + second * y
             z0, z1, z2 = z0 + weight * z, z1 + first * z, z2 + second * z
     a, b, c = m2 * m4 - m3 * m3, m1 * m4 - m2 * m3, m1 * m3 - m2 * m2
     determinant = m0 * a - m1 * b + m2 * c
     if determinant <= _FLAT * m0 * m2 * m4:
-        return 0.0
-    fit[POINT * i] = (x0 * a - x1 * b + x2 * c) / determinant
-    fit[POINT * i + 1] = (y0 * a - y1 * b + y2 * c) / determinant
-    fit[POINT * i + 2] = (z0 * a - z1 * b + z2 * c) / determinant
-    e, f = m0 * m3 - m1 * m2, m0 * m2 - m1 * m1
-    x = (x0 * c - x1 * e + x2 * f) / determinant
-    y = (y0 * c - y1 * e + y2 * f) / determinant
-    z = (z0 * c - z1 * e + z2 * f) / determinant
+        return 0.0, 0.0, 0.0, 0.0
+    d, e = m0 * m3 - m1 * m2, m0 * m2 - m1 * m1
+    x = x0 * c - x1 * d + x2 * e
+    y = y0 * c - y1 * d + y2 * e
+    z = z0 * c - z1 * d + z2 * e
     line = max(way[i] - way[i - 1], way[i + 1] - way[i]) / half
-    return sqrt(x * x + y * y + z * z) * line * line / 4.0
+    height = length(x, y, z) / determinant * line * line / 4.0
+    return (
+        (x0 * a - x1 * b + x2 * c) / determinant,
+        (y0 * a - y1 * b + y2 * c) / determinant,
+        (z0 * a - z1 * b + z2 * c) / determinant,
+        height,
+    )
 
 
 def add_points(
@@ -217,6 +233,10 @@ def note_shifts(shift: Floats, first: int, count: int, curves: Floats, numbers: 
 
 
 def size(shift: Floats, i: int) -> float:
-    """Length of the vector of point i."""
-    x, y, z = shift[POINT * i], shift[POINT * i + 1], shift[POINT * i + 2]
+    """How far point i is moved, mm."""
+    return length(shift[POINT * i], shift[POINT * i + 1], shift[POINT * i + 2])
+
+
+def length(x: float, y: float, z: float) -> float:
+    """Length of a vector."""
     return sqrt(x * x + y * y + z * z)

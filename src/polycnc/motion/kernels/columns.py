@@ -455,7 +455,7 @@ def zeros(count: int) -> array[float]:
     return array("d", bytes(8 * count))
 
 
-#: Of a cut that is led beside its end, in its record in `curves`: how far its line is off the programmed one at most, mm.
+#: Of a cut that is led beside its end, in its record in `curves`: how far its line is off the programmed one, mm.
 MOST_OFF = 3
 #: Of a tap, in its record in `curves`: how much faster than at its lead it runs, and the largest override (0: none).
 FACTOR, LARGEST_OVERRIDE = 2, 3

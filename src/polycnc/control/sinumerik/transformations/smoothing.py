@@ -1,8 +1,9 @@
 """How far smoothing may leave the programmed way: OSD and OST of the orientation (7.6), the compressors (4.4, 6.6).
 
 None of them makes blocks of its own: the rows stay those of the program, and the planner goes through their ends as
-fast as the tolerances allow. A compressor also leads cuts of short blocks beside their ends, so that the path between
-them is smoother (`channel/moves/fairing.py`), by a part of its tolerance; rounding has the rest. OSC turns the tool evenly along its block, as it turns without smoothing.
+fast as the tolerances allow. A compressor also leads cuts of short blocks beside their ends, by a part of its
+tolerance, so that the path is smoother (`channel/moves/fairing.py`); rounding has the rest. OSC turns the tool evenly
+along its block, as it turns without smoothing.
 """
 
 from __future__ import annotations
@@ -37,7 +38,7 @@ BY_CONTOUR, BY_ORIENTATION = (1, 3), (2, 3)
 
 #: How many ends before and behind one tell a compressor where the path goes: COMPCURV makes it smoother than COMPON,
 #: whose velocity alone is continuous, COMPCAD takes the most blocks together.
-REACH = {"COMPON": 4, "COMPCURV": 8, "COMPCAD": 12}
+REACH = {"COMPON": 4, "COMPCURV": 8, "COMPCAD": 16}
 
 
 class Turn(NamedTuple):
@@ -74,7 +75,7 @@ def _own_contour(channel: SinumerikChannel) -> float:
 
 
 def fairing(channel: SinumerikChannel, mode: Mode) -> Fairing | None:
-    """How the compressor leads cuts of short blocks (4.4), no longer than MD20170; under transformations it does not."""
+    """How the compressor leads cuts of blocks up to MD20170 (4.4); under a transformation it does not."""
     if not is_compressed(mode) or channel.coordinates.transformation is not None:
         return None
     longest = channel.memory.data.number("$MC_COMPRESS_BLOCK_PATH_LIMIT")
