@@ -9,7 +9,6 @@
     standing       blocks that name a direction and turn the tool by little, for the scanner as well
     directions     from the words to the way of the direction: great circle, cones, curves, relative to the path
     smoothing      how far OSD, OST and the compressors let the axes leave the programmed way
-    compressor     the stage of the path for them
     history        ORISON
     spin           THETA, ORIROTA and the like
     start          ORIRESET

@@ -91,7 +91,7 @@ def select(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 -
 def follow(channel: SinumerikChannel) -> None:
     """The modal state has changed: while a compressor is on, its stage holds cuts back."""
     if channel.mode["compressor"] != "COMPOF":
-        from polycnc.control.sinumerik.transformations.compressor import Compressor  # where one is on
+        from polycnc.control.sinumerik.feed.compressor import Compressor  # where one is on
 
         if channel.path.find(Compressor) is None:
             channel.path.put(Compressor(channel))
