@@ -37,7 +37,7 @@ class Fairing(NamedTuple):
     """The kernels that smooth the ends of short cuts; see `fairing.py`."""
 
     add_points: Callable[[Floats, int, Ints, Floats, float, FairedRun, Floats], int]
-    fair: Callable[[FairedRun, Floats, Floats, Floats, Floats, Floats, Floats], int]
+    fair: Callable[[FairedRun, Floats, Floats, Floats, Floats, Floats, Floats, Floats], int]
     note_shifts: Callable[[Floats, int, int, Floats, Ints32], int]
 
 

@@ -3,18 +3,19 @@
 A block that a CAM system has written ends beside the surface by what its tolerance and its decimals leave. Where the
 path really goes is told by the ends around: at each end a parabola is fitted to some of them on either side, by the way
 along the lines, the nearer ones with more weight (local regression; Savitzky and Golay, Cleveland). It keeps lines, and
-curves as far as they bend evenly: points of a circle stay on it. Wider parabolas, up to `reach`, count as far as they
-agree with it. What all that misses an end by is the `fit`.
+curves as far as they bend evenly: points of a circle stay on it. What it misses the end by is the `fit`.
 
 Of the tolerance comes first what the parabola's own bend asks for, so that its corners can be rounded from line to line
-(`BEND`); an end may be moved by what is left, and by no more than `PART` of the tolerance. Where the fit is more than
-that, the ends around are no noise but a corner, and stay: `free` falls from 1 there to 0 at twice as much. An end is
-moved by its fit times the mean, over `FADE` ends to either side, of the least `free` as near to each: so the path
-fades into corners without kinks of its own. The end's own `free` bounds that mean, and `free` times the fit is never
-above what the end may be moved by. Between two ends the lines are off by no more than at these.
+(`BEND`); an end may be moved by what is `left`, and by no more than `PART` of the tolerance. Where the fit is more than
+that, the ends around are no noise but a corner, and stay: `free` falls from 1 there to 0 at twice as much. Wider
+parabolas, up to `reach`, count as far as they agree with the narrow one, and never reach into a corner.
+
+An end is moved by its fit times the mean, over `FADE` ends to either side, of the least `free` within twice as many of
+each: so the path fades into corners without kinks of its own. The end's own `free` bounds that mean, and `free` times the
+fit is never above what the end may be moved by. Between two ends the lines are off by no more than at these.
 
 The parabola shrinks towards the first and the last end of a run, which stay. Every end depends on those within `reach`
-and twice `FADE` alone: it does not matter in what parts a run comes.
+and a few more alone: it does not matter in what parts a run comes.
 """
 
 from __future__ import annotations
@@ -30,11 +31,14 @@ PART = 0.8
 #: Rounding the corners of chords of a curve from line to line takes it off them by their height (an eighth of the turn
 #: times the length), where its curvature is even by a third more.
 BEND = 1.5
-#: So many ends before and behind a corner the path fades into it, twice over.
+#: The path fades into a corner over so many ends, which lie as many off it.
 FADE = 4
-#: Reach of the parabola that wider ones must agree with: where they are off it by this part of what an end may be moved
-#: by, their weight begins to fall from 1, to 0 at twice as much. There the path bends less evenly than they.
-LEAST_REACH, AGREES = 4, 0.25
+#: Reach of the narrow parabola; where wider ones are off it by this part of what an end may be moved by, their weight
+#: begins to fall from 1, to 0 at twice as much. There the path bends less evenly than they. Two of them make no corner:
+#: the fit stays below twice what is left.
+NARROW, AGREES = 4, 0.2
+#: An end that would be moved by less stays, mm.
+LEAST_SHIFT = 1e-6
 #: So little of its scale is a determinant that tells no parabola.
 _FLAT = 1e-9
 #: Numbers of a point.
@@ -48,8 +52,8 @@ class FairedRun(Structure):
     Attributes:
         points: How many they hold.
         before: How many of the run have been forgotten.
-        measured: Points whose way is known; `fitted`: those whose fit is; `lessened`: those with a least `free`;
-            `settled`: those whose shift is.
+        measured: Points whose way is known; `fitted`: those with a narrow parabola; `widened`: those with wider ones;
+            `lessened`: those with a least `free`; `settled`: those whose shift is known.
         reach: As `Fairing` says.
         ended: No more points come.
         tolerance: How far the path may leave the lines, mm.
@@ -59,6 +63,7 @@ class FairedRun(Structure):
     before: int
     measured: int
     fitted: int
+    widened: int
     lessened: int
     settled: int
     reach: int
@@ -67,7 +72,14 @@ class FairedRun(Structure):
 
 
 def fair(
-    run: FairedRun, place: Floats, way: Floats, fit: Floats, free: Floats, least: Floats, shift: Floats
+    run: FairedRun,
+    place: Floats,
+    way: Floats,
+    fit: Floats,
+    left: Floats,
+    free: Floats,
+    least: Floats,
+    shift: Floats,
 ) -> int:
     """Work off what is known of a run; gives how many points are settled.
 
@@ -76,31 +88,41 @@ def fair(
         place: Where its points are, mm, `POINT` numbers each.
         way: Room for the way up to each point, mm.
         fit: Room for what the parabola at each point misses it by, mm, `POINT` numbers each.
+        left: Room for what each point may be moved by, mm.
         free: Room for the part of the fit that one point allows.
-        least: Room for the least part within reach.
+        least: Room for the least part around.
         shift: Room for how far each point is moved, mm, `POINT` numbers each.
     """
-    reach, count = run.reach, run.points
+    count, ended = run.points, run.ended != 0
     while run.measured < count:
         measure(run, place, way)
-    while run.fitted < count and (run.ended != 0 or run.fitted + reach < count):
-        fit_point(run, place, way, fit, free)
-    while run.lessened < run.fitted and (run.ended != 0 or run.lessened + FADE < run.fitted):
+    while run.fitted < count and (ended or run.fitted + NARROW < count):
+        fit_point(run, place, way, fit, left, free)
+    while run.widened < run.fitted and (ended or run.widened + run.reach < run.fitted):
+        widen_fit(run, place, way, fit, left, free)
+    while run.lessened < run.widened and (ended or run.lessened + 2 * FADE < run.widened):
         i, part = run.lessened, 1.0
-        for j in range(max(i - FADE, 0), min(i + FADE + 1, run.fitted)):
+        for j in range(max(i - 2 * FADE, 0), min(i + 2 * FADE + 1, run.widened)):
             part = min(part, free[j])
         least[i] = part
         run.lessened += 1
-    while run.settled < run.lessened and (run.ended != 0 or run.settled + FADE < run.lessened):
-        i, total = run.settled, 0.0
-        first, end = max(i - FADE, 0), min(i + FADE + 1, run.lessened)
-        for j in range(first, end):
-            total += least[j]
-        part = min(total / (end - first), free[i])
-        for k in range(POINT):
-            shift[POINT * i + k] = part * fit[POINT * i + k]
-        run.settled += 1
+    while run.settled < run.lessened and (ended or run.settled + FADE < run.lessened):
+        settle(run, fit, free, least, shift)
     return run.settled
+
+
+def settle(run: FairedRun, fit: Floats, free: Floats, least: Floats, shift: Floats) -> None:
+    """Say how far the next point is moved."""
+    i, total = run.settled, 0.0
+    first, end = max(i - FADE, 0), min(i + FADE + 1, run.lessened)
+    for j in range(first, end):
+        total += least[j]
+    part = min(total / (end - first), free[i])
+    if part * size(fit, i) < LEAST_SHIFT:
+        part = 0.0
+    for k in range(POINT):
+        shift[POINT * i + k] = part * fit[POINT * i + k]
+    run.settled += 1
 
 
 def measure(run: FairedRun, place: Floats, way: Floats) -> None:
@@ -116,27 +138,48 @@ def measure(run: FairedRun, place: Floats, way: Floats) -> None:
     run.measured += 1
 
 
-def fit_point(run: FairedRun, place: Floats, way: Floats, fit: Floats, free: Floats) -> None:
-    """Fit a parabola around the next point, wider ones as far as they agree with it."""
-    i, most = run.fitted, min(run.reach, run.before + run.fitted)
+def fit_point(run: FairedRun, place: Floats, way: Floats, fit: Floats, left: Floats, free: Floats) -> None:
+    """Fit a narrow parabola around the next point."""
+    i, side = run.fitted, min(NARROW, run.before + run.fitted)
     if run.ended != 0:
-        most = min(most, run.points - 1 - i)
-    side, left = min(LEAST_REACH, most), PART * run.tolerance
-    x, y, z, part = 0.0, 0.0, 0.0, 1.0
+        side = min(side, run.points - 1 - i)
+    x, y, z, height = 0.0, 0.0, 0.0, 0.0
     if side > 1:
         x, y, z, height = missed(i, side, place, way)
-        left = min(left, run.tolerance - BEND * height)
-    while side < most and left > 0.0 and part > 0.0:
+    fit[POINT * i], fit[POINT * i + 1], fit[POINT * i + 2] = x, y, z
+    left[i] = max(min(PART * run.tolerance, run.tolerance - BEND * height), 0.0)
+    free[i] = part_of(length(x, y, z), left[i])
+    run.fitted += 1
+
+
+def part_of(off: float, bound: float) -> float:
+    """1 up to a bound, from there down to 0 at twice as much."""
+    if off <= bound:
+        return 1.0
+    return max(2.0 - off / bound, 0.0) if bound > 0.0 else 0.0
+
+
+def widen_fit(run: FairedRun, place: Floats, way: Floats, fit: Floats, left: Floats, free: Floats) -> None:
+    """Let wider parabolas around the next point count, where it is not beside a corner."""
+    i, most = run.widened, min(run.reach, run.before + run.widened)
+    if run.ended != 0:
+        most = min(most, run.points - 1 - i)
+    run.widened += 1
+    if free[i] < 1.0 or left[i] == 0.0:
+        return
+    for k in range(1, most + 1):
+        if free[i - k] == 0.0 or free[i + k] == 0.0:
+            most = k - 1
+            break
+    side, part = NARROW, 1.0
+    x, y, z = fit[POINT * i], fit[POINT * i + 1], fit[POINT * i + 2]
+    while side < most and part > 0.0:
         side = min(2 * side, most)
         wide_x, wide_y, wide_z, _ = missed(i, side, place, way)
-        off = length(wide_x - x, wide_y - y, wide_z - z)
-        part = min(max(2.0 - off / (AGREES * left), 0.0), 1.0)
+        part = part_of(length(wide_x - x, wide_y - y, wide_z - z), AGREES * left[i])
         x, y, z = x + part * (wide_x - x), y + part * (wide_y - y), z + part * (wide_z - z)
-    off = length(x, y, z)
-    fit[POINT * i], fit[POINT * i + 1], fit[POINT * i + 2], free[i] = x, y, z, 1.0
-    if off > left:
-        free[i] = max(2.0 - off / left, 0.0) if left > 0.0 else 0.0
-    run.fitted += 1
+    fit[POINT * i], fit[POINT * i + 1], fit[POINT * i + 2] = x, y, z
+    free[i] = part_of(length(x, y, z), left[i])
 
 
 def missed(i: int, side: int, place: Floats, way: Floats) -> tuple[float, float, float, float]:

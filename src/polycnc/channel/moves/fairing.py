@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 from polycnc.channel.moves.path import Move, Rank, Run, Stage
 from polycnc.toolpath.compiled import fairing
 from polycnc.toolpath.context import PROGRAMMED
-from polycnc.toolpath.fairing import POINT, FairedRun
+from polycnc.toolpath.fairing import FADE, POINT, FairedRun
 from polycnc.toolpath.kinds import CURVE_WIDTH, NO_CURVE, Kind
 
 if TYPE_CHECKING:
@@ -45,7 +45,8 @@ class FairingStage(Stage):
         self._rows: Run | None = None
         self._run = FairedRun()
         self._place, self._way, self._shift = array("d"), array("d"), array("d")
-        self._fit, self._free, self._least = array("d"), array("d"), array("d")
+        self._fit, self._left = array("d"), array("d")
+        self._free, self._least = array("d"), array("d")
         self._passed = 0  # points whose rows are passed on; the first is the start
 
     @property
@@ -167,7 +168,8 @@ class FairingStage(Stage):
     def _room(self) -> tuple[tuple[array[float], int], ...]:
         """What is worked out for every point, and how many numbers that is."""
         return (
-            (self._way, 1), (self._free, 1), (self._least, 1), (self._fit, POINT), (self._shift, POINT)
+            (self._way, 1), (self._left, 1), (self._free, 1), (self._least, 1),
+            (self._fit, POINT), (self._shift, POINT),
         )  # fmt: skip
 
     def _end_run(self) -> None:
@@ -181,7 +183,9 @@ class FairingStage(Stage):
         """Pass on the rows whose ends are settled, and forget what no other end asks for."""
         rows, run = self._rows, self._run
         assert rows is not None
-        settled = fairing().fair(run, self._place, self._way, self._fit, self._free, self._least, self._shift)
+        settled = fairing().fair(
+            run, self._place, self._way, self._fit, self._left, self._free, self._least, self._shift
+        )
         count = settled - self._passed
         if count <= 0:
             return
@@ -195,7 +199,7 @@ class FairingStage(Stage):
             )
         )  # fmt: skip
         self._rows, self._passed = rows.part(len(rows.kinds) - count, count), settled
-        self._forget(settled - run.reach - 1)
+        self._forget(settled - max(run.reach, 2 * FADE) - 1)
 
     def _forget(self, count: int) -> None:
         """Forget the points in front that no other end asks for, many at once."""
@@ -205,7 +209,7 @@ class FairingStage(Stage):
         del self._place[: POINT * count]
         for room, width in self._room():
             del room[: width * count]
-        for name in ("points", "measured", "fitted", "lessened", "settled"):
+        for name in ("points", "measured", "fitted", "widened", "lessened", "settled"):
             setattr(run, name, getattr(run, name) - count)
         run.before += count
         self._passed -= count
