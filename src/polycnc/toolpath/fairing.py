@@ -11,8 +11,8 @@ that, the ends around are no noise but a corner, and stay: `free` falls from 1 t
 parabolas, up to `reach`, count as far as they agree with the narrow one, and never reach into a corner.
 
 An end is moved by its fit times the mean, over `FADE` ends to either side, of the least `free` within twice as many of
-each: so the path fades into corners without kinks of its own. That mean is not above the end's own `free`, whose product
-with the fit is never above what the end may be moved by. Between two ends the lines are off by no more than at these.
+each: so the path fades into corners without kinks of its own. The mean is not above the end's own `free`, which times
+the fit is never above what the end may be moved by. Between two ends the lines are off by no more than at these.
 
 The parabola shrinks towards the first and the last end of a run, which stay. Every end depends on those within `reach`
 and a few more alone: it does not matter in what parts a run comes.

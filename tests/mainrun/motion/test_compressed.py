@@ -13,11 +13,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import polycnc
+from polycnc.mainrun import State
 from polycnc.motion.sampling.samples import Samples
 from polycnc.session import open_session
 from polycnc.toolpath import Kind
 from tests.mainrun.motion.random_programs import Compressed
+from tests.mainrun.motion.test_disturbed import JERK, disturb
 from tests.mainrun.motion.test_one_motion import compare
+from tests.mainrun.support import power_on
 
 CI, EXPLORE = 24, 2000
 #: A distance measured from samples and a polygon of arcs, mm.
@@ -86,3 +89,31 @@ def noisy(code: str, mode: str) -> float:
 @pytest.mark.parametrize("code", ["COMPON", "COMPCURV", "COMPCAD"])
 def test_noise_within_the_tolerance_costs_no_time(mode: str, least: float, code: str) -> None:
     assert noisy(code, mode) < 1.03 * least < 0.7 * noisy("COMPOF", mode)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_no_script_leads_the_axes_off_the_tolerance_or_beyond_their_limits(seed: int) -> None:
+    """Overrides, holds and single block: the path stays, and under SOFT so does the jerk."""
+    text, writer = written(seed)
+    toolpath = polycnc.run(text.encode(), control="sinumerik-840d").toolpath
+    rows = [row for row in toolpath.rows() if row.kind is not Kind.EVENT]
+    ends = np.array([(0.0, 0.0, 0.0), *(row.end[:3] for row in rows)])
+    virtual, draw = power_on(text, "sinumerik-840d"), Random(seed)
+    places = [virtual.machine_position[:3]]
+    virtual.cycle_start()
+    while virtual.state is not State.READY and len(places) < 20_000:
+        if draw.random() < 0.05 and len(places) < 1000:
+            disturb(virtual, draw)
+        elif len(places) >= 1000:
+            virtual.override(feed=1.0, rapid=1.0)
+            virtual.set_switches(single_block=False)
+        if virtual.state in (State.HOLD, State.STOPPED) and draw.random() < 0.1:
+            virtual.cycle_start()
+        virtual.step()
+        places.append(virtual.machine_position[:3])
+    assert virtual.machine_position[:3] == pytest.approx(ends[-1].tolist(), abs=1e-9)
+    path = np.array(places)
+    if all(row.kind in (Kind.FEED, Kind.RAPID) for row in rows):
+        assert distances(path, ends).max() <= writer.tolerance + SLACK, text
+    if "SOFT" in text:
+        assert np.abs(np.diff(path, 3, axis=0)).max() / 0.004**3 <= JERK * 1.001, text
