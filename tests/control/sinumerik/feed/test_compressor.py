@@ -158,3 +158,9 @@ def test_plan_and_main_run_take_the_same_time_in_a_loop() -> None:
     virtual.cycle_start()
     virtual.run(limit_s=100.0)
     assert polycnc.run(text.encode(), control="sinumerik-840d").time == pytest.approx(virtual.time, abs=0.005)
+
+
+@pytest.mark.parametrize(("before", "moves"), [("", True), ("GEOAX(3,Z2)\n", False)])
+def test_with_other_geometry_axes_ends_stay(before: str, *, moves: bool) -> None:
+    rows = rows_of(before + HEAD + noise(1, 60) + "M30\n", machine="mill4-x1-y1-z1-z2")
+    assert any(shift(row) > 0.0 for row in rows) is moves

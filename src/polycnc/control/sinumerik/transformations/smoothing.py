@@ -75,8 +75,10 @@ def _own_contour(channel: SinumerikChannel) -> float:
 
 
 def fairing(channel: SinumerikChannel, mode: Mode) -> Fairing | None:
-    """How the compressor leads cuts of blocks up to MD20170 (4.4); under a transformation it does not."""
+    """How the compressor leads cuts of blocks up to MD20170 (4.4); under a transformation or GEOAX it does not."""
     if not is_compressed(mode) or channel.coordinates.transformation is not None:
+        return None
+    if tuple(channel.coordinates.geometry) != tuple(channel.machine.geometry_indices(channel.number)):
         return None
     longest = channel.memory.data.number("$MC_COMPRESS_BLOCK_PATH_LIMIT")
     tolerance = _own_contour(channel)
