@@ -23,8 +23,8 @@ from tests.mainrun.motion.test_one_motion import compare
 from tests.mainrun.support import power_on
 
 CI, EXPLORE = 24, 2000
-#: A distance measured from samples and a polygon of arcs, mm.
-SLACK = 2e-5
+#: Between two samples the axes are beside their chord, by an eighth of their acceleration times the time squared, mm.
+SLACK = 3e-5
 
 
 def written(seed: int) -> tuple[str, Compressed]:
@@ -54,6 +54,8 @@ def check_tolerance(text: str, tolerance: float) -> None:
     rows = [row for row in toolpath.rows() if row.kind is not Kind.EVENT]
     if any(row.kind not in (Kind.FEED, Kind.RAPID) for row in rows):
         return
+    if " G64 " in text and any(row.kind is Kind.RAPID for row in rows):
+        return  # what a corner to a rapid leaves the path by is up to the axes
     ends = np.array([(0.0, 0.0, 0.0), *(row.end[:3] for row in rows)])
     places = np.concatenate([samples.position for samples in given])[:, :3]
     assert distances(places, ends).max() <= tolerance + SLACK, text
