@@ -11,7 +11,8 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from polycnc.machine.layout import AxisLayout
-from polycnc.toolpath import Context, Kind, lines
+from polycnc.toolpath import Context, Kind
+from polycnc.toolpath.columns import lines
 from polycnc.toolpath.digits import LONGEST_NUMBER, STEPS, fill, put_number, put_whole
 from polycnc.toolpath.events import Message
 from polycnc.toolpath.export import Csv, JsonLines

@@ -23,8 +23,10 @@ def take_back(channel: Channel, *, found_ahead: bool = False) -> None:
     the mistake in one of them (`found_ahead`): then the motion ends in front of that one.
     """
     if channel.path.head is not None:
-        if not found_ahead:
-            with suppress(AlarmError):
+        with suppress(AlarmError):
+            if found_ahead:
+                channel.path.flush_checked()
+            else:
                 channel.path.flush()
         channel.path.clear()
         stand_at_last_row(channel)

@@ -68,7 +68,16 @@ class Bulk(Protocol):
 
 
 class MainRun(Protocol):
-    """What executes the channel's rows, if anything does while the channel runs."""
+    """What executes the channel's rows, if anything does while the channel runs.
+
+    Attributes:
+        one_block: The operator halts it behind every block.
+    """
+
+    one_block: bool
+
+    def end_held_block(self) -> None:
+        """The rows written last end a block that a stage has held back: what is written next is of another one."""
 
     @property
     def has_caught_up(self) -> bool:

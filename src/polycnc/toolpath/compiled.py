@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import cache
 from typing import TYPE_CHECKING, TypeAlias
 
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.kernels.library import Library
 
 if TYPE_CHECKING:
@@ -12,16 +13,38 @@ if TYPE_CHECKING:
 
     from polycnc.kernels.layout import Bytes, Floats, Ints, Ints32
     from polycnc.toolpath.digits import Forms
+    from polycnc.toolpath.fairing import FairedRun
     from polycnc.toolpath.survey import Boxes, Contexts, Moves
 
 #: Writes rows as text; see `digits.fill`.
 Fill: TypeAlias = "Callable[[Forms, Ints32, Floats, int, int, Bytes, Ints], int]"
+_FAIRING = "polycnc.toolpath.fairing"
 LIBRARY = Library(
     "toolpath",
-    ("polycnc.toolpath.survey", "polycnc.toolpath.digits"),
-    ("polycnc.toolpath.survey.survey", "polycnc.toolpath.digits.fill"),
+    ("polycnc.toolpath.survey", "polycnc.toolpath.digits", _FAIRING),
+    (
+        "polycnc.toolpath.survey.survey",
+        "polycnc.toolpath.digits.fill",
+        f"{_FAIRING}.add_points",
+        f"{_FAIRING}.fair",
+        f"{_FAIRING}.note_shifts",
+    ),
     inline=True,
 )
+
+
+class Fairing(NamedTuple):
+    """The kernels that smooth the ends of short cuts; see `fairing.py`."""
+
+    add_points: Callable[[Floats, int, Ints, Floats, float, FairedRun, Floats], int]
+    fair: Callable[[FairedRun, Floats, Floats, Floats, Floats, Floats, Floats, Floats], int]
+    note_shifts: Callable[[Floats, int, int, Floats, Ints32], int]
+
+
+@cache
+def fairing() -> Fairing:
+    """The compiled kernels; the plain ones where there are none."""
+    return Fairing._make(map(LIBRARY.kernel, Fairing._fields))
 
 
 @cache

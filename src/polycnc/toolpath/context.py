@@ -63,6 +63,21 @@ class Pace:
 
 
 @dataclass(frozen=True, slots=True)
+class Fairing:
+    """How far cuts that follow each other in short blocks may be led beside their ends, to be smoother (`fairing.py`).
+
+    Attributes:
+        tolerance_mm: The path may leave the programmed lines by so much, rounding included.
+        reach: So many ends before and behind it tell where the smooth path lies.
+        longest_mm: Longer blocks stay as they are.
+    """
+
+    tolerance_mm: float
+    reach: int
+    longest_mm: float
+
+
+@dataclass(frozen=True, slots=True)
 class Context:
     """The state under which a run of moves was made. Immutable; equal contexts share one number.
 
@@ -80,6 +95,8 @@ class Context:
             direction 1, -1 or 0.
         corner_mode: How the path goes through the ends of blocks; `stop_window` what an exact stop waits for.
         tolerance_mm: Contour tolerance for the planner where a code names one, else 0.
+        fairing: Cuts of short blocks may be led beside their ends so that their path is smoother, as a part of the
+            tolerance; None where they keep to them.
         turn_tolerance_deg: How far rotary axes may leave their way where two blocks meet, where a code names that
             (OST), and `turn_distance_mm` how far from there they may (OSD); 0 for what holds for all axes.
         acceleration: How the axes take up speed; None for the control's own way.
@@ -139,6 +156,7 @@ class Context:
     corner_mode: CornerMode = CornerMode.CONTINUOUS
     stop_window: StopWindow = StopWindow.FINE
     tolerance_mm: float = 0.0
+    fairing: Fairing | None = None
     turn_tolerance_deg: float = 0.0
     turn_distance_mm: float = 0.0
     acceleration: AccelerationMode | None = None

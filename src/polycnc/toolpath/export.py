@@ -59,7 +59,7 @@ class JsonLines:
     def __init__(self, stream: IO[bytes], display: Display, _metadata: Metadata) -> None:
         import json
 
-        from polycnc.toolpath.lines import MARKED_TEXT, Lines
+        from polycnc.toolpath.columns.lines import MARKED_TEXT, Lines
 
         self._stream, self._marked = stream, MARKED_TEXT
         self._encode = json.JSONEncoder(ensure_ascii=False, default=str).encode
@@ -91,7 +91,7 @@ class Csv:
     def __init__(self, stream: IO[bytes], display: Display, _metadata: Metadata) -> None:
         import csv
 
-        from polycnc.toolpath.lines import Lines
+        from polycnc.toolpath.columns.lines import Lines
 
         self._stream, self._row = stream, StringIO()
         self._writer = csv.writer(self._row, lineterminator="\n")

@@ -29,12 +29,15 @@ NO_CURVE = -1
 #: beyond the first, spare. A dwell: seconds, revolutions. A thread or tap: lead mm, start angle degrees;
 #: of a straight thread what its lead grows by each revolution, mm, of a circular one its centre and the normal about
 #: which it turns counter-clockwise.
-#: A skip move that a signal ends: way that is left to its programmed end, mm.
+#: A skip move that a signal ends: way that is left to its programmed end, mm. A cut that is led beside its end
+#: (`fairing.py`): how far, x y z of the machine, and the most that its line is off the programmed one, mm.
 CURVE_WIDTH = 8
 
 #: The `type` of each kind in the trace, by its number.
 TYPE_NAMES = tuple(kind.name.lower() for kind in Kind)
 ARC_KINDS = frozenset((Kind.CW, Kind.CCW, Kind.HELIX_CW, Kind.HELIX_CCW))
+#: Kinds whose curve parameters need no record of their own in a trace: columns show them, or nobody does.
+SHOWN_IN_COLUMNS = frozenset((*ARC_KINDS, Kind.FEED))
 CCW_KINDS = frozenset((Kind.CCW, Kind.HELIX_CCW))
 HELIX_KINDS = frozenset((Kind.HELIX_CW, Kind.HELIX_CCW))
 RAPID_KINDS = frozenset((Kind.RAPID, Kind.REF))

@@ -303,7 +303,9 @@ def _far_rows(chunk: Chunk, rows: range, start: Sequence[float], seers: Sequence
     n = chunk.axes
     ends = np.frombuffer(chunk.end)[rows.start * n : rows.stop * n].reshape(-1, n)
     starts = np.vstack((start if len(start) else ends[0], ends[:-1]))
-    far = {rows.start + i for i, row in enumerate(rows) if chunk.curve[row] >= 0}
+    far = {
+        rows.start + i for i, row in enumerate(rows) if chunk.curve[row] >= 0 and chunk.kind[row] != Kind.FEED
+    }
     for seen in seers:
         parts = PARTS if len(rows) < VERY_MANY else 1
         for k in range(1, parts + 1):

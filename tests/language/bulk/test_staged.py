@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import cos, inf, radians, sin
+from random import Random
 
 import pytest
 from hypothesis import given, settings
@@ -13,6 +14,7 @@ from polycnc.compensation.cutter import CutterCompensation
 from tests.examples import examples
 from tests.language.bulk.both_ways import PLAIN, differences, run, scanned
 from tests.language.bulk.programs import arc
+from tests.mainrun.motion.random_programs import Compressed
 
 CONTROLS = ("fanuc-m", "meldas-m", "syntec-mill")
 SETUP = {
@@ -216,3 +218,14 @@ def test_a_block_left_out_in_front_of_compensation_changes_nothing(control_id: s
         for each in (text, text.replace("/X5.\n", ""))
     ]
     assert ways[0] == ways[1]
+
+
+@settings(max_examples=examples(30), deadline=None)
+@given(
+    st.integers(0, 10**6), st.sampled_from(("", "STOPRE", "M8", "R1=1", "G0 Z1\nG1", 'MSG("A")', "X1 Y1 M8"))
+)
+def test_cuts_that_a_compressor_takes_are_the_same_both_ways(seed: int, between: str) -> None:
+    lines = Compressed(Random(seed), "sinumerik-840d").program().split("\n")
+    middle = 1 + seed % max(len(lines) - 2, 1)
+    text = "\n".join((*lines[:middle], between, *lines[middle:]))
+    assert differences(text, "sinumerik-840d") == []

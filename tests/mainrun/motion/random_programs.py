@@ -123,6 +123,41 @@ class Writer:
         self.arc(self.random.uniform(-3.0, 3.0))
 
 
+class Compressed(Writer):
+    """Contours of short lines, with the noise of a CAM system, and what lies between them, under a compressor."""
+
+    tolerance = 0.0
+
+    def program(self) -> str:
+        draw = self.random
+        self.tolerance = draw.choice((0.005, 0.01, 0.05))
+        on = f"{draw.choice(('COMPON', 'COMPCURV', 'COMPCAD'))} CTOL={self.tolerance}"
+        corners = draw.choice(("G64", "G642", "G645"))
+        self.lines = [f"G71 G90 {draw.choice(('BRISK', 'SOFT'))} {corners} {on}"]
+        blocks = (self.contour, self.contour, self.contour, self.line, self.facets, self.arc, self.rapid)
+        for _ in range(draw.randint(1, 4)):
+            self.feed = f" F{draw.choice(FEEDS)}." if len(self.lines) == 1 or draw.random() < 0.4 else ""
+            draw.choice(blocks)()
+        return "\n".join([*self.lines, "M30", ""])
+
+    def contour(self) -> None:
+        """A curve, perhaps with a corner, in short lines whose ends lie beside it."""
+        draw = self.random
+        noise = self.tolerance * draw.choice((0.02, 0.3, 0.9))
+        angle, bend = draw.uniform(0.0, 6.28), draw.choice((0.0, draw.uniform(-1.0, 1.0)))
+        step = draw.choice((0.02, 0.1, 0.4))
+        count = draw.randint(3, 120)
+        corner = draw.choice((-1, draw.randint(0, count)))
+        x, y, z = self.place
+        for k in range(count):
+            angle += bend * step + (1.5 if k == corner else 0.0)
+            x, y, z = x + step * cos(angle), y + step * sin(angle), z + 0.1 * step * bend
+            beside = (round(v + draw.uniform(-noise, noise), 4) for v in (x, y, z))
+            bx, by, bz = beside
+            self.place = bx, by, bz
+            self.write("G1")
+
+
 SPEEDS, LEADS = (200, 333, 600, 1200), (0.5, 1.0, 2.0)
 
 

@@ -77,7 +77,11 @@ def executed(text: str, written: Writer, places: Numbers, rotary: list[bool]) ->
 
 
 def check(written: Writer) -> None:
-    text = written.program()
+    compare(written.program(), written)
+
+
+def compare(text: str, written: Writer) -> None:
+    """Compare plan, samples and main run of a program."""
     total, end, samples, machine = planned(text, written)
     axes = channel_axes(machine, 1, machine.channels[0].names)
     rotary = [axis is not None and axis.rotary for axis in axes]

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, ClassVar, TypeVar
 from polycnc.deferred.contexts import contextmanager
 from polycnc.deferred.records import dataclass, replace
 from polycnc.toolpath.context import PROGRAMMED
-from polycnc.toolpath.kinds import Kind
+from polycnc.toolpath.kinds import CURVE_WIDTH, Kind
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -88,6 +88,8 @@ class Rank:
     LIMITS = _place()
     #: Touch probes end moves, so they know how far one was allowed to go.
     PROBES = _place()
+    #: Cuts of short blocks are led beside their ends: it sees the rows as they are.
+    FAIRING = _place()
     #: Keeps or drops moves: nothing reaches the rows, and all stages in front work as if it did.
     SINK = _place()
     #: Writes rows; always there.
@@ -150,10 +152,12 @@ class Run:
         lines: Lines in the program.
         feeds: In internal units.
         ends: Where the moves end, flat.
-        curves: `NO_CURVE` for each: none is an arc.
+        curves: `NO_CURVE` for each: none is an arc. Of cuts that are led beside their ends the number of their
+            parameters among those of the run.
         start: Where the first one begins.
         program: Number of the program in the toolpath's list.
         context: Number of the context that holds.
+        parameters: Curve parameters, `CURVE_WIDTH` numbers each; None where there are none.
     """
 
     kinds: array[int]
@@ -164,6 +168,7 @@ class Run:
     start: list[float]
     program: int
     context: int
+    parameters: array[float] | None = None
 
     def part(self, count: int, first: int = 0) -> Run:
         """So many of its moves, from one on."""
@@ -340,9 +345,14 @@ class TableStage(Sink):
         if count:
             self.end, self.context = run.ends[-len(run.start) :].tolist(), run.context
             programs = array("H", (run.program,)) * count
-            columns = (run.kinds, programs, run.lines, run.feeds, run.ends, run.curves)
+            chunk, curves = self._channel.toolpath.chunk, run.curves
+            if run.parameters:
+                first = len(chunk.curves) // CURVE_WIDTH
+                curves = array("i", [at + first if at >= 0 else at for at in curves])
+                chunk.curves.extend(run.parameters)
+            columns = (run.kinds, programs, run.lines, run.feeds, run.ends, curves)
             views = [memoryview(column).cast("B") for column in columns]
-            self._channel.toolpath.chunk.extend(0, count, run.context, views)
+            chunk.extend(0, count, run.context, views)
         return count
 
     def event(self, event: PlacedEvent) -> None:
@@ -473,6 +483,12 @@ class Path:
         """Pass on everything that stages hold back."""
         if self.head is not None:
             self.head.flush()
+
+    def flush_checked(self) -> None:
+        """Pass on what stages hold back behind those that may refuse a move: it is made, whatever comes."""
+        behind = next((stage for stage in self._stages if stage.rank >= Rank.FAIRING), None)
+        if behind is not None:
+            behind.flush()
 
     def _lead(self, stages: list[Stage]) -> None:
         """Lead moves through these stages, which are in order."""

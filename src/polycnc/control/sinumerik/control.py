@@ -183,6 +183,7 @@ class Sinumerik:
         feed = channel.memory.data.number("$SC_DEFAULT_FEED")
         if feed > 0.0 and not channel.feed > 0.0:
             channel.feed = feed * tables.feed_type(channel.mode).factor
+        smoothing.follow(channel)
         init_programs.call(channel)
         run_times.begin(channel)
 
@@ -419,6 +420,7 @@ class Sinumerik:
             corner_mode=_corner_mode(channel, mode),
             stop_window=tables.STOP_WINDOWS[mode["exact_stop"]],
             tolerance_mm=smoothing.contour(channel, mode, _tolerance(channel, mode["path"])),
+            fairing=smoothing.fairing(channel, mode),
             turn_tolerance_deg=turn.tolerance_deg,
             turn_distance_mm=turn.distance_mm,
             acceleration=tables.ACCELERATION_MODES[mode["acceleration"]],

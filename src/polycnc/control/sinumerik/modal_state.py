@@ -8,6 +8,7 @@ from polycnc.control.sinumerik import gcodes, tables
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.frames import active as frames
 from polycnc.control.sinumerik.tools import selection
+from polycnc.control.sinumerik.transformations import smoothing
 from polycnc.deferred.records import dataclass, field
 
 if TYPE_CHECKING:
@@ -45,5 +46,6 @@ class ModalState:
         if feed is not path_feed.mode:  # F of another kind means nothing: the one in front goes on
             channel.feed, path_feed.mode = self.feed, feed
         selection.follow(channel)
+        smoothing.follow(channel)
         frames.changed(channel)
         channel.context_changed()

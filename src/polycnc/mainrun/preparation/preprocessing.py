@@ -32,6 +32,7 @@ from polycnc.mainrun.preparation.run_blocks import (
     Delay,
     RunBlocks,
     acts_on_machine,
+    callers_of,
     is_silent,
     without_function,
 )
@@ -97,6 +98,7 @@ class Preprocessing:
         on_step: Called when the channel has run a block; None where nobody asks.
         stop_behind_next: Preparation waits behind the next block that does something on the machine.
         sought: Program and line of a block that counts as one even if it only calculates; None without a search.
+        one_block: Single block halts behind every block: none is held back.
     """
 
     def __init__(
@@ -106,7 +108,7 @@ class Preprocessing:
         self.toolpath.hand_on_blocks(self._take, keep=toolpath is not None)
         self.on_step: Callable[[], None] | None = None
         self.last_block = ""
-        self.stop_behind_next, self._is_noting, self._cut = False, False, -1
+        self.one_block, self.stop_behind_next, self._is_noting, self._cut = False, False, False, -1
         self.items: deque[Item] = deque()
         self.channel: Channel
         self.waiting: Wait | None = None
@@ -182,6 +184,7 @@ class Preprocessing:
 
     def fill(self, *, one_block: bool = False) -> bool:
         """Let the channel run ahead, in single block by one block; false if it made nothing although it may go on."""
+        self.one_block = one_block
         if self._rests() or self._suffices(LOW, one_block=one_block):
             return True
         before = len(self.items)
@@ -359,7 +362,7 @@ class Preprocessing:
             changed = channel.context if halts and channel.context_is_new else None
             self._blocks.note(
                 key, BlockEnd(code or (str(line) if halts else ""), changed), channel.mode.codes,
-                channel.takes_back, _callers(channel.stack), is_part=level.kind is LevelKind.SHAPE,
+                channel.takes_back, callers_of(channel.stack), is_part=level.kind is LevelKind.SHAPE,
             )  # fmt: skip
             channel.takes_back = NOTHING_BACK
         self._stopped = self._rows.skips = self.has_caught_up = False
@@ -396,6 +399,11 @@ class Preprocessing:
         return self.sought == (self.toolpath.programs[level.program_number], level.line_of(level.current))
 
     # ---- rows ----------------------------------------------------------------------------------------------
+
+    def end_held_block(self) -> None:
+        """The rows written last end a block that a stage has held back: those that come are of another one."""
+        self.toolpath.block_boundary()
+        self._blocks.end_held_block()
 
     def _take(self, chunk: Chunk) -> bool:
         """Turn the rows of a block into items."""
@@ -577,10 +585,3 @@ class Preprocessing:
     def axes(self) -> int:
         """Number of axes."""
         return self._axes
-
-
-def _callers(stack: Sequence[Level[Any]]) -> tuple[tuple[int, int], ...]:
-    """Number and line of the blocks that have called the program on top, from the main program on."""
-    if len(stack) == 1:
-        return ()
-    return tuple((level.program_number, level.line_of(level.current)) for level in stack[:-1])

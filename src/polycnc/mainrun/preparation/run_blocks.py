@@ -17,9 +17,11 @@ from polycnc.toolpath.events import Circle, Deed, Pen, SignalWrite
 from polycnc.toolpath.kinds import CURVE_WIDTH
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
+    from typing import Any
 
     from polycnc.channel.intervention import TakesBack
+    from polycnc.channel.stack import Level
     from polycnc.mainrun.preparation.items import Item
     from polycnc.motion.standing.beside import Step
     from polycnc.toolpath import Event
@@ -44,11 +46,12 @@ class RunBlocks:
         self._items, self._programs = items, programs
         self._run: deque[tuple[Key, BlockEnd, Mapping[str, str], TakesBack, tuple[Key, ...], bool]] = deque()
         self._open: tuple[Key, BlockEnd] | None = None
+        self._is_over = False
 
     def clear(self) -> None:
         """No block has been run."""
         self._run.clear()
-        self._open = None
+        self._open, self._is_over = None, False
 
     def note(
         self,
@@ -65,7 +68,8 @@ class RunBlocks:
 
     def enter(self, key: Key, *, is_silent: bool = False) -> None:
         """A row of a block comes: every block run before that one is over."""
-        if self._open is not None and self._open[0] == key:
+        goes_on, self._is_over = not self._is_over, False
+        if goes_on and self._open is not None and self._open[0] == key:
             return
         if not any(block[0] == key for block in self._run):
             return  # a row that a stage has added counts for the block before it
@@ -79,6 +83,10 @@ class RunBlocks:
             if found == key:
                 return
             self._end()
+
+    def end_held_block(self) -> None:
+        """The next row is of another block than the last one, though of the same line perhaps."""
+        self._is_over = True
 
     def _end(self) -> None:
         if self._open is not None and self._open[1].code:
@@ -115,3 +123,10 @@ def largest_override(chunk: Chunk, row: int) -> float:
     if chunk.kind[row] != Kind.TAP or chunk.curve[row] < 0:
         return inf
     return chunk.curves[chunk.curve[row] * CURVE_WIDTH + LARGEST_OVERRIDE] or inf
+
+
+def callers_of(stack: Sequence[Level[Any]]) -> tuple[tuple[int, int], ...]:
+    """Number and line of the blocks that have called the program on top, from the main program on."""
+    if len(stack) == 1:
+        return ()
+    return tuple((level.program_number, level.line_of(level.current)) for level in stack[:-1])

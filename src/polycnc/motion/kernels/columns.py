@@ -292,6 +292,7 @@ class RunState(Structure):
         passed: With limited jerk: highest speed at the last joint; `lone` likewise, 0 where it is in a row (`jerk.py`).
         gap: Way from there to the row before.
         rate: Angle that the arc before turns by a mm at its end, 0 of a line; at the joint to an arc the larger one.
+        off: How far the row before is led beside the programmed one, mm.
     """
 
     stop: float
@@ -335,6 +336,7 @@ class RunState(Structure):
     lone: float
     gap: float
     rate: float
+    off: float
 
 
 @record
@@ -367,6 +369,7 @@ class RowState(Structure):
         top: Its largest speed.
         ease: Factor on the limits at its start (1 without transformation).
         shares: How many it has.
+        off: How far it is led beside the programmed one at most, mm (`toolpath/fairing.py`).
     """
 
     kind: int
@@ -378,6 +381,7 @@ class RowState(Structure):
     top: float
     ease: float
     shares: int
+    off: float
 
 
 @record
@@ -458,6 +462,8 @@ def zeros(count: int) -> array[float]:
     return array("d", bytes(8 * count))
 
 
+#: Of a cut that is led beside its end, in its record in `curves`: how far its line is off the programmed one, mm.
+MOST_OFF = 3
 #: Of a tap, in its record in `curves`: how much faster than at its lead it runs, and the largest override (0: none).
 FACTOR, LARGEST_OVERRIDE = 2, 3
 #: With limited jerk lines are cut: room for so many pieces more than a row has, and for each of its pieces.

@@ -16,7 +16,7 @@ from polycnc.motion.kernels.columns import (
     State,
     square,
 )
-from polycnc.motion.kernels.feeds import is_rapid
+from polycnc.motion.kernels.feeds import is_rapid, left_tolerance
 from polycnc.motion.kernels.jerk import corner_hold2, forget_bow, window_s
 from polycnc.motion.kernels.rounding import bend_corner
 
@@ -64,7 +64,7 @@ def join(
         state.run.passed = state.run.lone = state.run.gap = 0.0
         return cap2
     shorter = min(length, state.run.length)
-    tolerance = contexts[record + ContextRecord.TOLERANCE]
+    tolerance = left_tolerance(contexts, record, max(state.run.off, state.row.off))
     angle, distance = (
         contexts[record + ContextRecord.TURN_TOLERANCE],
         contexts[record + ContextRecord.TURN_DISTANCE],

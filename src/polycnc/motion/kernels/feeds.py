@@ -29,6 +29,21 @@ from polycnc.transformation.orientation.linkage import STANDS_MM
 SLOWEST = 1e-9
 
 
+#: Of the tolerance of a corner, what ends that are led beside the programmed ones leave at least.
+LEAST_LEFT = 0.2
+
+
+def left_tolerance(contexts: Floats, record: int, off: float) -> float:
+    """What of the contour tolerance rows leave that are so far beside the programmed ones, mm.
+
+    Where rounding keeps a distance from the corner, it is no part of a tolerance.
+    """
+    tolerance: float = contexts[record + ContextRecord.TOLERANCE]
+    if off == 0.0 or contexts[record + ContextRecord.ROUNDING] < inf:
+        return tolerance
+    return max(tolerance - off, LEAST_LEFT * tolerance)
+
+
 def axes_of(state: State) -> int:
     """Number of axes that a state has room for."""
     return len(state.position)

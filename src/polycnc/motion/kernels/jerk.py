@@ -25,6 +25,7 @@ from polycnc.motion.kernels.columns import (
     lowered,
     square,
 )
+from polycnc.motion.kernels.feeds import left_tolerance
 
 #: Parts of the acceleration beside a joint in a row: along the path, across it.
 ALONG, ACROSS = 0.7, 0.3
@@ -154,7 +155,8 @@ def lone_speed(
     if turn > NO_TURN:
         v = min(v, contexts[record + ContextRecord.ROUNDING] / blend)
     deviates = (v * turn / 6.0 + v * v * bow * blend / 12.0) * blend
-    v *= min(1.0, ARC_DEVIATION * contexts[record + ContextRecord.TOLERANCE] / max(deviates, 1e-300))
+    tolerance = left_tolerance(contexts, record, max(state.run.off, state.row.off))
+    v *= min(1.0, ARC_DEVIATION * tolerance / max(deviates, 1e-300))
     slow = 1.0
     for i in range(n):
         a, j = state.joint.ease * limits.acceleration[i], state.joint.ease * limits.jerk[i]
@@ -188,7 +190,8 @@ def row_hold2(
     arcs beside it, `curved` that one of the rows is a curve.
     """
     unit, tangent, bow, bowed = state.unit, state.tangent, state.bow, state.bowed
-    blend, tolerance = contexts[record + ContextRecord.BLEND_S], contexts[record + ContextRecord.TOLERANCE]
+    blend = contexts[record + ContextRecord.BLEND_S]
+    tolerance = left_tolerance(contexts, record, max(state.run.off, state.row.off))
     x2 = cap2 if not curved else min(cap2, curve_joint2(blend, tolerance, n, limits, state, arc))
     shorter, mean, turn, changes = min(length, state.run.length), 0.5 * (length + state.run.length), 0.0, 0.0
     a_mm = 1.0 / mean  # a division takes as long as ten products

@@ -18,6 +18,7 @@ from polycnc.motion.kernels.columns import (
     FACING_PIECES,
     FEED,
     HELIX_CCW,
+    MOST_OFF,
     OPEN,
     PLACES,
     SHARES,
@@ -111,7 +112,7 @@ def lay_row(
     if kind == DWELL:
         rest(state)
         return True
-    n, record = axes_of(state), take_row(rows, row, number, contexts, limits, state)
+    n, record = axes_of(state), take_row(rows, row, curves, number, contexts, limits, state)
     state.joint.top2, led, before = inf, is_led(contexts, record, limits, state), state.run.pieces
     if not led and state.run.corner_top2 > 0.0:
         state.joint.top2 = state.run.corner_top2
@@ -126,7 +127,9 @@ def lay_row(
     return True
 
 
-def take_row(rows: Rows, row: int, number: int, contexts: Floats, limits: Limits, state: State) -> int:
+def take_row(
+    rows: Rows, row: int, curves: Floats, number: int, contexts: Floats, limits: Limits, state: State
+) -> int:
     """Make a move the row at hand, and set where it leads; where the record of its context begins."""
     n, kind = axes_of(state), int(rows.kind[row])
     record: int = rows.context[row] * (ContextRecord.OFFSETS + n)
@@ -139,7 +142,21 @@ def take_row(rows: Rows, row: int, number: int, contexts: Floats, limits: Limits
     take_shares(rows, row, state)
     state.row.slot = 2 * rows.context[row] + (0 if is_rapid(state) else 1)
     aim(rows.end, row * n, contexts, record, n, limits, state)
+    state.row.off = 0.0
+    if kind == FEED and rows.curve[row] >= 0:
+        lead_beside(curves, limits, state)
     return record
+
+
+def lead_beside(curves: Floats, limits: Limits, state: State) -> None:
+    """Move the end of the row at hand by what its curve parameters say (`toolpath/fairing.py`)."""
+    at = state.row.curve
+    for j in range(3):
+        axis = limits.geometry[j]
+        if axis >= 0:
+            state.target[axis] += curves[at + j]
+            state.delta[axis] += curves[at + j]
+    state.row.off = curves[at + MOST_OFF]
 
 
 def rest(state: State) -> None:
@@ -232,6 +249,7 @@ def lay_move(
     for i in range(n):
         state.position[i] = state.target[i]
     state.run.station = contexts[record + ContextRecord.STATION]
+    state.run.off = state.row.off
     if stands:
         state.run.stop = 1.0
     return True

@@ -23,6 +23,7 @@ from polycnc.motion.kernels.columns import (
     piece_width,
     square,
 )
+from polycnc.motion.kernels.feeds import left_tolerance
 from polycnc.motion.kernels.hold import cut
 
 #: Directions that differ by less count as one; ways shorter than this (mm) are not bent.
@@ -41,7 +42,8 @@ def bend_corner(contexts: Floats, record: int, n: int, limits: Limits, state: St
     Without one it takes as long as an axis needs for the step of velocity that is allowed at a corner.
     """
     unit, tangent, turn = state.unit, state.tangent, state.turn
-    tolerance, turned, swung, most = contexts[record + ContextRecord.TOLERANCE], 0.0, 0.0, 0.0
+    tolerance = left_tolerance(contexts, record, max(state.run.off, state.row.off))
+    turned, swung, most = 0.0, 0.0, 0.0
     way, x2 = reach, inf
     for i in range(n):
         turn[i] = unit[i] - tangent[i]

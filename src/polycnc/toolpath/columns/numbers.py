@@ -10,7 +10,7 @@ from polycnc.deferred.modules import is_installed
 from polycnc.toolpath.columns.compiled import LIBRARY, show
 from polycnc.toolpath.columns.names import NUMBERS, POSITIONS, TEXTS, flattened, positions_of
 from polycnc.toolpath.columns.shown import FEED, PLACES, PROGRAM, TOOL, TURNS, TYPE, UNIT, Rows, View
-from polycnc.toolpath.kinds import ARC_KINDS, TYPE_NAMES, Kind
+from polycnc.toolpath.kinds import ARC_KINDS, SHOWN_IN_COLUMNS, TYPE_NAMES, Kind
 from polycnc.toolpath.trace import COLUMN_ROWS, UNITS
 
 if TYPE_CHECKING:
@@ -156,7 +156,7 @@ class Numbers:
                 table[self._columns[name.lower()]] = values
                 self._filled.add(name.lower())
         others: list[int] = np.flatnonzero(
-            (columns.curve >= 0) & ~np.isin(columns.kind, tuple(ARC_KINDS))
+            (columns.curve >= 0) & ~np.isin(columns.kind, tuple(SHOWN_IN_COLUMNS))
         ).tolist()
         return others
 

@@ -19,6 +19,8 @@ WORK, MACHINE, OFFSET, MODULO, WIDTH = 0, 1, 2, 3, 4
 #: What it says beside: factors of lengths and feeds, number of the unit, number of the tool.
 LENGTH, RATE, INCH, IN_SPINDLE = 0, 1, 2, 3
 _ARCS = (int(Kind.CW), int(Kind.CCW), int(Kind.HELIX_CW), int(Kind.HELIX_CCW))
+#: Kinds whose curve parameters need no record of their own.
+_PLAIN = (*_ARCS, int(Kind.FEED))
 _FULL_TURN = 360.0
 #: Sums of this and smaller numbers have no decimals.
 _NO_DECIMALS = 2.0**52
@@ -91,7 +93,7 @@ def show(
             show_mapped(rows, view, row, numbers, machine)
         if arcs:
             show_arc(rows, view, row, numbers)
-        if rows.curve[row] >= 0 and kind not in _ARCS:
+        if rows.curve[row] >= 0 and kind not in _PLAIN:
             others[found] = row
             found += 1
     return found

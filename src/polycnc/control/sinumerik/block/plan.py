@@ -533,6 +533,7 @@ EFFECTS: dict[str, Step] = {
     "feed": _feed_type,
     "diameter": _diameter,
     "orientation_profile": history.select,
+    "compressor": smoothing.select,
     "working_area": _working_area,
     "working_area_wcs": _working_area,
 }

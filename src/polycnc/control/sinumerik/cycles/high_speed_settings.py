@@ -9,6 +9,7 @@ from polycnc.control.sinumerik.block import procedures
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed import tolerances
 from polycnc.control.sinumerik.reset import start_code
+from polycnc.control.sinumerik.transformations import smoothing
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
@@ -67,6 +68,7 @@ def _switch(channel: SinumerikChannel, codes: dict[str, str], tolerance: float, 
         raise AlarmError("12560", text="S_TOL")
     channel.mode = channel.mode.with_codes(list(codes.items()))
     tolerances.Smoothing.of(channel).tolerance.update(CTOL=tolerance, OTOL=orientation)
+    smoothing.follow(channel)
     channel.context_changed()
 
 

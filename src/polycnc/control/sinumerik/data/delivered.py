@@ -95,6 +95,7 @@ DATA: dict[str, tuple[int, bool | float | str]] = {
     "$MC_GCODE_RESET_MODE": (20152, 0),
     "$MC_EXTERN_GCODE_RESET_VALUES": (20154, 1),
     "$MC_CUBIC_SPLINE_BLOCKS": (20160, 8),
+    "$MC_COMPRESS_BLOCK_PATH_LIMIT": (20170, 20.0),
     "$MC_ORISON_BLOCK_PATH_LIMIT": (20178, 20.0),
     "$MC_TOCARR_FINE_LIM_LIN": (20188, 1.0),
     "$MC_TOCARR_FINE_LIM_ROT": (20190, 1.0),
@@ -334,6 +335,7 @@ LENGTHS = frozenset(
     (
         "$MN_INDEX_AX_POS_TAB_1",
         "$MN_INDEX_AX_POS_TAB_2",
+        "$MC_COMPRESS_BLOCK_PATH_LIMIT",
         "$MC_ORISON_BLOCK_PATH_LIMIT",
         "$MC_TOCARR_FINE_LIM_LIN",
         "$MC_CIRCLE_ERROR_CONST",

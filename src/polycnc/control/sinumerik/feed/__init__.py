@@ -4,5 +4,6 @@
 `tooth_feed` FZ, `pace` OVR, FGROUP, CFC and the like, `dry_run`, `spindles` and `spindle_speed` (G96), `thread_ramps`
 (DITS, DITE), `wheels` (GWPSON, TMON).
 
-`axis_settings` (when an axis has arrived) and `tolerances` (CTOL) say how exactly the axes follow.
+`axis_settings` (when an axis has arrived), `tolerances` (CTOL) and `compressor` (COMPON …) say how exactly the axes
+follow.
 """

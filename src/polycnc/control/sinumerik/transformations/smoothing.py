@@ -1,7 +1,9 @@
 """How far smoothing may leave the programmed way: OSD and OST of the orientation (7.6), the compressors (4.4, 6.6).
 
 None of them makes blocks of its own: the rows stay those of the program, and the planner goes through their ends as
-fast as the tolerances allow. OSC turns the tool evenly along its block, as it turns without smoothing.
+fast as the tolerances allow. A compressor also leads cuts of short blocks beside their ends, by a part of its
+tolerance, so that the path is smoother (`channel/moves/fairing.py`); rounding has the rest. OSC turns the tool evenly
+along its block, as it turns without smoothing.
 """
 
 from __future__ import annotations
@@ -12,12 +14,14 @@ from polycnc.control.sinumerik.feed.tolerances import Smoothing, contour_toleran
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.transformations.words import BY_PATH, CONES
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.toolpath.context import Fairing
 from polycnc.toolpath.modes import CornerMode
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from polycnc.channel.mode import Mode
+    from polycnc.control.sinumerik.block.draft import Values
     from polycnc.control.sinumerik.family import SinumerikChannel
 
 #: Setting data that the tolerances of a context are made of.
@@ -30,6 +34,11 @@ GROUPS = frozenset(("compressor", "orientation_smoothing", "orientation_motion")
 NOT_COMPRESSED = frozenset((*CONES, *BY_PATH, "ORICURVE"))
 #: Units of MD20482 by which setting data, not MD33100 of the axes, bound the contour and the orientation.
 BY_CONTOUR, BY_ORIENTATION = (1, 3), (2, 3)
+
+
+#: How many ends before and behind one tell a compressor where the path goes: COMPCURV makes it smoother than COMPON,
+#: whose velocity alone is continuous, COMPCAD takes the most blocks together.
+REACH = {"COMPON": 4, "COMPCURV": 8, "COMPCAD": 16}
 
 
 class Turn(NamedTuple):
@@ -53,11 +62,41 @@ def contour(channel: SinumerikChannel, mode: Mode, otherwise: float) -> float:
     """Tolerance of the contour, mm: that of the compressor where it is wider than the one of rounding."""
     if not is_compressed(mode) or mode["path"] == "G641":
         return otherwise
+    return max(otherwise, _own_contour(channel))
+
+
+def _own_contour(channel: SinumerikChannel) -> float:
+    """CTOL, or what the compressor's data allow, mm."""
     data = channel.memory.data
     own = contour_tolerance(channel)
     if not own and data.integer("$MC_COMPRESSOR_MODE") % 10 in BY_CONTOUR:
         own = data.number("$SC_COMPRESS_CONTUR_TOL")
-    return max(otherwise, own or _of_axes(channel, (i for i in channel.coordinates.geometry if i >= 0)))
+    return own or _of_axes(channel, (i for i in channel.coordinates.geometry if i >= 0))
+
+
+def fairing(channel: SinumerikChannel, mode: Mode) -> Fairing | None:
+    """How the compressor leads cuts of blocks up to MD20170 (4.4); under a transformation or GEOAX it does not."""
+    if not is_compressed(mode) or channel.coordinates.transformation is not None:
+        return None
+    if tuple(channel.coordinates.geometry) != tuple(channel.machine.geometry_indices(channel.number)):
+        return None
+    longest = channel.memory.data.number("$MC_COMPRESS_BLOCK_PATH_LIMIT")
+    tolerance = _own_contour(channel)
+    return Fairing(tolerance, REACH[mode["compressor"]], longest) if tolerance > 0.0 < longest else None
+
+
+def select(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature
+    """COMPON, COMPCURV, COMPCAD, COMPOF."""
+    follow(channel)
+
+
+def follow(channel: SinumerikChannel) -> None:
+    """The modal state has changed: while a compressor is on, its stage holds cuts back."""
+    if channel.mode["compressor"] != "COMPOF":
+        from polycnc.control.sinumerik.feed.compressor import Compressor  # where one is on
+
+        if channel.path.find(Compressor) is None:
+            channel.path.put(Compressor(channel))
 
 
 def turn(channel: SinumerikChannel, mode: Mode) -> Turn:

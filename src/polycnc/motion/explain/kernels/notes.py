@@ -71,7 +71,7 @@ def note_rows(
                 state.run.stop = 1.0
             continue
         at = (number + row - origin) * Note.SIZE
-        record = take_row(rows, row, number, contexts, limits, state)
+        record = take_row(rows, row, curves, number, contexts, limits, state)
         notes[at + Note.RECORD], notes[at + Note.KIND] = record, state.row.kind
         notes[at + Note.LIMITS], notes[at + Note.AFTER] = known, after
         notes[at + Note.EASE], notes[at + Note.TOP] = state.row.ease, state.row.top

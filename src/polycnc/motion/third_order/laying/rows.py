@@ -38,6 +38,7 @@ from polycnc.motion.kernels.feeds import (
     bounded,
     counted_length,
     follows_radius,
+    left_tolerance,
     straight_speed,
 )
 from polycnc.motion.kernels.lay import lay_row, line_top, parts_of_line, take_row
@@ -198,7 +199,7 @@ def add_row(
     laid: RunLaid,
 ) -> bool:
     """Let a run go on along a row; false where the axes rest before it, or where there is no room."""
-    n, record = axes_of(lead), take_row(rows, row, number, contexts, limits, lead)
+    n, record = axes_of(lead), take_row(rows, row, curves, number, contexts, limits, lead)
     length, weight = counted_length(contexts, record, n, limits, lead)
     kind, before = lead.row.kind, laid.stretches
     if 2 * laid.slots + 2 > len(slots):
@@ -362,7 +363,7 @@ def put_stretch(
     path.way[e + 1] = path.way[e] + length
     path.form[e], path.row[e] = form, lead.row.number
     tolerance, turns = (
-        contexts[record + ContextRecord.TOLERANCE],
+        left_tolerance(contexts, record, lead.row.off),
         contexts[record + ContextRecord.TURN_TOLERANCE],
     )
     path.ease[e] = lead.row.ease

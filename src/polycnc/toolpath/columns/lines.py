@@ -15,7 +15,7 @@ from polycnc.deferred.modules import is_installed
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.toolpath.compiled import fill
 from polycnc.toolpath.digits import ALONE, END, LEFT_OUT, LONGEST_NUMBER, PLACE, WHOLE, Forms
-from polycnc.toolpath.kinds import ARC_KINDS, Kind
+from polycnc.toolpath.kinds import SHOWN_IN_COLUMNS, Kind
 from polycnc.toolpath.trace import COLUMN_ROWS
 
 if TYPE_CHECKING:
@@ -177,7 +177,7 @@ class _Rows:
         for number in self.numbers[:, self.width - len(self._arcs) - 1 :].T:
             key = key << 1 | ~np.isnan(number)
         knots = np.array([each.is_hidden for each in self._display.toolpath.contexts], bool)
-        alone = (kind == Kind.EVENT) | ((curve >= 0) & ~np.isin(kind, tuple(ARC_KINDS)))
+        alone = (kind == Kind.EVENT) | ((curve >= 0) & ~np.isin(kind, tuple(SHOWN_IN_COLUMNS)))
         left_out = knots[context] & (kind != Kind.EVENT) & self._goes_on(shown)
         forms = np.full(len(key), LEFT_OUT, np.int32)
         forms[alone & ~left_out] = ALONE
