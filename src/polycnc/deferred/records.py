@@ -12,11 +12,13 @@ What nothing here uses is left out: `InitVar`, `kw_only`, `order` and `unsafe_ha
 
 from __future__ import annotations
 
+import sys
 from functools import cached_property
 from operator import attrgetter
 from reprlib import recursive_repr
 from types import FunctionType, MappingProxyType, MemberDescriptorType
-from typing import TYPE_CHECKING, Any, ClassVar, get_origin
+
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -208,7 +210,8 @@ def _is_of_class(hint: object) -> bool:
     """Whether an annotation is no field's."""
     if isinstance(hint, str):
         return hint.startswith(("ClassVar", "typing.ClassVar"))
-    return hint is ClassVar or get_origin(hint) is ClassVar
+    typing = sys.modules.get("typing")  # which whoever has it evaluated has loaded
+    return typing is not None and typing.ClassVar in (hint, typing.get_origin(hint))
 
 
 def _with_slots(cls: type, noted: Mapping[str, object], added: Mapping[str, object]) -> type:

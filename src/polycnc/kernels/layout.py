@@ -9,7 +9,7 @@ import ctypes
 import sys
 from collections.abc import MutableSequence
 from functools import partial
-from typing import TYPE_CHECKING, Annotated, Any, ForwardRef, TypeVar, cast, get_args
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar, cast
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -60,16 +60,15 @@ def meaning(of: type | Callable[..., object]) -> dict[str, Any]:
 
 def _meant(hint: Any, scope: dict[str, Any]) -> Any:
     """Most are texts, which are names, or expressions, for which `typing` takes much longer."""
-    if isinstance(hint, ForwardRef):  # of a named tuple
-        hint = hint.__forward_arg__
+    hint = getattr(hint, "__forward_arg__", hint)  # of a named tuple of the library
     if not isinstance(hint, str):
         return hint
     return _SIMPLE.get(hint) or scope.get(hint) or eval(hint, scope)
 
 
-def _numbers(hint: object) -> type[Any]:
-    *_, count = get_args(hint)
-    return ctypes.c_double * cast("int", count)
+def _numbers(hint: Any) -> type[Any]:
+    count: int = hint.__metadata__[0]
+    return ctypes.c_double * count
 
 
 class Places:
