@@ -50,7 +50,9 @@ def test_heads_of_classes() -> None:
 
         __slots__ = ("content",)
 
-    class Full(Box[int]):  # type: ignore[misc]
+    base: Any = Box
+
+    class Full(base[int]):  # type: ignore[misc]
         """It is given."""
 
         __slots__ = ()
