@@ -24,6 +24,7 @@ from benchmarks import (
 BENCHMARKS = (
     processes.against_rs274,
     processes.short_programs,
+    processes.calls_into_programs,
     processes.many_files,
     interpreter.plain_blocks,
     interpreter.macro_loop,

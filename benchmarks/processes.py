@@ -7,14 +7,19 @@ import sys
 import tempfile
 import time
 from collections.abc import Iterator
+from itertools import pairwise
 from pathlib import Path
 
 from benchmarks.measure import Figure, process_time, skipped
-from benchmarks.programs import NO_TIME, TIMED, Work, all_work, lines
+from benchmarks.programs import HEAD, NO_TIME, TIMED, Work, all_work, lines
 
 TURNS = 3
 FILES, FILES_LIMIT_S = 2_000, 2.0
-SHORT, LONG = 10_000, 100_000
+FEW, SHORT, LONG = 1_000, 10_000, 100_000
+#: Differences of processes are small beside the processes: smallest of so many.
+GROWTH_TURNS = 15
+#: Part of the speed of few calls that many keep: the cost is linear.
+LINEAR = 0.8
 
 
 def _command(*arguments: str | Path, control: str = "fanuc-m") -> list[str]:
@@ -75,16 +80,43 @@ def _said(options: tuple[str, ...]) -> str:
 
 
 def short_programs() -> Iterator[Figure]:
-    """A short program with cycle time takes no longer for a block than a long one, but for the start of the process."""
+    """What a block of a short program with cycle time costs, and one of a long program.
+
+    It is what further blocks cost: a program ten times as long less the program, by the blocks that it has more. So
+    what is loaded once, at the start and for the first run of blocks, is no part of it.
+    """
     work = lines()
-    used: dict[int, float] = {}
-    with tempfile.TemporaryDirectory() as name:
-        for count in (SHORT, LONG, 1):
-            part = _write(Path(name, f"{count}.nc"), [*work.ours[: count + 4], "M30"])
-            used[count] = process_time(_command("run", part), TURNS)
-    short, long = ((used[count] - used[1]) / count * 1e6 for count in (SHORT, LONG))
+    short, long = _growth({count: [*work.ours[: count + 4], "M30"] for count in (FEW, SHORT, LONG)})
     said = f"{short:.2f} µs a block of {SHORT:,}, {long:.2f} of {LONG:,}"
     yield Figure("short programs with cycle time", said, long / max(short, 1e-9))
+
+
+def calls_into_programs() -> Iterator[Figure]:
+    """`M98 P Q`, which calls a program from a sequence number on: a call costs the same among few and among many."""
+    body = ["O2000", "X1.", "N10 X2.", "Y1.", "M99"]
+    calls = [[f"X{k % 50}.", f"Y{k % 7}.", "M98 P2000 Q10"] for k in range(LONG // 5)]
+    few, many = _growth({
+        count: [*HEAD, *(block for call in calls[:count] for block in call), "M30", *body]
+        for count in (len(calls) // 100, len(calls) // 10, len(calls))
+    })  # fmt: skip
+    said = f"{few:.2f} µs a call of {len(calls) // 10:,}, {many:.2f} of {len(calls):,}, limit {1 / LINEAR:g} times"
+    yield Figure("calls M98 Q", said, few / LINEAR / max(many, 1e-9))
+
+
+def _growth(programs: dict[int, list[str]]) -> list[float]:
+    """Microseconds that each further block takes between programs of three lengths."""
+    used = dict.fromkeys(programs, float("inf"))
+    with tempfile.TemporaryDirectory() as name:
+        runs = {
+            count: _command("run", _write(Path(name, f"{count}.nc"), blocks))
+            for count, blocks in programs.items()
+        }
+        for _ in range(GROWTH_TURNS):
+            for count, run in runs.items():
+                used[count] = min(used[count], process_time(run, 1))
+    return [
+        (used[large] - used[small]) / (large - small) * 1e6 for small, large in pairwise(sorted(programs))
+    ]
 
 
 def many_files() -> Iterator[Figure]:

@@ -124,7 +124,7 @@ def macros() -> Work:
 def holes(code: str, words: str = "") -> Work:
     """A field of holes."""
     first = f"G98 {code} X0 Y0 Z-10. R2.{words} F200."
-    return both(f"10,000 holes {code}", [first, *_HOLES, "G80"], {NO_TIME: 2.0})
+    return both(f"10,000 holes {code}", [first, *_HOLES, "G80"], {NO_TIME: 2.0, TIMED: 1.0})
 
 
 def compensated() -> Work:

@@ -33,7 +33,7 @@ def is_current() -> bool:
     """Whether the shared object is there, fits its sources, and was made by this compiler."""
     if any(library.lack is not None for library in libraries()):
         return False
-    made = native.FILE.stat().st_mtime
+    made = Path(native.FILE).stat().st_mtime
     return all(file.stat().st_mtime <= made for file in Path(__file__).parent.glob("*.py"))
 
 
@@ -46,4 +46,4 @@ def make() -> None:
         subprocess.CalledProcessError: The linker refuses.
     """
     about = [(library, described(library)) for library in libraries()]  # before minutes pass
-    link([object_code(library, text) for library, text in about], native.FILE)
+    link([object_code(library, text) for library, text in about], Path(native.FILE))

@@ -161,16 +161,14 @@ def test_tables_of_other_libraries_are_made_where_they_are_installed(
     library: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     result = polycnc.run(PROGRAM, control="fanuc-m")
-    monkeypatch.setattr(
-        "polycnc.session.result.find_spec", lambda name: None if name == library else object()
-    )
+    monkeypatch.setattr("polycnc.session.result.is_installed", lambda name: name != library)
     with pytest.raises(SessionError, match=f"pip install {library}"):
         getattr(result, f"to_{library}")()
 
 
 def test_polars_takes_the_arrow_table(monkeypatch: pytest.MonkeyPatch) -> None:
     result = polycnc.run(PROGRAM, control="fanuc-m")
-    monkeypatch.setattr("polycnc.session.result.find_spec", lambda _name: object())
+    monkeypatch.setattr("polycnc.session.result.is_installed", lambda _name: True)
     monkeypatch.setitem(sys.modules, "polars", SimpleNamespace(from_arrow=lambda table: table.num_rows))
     assert result.to_polars() == len(result.rows)
 

@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from polycnc.mainrun import VirtualControl
     from polycnc.messages.catalogue import set_language
     from polycnc.session import Result, Session, SessionError, open_session, run
+    from polycnc.version import __version__
 
-__version__ = "0.1.0"
 __all__ = [
     "Result",
     "Session",
@@ -34,6 +34,10 @@ def __getattr__(name: str) -> Any:
         from polycnc.messages.catalogue import set_language
 
         return set_language
+    if name == "__version__":
+        from polycnc.version import __version__
+
+        return __version__
     if name == "VirtualControl":
         from polycnc.mainrun import VirtualControl
 

@@ -1,5 +1,8 @@
 """`python -m polycnc`."""
 
-from polycnc.cli import main
+try:
+    from polycnc.cli import main
 
-main()
+    main()
+except KeyboardInterrupt:  # before there was anything that could answer
+    raise SystemExit(130) from None

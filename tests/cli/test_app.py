@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import time
+import tomllib
 from contextlib import suppress
 from pathlib import Path
 from threading import Thread
@@ -13,8 +14,11 @@ from typing import TYPE_CHECKING
 import pytest
 
 from polycnc import __version__
+from polycnc.cli import app
 from polycnc.cli.app import main
 from polycnc.cli.commands import COMMANDS
+from polycnc.language.bulk.compiled import LIBRARY as READING
+from polycnc.motion.compiled import LIBRARY as PLANNING
 from tests.cli.console import BAD, GOOD
 
 if TYPE_CHECKING:
@@ -34,6 +38,11 @@ def test_the_version_is_told(console: Console) -> None:
     assert console("--version").out == f"polycnc {__version__}\n"
 
 
+def test_it_is_that_of_the_project() -> None:
+    project = tomllib.loads((Path(__file__).parents[2] / "pyproject.toml").read_text(encoding="utf-8"))
+    assert project["project"]["version"] == __version__
+
+
 def test_a_thread_may_call_it_though_it_cannot_answer_signals() -> None:
     statuses = []
 
@@ -49,6 +58,22 @@ def test_a_thread_may_call_it_though_it_cannot_answer_signals() -> None:
     assert statuses == [0]
 
 
+@pytest.mark.parametrize(
+    "words", [("run",), ("check",), ("plot", "-o", "good.svg")], ids=lambda words: words[0]
+)
+@pytest.mark.parametrize("lack", ["missing", "stale", "chosen"])
+def test_who_waits_for_plain_kernels_is_told_so(
+    console: Console, monkeypatch: pytest.MonkeyPatch, words: tuple[str, ...], lack: str
+) -> None:
+    console.file("good.nc", GOOD)
+    program = ("good.nc", "--control", "fanuc-m")
+    monkeypatch.setitem(vars(READING), "lack", None)
+    monkeypatch.setitem(vars(PLANNING), "lack", lack)
+    assert "kernels" not in console(*words, *program).err
+    monkeypatch.setattr(app, "SLOW_S", 0.0)
+    assert console(*words, *program).err.count("kernels") == (lack != "chosen")
+
+
 @pytest.mark.parametrize("command", COMMANDS)
 def test_every_command_has_help(console: Console, command: str) -> None:
     said = console(command, "--help")
@@ -60,16 +85,6 @@ def test_every_command_has_help(console: Console, command: str) -> None:
 def test_h_shows_the_same_help(console: Console, words: tuple[str, ...]) -> None:
     assert console(*words, "-h").out == console(*words, "--help").out
     assert console(*words, "-h", "--lang", "zh-TW").out == console(*words, "--help", "--lang", "zh-TW").out
-
-
-@pytest.mark.parametrize(
-    ("words", "offered"), [("run --control s", "sinumerik-840d"), ("run --machine lathe2", "lathe2-2path")]
-)
-def test_the_shell_is_offered_controls_and_machines(words: str, offered: str, tmp_path: Path) -> None:
-    environment = {"_POLYCNC_COMPLETE": "complete_bash", "COMP_WORDS": f"polycnc {words}", "COMP_CWORD": "3"}
-    process = _polycnc(cwd=tmp_path, stdout=subprocess.PIPE, env={**os.environ, **environment})
-    out, _ = process.communicate(timeout=30)
-    assert offered in out.decode().split()
 
 
 def test_help_comes_in_chinese_too(tmp_path: Path) -> None:
@@ -150,6 +165,27 @@ def test_ctrl_c_ends_a_long_run_with_one_line_and_leaves_no_half_written_file(tm
     assert process.returncode == 130
     assert len(err.splitlines()) == 1
     assert [path.name for path in tmp_path.iterdir()] == ["long.nc"]
+
+
+#: Ctrl-C comes while a module is looked for.
+INTERRUPTED_AT = """
+import runpy, sys
+
+class Finder:
+    def find_spec(self, name, path=None, target=None):
+        if name == {name!r}:
+            raise KeyboardInterrupt
+
+sys.meta_path.insert(0, Finder())
+runpy.run_module("polycnc", run_name="__main__", alter_sys=True)
+"""
+
+
+@pytest.mark.parametrize("name", ["polycnc.cli", "polycnc.cli.app", "polycnc.cli.plain"])
+def test_ctrl_c_while_it_is_loaded_is_no_traceback(tmp_path: Path, name: str) -> None:
+    command = [sys.executable, "-c", INTERRUPTED_AT.format(name=name)]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, timeout=30, check=False)
+    assert (done.returncode, done.stderr) == (130, b"")
 
 
 def test_a_reader_that_goes_away_ends_the_output_quietly(tmp_path: Path) -> None:

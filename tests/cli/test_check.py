@@ -67,6 +67,13 @@ def test_exit_zero_keeps_the_findings_and_drops_the_status(console: Console) -> 
     assert "PS0010" in said.out
 
 
+def test_a_name_that_is_too_long_is_told_as_elsewhere(console: Console) -> None:
+    name = "x" * 300
+    for lang, said in (("en", "the name is too long"), ("zh-TW", "名稱過長")):
+        for command in ("check", "run"):
+            assert console(command, name, *FANUC, "--lang", lang).err == f"polycnc: {name}: {said}\n"
+
+
 def test_one_unreadable_file_does_not_hide_the_findings_of_the_others(console: Console) -> None:
     console.file("bad.nc", BAD)
     said = console("check", "missing.nc", "bad.nc", *FANUC, "--exit-zero")

@@ -163,3 +163,15 @@ def test_two_outputs_are_two_files(console: Console, inputs: dict[str, str]) -> 
     assert not Path("x.csv").exists()
     devices = ("--print", os.devnull, "--state", os.devnull)
     assert console("run", "b.nc", "--control", "fanuc-m", *devices).status == 1
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="links need rights there")
+@pytest.mark.parametrize("name", ["loop", "loop/out.json"])
+def test_links_that_lead_in_a_circle_are_told(console: Console, inputs: dict[str, str], name: str) -> None:
+    assert inputs
+    Path("loop").symlink_to("loop")
+    said = console("run", "a.nc", "--control", "fanuc-m", "--state", name)
+    assert (said.status, said.err) == (2, f"polycnc: {name}: the links lead in a circle\n")
+    with pytest.raises(OSError, match="loop"):
+        write_whole(Path(name), "new")
+    assert Path("loop").is_symlink()

@@ -1,4 +1,4 @@
-"""Plain words are read as Typer reads them; all others are left to it."""
+"""Plain words are read as Click reads them; all others are left to it."""
 
 from __future__ import annotations
 
@@ -7,12 +7,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
-import typer
 
 from polycnc.cli import plain
+from polycnc.cli.clicks import made_of
 from polycnc.cli.commands import COMMANDS, commands_of
-from polycnc.cli.declaration import Command, Commands
-from polycnc.cli.typed import app_of
+from polycnc.cli.declaration import Command, Commands, without_none
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -34,7 +33,7 @@ PLAIN = [
     "panel",
     "panel a.nc --host 0.0.0.0 --no-open --exercise x --lang en",
 ]
-#: Right or wrong, these are Typer's.
+#: Right or wrong, these are Click's.
 OTHERS = [
     "",
     "--version",
@@ -79,17 +78,16 @@ def given(monkeypatch: pytest.MonkeyPatch) -> list[dict[str, Any]]:
     return calls
 
 
-def by_typer(words: list[str]) -> object:
-    command: Any = typer.main.get_command(app_of(commands_of(words[0])))
-    return command(words[1:], standalone_mode=False)
+def by_click(words: list[str]) -> object:
+    return made_of(commands_of(words[0]), words[0]).main(words[1:], words[0], standalone_mode=False)
 
 
 @pytest.mark.parametrize("line", PLAIN)
-def test_plain_words_mean_what_they_mean_to_typer(line: str, given: list[dict[str, Any]]) -> None:
+def test_plain_words_mean_what_they_mean_to_click(line: str, given: list[dict[str, Any]]) -> None:
     words = line.split()
     asked = plain.read(words)
     assert asked is not None
-    assert asked() == by_typer(words) == 7
+    assert asked() == by_click(words) == 7
     ours, theirs = given
     assert ours == theirs
     assert {name: type(value) for name, value in ours.items()} == {
@@ -98,21 +96,21 @@ def test_plain_words_mean_what_they_mean_to_typer(line: str, given: list[dict[st
 
 
 @pytest.mark.parametrize("line", OTHERS)
-def test_other_words_are_left_to_typer(line: str) -> None:
+def test_other_words_are_left_to_click(line: str) -> None:
     assert plain.read(line.split()) is None
 
 
-def test_an_empty_word_is_left_to_typer() -> None:
+def test_an_empty_word_is_left_to_click() -> None:
     assert plain.read(["run", ""]) is None
     assert plain.read(["run", "a.nc", "--setup", ""]) is None
 
 
-def test_a_line_that_the_shell_completes_is_left_to_typer(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_line_that_the_shell_completes_is_left_to_click(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("_POLYCNC_COMPLETE", "complete_bash")
     assert plain.read(["run", "a.nc"]) is None
 
 
-def test_a_file_that_may_not_be_read_is_left_to_typer(tmp_path: Path) -> None:
+def test_a_file_that_may_not_be_read_is_left_to_click(tmp_path: Path) -> None:
     setup = tmp_path / "setup.yaml"
     setup.touch(0)
     if os.access(setup, os.R_OK):
@@ -126,5 +124,5 @@ def test_every_parameter_is_declared(name: str) -> None:
     assert offered.members
     for command in offered.members:
         for parameter in command.parameters:
-            assert plain._without_none(parameter.kind) is not type(None)
+            assert without_none(parameter.kind) is not type(None)
             assert all(flag.startswith("-") for flag in parameter.flags)

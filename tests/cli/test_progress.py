@@ -3,20 +3,28 @@
 from __future__ import annotations
 
 import io
+import os
+import subprocess
 import sys
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import pytest
+from tqdm.utils import disp_len
 
 from polycnc.cli import progress
+from polycnc.cli.commands import features, plot
 from polycnc.cli.console import say
 from polycnc.cli.progress import Reached, Waiting, WaitingForRun, Watch, watched
 from polycnc.messages.catalogue import set_language
 from polycnc.session import open_session
+from tests.cli.console import GOOD
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+    from types import ModuleType
+
+    from tests.cli.console import Console
 
 
 class Terminal(io.StringIO):
@@ -38,7 +46,6 @@ def terminal(monkeypatch: pytest.MonkeyPatch) -> Terminal:
     seen = Terminal()
     monkeypatch.setattr(sys, "stderr", seen)
     monkeypatch.setenv("TERM", "xterm")
-    monkeypatch.setenv("COLUMNS", "120")
     monkeypatch.setattr(progress, "monotonic", lambda: 0.0)
     return seen
 
@@ -112,8 +119,86 @@ def test_a_result_is_written_where_it_belongs_and_the_bar_makes_room(
     watch.look(Waiting("polycnc test", 10, "cases"), 2.0)
     say("FAILED")
     assert capsys.readouterr().out == "FAILED\n"
-    assert seen.getvalue().endswith("\x1b[2K")
+    drawn, taken_away, begin = seen.getvalue().split("\r")[-3:]
+    assert drawn.startswith("polycnc test ")
+    assert taken_away == " " * len(drawn)
+    assert begin == ""
     watch.end()
+
+
+def test_a_narrow_terminal_tells_the_time_left_and_as_much_of_the_name_as_fits(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    seen = terminal(monkeypatch)
+    set_language("zh-TW")
+    watch, waiting = Watch("polycnc check"), Waiting("加工程式一.nc", 1000, "files")
+    waiting.reach(100)
+    watch.look(waiting, 4.0)
+    monkeypatch.setattr(progress, "_COLUMNS", 40)
+    watch.look(waiting, 4.2)
+    wide, narrow = seen.getvalue().split("\r")[-2:]
+    assert wide.startswith("加工程式一.nc ")
+    assert narrow.rstrip().endswith("  10%  每秒 24 個檔案，剩餘 0:38")
+    assert narrow.startswith("加工 ")
+    assert disp_len(narrow.rstrip()) == 39
+    watch.end()
+
+
+def test_a_terminal_that_says_it_has_no_columns_shows_the_bar(monkeypatch: pytest.MonkeyPatch) -> None:
+    seen = terminal(monkeypatch)
+    monkeypatch.setattr(seen, "fileno", lambda: 2)
+    monkeypatch.setattr("os.get_terminal_size", lambda *_: os.terminal_size((0, 0)))
+    watch, waiting = Watch("polycnc check"), Waiting("加工程式.nc", 1000, "files")
+    waiting.reach(100)
+    watch.look(waiting, 4.0)
+    watch.end()
+    assert "加工程式.nc #" in seen.getvalue()
+    assert "10%" in seen.getvalue()
+
+
+def test_a_terminal_with_few_characters_gets_those_that_it_has(monkeypatch: pytest.MonkeyPatch) -> None:
+    terminal(monkeypatch)
+    seen = io.TextIOWrapper(io.BytesIO(), encoding="latin-1", errors="strict")
+    monkeypatch.setattr(sys, "stderr", seen)
+    set_language("zh-TW")
+    watch, waiting = Watch("polycnc check"), Waiting("程式.nc", 1000, "files")
+    waiting.reach(500)
+    watch.look(waiting, 4.0)
+    watch.end()
+    shown = seen.buffer.getvalue().decode("latin-1")
+    assert "??.nc ####" in shown
+    assert "  50%  ?? 125 ?????? 0:04" in shown
+
+
+def test_a_terminal_that_cannot_take_a_bar_away_gets_none(monkeypatch: pytest.MonkeyPatch) -> None:
+    terminal(monkeypatch)
+    monkeypatch.setenv("TERM", "dumb")
+    monkeypatch.setattr(Watch, "begin", lambda _: pytest.fail("somebody looks"))
+    with watched("polycnc check"):
+        assert Watch.of_command is None
+
+
+SHOWING = """
+import sys, threading, time
+from polycnc.cli import progress
+sys.stderr.isatty = lambda: True
+progress.PATIENCE_S = progress.LOOK_S = 0.02
+with progress.watched("polycnc check"), progress.Waiting("part.nc", 4, "files") as waiting:
+    waiting.reach(1)
+    while progress.Watch.of_command._bar is None:
+        time.sleep(0.01)
+print([each.name for each in threading.enumerate()], "multiprocessing" in sys.modules)
+"""
+
+
+def test_a_bar_leaves_no_thread_and_nothing_on_the_terminal() -> None:
+    done = subprocess.run(
+        [sys.executable, "-c", SHOWING], capture_output=True, text=True, timeout=60, check=True,
+        env={**os.environ, "TERM": "xterm"},
+    )  # fmt: skip
+    assert done.stdout == "['MainThread'] False\n"
+    assert "part.nc" in done.stderr
+    assert done.stderr.splitlines()[-1].strip() == ""
 
 
 def test_the_work_that_was_begun_last_is_shown(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -131,6 +216,48 @@ def test_parts_are_counted_as_they_are_taken() -> None:
     waiting = Waiting("part.nc", 4, "rows")
     for part in waiting.each("abcd"):
         assert waiting.reached(0.0) == Reached("rows", "abcd".index(part), "abcd".index(part) / 4)
+
+
+def test_parts_that_are_gone_through_in_several_turns_count_on() -> None:
+    waiting: Any = Waiting("part.svg", 6, "points")
+    seen = [waiting.reached(0.0).done for turn in ("abc", "def") for _ in waiting.each(turn)]
+    assert seen[:3] == [0, 1, 2]
+    assert seen[3] == 2
+    assert seen[-1] >= 4
+
+
+def counted_by(monkeypatch: pytest.MonkeyPatch, module: ModuleType) -> list[Any]:
+    """What a command counts: number of parts, and what they are."""
+    told: list[Any] = []
+
+    class Counting(Waiting):
+        def __init__(self, what: str, total: int | None, unit: str) -> None:
+            super().__init__(what, total, unit)
+            told.append(self)
+
+    monkeypatch.setattr(module, "Waiting", Counting)
+    return told
+
+
+def test_a_drawing_counts_its_rows_and_then_its_points(
+    console: Console, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    told = counted_by(monkeypatch, plot)
+    console.file("good.nc", GOOD)
+    console("plot", "good.nc", "--control", "fanuc-m", "-o", "good.svg")
+    assert [waiting.reached(0.0).unit for waiting in told] == ["rows", "points"]
+    assert told[-1].reached(0.0).share > 0.9
+
+
+def test_features_of_a_folder_are_counted_by_files(console: Console, monkeypatch: pytest.MonkeyPatch) -> None:
+    told = counted_by(monkeypatch, features)
+    (console.folder / "cases").mkdir()
+    for name in "abc":
+        console.file(
+            f"cases/{name}.yaml", "- {id: 1, feature: f, control: fanuc-m, program: M30, expect: {}}\n"
+        )
+    console("features", "--from", "cases")
+    assert told[0].reached(0.0) == Reached("files", 2, 2 / 3)
 
 
 # ---- a run -----------------------------------------------------------------------------------------------------------

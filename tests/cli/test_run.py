@@ -31,6 +31,20 @@ def test_a_run_tells_time_travel_and_tools(console: Console) -> None:
     assert "  T1  " in said.out
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="no such names there")
+def test_a_file_is_one_however_it_is_called(console: Console) -> None:
+    (console.folder / "folder").mkdir()
+    for name in ("two\nlines.nc", "-part.nc", "folder/a b.nc", "\udcff.nc"):
+        console.file(name, GOOD)
+        assert console("run", f"./{name}", *FANUC).status == 0
+
+
+@pytest.mark.parametrize("name", ["folder/none.nc", "./folder//none.nc", "folder/./none.nc/"])
+def test_a_path_is_told_without_what_it_need_not_have(console: Console, name: str) -> None:
+    (console.folder / "folder").mkdir()
+    assert console("run", name, *FANUC).err == "polycnc: folder/none.nc: there is no such file\n"
+
+
 def test_a_run_speaks_chinese(console: Console) -> None:
     console.file("good.nc", GOOD)
     assert "加工時間" in console("run", "good.nc", "--control", "fanuc-m", "--lang", "zh-TW").out

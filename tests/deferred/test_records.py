@@ -6,14 +6,14 @@ import ast
 import copy
 import dataclasses
 import pickle
-from dataclasses import FrozenInstanceError, field, fields, is_dataclass, replace
+from dataclasses import FrozenInstanceError, field, fields, is_dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import pytest
 
 import polycnc
-from polycnc.deferred.records import _FEW, dataclass, is_frozen
+from polycnc.deferred.records import _FEW, _MANY, dataclass, is_frozen, replace
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -105,6 +105,49 @@ def test_many_objects_are_as_the_first(name: str, arguments: Any, named: Any) ->
     for each in fields(cls):
         assert len({repr(getattr(one, each.name)) for one in made}) == 1
         assert len({each.name in getattr(one, "__dict__", ()) for one in made}) == 1
+
+
+@pytest.mark.parametrize(("name", "arguments", "named"), ARGUMENTS)
+def test_what_is_compared_often_is_as_at_first(name: str, arguments: Any, named: Any) -> None:
+    cls: Any = classes_by(dataclass)[name]
+    theirs: Any = THEIRS[name]
+    one, other = cls(*arguments, **named), cls(*arguments, **named)
+    is_equal = theirs(*arguments, **named) == theirs(*arguments, **named)
+    for _ in range(2 * _MANY):
+        assert (one == other) is is_equal
+        assert one != "another thing"
+    if theirs.__hash__ is not None and name != "Counter":
+        hashed = [_hash_or_error(thing) for thing in (*[one] * _MANY, other)]
+        assert len(set(hashed)) == 1
+    if name in {"Plain", "Point", "Labelled"}:
+        assert cls.__eq__.__code__.co_filename == "<string>"  # written by then
+        another = cls(2.5, *arguments[1:], **named)
+        assert one != another
+        assert another == cls(2.5, *arguments[1:], **named)
+
+
+def _hash_or_error(thing: object) -> object:
+    try:
+        return hash(thing)
+    except TypeError as error:  # it holds a list
+        return str(error)
+
+
+@pytest.mark.parametrize("by", [dataclass, dataclasses.dataclass])
+def test_an_object_like_another_one_has_all_that_is_not_changed(by: Any) -> None:
+    made = classes_by(by)
+    point: Any = made["Labelled"](1.25, ["a"], hidden=4, label="there")
+    for _ in range(2):  # what is taken over is kept for the second
+        like: Any = replace(point, x=2.0)
+        assert (like.x, like.names, like.hidden, like.label) == (2.0, ["a"], 4, "there")
+        assert like.made == {"x": 2}
+        with pytest.raises(ValueError, match="constant is declared with init=False"):
+            replace(point, constant=8)
+        with pytest.raises(TypeError):
+            replace(point, other=8)
+        with pytest.raises(TypeError, match="dataclass instances"):
+            replace(type(point), x=2.0)  # type: ignore[type-var]
+    assert replace(made["Point"](1.0), x=3.0) == made["Point"](3.0)
 
 
 @pytest.mark.parametrize("name", OURS)

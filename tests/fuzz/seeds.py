@@ -63,4 +63,6 @@ def seeds_of(control: str) -> tuple[Seed, ...]:
 @cache
 def machine_files() -> tuple[tuple[str, str], ...]:
     """The shipped machine files: id and text."""
-    return tuple((path.stem, path.read_text(encoding="utf-8")) for path in sorted(BUILTIN.glob("*.toml")))
+    return tuple(
+        (path.stem, path.read_text(encoding="utf-8")) for path in sorted(Path(BUILTIN).glob("*.toml"))
+    )

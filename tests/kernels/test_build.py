@@ -50,9 +50,12 @@ def test_a_pure_wheel_can_be_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
     assert data == {"artifacts": []}
 
 
-def test_a_build_that_fails_gives_a_pure_wheel_and_says_why(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("error", [OSError("no place"), AttributeError("no place in this Numba")])
+def test_a_build_that_fails_gives_a_pure_wheel_and_says_why(
+    error: Exception, monkeypatch: pytest.MonkeyPatch
+) -> None:
     def fails() -> None:
-        raise OSError("no place")
+        raise error
 
     warnings: list[str] = []
     hook = made_hook(monkeypatch, "/usr/bin/cc")
@@ -70,7 +73,7 @@ def test_the_wheel_has_the_object_and_the_tag_of_its_platform(monkeypatch: pytes
     monkeypatch.setattr(shared_object, "is_current", lambda: True)
     data: dict[str, object] = {"artifacts": []}
     hook.initialize("standard", data)
-    assert data["artifacts"] == [f"/src/polycnc/kernels/{native.FILE.name}"]
+    assert data["artifacts"] == [f"/src/polycnc/kernels/{Path(native.FILE).name}"]
     assert data["pure_python"] is False
     assert re.fullmatch(r"py3-none-\w+", str(data["tag"]))
     assert data["tag"] != "py3-none-any"

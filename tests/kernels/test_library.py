@@ -17,7 +17,10 @@ from tests.kernels import sums
 
 ROOT = Path(__file__).resolve().parents[2]
 #: What the machine code of `sums` is made of.
-SOURCES = ("src/polycnc/kernels/layout.py", "tests/kernels/halves.py", "tests/kernels/sums.py")
+SOURCES = (
+    "src/polycnc/kernels/c_types.py", "src/polycnc/kernels/layout.py", "tests/kernels/halves.py",
+    "tests/kernels/sums.py",
+)  # fmt: skip
 
 
 @pytest.fixture(scope="module")
@@ -29,7 +32,7 @@ def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
     if system_linker() is None:
         pytest.skip("no linker")
-    made = tmp_path_factory.mktemp("kernels") / native.FILE.name
+    made = tmp_path_factory.mktemp("kernels") / Path(native.FILE).name
     link([object_code(library(made), described(library(made)))], made)
     return made
 
@@ -52,7 +55,7 @@ def wanted(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def library(file: Path, root: Path = ROOT) -> Library:
     kernels = ("tests.kernels.sums.add", "tests.kernels.sums.put", "tests.kernels.sums.go")
-    return Library("sums", ("tests.kernels.sums",), kernels, file=file, root=str(root))
+    return Library("sums", ("tests.kernels.sums",), kernels, file=str(file), root=str(root))
 
 
 def given() -> tuple[sums.Columns, sums.Total]:
@@ -173,14 +176,16 @@ def test_machine_code_whose_sources_are_missing_is_not_run(file: Path, copied: P
 
 def test_a_library_that_is_newer_than_the_machine_code_has_none(file: Path) -> None:
     kernels = ("tests.kernels.sums.add",)
-    assert Library("others", ("tests.kernels.sums",), kernels, file=file).lack is Lack.STALE
-    assert Library("sums", ("tests.kernels.sums",), kernels, file=file, root=str(ROOT)).lack is Lack.STALE
+    assert Library("others", ("tests.kernels.sums",), kernels, file=str(file)).lack is Lack.STALE
+    assert (
+        Library("sums", ("tests.kernels.sums",), kernels, file=str(file), root=str(ROOT)).lack is Lack.STALE
+    )
 
 
 def test_where_there_is_machine_code_the_sources_are_not_imported(file: Path, tmp_path: Path) -> None:
     described = library(file)
     unknown = Library(
-        "sums", ("no.such",), ("no.such.add", "no.such.put", "no.such.go"), file=file, root=str(ROOT)
+        "sums", ("no.such",), ("no.such.add", "no.such.put", "no.such.go"), file=str(file), root=str(ROOT)
     )
     assert described.compiled("put") is not None
     assert unknown.compiled("put") is not None

@@ -50,7 +50,7 @@ AXES = {
     "grinder-xz": "X Z",
     "grinder-mu-mz": "MU MZ",
 }
-FILES = sorted(BUILTIN.rglob("*.toml"))
+FILES = sorted(Path(BUILTIN).rglob("*.toml"))
 
 
 def test_every_machine_of_the_case_format_is_there_and_no_other() -> None:
@@ -62,7 +62,7 @@ def test_shipped_file_follows_the_schema(path: Path) -> None:
     assert list(mistakes(tomllib.loads(path.read_text(encoding="utf-8")))) == []
 
 
-@pytest.mark.parametrize("path", sorted(BUILDERS.glob("*/*.toml")), ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", sorted(Path(BUILDERS).glob("*/*.toml")), ids=lambda path: path.stem)
 def test_shipped_builder_follows_the_schema(path: Path) -> None:
     data = tomllib.loads(path.read_text(encoding="utf-8"))
     assert list(mistakes(data, BuilderTable)) == []

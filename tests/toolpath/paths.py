@@ -43,8 +43,8 @@ class Draft:
         self.toolpath.append_event(event, self.program, self.line, self.context, self.end)
         return self
 
-    def display(self, layout: AxisLayout = MILL) -> Display:
-        return Display(self.toolpath, layout)
+    def display(self, layout: AxisLayout = MILL, names: tuple[str, ...] = ()) -> Display:
+        return Display(self.toolpath, layout, names=names)
 
     def rows(self) -> list[Row]:
         return list(self.toolpath.rows())

@@ -17,6 +17,7 @@ from polycnc.toolpath.columns import compiled, numbers, shown
 from polycnc.toolpath.columns.names import TEXTS, flattened, table_columns
 from polycnc.toolpath.columns.numbers import Numbers
 from polycnc.toolpath.events import Message, SpindleSpeed, ToolSelection
+from polycnc.toolpath.export import arrow_table
 from polycnc.toolpath.modes import FeedMode
 from tests.kernels.strict import strict
 from tests.toolpath.paths import Z_UP, Draft
@@ -46,12 +47,13 @@ CURVES = {
 }
 EVENTS = (ToolSelection(12), ToolSelection('T"é'), Message("工件"), SpindleSpeed(800.0, 1))
 PLACE = st.floats(-1e9, 1e9) | st.floats(-400, 400).map(lambda value: round(value, 3))
-MOVE = st.tuples(
+MOVES = (
     st.sampled_from([Kind.RAPID, Kind.FEED, *CURVES, *EVENTS]),
     st.sampled_from(CONTEXTS),
     st.tuples(PLACE, PLACE, PLACE, PLACE),
     st.sampled_from([nan, 0.125, 12.0]),
 )
+MOVE = st.tuples(*MOVES)
 
 
 def drawn(moves: Iterable[tuple[object, Context, tuple[float, ...], float]]) -> Draft:
@@ -108,6 +110,26 @@ def test_columns_show_the_very_values_of_rows(
             patch.setattr(numbers, "show", lambda: strict(shown.show))
         patch.setattr(Numbers, "_is_for_numpy", lambda _self, _chunk: way == "numpy")
         assert by_columns(display) == by_rows(display)
+
+
+#: Axes that the work display calls otherwise: by the name of another, or by one that no axis has; one is used up.
+NAMED = (
+    Context(names=("XX", "X", "Z", ""), tool=3),
+    Context(names=("X", "C", "Z", "Y"), diameter_axes=1),
+    Context(names=("X", "YY", "Z", "C"), inch=True, offsets=(1.0, -2.5, 0.125, 90.0)),
+)
+
+
+@given(moves=st.lists(st.tuples(MOVES[0], st.sampled_from((*CONTEXTS, *NAMED)), *MOVES[2:]), max_size=20))
+def test_values_stand_in_the_columns_of_the_names_that_the_display_gives_them(
+    moves: list[tuple[object, Context, tuple[float, ...], float]],
+) -> None:
+    display = drawn(moves).display(LAYOUT, ("XX", "YY", "X"))
+    assert table_columns(display)[4:10] == ("x", "y", "z", "c", "xx", "yy")
+    assert by_columns(display) == by_rows(display)
+    table = arrow_table(display, display.toolpath.chunks, {}).to_pylist()
+    present = [{name: value for name, value in row.items() if value is not None} for row in table]
+    assert present == by_rows(display)
 
 
 def test_long_chunks_go_by_the_kernel_alone_where_it_is_compiled() -> None:

@@ -78,7 +78,7 @@ def test_long_chunks_are_written_as_short_ones_are(
 
     def written() -> bytes:
         stream = io.BytesIO()
-        made = writer(stream, draft.display(LATHE), {})
+        made = writer(stream, draft.display(LATHE, ("A",)), {})
         for chunk in draft.toolpath.chunks:
             made.take(chunk)
         return stream.getvalue()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from array import array
 from random import Random
@@ -11,10 +12,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import polycnc
+from polycnc.cli.report import as_state, extents
 from polycnc.session import Result
 from polycnc.toolpath import Kind, compiled
 from polycnc.toolpath.compiled import LIBRARY
-from polycnc.toolpath.survey import Moves, empty_box, survey, widen
+from polycnc.toolpath.survey import Boxes, Contexts, Moves, add_box, survey, widen
 from polycnc.toolpath.usage import MANY, Extents, Usage
 
 
@@ -59,6 +61,45 @@ def test_each_tool_has_the_extents_speeds_and_feeds_of_its_cuts() -> None:
     assert list(used.offsets) == ["G54", "G55"]
 
 
+def test_a_cut_in_another_work_offset_reaches_from_where_it_starts() -> None:
+    offsets = {"G54": {"X": 0}, "G55": {"X": 100}}
+    text = "O1\nG21 G90 G94 G17 G54\nG0 X2. Y0\nG1 X10. F100\n{}\nM30\n"
+    _, straight = usage(text.format("G55 G1 X-80."), work_offsets=offsets)
+    assert box(straight.tools[0].work, 0) == (-90, 10)
+    assert box(straight.tools[0].machine, 0) == (2, 20)
+    _, round_ = usage(text.format("G55 G2 X-70. I10."), work_offsets=offsets)
+    assert [box(round_.tools[0].work, i) for i in range(2)] == [(-90, 10), (0, 10)]
+    assert [box(round_.tools[0].machine, i) for i in range(2)] == [(2, 30), (0, 10)]
+
+
+@given(st.lists(st.sampled_from(tuple("DCTRASO")), min_size=1), st.randoms(use_true_random=False))
+def test_whatever_changes_between_moves_each_row_counts_as_alone(codes: list[str], random: Random) -> None:
+    changes = {"D": "G4 P10", "T": "T{0} M6", "R": "G0", "C": "G1", "A": "G2", "S": "S{0}00 M3", "O": "G5{0}"}
+    text, arc = "O1\nG90 G17 G54 G1 F500.\n", False
+    for code in codes:
+        text += changes[code].format(random.choice("4567") if code == "O" else random.randint(1, 3)) + "\n"
+        arc = code == "A" or (arc and code not in "RC")
+        text += f"X{random.uniform(-20, 20):.3f} Y{random.uniform(-20, 20):.3f}{' R200.' if arc else ''}\n"
+    offsets = {f"G5{i}": {"X": random.uniform(-9, 9), "Y": random.uniform(-9, 9)} for i in range(4, 8)}
+    result, used = usage(text + "M30\n", work_offsets=offsets)
+    alone = Usage(result.display)
+    for chunk in result.toolpath.chunks:
+        for row in range(len(chunk)):
+            alone.take(chunk.only([row]) if len(chunk) > 1 else chunk)
+    assert (alone.tools, alone.machine, alone.offsets) == (used.tools, used.machine, used.offsets)
+
+
+def test_cuts_reach_along_what_the_display_calls_the_axes() -> None:
+    polar = "G0 X40 Z5 C0\nTRANSMIT\nG1 X20 Y10 F500\nX-20\nTRAFOOF\nM30\n"
+    result, used = usage(polar, "sinumerik-840d", machine="lathe-c-transmit")
+    reached = dict(zip(result.display.names, range(9), strict=False))
+    assert box(used.tools[0].work, reached["Y"]) == (0, 10)
+    assert box(used.tools[0].work, reached["C"]) == (math.inf, -math.inf)
+    assert json.loads(as_state(result, used))["extents"]["tools"][0]["work"].keys() == {"X", "Y", "Z"}
+    reported = extents(result.display.names, used.tools[0].work)
+    assert reported == "X -20.000 … 40.000  Z 5.000  Y 0.000 … 10.000"
+
+
 def test_rapids_count_for_the_machine_alone() -> None:
     _, used = usage("O1\nG90 G0 X100.\nX20.\nG1 X40. F100\nM30\n")
     assert box(used.tools[0].work, 0) == (20, 40)
@@ -84,10 +125,15 @@ def reach(
     start: list[float], end: list[float], curve: list[float], *, ccw: bool
 ) -> list[tuple[float, float]]:
     """Where an arc turns back along X, Y and Z: least and greatest place, infinite where it does not."""
-    box = empty_box(3)
+    boxes = no_boxes()
+    add_box(boxes, 3)
     points = array("d", start), 0, array("d", end), 0
-    widen(*points, array("d", curve), 0, ccw, array("q", range(3)), box)
-    return list(zip(box.low, box.high, strict=True))
+    widen(*points, array("d", curve), 0, ccw, array("q", range(3)), boxes, 0)
+    return list(zip(boxes.low, boxes.high, strict=True))
+
+
+def no_boxes() -> Boxes:
+    return Boxes(array("d"), array("d"), array("d"))
 
 
 @pytest.mark.skipif(LIBRARY.lack is not None, reason="needs compiled kernels")
@@ -99,16 +145,21 @@ def test_the_compiled_kernel_gives_the_same_bits(codes: list[str], random: Rando
         text += f"{code}X{random.uniform(-20, 20):.3f} Y{random.uniform(-20, 20):.3f}{radius}\n"
     result = polycnc.run(text + "M30\n", control="fanuc-m")
     (chunk,) = result.toolpath.chunks
-    boxes = []
+    moves = Moves(chunk.kind, chunk.context, chunk.feed, chunk.end, chunk.curve, chunk.curves)
+    classes = array("B", [0, *[1] * (len(Kind) - 1)])
+    found = []
     for kernel in (survey, compiled.survey()):
-        box = empty_box(chunk.axes)
-        moves = Moves(chunk.kind, chunk.context, chunk.feed, chunk.end, chunk.curve, chunk.curves)
+        boxes = no_boxes()
+        add_box(boxes, chunk.axes)
+        add_box(boxes, chunk.axes)
+        contexts = Contexts(array("q", [0, 1]), array("q", [0, 1, 0, 1]))
         ends, row = [], 0
         while row < len(chunk):
-            row = kernel(moves, row, array("B", [1] * 13), array("q", range(3)), array("d"), box)
+            before = chunk.end[(row - 1) * chunk.axes : row * chunk.axes] if row else array("d")
+            row = kernel(moves, row, classes, array("q", range(3)), before, contexts, boxes)
             ends.append(row)
-        boxes.append((box, ends))
-    assert boxes[0] == boxes[1]
+        found.append((boxes, ends))
+    assert found[0] == found[1]
 
 
 @given(

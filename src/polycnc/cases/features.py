@@ -15,18 +15,21 @@ from xml.etree import ElementTree
 from polycnc.cases.reading import UnreadableError, read_cases
 from polycnc.cases.runner import run_cases
 from polycnc.cases.selection import Selection
+from polycnc.deferred.paths import package_path
 from polycnc.messages import Catalogue
 from polycnc.messages.files import reason_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
+    from collections.abc import Callable, Iterable, Iterator, Mapping
 
     from polycnc.cases.runner import Outcome
+
+    Counted = Callable[[Iterable[Path]], Iterable[Path]]
 
 #: Control id to feature id to number of cases.
 Features = dict[str, dict[str, int]]
 
-_DATA = Path(__file__).parents[1] / "data"
+_DATA = Path(package_path("data"))
 #: What a test says of itself in the report: its property of this name is `<control> <feature>`.
 PROPERTY = "feature"
 #: Elements of the report below a test that did not pass.
@@ -76,13 +79,18 @@ def case_files(folder: Path) -> list[Path]:
     return sorted(folder.rglob("*.yaml"))
 
 
-def proved(folder: Path | None, report: Path | None = None) -> Features:
+def proved(folder: Path | None, report: Path | None = None, each: Counted = iter) -> Features:
     """Run all cases of a folder, read the report of the tests, and give the features that work.
+
+    Args:
+        folder: With files of cases.
+        report: What pytest wrote.
+        each: Gives the files of cases on, where somebody counts them.
 
     Raises:
         UnreadableError: A case file or the report cannot be read.
     """
-    outcomes = () if folder is None else _outcomes(folder)
+    outcomes = () if folder is None else _outcomes(each(case_files(folder)))
     return counted(outcomes, () if report is None else tested(report))
 
 
@@ -131,6 +139,6 @@ def claimed(cases: Iterable[Mapping[str, Any]]) -> Features:
     return {control: dict(sorted(features[control].items())) for control in sorted(features)}
 
 
-def _outcomes(folder: Path) -> Iterator[Outcome]:
-    for path in case_files(folder):
+def _outcomes(files: Iterable[Path]) -> Iterator[Outcome]:
+    for path in files:
         yield from run_cases(read_cases(path), Selection(), path.parent)

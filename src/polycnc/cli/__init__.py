@@ -1,8 +1,8 @@
 """The command line: one module for each command in `commands/`, imported when it is called.
 
 `declaration` says what commands and options are, `options` has those that several share. `app` has the words read:
-plain ones by `plain`, all others by Typer, for which `typed` makes its commands of the same declarations; `usage` is
-the language of help and refusals.
+plain ones by `plain`, all others by Click, for which `clicks` makes its commands of the same declarations; `usage` is
+the language of help and refusals, `completion` the script by which a shell completes words.
 `diagnostics` says what a run found, `formats` and `sarif` how that is written, `report` what `run` tells, `told`
 what of a setup has no effect; `console` and `output` write, `progress` tells those who wait how far a command is;
 `freed` is about memory.
@@ -15,6 +15,8 @@ import gc
 import os
 import sys
 from typing import TYPE_CHECKING, NoReturn
+
+from polycnc import finder
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -33,13 +35,14 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
     Without arguments of its own it is that of the process, which ends with it. Whoever interrupts it while its parts
     are still being loaded gets the same answer as later.
     """
-    gc.set_threshold(_NEW_OBJECTS)
     leaving = _Leaving()
-    if arguments is None:
-        _open_closed_streams()
-        os.environ.setdefault(_MATRIX_THREADS, "1")
-        atexit.register(leaving.end)  # as the first, so that it is called last
     try:
+        gc.set_threshold(_NEW_OBJECTS)
+        if arguments is None:
+            finder.install()
+            _open_closed_streams()
+            os.environ.setdefault(_MATRIX_THREADS, "1")
+            atexit.register(leaving.end)  # as the first, so that it is called last
         from polycnc.cli.app import main as run
 
         run(arguments)

@@ -3,24 +3,29 @@
 from __future__ import annotations
 
 import os
-import signal
 import sys
-from contextlib import contextmanager, suppress
+from time import monotonic
 from typing import TYPE_CHECKING, NoReturn
 
 from polycnc.cli import plain
 from polycnc.cli.console import fail, note
 from polycnc.cli.progress import watched
-from polycnc.cli.usage import help_in_language, language_of, translated
+from polycnc.cli.usage import language_of, translated
+from polycnc.deferred.contexts import contextmanager, suppress
 from polycnc.messages import text
 from polycnc.messages.catalogue import set_language
 from polycnc.messages.errors import place_of_failure
-from polycnc.messages.files import reason_of
+from polycnc.messages.files import reason_with_file
 
 if TYPE_CHECKING:
+    import signal
     from collections.abc import Iterator, Sequence
+else:
+    import _signal as signal  # what the library's own module makes enumerations of, at every start
 
 BAD_USE, INTERRUPTED = 2, 130
+#: Who waits for a command as long as this is told what makes it slow, seconds.
+SLOW_S = 2.0
 #: With this variable of the environment a mistake of polycnc shows all of its way.
 TRACEBACK = "POLYCNC_TRACEBACK"
 #: Libraries that polycnc can do without, and the extra that brings each.
@@ -42,7 +47,7 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
         # Whoever read our output has gone; Python would complain once more when it exits.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         status = BAD_USE
-    except SystemExit:  # Typer's own answer to a broken pipe
+    except SystemExit:  # the answer of the panel's server where its address is taken
         status = BAD_USE
     except KeyboardInterrupt:
         with suppress(ValueError):  # only the main thread may answer signals
@@ -58,7 +63,7 @@ def _termination_interrupts() -> Iterator[None]:
     """Who is told to end takes half-written files away first, as where the user interrupts."""
     ends = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
     # Who has been told to outlive the terminal (nohup) does.
-    before = {each: signal.getsignal(each) for each in ends if signal.getsignal(each) is not signal.SIG_IGN}
+    before = {each: signal.getsignal(each) for each in ends if signal.getsignal(each) != signal.SIG_IGN}
     try:
         for each in before:
             signal.signal(each, signal.default_int_handler)
@@ -76,18 +81,31 @@ def _run(words: list[str]) -> int:
         set_language(language_of(words))
         asked = plain.read(words)
         with watched(" ".join(["polycnc", *words[:1]])):
-            status = asked() if asked is not None else _run_by_typer(words)
+            began = monotonic()
+            status = asked() if asked is not None else _run_by_click(words)
             sys.stdout.flush()
+        if monotonic() - began >= SLOW_S:
+            _say_if_plain()
     except Exception as error:  # noqa: BLE001 - `_told` says what it was
         return fail(_told(error), BAD_USE)
     return status if isinstance(status, int) else 0
 
 
-def _run_by_typer(words: list[str]) -> object:
-    from polycnc.cli import typed
+def _say_if_plain() -> None:
+    """A note behind a long command where this installation has no compiled kernels, and nobody has chosen so."""
+    from polycnc.kernels.native import Lack
+    from polycnc.language.bulk.compiled import LIBRARY as READING
+    from polycnc.motion.compiled import LIBRARY as PLANNING
 
-    with help_in_language(words):
-        return typed.run(words)
+    lack = READING.lack or PLANNING.lack
+    if lack in (Lack.MISSING, Lack.STALE):
+        note(f"polycnc: {text(f'cli.kernels.{lack}')}")
+
+
+def _run_by_click(words: list[str]) -> object:
+    from polycnc.cli import clicks
+
+    return clicks.run(words)
 
 
 def _told(error: Exception) -> str:
@@ -98,7 +116,7 @@ def _told(error: Exception) -> str:
         context = getattr(error, "ctx", None)
         return text("cli.usage", message=told, command=context.command_path) if context is not None else told
     if isinstance(error, OSError) and not isinstance(error, BrokenPipeError):
-        return f"{error.filename or ''}: {reason_of(error)}".removeprefix(": ")
+        return reason_with_file(error)
     if isinstance(error, ModuleNotFoundError) and error.name in EXTRAS:
         return text("cli.extra", library=error.name, extra=EXTRAS[error.name])
     if isinstance(error, MemoryError):

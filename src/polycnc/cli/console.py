@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import os
 import sys
-from contextlib import nullcontext
 
-from polycnc.cli.progress import away
+from polycnc.cli.progress import away, encodable
+from polycnc.deferred.contexts import nullcontext
 
 _COLOURS = {"red": 31, "green": 32, "yellow": 33, "bold": 1}
 
@@ -14,19 +14,19 @@ _COLOURS = {"red": 31, "green": 32, "yellow": 33, "bold": 1}
 def say(line: str = "") -> None:
     """A line of the result."""
     with away():
-        sys.stdout.write(_encodable(line, sys.stdout.encoding) + "\n")
+        sys.stdout.write(encodable(line, sys.stdout.encoding) + "\n")
 
 
 def show(content: str) -> None:
     """A text of several lines, each with its line end, as part of the result."""
     with away():
-        sys.stdout.write(_encodable(content, sys.stdout.encoding))
+        sys.stdout.write(encodable(content, sys.stdout.encoding))
 
 
 def note(line: str) -> None:
     """A line beside the result."""
     with away():
-        sys.stderr.write(_encodable(line, sys.stderr.encoding) + "\n")
+        sys.stderr.write(encodable(line, sys.stderr.encoding) + "\n")
 
 
 def standard_input() -> bytes:
@@ -47,8 +47,3 @@ def coloured(words: str, colour: str) -> str:
     if os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb" or not sys.stdout.isatty():
         return words
     return f"\x1b[{_COLOURS[colour]}m{words}\x1b[0m"
-
-
-def _encodable(line: str, encoding: str | None) -> str:
-    """Characters that the terminal's encoding does not have are shown as `?`."""
-    return line.encode(encoding or "utf-8", "replace").decode(encoding or "utf-8")

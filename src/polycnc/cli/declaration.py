@@ -2,21 +2,35 @@
 
 A command is a function. A parameter is annotated `Annotated[type, Option(…)]` or `Annotated[type, Argument(…)]`; one
 whose type is a class (`options.Opening`) stands for the fields of that class, which are annotated so. Whoever reads
-words (`plain`, and Typer by way of `typed`) knows commands from here alone.
+words (`plain`, and Click by way of `clicks`) knows commands from here alone.
 """
 
 from __future__ import annotations
 
 import sys
 from functools import cache, cached_property
+from types import UnionType
 from typing import TYPE_CHECKING, Any
 
 from polycnc.deferred.named_tuples import NamedTuple
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
+    from pathlib import Path
 
     Function = Callable[..., int | None]
+else:
+
+    class Path:
+        """The type of parameters that are files or folders: that of `pathlib`, which is loaded with the first."""
+
+        def __new__(cls, *parts):  # noqa: D102 - as that of the library
+            from pathlib import Path
+
+            return Path(*parts)
+
+
+__all__ = ["REQUIRED", "Argument", "Command", "Commands", "Option", "Parameter", "Path", "without_none"]
 
 #: The default of a parameter that must be given.
 REQUIRED = object()
@@ -32,7 +46,7 @@ class Option:
         shows_default: Whether that page tells the default.
         values: The values that the shell offers.
         limits: Smallest and largest number.
-        refusal: Why a value is none, in the words of Typer; empty where it is one.
+        refusal: Why a value is none, in the words of Click; empty where it is one.
     """
 
     def __init__(
@@ -148,6 +162,11 @@ def _parameter(name: str, owner: Any, default: object) -> Any:
     if isinstance(annotation, type):
         return annotation
     return Parameter(name, annotation.__origin__, annotation.__metadata__[0], default)
+
+
+def without_none(kind: Any) -> Any:
+    """The type of a value that a word gives: `Path` of `Path | None`."""
+    return kind.__args__[0] if isinstance(kind, UnionType) else kind
 
 
 class Commands:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal
 from polycnc.deferred.records import dataclass
 from polycnc.messages import Alarm, text
 from polycnc.messages.errors import place_of_failure
+from polycnc.messages.files import reason_with_file
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -71,7 +72,8 @@ _UNREADABLE = ("polycnc/unreadable", "polycnc/internal")
 
 def unreadable(name: str, error: Exception) -> Diagnostic:
     """A file that cannot be run, with what its error says; the error may name file, line and column itself."""
-    return Diagnostic(Place(name), "unreadable", str(error), "polycnc/unreadable")
+    message = reason_with_file(error) if isinstance(error, OSError) else str(error)
+    return Diagnostic(Place(name), "unreadable", message, "polycnc/unreadable")
 
 
 def internal(name: str, error: Exception) -> Diagnostic:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from enum import StrEnum
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from polycnc.channel.channel import DEFAULT_BLOCK_LIMIT
-from polycnc.cli.declaration import Option
+from polycnc.cli.declaration import Option, Path
+from polycnc.deferred.paths import text_of
 from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:
@@ -48,6 +48,12 @@ def expanded(names: Iterable[str]) -> list[str]:
     return files
 
 
+def _file(name: str | Path) -> str | Path:
+    """A file as `open_session` takes it for one: a text of several lines would be a program."""
+    path = text_of(name)
+    return Path(path) if "\n" in path else path
+
+
 def _option(
     text: str, *flags: str, metavar: str, values: Callable[[], Iterable[str]] | None = None
 ) -> Option:
@@ -62,7 +68,9 @@ Setup = Annotated[Path | None, _option("help.option.setup", "--setup", metavar="
 Search = Annotated[list[Path] | None, _option("help.option.search", "--search", metavar="DIR")]
 Encoding = Annotated[str | None, _option("help.option.encoding", "--encoding", metavar="NAME")]
 Lang = Annotated[Language | None, _option("help.option.lang", "--lang", metavar="en|zh-TW")]
-BlockLimit = Annotated[int, Option("help.option.block-limit", "--block-limit", limits=(1, None))]
+BlockLimit = Annotated[
+    int, Option("help.option.block-limit", "--block-limit", metavar="NUMBER", limits=(1, None))
+]
 Memory = Annotated[Path | None, _option("help.option.memory", "--memory", metavar="FILE")]
 NoBulk = Annotated[bool, Option("help.option.no-bulk", "--no-bulk")]
 Output = Annotated[Path | None, _option("help.option.output", "--output", "-o", metavar="FILE")]
@@ -87,18 +95,20 @@ class Opening:
 
     def session(
         self,
-        source: bytes | Path,
+        source: bytes | str | Path,
         *,
         name: str = "",
         keep: bool,
         timed: bool = True,
         memory: Path | None = None,
     ) -> Session:
-        """Open a session of a file, or of a text that has no file; `session.open_session` has the errors."""
+        """Open a session of a file, or of the bytes of a program without one; `session.open_session` has the errors."""
         from polycnc.cli.freed import keep_freed_memory
         from polycnc.session import open_session
 
         keep_freed_memory()
+        if not isinstance(source, bytes):
+            source = _file(source)
         return open_session(
             source, name=name, control=self.control, machine=self.machine, setup=self.setup,
             search=self.search or (), encoding=self.encoding, block_limit=self.block_limit,

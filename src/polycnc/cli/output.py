@@ -5,11 +5,11 @@ from __future__ import annotations
 import io
 import os
 import stat
-import tempfile
-from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
+from polycnc.deferred.contexts import contextmanager, suppress
+from polycnc.deferred.paths import resolved
 from polycnc.messages.files import OutputError
 from polycnc.program.folders import SUFFIXES
 
@@ -40,10 +40,12 @@ def whole_file(path: Path, mode: str = "w") -> Iterator[IO[Any]]:
         with _stream(str(path), path, mode) as stream:
             yield stream
         return
-    target = path.resolve()
+    target = _target(path)
     try:
         handle, name = _nameless(target.parent)
         if handle < 0:
+            import tempfile
+
             handle, name = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
     except OSError as error:
         raise _named_error(error, path) from error
@@ -66,9 +68,17 @@ def refuse_twice(outputs: Iterable[Path | None]) -> None:
     files = [each for each in outputs if each is not None and (each.is_file() or not each.exists())]
     taken: set[Path] = set()
     for file in files:
-        if file.resolve() in taken:
+        target = _target(file)
+        if target in taken:
             raise OutputError("output.is-twice", file=file)
-        taken.add(file.resolve())
+        taken.add(target)
+
+
+def _target(path: Path) -> Path:
+    """The file that is written, to which links may lead. Raises `OSError` where they lead in a circle."""
+    with suppress(FileNotFoundError, NotADirectoryError):
+        path.stat()
+    return Path(resolved(path))
 
 
 class _File(io.FileIO):

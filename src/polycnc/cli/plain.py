@@ -1,19 +1,18 @@
-"""Plain words: those of most calls, read without Typer, which takes longer to load than a short program to run.
+"""Plain words: those of most calls, read without Click, which takes longer to load than a short program to run.
 
 Plain is the name of a command that stands for itself, with options in full, each once and with its value in a word
 of its own, and arguments. Whatever else there is (help, groups, numbers, abbreviations, completion of the shell), and
-whatever is wrong, Typer reads, which knows how to say it.
+whatever is wrong, Click reads, which knows how to say it.
 """
 
 from __future__ import annotations
 
 import os
-from pathlib import Path
-from types import GenericAlias, UnionType
+from types import GenericAlias
 from typing import TYPE_CHECKING, Any
 
 from polycnc.cli.commands import COMMANDS, commands_of
-from polycnc.cli.declaration import REQUIRED, Argument
+from polycnc.cli.declaration import REQUIRED, Argument, Path, without_none
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -25,7 +24,7 @@ COMPLETION = "_POLYCNC_COMPLETE"
 
 
 class _NotPlainError(Exception):
-    """Words that Typer has to read."""
+    """Words that Click has to read."""
 
 
 def read(words: Sequence[str]) -> Callable[[], int | None] | None:
@@ -67,7 +66,7 @@ def _given(command: Command, words: Iterator[str]) -> dict[str, object]:
 
 def _value_of_all(kind: Any, words: list[str]) -> object:
     """What an argument takes: all words where its type is a list, else one."""
-    kind = _without_none(kind)
+    kind = without_none(kind)
     if isinstance(kind, GenericAlias):
         return [_value(kind.__args__[0], word) for word in words]
     if len(words) > 1:
@@ -77,18 +76,14 @@ def _value_of_all(kind: Any, words: list[str]) -> object:
 
 def _value(kind: Any, word: str) -> object:
     """A word as a value of this type."""
-    kind = _without_none(kind)
+    kind = without_none(kind)
     if not word or (word != "-" and word.startswith("-")):
         raise _NotPlainError
     if not (isinstance(kind, type) and issubclass(kind, (str, Path))):
         raise _NotPlainError
     if issubclass(kind, Path) and os.access(word, os.F_OK) and not os.access(word, os.R_OK):
-        raise _NotPlainError  # Typer refuses it
+        raise _NotPlainError  # Click refuses it
     try:
         return kind(word)
     except ValueError as error:  # none of the words of an enumeration
         raise _NotPlainError from error
-
-
-def _without_none(kind: Any) -> Any:
-    return kind.__args__[0] if isinstance(kind, UnionType) else kind

@@ -7,18 +7,19 @@ begins where somebody watches, and what is done within a second shows nothing.
 from __future__ import annotations
 
 import _thread  # a fraction of what `threading` costs at every start
+import os
 import sys
-from contextlib import contextmanager
 from time import monotonic
-from typing import TYPE_CHECKING, ClassVar, Protocol, Self, TypeVar
+from typing import TYPE_CHECKING, ClassVar, Never, Protocol, Self, TypeVar
 
+from polycnc.deferred.contexts import contextmanager
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.messages import text
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from rich.progress import Progress, TaskID
+    from tqdm import tqdm
 
     from polycnc.motion.sampling.samples import Sampler
     from polycnc.session import Session
@@ -29,6 +30,8 @@ PATIENCE_S, LOOK_S = 1.0, 0.2
 #: A program that has come to no further line for this part of the time so far is in a loop or a subprogram; but not
 #: sooner and not later than so many seconds.
 STANDS_PART, STANDS_S, STANDS_MOST_S = 0.25, 0.5, 5.0
+#: Of a terminal that does not say how large it is.
+_COLUMNS, _ROWS = 80, 24
 #: A rate is told where so many seconds have been seen of it, and no longer than so many seconds without a change.
 SEEN_S, STILL_S = 0.5, 1.0
 
@@ -37,7 +40,7 @@ class Reached(NamedTuple):
     """How far a work is.
 
     Attributes:
-        unit: What is counted: `blocks`, `files`, `cases`, `rows`, `samples` or `seconds` (of machining).
+        unit: What is counted: `blocks`, `files`, `cases`, `rows`, `points`, `samples` or `seconds` (of machining).
         done: How many are done.
         share: The part of the work that is done, 0 to 1; None where nobody can know.
     """
@@ -81,7 +84,7 @@ class Watch:
         self.lock = _thread.RLock()
         self._started = monotonic()
         self._over, self._is_seen = _thread.allocate_lock(), False
-        self._bar: tuple[Progress, TaskID] | None = None
+        self._bar: tqdm[Never] | None = None
         self._pace: tuple[Work, _Pace] | None = None
 
     def begin(self) -> None:
@@ -102,8 +105,8 @@ class Watch:
     def hide(self) -> None:
         """Take the bar away until the next look; only under the lock."""
         if self._bar is not None:
-            bar, self._bar = self._bar, None
-            bar[0].stop()
+            self._bar.close()
+            self._bar = None
 
     def _look_on(self) -> None:
         while not self._over.acquire(timeout=LOOK_S):
@@ -121,14 +124,9 @@ class Watch:
         if now - self._started < PATIENCE_S:
             return
         if self._bar is None:
-            self._bar = _bar()
-        bar, task = self._bar
+            self._bar = _bar(self.lock)
         share = reached.share if reached is not None else None
-        total = None if share is None else 1.0
-        percent = "" if share is None else f"{100.0 * share:3.0f}%  "
-        bar.update(task, description=work.what, completed=share or 0.0, total=total, told=percent + told)
-        bar.start()
-        bar.refresh()
+        _draw(self._bar, work.what, share, told)
 
 
 class _Pace:
@@ -177,24 +175,48 @@ def _short(rate: float) -> str:
     return f"{rate:,.0f}" if rate >= 10.0 else f"{rate:.1f}"
 
 
-def _bar() -> tuple[Progress, TaskID]:
-    from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn
+def _bar(lock: _thread.RLock) -> tqdm[Never]:
+    """A bar that nothing is drawn of yet, which only this lock guards."""
+    from tqdm import tqdm
 
-    columns = TextColumn("{task.description}", markup=False), BarColumn()
-    told = TextColumn("{task.fields[told]}", markup=False)
-    # What is written meanwhile goes where it belongs: `away` makes room for it.
-    bar = Progress(
-        *columns, told, console=Console(stderr=True), transient=True, auto_refresh=False,
-        redirect_stdout=False, redirect_stderr=False,
-    )  # fmt: skip
-    return bar, bar.add_task("", total=None, told="")
+    tqdm.monitor_interval = 0  # this thread looks itself
+    tqdm.set_lock(lock)  # its own one is for processes, too
+    # It would ask for the size of the terminal, and hide where that is said to be 0.
+    return tqdm(total=1.0, leave=False, file=sys.stderr, ncols=_columns(), nrows=_ROWS, bar_format=" ")
+
+
+def _draw(bar: tqdm[Never], what: str, share: float | None, told: str) -> None:
+    """Draw what is worked on, a bar of the share where that is known, which takes the room that is left, and the rest.
+
+    What is told has the first claim to a narrow terminal.
+    """
+    from tqdm.utils import disp_len, disp_trim
+
+    meter, percent = ("", "") if share is None else ("{bar}", f" {100.0 * share:3.0f}%  ")
+    told = percent + encodable(told, sys.stderr.encoding)
+    bar.ncols, bar.n, bar.bar_format = _columns(), share or 0.0, f"{{desc}} {meter}{told}"
+    room = max(bar.ncols - disp_len(told) - 2, 0)
+    bar.set_description_str(disp_trim(encodable(what, sys.stderr.encoding), room))
+
+
+def _columns() -> int:
+    """Columns of the terminal without the last, behind which some begin a new line."""
+    try:
+        columns = os.get_terminal_size(sys.stderr.fileno()).columns
+    except OSError:  # nobody knows
+        columns = 0
+    return max((columns or _COLUMNS) - 1, 1)
+
+
+def encodable(line: str, encoding: str | None) -> str:
+    """Characters that the terminal's encoding does not have are shown as `?`."""
+    return line.encode(encoding or "utf-8", "replace").decode(encoding or "utf-8")
 
 
 @contextmanager
 def watched(what: str) -> Iterator[None]:
-    """A command runs: it is shown how far it is where standard error is a terminal."""
-    if not sys.stderr.isatty():
+    """A command runs: it is shown how far it is where standard error is a terminal that can take a bar away."""
+    if not sys.stderr.isatty() or os.environ.get("TERM") == "dumb":
         yield
         return
     watch = Watch.of_command = Watch(what)
@@ -256,8 +278,8 @@ class Waiting:
             self._share = min(done / max(self._total, 1), 1.0) if share is None else share
 
     def each(self, parts: Iterable[Part]) -> Iterator[Part]:
-        """The parts, which are counted."""
-        for done, part in enumerate(parts):
+        """The parts, which are counted; further ones on top of those before."""
+        for done, part in enumerate(parts, round(self._done)):
             self.reach(done)
             yield part
 

@@ -8,10 +8,13 @@ from typing import TYPE_CHECKING
 
 from polycnc.cli.console import coloured
 from polycnc.cli.diagnostics import diagnostics_of
-from polycnc.cli.formats import lines_of
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.messages import text
 from polycnc.messages.catalogue import listed
 from polycnc.toolpath.events import Message, Print, Stop
+
+with loaded_when_called():
+    from polycnc.cli import formats
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Iterator, Sequence
@@ -63,7 +66,7 @@ def _lines(result: Result, happenings: Happenings, file: str, usage: Usage | Non
     program = result.program.name
     yield text("run.head", program=program, control=result.control.id, machine=result.machine.id)
     for diagnostic in diagnostics_of(result, file):
-        head, *remedy = lines_of(diagnostic)
+        head, *remedy = formats.lines_of(diagnostic)
         yield coloured(head, "red" if diagnostic.severity == "error" else "yellow")
         yield from remedy
     if result.ok:
@@ -135,9 +138,9 @@ def _tools(result: Result, usage: Usage | None) -> Iterator[str]:
 
 def _reach(result: Result, cut: ToolUsage) -> Iterator[str]:
     """How far the cuts of a tool reach; units are named where the program is not all in mm."""
-    axes = result.display.axes
-    yield text("run.work", unit=_named(cut.units), extents=extents(axes, cut.work))
-    yield text("run.machine", unit=" (mm)" if _named(cut.units) else "", extents=extents(axes, cut.machine))
+    display, unit = result.display, _named(cut.units)
+    yield text("run.work", unit=unit, extents=extents(display.names, cut.work))
+    yield text("run.machine", unit=" (mm)" if unit else "", extents=extents(display.axes, cut.machine))
 
 
 def _named(units: Collection[str]) -> str:
@@ -171,9 +174,9 @@ def _used(result: Result, usage: Usage) -> Iterator[str]:
 
 
 def extents(axes: Sequence[str], reached: Extents) -> str:
-    """Extents of axes in one line; an axis that does not move has one position."""
+    """Extents of axes in one line; an axis that does not move has one position, one that no name shows none."""
     shown = []
-    for axis, *ends in zip(axes, reached.low, reached.high, strict=True):
+    for axis, ends in _spans(axes, reached).items():
         low, high = (f"{round(end, 3) + 0.0:.3f}" for end in ends)  # no -0.000
         shown.append(f"{axis} {low}" if low == high else f"{axis} {low} … {high}")
     return "  ".join(shown)
@@ -189,9 +192,9 @@ def clock(seconds: float) -> str:
 
 
 def _spans(axes: Sequence[str], reached: Extents) -> dict[str, tuple[float, float]]:
-    """Lowest and highest position by axis; nothing where none is known."""
-    spans = zip(reached.low, reached.high, strict=True)
-    return dict(zip(axes, spans, strict=True)) if reached.known else {}
+    """Lowest and highest position by axis, where any is known."""
+    spans = zip(axes, zip(reached.low, reached.high, strict=True), strict=True)
+    return {axis: (low, high) for axis, (low, high) in spans if low <= high}
 
 
 def as_state(result: Result, usage: Usage | None = None) -> str:
@@ -225,7 +228,7 @@ def as_state(result: Result, usage: Usage | None = None) -> str:
             "tools": [
                 {
                     "tool": cut.tool,
-                    "work": _spans(axes, cut.work),
+                    "work": _spans(result.display.names, cut.work),
                     "machine": _spans(axes, cut.machine),
                     "speeds": list(cut.speeds),
                     "surface_speeds": list(cut.surface_speeds),

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
-from polycnc import __version__
+from polycnc.version import __version__
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

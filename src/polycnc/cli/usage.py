@@ -1,21 +1,18 @@
-"""The language of the command line itself: Typer knows its pages of help and its refusals in English only."""
+"""The language of the command line itself: Click knows its pages of help and its refusals in English only."""
 
 from __future__ import annotations
 
 import re
-from contextlib import contextmanager, redirect_stdout
 from functools import cache
-from io import StringIO
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-from polycnc.cli.console import show
+from polycnc.deferred.paths import package_path, read_text
 from polycnc.messages.catalogue import LANGUAGES, language, language_of_environment
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Sequence
 
-#: Options that print a page and leave.
+#: Options that show the page of help and leave.
 HELP = ("-h", "--help")
 
 
@@ -29,33 +26,16 @@ def language_of(words: Sequence[str]) -> str:
 
 
 def translated(told: str) -> str:
-    """What Typer says, in the active language; what the table does not know stays as it is."""
+    """What Click says, in the active language; what the table does not know stays as it is."""
     if language() != "en":
         for pattern, phrase in _phrases(language()):
             told = pattern.sub(phrase, told)
     return told
 
 
-@contextmanager
-def help_in_language(words: Sequence[str]) -> Iterator[None]:
-    """Translate the page that a call without a command, or with `-h`, prints."""
-    if language() == "en" or not (
-        any(word in HELP for word in words) or all("lang" in word or word in LANGUAGES for word in words)
-    ):
-        yield
-        return
-    page = StringIO()
-    try:
-        with redirect_stdout(page):
-            yield
-    finally:
-        show(translated(page.getvalue()))
-
-
 @cache
 def _phrases(lang: str) -> tuple[tuple[re.Pattern[str], str], ...]:
     import tomllib
 
-    source = Path(__file__).with_name("usage.toml").read_text(encoding="utf-8")
-    table: dict[str, list[dict[str, str]]] = tomllib.loads(source)
+    table: dict[str, list[dict[str, str]]] = tomllib.loads(read_text(package_path("cli", "usage.toml")))
     return tuple((re.compile(row["pattern"], re.MULTILINE), row[lang]) for row in table["phrase"])

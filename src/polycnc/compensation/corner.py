@@ -23,7 +23,7 @@ from polycnc.toolpath.context import SHORTENED
 from polycnc.toolpath.kinds import Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from polycnc.channel.moves.knots import Motions
     from polycnc.compensation.plane import Plane
@@ -94,13 +94,14 @@ class _Request:
 
 @dataclass(slots=True)
 class _Held:
-    """A move that waits for the next one, and what came after it, in order."""
+    """A move that waits for the next one, and what came after it, in order: items, and changes of later stages."""
 
     move: Move
     request: _Request
     blocks: int = 0
     dwells: bool = False
     after: list[Item] = field(default_factory=list)
+    changes: list[Callable[[], None]] = field(default_factory=list)
 
     @property
     def between(self) -> int:
@@ -160,6 +161,22 @@ class CornerStage(Stage):
         if held.request.modal:
             self._let_go(held)
         return held.request.modal
+
+    def change(self, change: Callable[[], None]) -> None:
+        """Change a later stage behind the shape that waits for its second move; at once where none waits.
+
+        So radius compensation may begin, end or change between the two moves: the first one and the shape are of the
+        contour in front.
+        """
+        if self._held is None:
+            change()
+        else:
+            self._held.changes.append(change)
+
+    @property
+    def changes_later(self) -> bool:
+        """Whether a change waits."""
+        return self._held is not None and bool(self._held.changes)
 
     def insert(self, shape: Shape, size: float, feed: float = nan) -> None:
         """Put a shape after the move of this block; call it before the move.
@@ -273,9 +290,10 @@ class CornerStage(Stage):
         if inserted is not None:
             self._pass_beside(inserted.start, held.after[:before])
             self._pass(inserted)
-            self._pass_beside(inserted.end, held.after[before:])
-        else:
-            self._pass_beside(held.move.end, held.after)
+        for change in held.changes:
+            change()
+        end, behind = (held.move.end, held.after) if inserted is None else (inserted.end, held.after[before:])
+        self._pass_beside(end, behind)
 
     def _pass_beside(self, end: list[float], items: list[Item]) -> None:
         self._beside_shape = self.plane.point(end)

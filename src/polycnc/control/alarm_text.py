@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from pathlib import Path
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.paths import package_path
 from polycnc.messages import Catalogue
 
 if TYPE_CHECKING:
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 def alarm_catalogue(*files: str) -> Catalogue:
     """The alarms of a control, as `folder/file`, and those of polycnc itself; of two texts the later one counts."""
-    return Catalogue(*map(Path(__file__).parent.joinpath, ("alarms.toml", *files)))
+    return Catalogue(*(package_path("control", file) for file in ("alarms.toml", *files)))
 
 
 def catalogue_of(control: Control, machine: Machine) -> Catalogue:

@@ -31,6 +31,7 @@ class Control(ChannelControl, Protocol):
         default_machine: Built-in machine of a run that names none.
         parameter_files: The list of its parameters, as `folder/file`; of two entries for a number the later counts.
         tools_have_names: Programs may call a tool by its name; else by number alone.
+        display_names: What the work display may call an axis where its own name does not hold.
         last_bit: The last bit of a parameter.
         mdi_intervenes: Blocks can be typed in and run while a program waits, which then goes on behind them.
         presets_by_hand: An operator can call the place of an axis another one.
@@ -41,6 +42,7 @@ class Control(ChannelControl, Protocol):
     default_machine: str
     parameter_files: tuple[str, ...]
     tools_have_names: bool
+    display_names: tuple[str, ...]
     last_bit: int
     mdi_intervenes: bool
     presets_by_hand: bool

@@ -19,6 +19,7 @@ from textwrap import wrap
 from typing import TYPE_CHECKING
 
 from polycnc.control.parameters import load_parameters
+from polycnc.deferred.paths import package_path
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -145,7 +146,7 @@ def _delivered(parameter: KnownParameter, kind: str) -> str:
 if __name__ == "__main__":
     is_shared = sys.argv[-1] == "--shared"
     list_file, *names = sys.argv[1 : -1 if is_shared else None]
-    module = Path(__file__).parent / list_file
+    module = Path(package_path("control", list_file))
     if names:
         module.with_suffix(".py").write_text(
             module_text(list_file, *names, shared=is_shared), encoding="utf-8"

@@ -10,9 +10,9 @@ one name in the lists of all; `word_address/parameters.py` says which these are.
 from __future__ import annotations
 
 from functools import cache, cached_property
-from pathlib import Path
 from typing import TYPE_CHECKING, Generic, Literal, TypeAlias, TypeVar, overload
 
+from polycnc.deferred.paths import package_path, read_text
 from polycnc.deferred.records import dataclass
 from polycnc.deferred.toml import loads
 from polycnc.machine.setup.values import ParameterKey, Parameters, parameter_key
@@ -126,8 +126,7 @@ def load_parameters(*names: str) -> tuple[KnownParameter, ...]:
     """The list in files of the package `control`, in the order of the numbers; of two entries the later counts."""
     found = {}
     for name in names:
-        content = (Path(__file__).parent / name).read_text(encoding="utf-8")
-        for number, entry in loads(content).items():
+        for number, entry in loads(read_text(package_path("control", name))).items():
             delivered, unit = entry.get("delivered", 0), entry.get("unit", "")
             found[number] = KnownParameter(
                 number,

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from functools import cache
-from importlib import import_module
 from typing import TYPE_CHECKING
+
+from polycnc.deferred.modules import import_module
 
 if TYPE_CHECKING:
     from polycnc.control.interface import Control

@@ -19,9 +19,10 @@ from __future__ import annotations
 import builtins
 import sys
 from _thread import RLock
-from importlib import import_module
 from types import MethodType, SimpleNamespace
 from typing import TYPE_CHECKING, Any
+
+from polycnc.deferred.modules import import_module
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -13,12 +13,12 @@ What nothing here uses is left out: `InitVar`, `kw_only`, `order` and `unsafe_ha
 from __future__ import annotations
 
 import sys
-from functools import cached_property
 from operator import attrgetter
 from reprlib import recursive_repr
-from types import FunctionType, MappingProxyType, MemberDescriptorType
+from types import MappingProxyType, MemberDescriptorType
 
-from polycnc.deferred.typing import TYPE_CHECKING, Any
+from polycnc.deferred.class_statements import ClassStatement, body_of, lead_super
+from polycnc.deferred.typing import TYPE_CHECKING, Any, is_class_variable
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -30,9 +30,21 @@ else:
 
     def dataclass(cls=None, /, *, frozen=False, slots=False, eq=True):
         """A class whose annotated names are its fields; see `dataclasses.dataclass`."""
-        if cls is None:
-            return lambda cls: _dataclass(cls, frozen=frozen, slots=slots, eq=eq)
-        return _dataclass(cls, frozen=frozen, slots=slots, eq=eq)
+        if cls is not None:
+            return _dataclass(cls, frozen=frozen, slots=slots, eq=eq)
+        if not slots:
+            return lambda cls: _dataclass(cls, frozen=frozen, slots=False, eq=eq)
+
+        def made(name, bases, body, **named):
+            like = bases[0] if bases else object
+            return _with_slots(type, name, bases, body, named, like, frozen=frozen, eq=eq)
+
+        def decorator(cls):
+            statement.end()
+            return cls if _NOTED in cls.__dict__ else _dataclass(cls, frozen=frozen, slots=True, eq=eq)
+
+        statement = ClassStatement(made)
+        return decorator
 
     def field(**told):
         """What is to be known of a field; see `dataclasses.field`."""
@@ -57,17 +69,14 @@ else:
 
     def replace(thing, /, **changes):
         """An object like another one but for some fields; see `dataclasses.replace`."""
-        if isinstance(thing, type):
-            raise TypeError("replace() should be called on dataclass instances")
-        for each in fields(thing):
-            if each.init:
-                if each.name not in changes:
-                    changes[each.name] = getattr(thing, each.name)
-            elif each.name in changes:
+        cls = type(thing)
+        names, values, others = cls.__dict__.get(_GIVEN) or _given(thing)
+        for name in others:
+            if name in changes:
                 raise ValueError(
-                    f"field {each.name} is declared with init=False, it cannot be specified with replace()"
+                    f"field {name} is declared with init=False, it cannot be specified with replace()"
                 )
-        return type(thing)(**changes)
+        return cls(**{**dict(zip(names, values(thing), strict=True)), **changes})
 
     class MISSING:
         """What stands for no default."""
@@ -78,19 +87,15 @@ __all__ = ["MISSING", "dataclass", "field", "fields", "is_dataclass", "is_frozen
 _FEW = 32
 #: Where a class keeps its own annotated names with what was assigned to them; where its fields, when asked for.
 _NOTED, _FIELDS = "__noted_fields__", "__described_fields__"
+#: Where a class keeps what `replace` takes over.
+_GIVEN = "__given_fields__"
+#: So many calls of a method look fields up before it is written out for a class, which takes as long as some hundred.
+_MANY = 512
 #: Where a class keeps what `_put_values` does for its objects.
 _STEPS = "__steps_of_init__"
-#: What most defaults are; none is a field of the library.
-_OURS = frozenset((type, str, int, float, bool, tuple, type(None)))
-#: Where members of a class that are no functions have theirs.
-_BEHIND: dict[type, str] = {
-    classmethod: "__func__",
-    staticmethod: "__func__",
-    property: "fget",
-    cached_property: "func",
-}
 #: Where the library keeps its fields.
 _OF_LIBRARY = "__dataclass_fields__"
+#: How the annotations of what is no field begin.
 
 
 class _Later:
@@ -102,7 +107,7 @@ class _Later:
 
 _LATER = _Later()
 #: What a class says of fields that is no dataclass.
-_NOTHING: dict[str, object] = {}
+_NOTHING: dict[str, Any] = {}
 
 
 def is_frozen(cls: type) -> bool:
@@ -147,45 +152,96 @@ class Field:
 
 
 def _dataclass(cls: Any, *, frozen: bool, slots: bool, eq: bool) -> type:
-    body = cls.__dict__
-    noted: dict[str, object] = {}
-    inherits = cls.__bases__ != (object,)
-    if inherits:
-        _check_bases(cls, frozen=frozen)
-    for name, hint in body.get("__annotations__", {}).items():
-        if not _is_of_class(hint):
-            value = body.get(name, MISSING)
-            if value is MISSING and inherits:
-                value = getattr(cls, name, MISSING)
-            noted[name] = value if type(value) in _OURS else _told(value)
-    added = _methods(lambda: cls, body, frozen=frozen, eq=eq)
-    added |= {_NOTED: noted, _OF_LIBRARY: _DESCRIBED, "__frozen__": frozen, "__signature__": _SIGNED}
-    # Else the library would write down its signature.
-    added["__doc__"] = body.get("__doc__") or cls.__name__
-    if "__match_args__" not in body:
-        added["__match_args__"] = _POSITIONAL
+    """The dataclass of a class that has been made."""
+    name, bases = cls.__name__, cls.__bases__
+    like = cls if bases != (object,) else object
     if slots:
-        if frozen:  # what pickle would otherwise set by `setattr`
-            added.setdefault("__getstate__", body.get("__getstate__", _state))
-            added.setdefault("__setstate__", body.get("__setstate__", _put_state))
-        cls = _with_slots(cls, noted, added)
-        _lead_super(cls, body)
-        return cls  # type: ignore[no-any-return]
-    for name, value in noted.items():
+        made = _with_slots(type(cls), name, bases, body_of(cls), {}, like, frozen=frozen, eq=eq)
+        lead_super(made, cls)
+        return made
+    noted, members = _members(lambda: cls, name, bases, cls.__dict__, like, frozen=frozen, eq=eq)
+    for each, value in noted.items():
         if isinstance(value, Field):
             if value.default is MISSING:
-                delattr(cls, name)
+                delattr(cls, each)
             else:
-                setattr(cls, name, value.default)
-    for name, value in added.items():
-        setattr(cls, name, value)
+                setattr(cls, each, value.default)
+    for each, value in members.items():
+        setattr(cls, each, value)
     return cls  # type: ignore[no-any-return]
 
 
-def _check_bases(cls: type, *, frozen: bool) -> None:
+def _with_slots(
+    kind: Callable[..., type], name: str, bases: tuple[type, ...], body: dict[str, Any],
+    named: Mapping[str, Any], like: type, *, frozen: bool, eq: bool,
+) -> type:  # fmt: skip
+    """The dataclass of the body of a class, with a slot for every field that no base has one for.
+
+    `kind` makes a class of name, bases, body and what is `named` beside the bases; `like` is any class that inherits
+    what this one does.
+    """
+    noted, members = _members(lambda: made, name, bases, body, like, frozen=frozen, eq=eq)
+    if frozen:  # what pickle would otherwise set by `setattr`
+        body.setdefault("__getstate__", _state)
+        body.setdefault("__setstate__", _put_state)
+    body |= members
+    inherited: set[str] = set()
+    for each in like.__mro__[:-1]:
+        slots = each.__dict__.get("__slots__", ())
+        inherited.update((slots,) if isinstance(slots, str) else slots)
+        if _OF_LIBRARY in each.__dict__:
+            noted = {**dict.fromkeys(_noted(each), MISSING), **noted}
+    for field_name in noted:
+        body.pop(field_name, None)
+    body["__slots__"] = (*[each for each in noted if each not in inherited],)
+    made = kind(name, bases, body, **named)
+    return made
+
+
+def _members(
+    made: Callable[[], type], name: str, bases: tuple[type, ...], body: Mapping[str, Any], like: type,
+    *, frozen: bool, eq: bool,
+) -> tuple[dict[str, object], dict[str, Any]]:  # fmt: skip
+    """What the body of a class says of fields, and what its class has beside it; `made` gives it when it is used."""
+    if like is not object:
+        _check_bases(bases, frozen=frozen)
+    take = body.get
+    noted: dict[str, object] = {
+        each: take(each, MISSING)
+        for each, hint in take("__annotations__", _NOTHING).items()
+        if not (is_class_variable(hint))
+    }
+    if like is not object:
+        noted = {
+            each: getattr(like, each, MISSING) if value is MISSING else value for each, value in noted.items()
+        }
+    if "dataclasses" in sys.modules:  # else nothing in it can be the library's
+        noted = {each: _told(value) for each, value in noted.items()}
+    members: dict[str, Any] = {
+        _NOTED: noted, _OF_LIBRARY: _DESCRIBED, "__frozen__": frozen, "__signature__": _SIGNED,
+        "__doc__": body.get("__doc__") or name,  # else the library would write down its signature
+    }  # fmt: skip
+    if "__match_args__" not in body:
+        members["__match_args__"] = _POSITIONAL
+    if "__init__" not in body:
+        members["__init__"] = _first_init(made)
+    if "__repr__" not in body:
+        members["__repr__"] = _repr
+    if eq:
+        if "__eq__" not in body:
+            members["__eq__"] = _made_later(made, "__eq__", _eq)
+        # A class that has `__eq__` of its own and no `__hash__` has None there.
+        if "__hash__" not in body or (body["__hash__"] is None and "__eq__" in body):
+            members["__hash__"] = _made_later(made, "__hash__", _hash) if frozen else None
+    if frozen:
+        members["__setattr__"], members["__delattr__"] = _refuse_to_set, _refuse_to_delete
+    return noted, members
+
+
+def _check_bases(bases: tuple[type, ...], *, frozen: bool) -> None:
     """Refuse that some fields of an object change and others do not."""
     base: Any
-    for base in cls.__bases__:
+    for base in bases:
         is_other: bool | None = getattr(base, "__frozen__", None)
         if is_other is None and hasattr(base, _OF_LIBRARY):
             is_other = base.__dataclass_params__.frozen
@@ -204,42 +260,6 @@ def _told(value: object) -> object:
         return value
     told = {name: getattr(value, name) for name in Field.__slots__ if name not in ("name", "type")}
     return Field(**{name: each for name, each in told.items() if each is not dataclasses.MISSING})
-
-
-def _is_of_class(hint: object) -> bool:
-    """Whether an annotation is no field's."""
-    if isinstance(hint, str):
-        return hint.startswith(("ClassVar", "typing.ClassVar"))
-    typing = sys.modules.get("typing")  # which whoever has it evaluated has loaded
-    return typing is not None and typing.ClassVar in (hint, typing.get_origin(hint))
-
-
-def _with_slots(cls: type, noted: Mapping[str, object], added: Mapping[str, object]) -> type:
-    """The class once more, with a slot for every field that no base has one for."""
-    inherited: set[str] = set()
-    for each in cls.__mro__[1:-1]:
-        slots = each.__dict__.get("__slots__", ())
-        inherited.update((slots,) if isinstance(slots, str) else slots)
-        if _OF_LIBRARY in each.__dict__:
-            noted = {**dict.fromkeys(_noted(each), MISSING), **noted}
-    body = {**cls.__dict__, **added}
-    body["__slots__"] = (*[name for name in noted if name not in inherited],)
-    for name in (*noted, "__dict__", "__weakref__"):
-        body.pop(name, None)
-    body["__qualname__"] = cls.__qualname__
-    return type(cls)(cls.__name__, cls.__bases__, body)
-
-
-def _lead_super(cls: type, body: Mapping[str, object]) -> None:
-    """Let `super()` in the methods of `body` mean the class that has slots, not the one whose body was read."""
-    for member in body.values():
-        behind = _BEHIND.get(type(member))
-        function = getattr(member, behind) if behind else member
-        if type(function) is FunctionType and function.__closure__ is not None:
-            free = function.__code__.co_freevars
-            if "__class__" in free:  # a cell that all methods share
-                function.__closure__[free.index("__class__")].cell_contents = cls
-                return
 
 
 # ---- fields ----------------------------------------------------------------------------------------------------
@@ -278,6 +298,17 @@ def _described(cls: type) -> dict[str, Field]:
         each.name = name
         each.type = of_library[name].type if of_library else cls.__annotations__[name]
         found[name] = each
+    return found
+
+
+def _given(thing: Any) -> tuple[tuple[str, ...], Callable[[object], tuple[object, ...]], tuple[str, ...]]:
+    """What `replace` takes over: names of the fields that `__init__` takes, what gives their values, other names."""
+    if isinstance(thing, type):
+        raise TypeError("replace() should be called on dataclass instances")
+    known = fields(thing)
+    names = [each.name for each in known if each.init]
+    found = (*names,), _getter(names), (*[each.name for each in known if not each.init],)
+    setattr(type(thing), _GIVEN, found)
     return found
 
 
@@ -336,22 +367,6 @@ _DESCRIBED, _POSITIONAL, _SIGNED = _Described(), _Positional(), _Signed()
 # ---- methods that are written ----------------------------------------------------------------------------------
 
 
-def _methods(
-    made: Callable[[], type], body: Mapping[str, object], *, frozen: bool, eq: bool
-) -> dict[str, Any]:
-    """The methods of a class, but for those of its own; `made` gives it when they are called."""
-    added: dict[str, Any] = {"__init__": _first_init(made), "__repr__": _repr}
-    if eq:
-        added["__eq__"] = _made_later(made, "__eq__", _eq)
-    kept = {name: method for name, method in added.items() if name not in body}
-    # A class that has `__eq__` of its own and no `__hash__` has None there.
-    if eq and ("__hash__" not in body or (body["__hash__"] is None and "__eq__" in body)):
-        kept["__hash__"] = _made_later(made, "__hash__", _hash) if frozen else None
-    if frozen:
-        kept["__setattr__"], kept["__delattr__"] = _refuse_to_set, _refuse_to_delete
-    return kept
-
-
 def _made_later(
     made: Callable[[], type], name: str, make: Callable[[type], Callable[..., Any]]
 ) -> Callable[..., Any]:
@@ -367,9 +382,16 @@ def _made_later(
 
 
 def _eq(cls: type) -> Callable[..., Any]:
-    values = _getter([each.name for each in _fields_of(cls) if each.compare])
+    names = [each.name for each in _fields_of(cls) if each.compare]
+    values, left = _getter(names), _MANY
 
     def __eq__(self: object, other: object) -> bool:  # noqa: N807
+        nonlocal left
+        left -= 1
+        if left == 0:
+            ours, theirs = _tuple("self", names), _tuple("other", names)
+            text = f"return {ours} == {theirs} if other.__class__ is self.__class__ else NotImplemented"
+            cls.__eq__ = _written(cls, "__eq__(self, other)", text)  # type: ignore[method-assign]
         if other.__class__ is self.__class__:
             return values(self) == values(other)
         return NotImplemented
@@ -378,10 +400,31 @@ def _eq(cls: type) -> Callable[..., Any]:
 
 
 def _hash(cls: type) -> Callable[..., Any]:
-    values = _getter(
-        [each.name for each in _fields_of(cls) if (each.compare if each.hash is None else each.hash)]
-    )
-    return lambda self: hash(values(self))
+    names = [each.name for each in _fields_of(cls) if (each.compare if each.hash is None else each.hash)]
+    values, left = _getter(names), _MANY
+
+    def __hash__(self: object) -> int:  # noqa: N807
+        nonlocal left
+        left -= 1
+        if left == 0:
+            cls.__hash__ = _written(cls, "__hash__(self)", f"return hash({_tuple('self', names)})")  # type: ignore[method-assign]
+        return hash(values(self))
+
+    return __hash__
+
+
+def _tuple(thing: str, names: list[str]) -> str:
+    """The text of a tuple of fields."""
+    return f"({''.join(f'{thing}.{name}, ' for name in names)})"
+
+
+def _written(cls: type, head: str, body: str, names: dict[str, Any] | None = None) -> Callable[..., Any]:
+    """A method of a class, of a text that comes from names of fields."""
+    scope = {} if names is None else names
+    exec(f"def {head}:\n {body}", scope)
+    method: Callable[..., Any] = scope[head.partition("(")[0]]
+    method.__qualname__ = f"{cls.__qualname__}.{method.__name__}"
+    return method
 
 
 def _getter(names: list[str]) -> Callable[[object], tuple[object, ...]]:
@@ -494,10 +537,7 @@ def _init(cls: type) -> Callable[..., Any]:
                 yield f"__set({own}, {name!r}, {value})"
         yield f"{own}.__post_init__()" if hasattr(cls, "__post_init__") else "pass"
 
-    lines = [f"def __init__({', '.join(parameters)}):", *body()]
-    exec("\n ".join(lines), names)  # the text comes from names of fields
-    method: Callable[..., Any] = names["__init__"]
-    method.__qualname__ = f"{cls.__qualname__}.__init__"
+    method = _written(cls, f"__init__({', '.join(parameters)})", "\n ".join(body()), names)
     method.__annotations__ = {each.name: each.type for each in fields_of if each.init} | {"return": None}
     return method
 

@@ -9,6 +9,8 @@ Modules that have annotations evaluated by others (pydantic) import `typing` its
 
 from __future__ import annotations
 
+import sys
+
 #: What type checkers take for true, whatever it says.
 TYPE_CHECKING = False
 
@@ -99,6 +101,14 @@ else:
         return getattr(typing, name)
 
 
+def is_class_variable(hint: object) -> bool:
+    """Whether an annotation says `ClassVar`: as a text, or as the library's own where it has been evaluated."""
+    if isinstance(hint, str):
+        return hint.startswith(("ClassVar", "typing.ClassVar"))
+    library = sys.modules.get("typing")  # which whoever evaluates annotations has loaded
+    return library is not None and library.ClassVar in (hint, library.get_origin(hint))
+
+
 __all__ = [
     "IO",
     "TYPE_CHECKING",
@@ -118,5 +128,6 @@ __all__ = [
     "TypedDict",
     "Union",
     "cast",
+    "is_class_variable",
     "overload",
 ]

@@ -6,21 +6,20 @@ Their machine code is good for one version of their sources, which lies beside i
 from __future__ import annotations
 
 from functools import cached_property
-from importlib import import_module
-from os.path import dirname
 from typing import TYPE_CHECKING, Any
 
+from polycnc.deferred.modules import import_module
+from polycnc.deferred.paths import package_path, parent_of
 from polycnc.kernels import native
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
-    from pathlib import Path
     from types import ModuleType
 
     from polycnc.kernels.description import Description
 
 #: Where the packages lie of whose modules the names of libraries are.
-_ROOT = dirname(dirname(dirname(__file__)))  # noqa: PTH120
+_ROOT = parent_of(package_path())
 
 
 class Library:
@@ -45,7 +44,7 @@ class Library:
         kernels: Sequence[str],
         *,
         inline: bool = False,
-        file: Path = native.FILE,
+        file: str = native.FILE,
         root: str = _ROOT,
     ) -> None:
         self.name, self.module_names, self.inline, self.root = name, modules, inline, root
@@ -101,7 +100,7 @@ class Library:
         if name not in self._callers:
             from polycnc.kernels.call import caller
 
-            self._callers[name] = caller(code[name], described.signatures[name])
+            self._callers[name] = caller(code.function(name), described.signatures[name])
         return self._callers[name]
 
     def kernel(self, name: str) -> Callable[..., Any]:

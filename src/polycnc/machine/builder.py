@@ -7,9 +7,9 @@ these mean. A builder of one's own is a file with the same tables.
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.paths import is_dir, joined, names_in, package_path
 from polycnc.deferred.records import dataclass, field, replace
 
 if TYPE_CHECKING:
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from polycnc.machine.plc import PlcAlarm
     from polycnc.machine.rules import Rule
 
-BUILDERS = Path(__file__).with_name("builders")
+BUILDERS = package_path("machine", "builders")
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ class Builder:
             free = frozenset(word for word in row.words.intersection(declared) if row.refuses_outright(word))
             yield replace(row, free=free) if free else row
 
-    def texts(self, control: str) -> tuple[Path, ...]:
+    def texts(self, control: str) -> tuple[str, ...]:
         """The files with the texts of its alarms on a control."""
         return builder_texts(self.name, control)
 
@@ -49,13 +49,14 @@ class Builder:
 NO_BUILDER = Builder()
 
 
-def builder_texts(name: str, control: str) -> tuple[Path, ...]:
+def builder_texts(name: str, control: str) -> tuple[str, ...]:
     """The files with the texts of a builder's alarms on a control, none for a builder of one's own."""
     if not name or name.endswith(".toml"):
         return ()
-    return tuple(sorted((BUILDERS / name / "texts").glob(f"{control}-*.toml")))
+    texts = package_path("machine", "builders", name, "texts")
+    return tuple(joined(texts, file) for file in names_in(texts) if file.startswith(f"{control}-"))
 
 
 def builder_names() -> tuple[str, ...]:
     """The builders that come with polycnc, sorted."""
-    return tuple(sorted(path.name for path in BUILDERS.iterdir() if path.is_dir()))
+    return tuple(name for name in names_in(BUILDERS) if is_dir(joined(BUILDERS, name)))

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from functools import cache
-from pathlib import Path
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.paths import package_path
 from polycnc.messages import Catalogue, UserError
 
 if TYPE_CHECKING:
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 @cache
 def catalogue() -> Catalogue:
     """The texts of this folder."""
-    return Catalogue(Path(__file__).with_name("messages.toml"))
+    return Catalogue(package_path("machine", "messages.toml"))
 
 
 def nearest(key: str, known: Iterable[str]) -> str:

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from functools import cache
 from math import inf
-from pathlib import Path
 from typing import TYPE_CHECKING, Literal, TypeVar, cast
 
+from polycnc.deferred import paths
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.toml import loads
 from polycnc.machine.builder import BUILDERS, Builder, builder_names
@@ -36,6 +36,7 @@ from polycnc.messages.files import read_utf_8, reason_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
+    from pathlib import Path
 
     from polycnc.geometry.frames import Vector
     from polycnc.machine.schema import Mistake
@@ -64,7 +65,7 @@ if TYPE_CHECKING:
     ]  # fmt: skip
 
 T = TypeVar("T")
-BUILTIN = Path(__file__).with_name("builtin")
+BUILTIN = paths.package_path("machine", "builtin")
 _PER_MINUTE = 60.0
 #: Axis letters that turn (ISO 841); an axis with another letter is linear unless its table says otherwise.
 _ROTARY_LETTERS = "ABC"
@@ -95,7 +96,7 @@ _TOOL_AXIS = (0.0, 0.0, 1.0)
 
 def builtin_ids() -> tuple[str, ...]:
     """Ids of the machines that come with polycnc, sorted."""
-    return tuple(sorted(path.stem for path in BUILTIN.glob("*.toml")))
+    return tuple(sorted(map(paths.stem_of, _toml_files(BUILTIN))))
 
 
 def load_machine(id_or_path: str | Path) -> Machine:
@@ -105,59 +106,63 @@ def load_machine(id_or_path: str | Path) -> Machine:
         MachineFileError: There is no such machine, or the file is wrong; the error names the line.
     """
     path = _find(str(id_or_path))
-    if path.parent == BUILTIN:
+    if paths.parent_of(path) == BUILTIN:
         return _builtin(path)
     from polycnc.machine.check import contradictions, gaps
 
     text = _read(path)
     data = cast("MachineData", _checked_data(path, text, ()))
     _raise_first(path, text, gaps(data))
-    machine = build(path.stem, data, _builder_data(path, text, data.get("rules", "")))
+    machine = build(paths.stem_of(path), data, _builder_data(path, text, data.get("rules", "")))
     _raise_first(path, text, contradictions(machine))
     return machine
 
 
 @cache
-def _builtin(path: Path) -> Machine:
+def _builtin(path: str) -> Machine:
     """A built-in machine, which is read once."""
     data = cast("MachineData", _builtin_data(path))
-    return build(path.stem, data, _shipped_builder(data.get("rules", "")))
+    return build(paths.stem_of(path), data, _shipped_builder(data.get("rules", "")))
 
 
-def _find(name: str) -> Path:
+def _find(name: str) -> str:
     if not name.endswith(".toml"):
-        builtin = BUILTIN / f"{name}.toml"
-        if builtin.parent == BUILTIN and _is_file(builtin):
+        builtin = paths.joined(BUILTIN, f"{name}.toml")
+        if paths.parent_of(builtin) == BUILTIN and _is_file(builtin):
             return builtin
-    if _is_file(Path(name)):
-        return Path(name)
+    if _is_file(name):
+        return paths.text_of(name)
     raise MachineFileError(name, 0, 0, "no-such-machine", machine=name)
 
 
-def _is_file(path: Path) -> bool:
-    """Whether there is such a file; a name that no file system takes is none."""
+def _is_file(path: str) -> bool:
+    """Whether there is such a file, where nobody may look as well; a name that no file system takes is none."""
     try:
-        return path.is_file()
-    except (OSError, ValueError):
+        return paths.is_file(path)
+    except OSError:
         return False
 
 
-def _read(path: Path) -> str:
+def _toml_files(folder: str) -> list[str]:
+    return [paths.joined(folder, name) for name in paths.names_in(folder) if paths.suffix_of(name) == ".toml"]
+
+
+def _read(path: str) -> str:
     try:
         return read_utf_8(path)
     except (OSError, UnicodeError) as error:
-        raise MachineFileError(str(path), 0, 0, "unreadable", detail=reason_of(error)) from error
+        raise MachineFileError(path, 0, 0, "unreadable", detail=reason_of(error)) from error
 
 
 @cache
-def _builtin_data(path: Path) -> Mapping[str, object]:
+def _builtin_data(path: str) -> Mapping[str, object]:
     """The data of a built-in machine, read once; machines are made of them anew."""
-    data: dict[str, object] = loads(path.read_text(encoding="utf-8"))
+    data: dict[str, object] = loads(paths.read_text(path))
     base = data.pop("base", None)
-    return _built_on(_builtin_data(BUILTIN / f"{base}.toml"), data) if base else data
+    return _built_on(_builtin_data(paths.joined(BUILTIN, f"{base}.toml")), data) if base else data
 
 
-def _checked_data(path: Path, text: str, below: tuple[Path, ...]) -> dict[str, object]:
+def _checked_data(path: str, text: str, below: tuple[str, ...]) -> dict[str, object]:
     from polycnc.machine.schema import mistakes
 
     data = _toml(path, text)
@@ -165,33 +170,33 @@ def _checked_data(path: Path, text: str, below: tuple[Path, ...]) -> dict[str, o
     base = data.pop("base", None)
     if base is None:
         return data
-    return _built_on(_base_data(path, text, str(base), (*below, path.resolve())), data)
+    return _built_on(_base_data(path, text, str(base), (*below, paths.resolved(path))), data)
 
 
-def _base_data(path: Path, text: str, base: str, below: tuple[Path, ...]) -> Mapping[str, object]:
+def _base_data(path: str, text: str, base: str, below: tuple[str, ...]) -> Mapping[str, object]:
     """The data of the machine that a file builds on: a built-in one, or a file beside it."""
     line, column = toml_place(text, ("base",))
-    beside = path.parent / base
+    beside = paths.joined(paths.parent_of(path), base)
     if base.endswith(".toml") and _is_file(beside):
-        if beside.resolve() in below:
-            raise MachineFileError(str(path), line, column, "base-of-itself", base=base)
+        if paths.resolved(beside) in below:
+            raise MachineFileError(path, line, column, "base-of-itself", base=base)
         return _checked_data(beside, _read(beside), below)
     if base in builtin_ids():
-        return _builtin_data(BUILTIN / f"{base}.toml")
-    raise MachineFileError(str(path), line, column, "no-such-machine", machine=base)
+        return _builtin_data(paths.joined(BUILTIN, f"{base}.toml"))
+    raise MachineFileError(path, line, column, "no-such-machine", machine=base)
 
 
-def _builder_data(path: Path, text: str, name: str) -> BuildersData:
+def _builder_data(path: str, text: str, name: str) -> BuildersData:
     """The tables of the builder that a file names: one that comes with polycnc, or a file beside this one."""
     if not name.endswith(".toml"):
         if name and name not in builder_names():
             line, column = toml_place(text, ("rules",))
-            raise MachineFileError(str(path), line, column, "no-such-builder", builder=name)
+            raise MachineFileError(path, line, column, "no-such-builder", builder=name)
         return _shipped_builder(name)
     from polycnc.machine.check import conditions, functions
     from polycnc.machine.schema import BuilderTable, mistakes
 
-    beside = path.parent / name
+    beside = paths.joined(paths.parent_of(path), name)
     data = _toml(beside, _read(beside))
     _raise_first(beside, _read(beside), mistakes(data, BuilderTable))
     tables = cast("BuilderData", data)
@@ -205,28 +210,28 @@ def _shipped_builder(name: str) -> BuildersData:
         return NOTHING
     shared: dict[str, object] = {}
     alarms: dict[str, BuilderData] = {}
-    for file in sorted((BUILDERS / name).glob("*.toml")):
-        data = _toml(file, file.read_text(encoding="utf-8"))
+    for file in _toml_files(paths.joined(BUILDERS, name)):
+        data = _toml(file, paths.read_text(file))
         if "alarm" in data:
-            alarms[file.stem] = cast("BuilderData", data)
+            alarms[paths.stem_of(file)] = cast("BuilderData", data)
         else:
             shared |= data
     return BuildersData(name, cast("BuilderData", shared), alarms)
 
 
-def _toml(path: Path, text: str) -> dict[str, object]:
+def _toml(path: str, text: str) -> dict[str, object]:
     try:
         return toml_values(text)
     except DocumentError as bad:
-        raise MachineFileError(str(path), bad.line, bad.column, bad.message, **bad.args_by_name) from None
+        raise MachineFileError(path, bad.line, bad.column, bad.message, **bad.args_by_name) from None
 
 
-def _raise_first(path: Path, text: str, found: Iterable[Mistake]) -> None:
+def _raise_first(path: str, text: str, found: Iterable[Mistake]) -> None:
     """Raise the mistake that stands first in the file."""
     placed = [(toml_place(text, where), message, args) for where, message, args in found]
     if placed:
         (line, column), message, args = min(placed, key=lambda mistake: mistake[0])
-        raise MachineFileError(str(path), line, column, message, **args)
+        raise MachineFileError(path, line, column, message, **args)
 
 
 def _built_on(base: Mapping[str, object], data: Mapping[str, object]) -> dict[str, object]:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from functools import cache
 from math import isfinite
-from pathlib import Path
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.paths import package_path
 from polycnc.machine.text import Text
 from polycnc.messages import Catalogue
 
@@ -40,7 +40,7 @@ _EXAMPLES = {"g_function": '[g_function."100"]', "alarm": "[[alarm]]", "message"
 @cache
 def fields() -> Catalogue:
     """What each key of a machine file means; ids are `table.key`."""
-    return Catalogue(Path(__file__).with_name("fields.toml"))
+    return Catalogue(package_path("machine", "fields.toml"))
 
 
 def machine_toml(machine: Machine, lang: str | None = None) -> str:

@@ -7,8 +7,11 @@ empty when it first asks for it, from its setup.
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Any, Protocol, TypeVar
+from os import PathLike
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 _T = TypeVar("_T")
 #: Names of tables. Keys and values are the control's own; lengths are millimetres, angles degrees.
@@ -95,7 +98,7 @@ def opened(memory: RetainedStore | str | Path | None, control: str, machine: str
     """
     if memory is None:
         return InMemoryStore()
-    if isinstance(memory, str | Path):
+    if isinstance(memory, str | PathLike):
         from polycnc.memory.file import FileStore
 
         return FileStore(memory, control, machine)

@@ -7,14 +7,15 @@ import re
 from collections import ChainMap
 from collections.abc import Mapping
 from functools import cache, cached_property
-from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
+from polycnc.deferred.paths import package_path, read_text
 from polycnc.deferred.regexes import regex
 from polycnc.deferred.toml import loads
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
+    from pathlib import Path
 
 LANGUAGES = ("en", "zh-TW")
 _active = "en"
@@ -49,11 +50,13 @@ class Catalogue:
         entries: Texts that lie over those of the files.
     """
 
-    def __init__(self, *sources: Path, entries: Mapping[str, dict[str, str]] | None = None) -> None:
+    def __init__(self, *sources: str | Path, entries: Mapping[str, dict[str, str]] | None = None) -> None:
         self._sources = sources
         self._over = dict(entries or {})
 
-    def extended(self, *sources: Path, entries: Mapping[str, dict[str, str]] | None = None) -> Catalogue:
+    def extended(
+        self, *sources: str | Path, entries: Mapping[str, dict[str, str]] | None = None
+    ) -> Catalogue:
         """This catalogue with further texts laid over it."""
         return Catalogue(*self._sources, *sources, entries={**self._over, **(entries or {})})
 
@@ -131,8 +134,8 @@ class _File(Mapping[str, dict[str, str]]):
 
 
 @cache
-def _file(path: Path) -> _File:
-    return _File(path.read_text(encoding="utf-8"))
+def _file(path: str | Path) -> _File:
+    return _File(read_text(path))
 
 
 def listed(words: Iterable[str]) -> str:
@@ -171,7 +174,7 @@ def placeholders(template: str, *, needed: bool = False) -> set[str]:
 @cache
 def messages() -> Catalogue:
     """The texts of polycnc itself."""
-    return Catalogue(Path(__file__).with_name("messages.toml"))
+    return Catalogue(package_path("messages", "messages.toml"))
 
 
 def text(key: str, lang: str | None = None, **args: object) -> str:

@@ -6,14 +6,15 @@ import errno
 import os
 import stat
 from io import StringIO
-from pathlib import Path
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.paths import is_same, text_of
 from polycnc.messages.catalogue import messages
 from polycnc.messages.errors import UserError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
+    from pathlib import Path
 
 
 def read_regular(path: str | Path, most: int = -1) -> bytes:
@@ -68,25 +69,30 @@ def reason_of(error: Exception) -> str:
     return messages().text(key) if key in messages() else getattr(error, "strerror", None) or str(error)
 
 
+def reason_with_file(error: OSError) -> str:
+    """Which file cannot be used, and why, in the active language."""
+    return f"{error.filename or ''}: {reason_of(error)}".removeprefix(": ")
+
+
 class OutputError(UserError):
     """A file that must not be written."""
 
 
-def refuse_inputs(outputs: Iterable[Path | None], inputs: Iterable[str | Path | None]) -> None:
+def refuse_inputs(outputs: Iterable[str | Path | None], inputs: Iterable[str | Path | None]) -> None:
     """Raise `OutputError` where an output would be written in the place of an input.
 
     Args:
         outputs: Files to be written; None for those that nobody asked for.
         inputs: Files that are read; what is no file (standard input, the id of a machine) is passed over.
     """
-    read = [Path(each) for each in inputs if each is not None]
+    read = [each for each in inputs if each is not None]
     for output in outputs:
         if output is not None and any(_is_same(output, each) for each in read):
-            raise OutputError("output.is-input", file=output)
+            raise OutputError("output.is-input", file=text_of(output))
 
 
-def _is_same(one: Path, other: Path) -> bool:
+def _is_same(one: str | Path, other: str | Path) -> bool:
     try:
-        return one.samefile(other)
+        return is_same(one, other)
     except (OSError, ValueError):  # one of them is not there, or no file system takes its name
         return False

@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 Numbers: TypeAlias = "NDArray[np.float64]"
 #: Areas are summed in two parts, multiples of this and the rest: those of a long run are as exact as of a short one.
 GRID = 2.0**-20
+#: How long a phase has lasted, and what it began with: place, speed, acceleration, jerk, area in two parts.
+_InPhase: TypeAlias = "tuple[Value, Value, Value, Value, Value, Value, Value]"
 #: Steps of the search for a time: each halves what the step before has left at least.
 STEPS = 60
 
@@ -115,7 +117,7 @@ class Law:
         while len(self._start) > 1 and self._start[-1] >= time:
             for column in columns:
                 column.pop()
-        area, fine = self._areas(time)
+        area, fine = self._area_at(self._phase(time))
         coarse = round(fine / GRID) * GRID
         area, fine = area + coarse, fine - coarse
         for phase in (*phases, Phase(0.0, 0.0, 0.0, 0.0)):
@@ -155,25 +157,24 @@ class Law:
 
     def at(self, time: Value) -> Value:
         """The place at a time."""
-        seconds, place, speed, pull, jerk = self._phase(time)
+        seconds, place, speed, pull, jerk, _, _ = self._phase(time)
         return place + way_after(seconds, speed, pull, jerk)
 
     def speed(self, time: Value) -> Value:
         """The speed at a time."""
-        seconds, _, speed, pull, jerk = self._phase(time)
+        seconds, _, speed, pull, jerk, _, _ = self._phase(time)
         return speed + seconds * (pull + 0.5 * seconds * jerk)
 
     def pull(self, time: Value) -> Value:
         """The acceleration at a time."""
-        seconds, _, _, pull, jerk = self._phase(time)
+        seconds, _, _, pull, jerk, _, _ = self._phase(time)
         return pull + seconds * jerk
 
     def mean(self, time: Value, window: float) -> Value:
         """The average place over the time `window` before."""
         if window <= 0.0:
             return self.at(time)
-        (first, fine), (last, finer) = self._areas(time - window), self._areas(time)
-        return self._origin + ((last - first) + (finer - fine)) / window
+        return self._mean(self._phase(time - window), self._phase(time), window)
 
     def mean_speed(self, time: Value, window: float) -> Value:
         """The average speed over the time `window` before."""
@@ -187,15 +188,17 @@ class Law:
 
     def motion(self, time: Numbers, window: float) -> tuple[Numbers, Numbers, Numbers]:
         """The averages of place, speed and acceleration over the time `window` before many times, (k,) each."""
-        seconds, place, speed, pull, jerk = self._phase(time)
+        phase = self._phase(time)
+        seconds, place, speed, pull, jerk, _, _ = phase
         here = place + way_after(seconds, speed, pull, jerk)
         fast = speed + seconds * (pull + 0.5 * seconds * jerk)
         if window <= 0.0:
             return here, fast, pull + seconds * jerk
-        mean = self.mean(time, window)
-        seconds, place, speed, pull, jerk = self._phase(time - window)
+        earlier = self._phase(time - window)
+        seconds, place, speed, pull, jerk, _, _ = earlier
         before = place + way_after(seconds, speed, pull, jerk)
         slow = speed + seconds * (pull + 0.5 * seconds * jerk)
+        mean = self._mean(earlier, phase, window)
         return mean, average(before, here, window), average(slow, fast, window)
 
     def edges(self, first: float, last: float, window: float) -> list[float]:
@@ -269,30 +272,30 @@ class Law:
             seconds = new
         return seconds
 
-    def _phase(self, time: Value) -> tuple[Value, Value, Value, Value, Value]:
-        """How long the phase at a time has lasted, where it began, its first speed and acceleration, its jerk."""
+    def _phase(self, time: Value) -> _InPhase[Value]:
+        """How long the phase at a time has lasted, and what it began with."""
         if isinstance(time, float | int):
             k = max(bisect_right(self._start, time) - 1, 0)
-            return time - self._start[k], self._place[k], self._speed[k], self._pull[k], self._jerk[k]
+            return (
+                time - self._start[k], self._place[k], self._speed[k], self._pull[k], self._jerk[k],
+                self._area[k], self._fine[k],
+            )  # fmt: skip
         import numpy as np
 
         start = np.asarray(self._start)
         at = np.maximum(np.searchsorted(start, time, "right") - 1, 0)
-        columns = self._place, self._speed, self._pull, self._jerk
-        place, speed, pull, jerk = (np.asarray(column)[at] for column in columns)
-        return time - start[at], place, speed, pull, jerk
+        place, speed, pull, jerk, area, fine = (np.asarray(column)[at] for column in self._columns[1:])
+        return time - start[at], place, speed, pull, jerk, area, fine
 
-    def _areas(self, time: Value) -> tuple[Value, Value]:
+    def _area_at(self, phase: _InPhase[Value]) -> tuple[Value, Value]:
         """The integral of the places, counted from the origin, over the time before: in two parts."""
-        seconds, place, speed, pull, jerk = self._phase(time)
-        more = area_after(seconds, place - self._origin, speed, pull, jerk)
-        if isinstance(time, float | int):
-            k = max(bisect_right(self._start, time) - 1, 0)
-            return self._area[k], self._fine[k] + more
-        import numpy as np
+        seconds, place, speed, pull, jerk, area, fine = phase
+        return area, fine + area_after(seconds, place - self._origin, speed, pull, jerk)
 
-        at = np.maximum(np.searchsorted(np.asarray(self._start), time, "right") - 1, 0)
-        return np.asarray(self._area)[at], np.asarray(self._fine)[at] + more
+    def _mean(self, before: _InPhase[Value], here: _InPhase[Value], window: float) -> Value:
+        """The average place between two times, `window` apart."""
+        (first, fine), (last, finer) = self._area_at(before), self._area_at(here)
+        return self._origin + ((last - first) + (finer - fine)) / window
 
 
 def _sums(first: float, values: Numbers) -> Numbers:

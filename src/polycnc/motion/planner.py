@@ -36,8 +36,9 @@ if TYPE_CHECKING:
     from polycnc.toolpath import Context, Toolpath
     from polycnc.toolpath.table import Chunk
 
-#: Pieces that the buffer takes at first, and pieces that it takes before it is looked at.
-FIRST_ROOM, FULL_ROOM = 256, 16_384
+#: Pieces that the buffer takes at first, and pieces that it takes before it is looked at: twice as many each time that
+#: it has been looked at so often, for memory costs a short path more than looking; but no more than the last number.
+FIRST_ROOM, FULL_ROOM, LOOKS, MOST_ROOM = 256, 2048, 4, 16_384
 
 
 class Planner:
@@ -91,7 +92,7 @@ class Planner:
         self._real = RealAxes(machine, channel, toolpath.axes, settings, start)
         self._limits = self._real.limits(None)
         self._pieces = array("d", bytes(8 * self._width * FIRST_ROOM))
-        self._room = FULL_ROOM
+        self._room, self._looks = FULL_ROOM, 0
         self._uses, self._use = uses_of(machine, channel, settings), Use.CUT
         self._tables = ContextTables(self._uses.after_s)
         self._slots = array("d")
@@ -107,6 +108,8 @@ class Planner:
         self._rests: set[int] = set()
         self._come_to_rest: dict[int, float] = {}  # by row: averages of a run that a function outlasts
         self._runs: LawRuns | None = None  # until a context asks for it
+        self._rapid_context: Context | None = None  # whose rapids were looked at last
+        self._rapids_are_soft = False
         self._compiled = compiled
 
     @property
@@ -152,8 +155,11 @@ class Planner:
 
     def rapids(self, ways: Sequence[float], context: Context) -> list[AxisRapid]:
         """How each axis runs a rapid by itself: none does under a transformation."""
-        soft = averages(context, self._machine, self._settings)[0] > 0.0
-        return axis_rapids(ways, context, self._real.limits(None, self._use_of_rapids), soft=soft)
+        if context is not self._rapid_context:
+            self._rapid_context = context
+            self._rapids_are_soft = averages(context, self._machine, self._settings)[0] > 0.0
+        limits = self._real.limits(None, self._use_of_rapids)
+        return axis_rapids(ways, context, limits, soft=self._rapids_are_soft)
 
     def rapids_of(self, piece: Sequence[float], context: Context) -> list[AxisRapid]:
         """How each axis runs a planned piece by itself; empty where they go together."""
@@ -385,7 +391,9 @@ class Planner:
         if room >= self._room:
             before = self._state.run.pieces
             self._look_ahead()
-            if self._state.run.pieces < before and 2 * self._state.run.pieces <= room:
+            self._looks += 1
+            is_enough = self._looks % LOOKS or room >= MOST_ROOM
+            if is_enough and self._state.run.pieces < before and 2 * self._state.run.pieces <= room:
                 return
             self._room = 2 * room
         self._pieces *= 2  # whatever is in the new half: a piece is written before it is read

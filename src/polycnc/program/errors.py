@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from functools import cache
-from pathlib import Path
 
+from polycnc.deferred.paths import package_path
 from polycnc.messages import Catalogue, UserError
 
 
 @cache
 def texts() -> Catalogue:
     """The texts of this folder: file errors and the reasons of `detect`."""
-    return Catalogue(Path(__file__).with_name("messages.toml"))
+    return Catalogue(package_path("program", "messages.toml"))
 
 
 class ProgramFileError(UserError):

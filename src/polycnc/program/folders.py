@@ -6,13 +6,17 @@ import errno
 import os
 import stat
 from functools import cached_property
-from pathlib import Path
+from typing import TYPE_CHECKING
 
+from polycnc.deferred.paths import joined, name_of, stem_of, suffix_of, text_of
 from polycnc.deferred.regexes import regex
 from polycnc.messages.files import read_regular, reason_of
 from polycnc.program.errors import ProgramFileError
 from polycnc.program.names import stored_name
 from polycnc.program.text import TAPE_CONTROLS
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 MAX_FILE_BYTES = 2 * 1024**3
 
@@ -51,24 +55,25 @@ def read_file(path: str) -> bytes:
     return data
 
 
-def program_stem(path: Path) -> str:
+def program_stem(path: str) -> str:
     """The file's name without a suffix of part programs; `PART.V2` has none."""
-    return path.stem if path.suffix.lower() in SUFFIXES else path.name
+    return stem_of(path) if suffix_of(path).lower() in SUFFIXES else name_of(path)
 
 
-def number_of_file(path: Path) -> int | None:
+def number_of_file(path: str) -> int | None:
     """The program number in a file's name: 10 for `O0010`, `O10.NC` and `0010.nc`."""
     stem = program_stem(path)
     digits = stem[1:] if stem.startswith(("o", "O")) else stem
     return int(digits) if digits.isdecimal() and len(digits) <= _MOST_DIGITS else None
 
 
-def stored_name_of_file(path: Path) -> str:
+def stored_name_of_file(path: str) -> str:
     """The name under which SINUMERIK stores a file of a PC; others than MPF and SPF are main programs."""
-    is_foreign = path.suffix.lower() in SUFFIXES and path.suffix.lower() not in (".mpf", ".spf")
-    if is_foreign and not path.name.upper().startswith("_N_"):
-        return stored_name(path.stem) + "_MPF"
-    return stored_name(path.name)
+    suffix = suffix_of(path).lower()
+    is_foreign = suffix in SUFFIXES and suffix not in (".mpf", ".spf")
+    if is_foreign and not name_of(path).upper().startswith("_N_"):
+        return stored_name(stem_of(path)) + "_MPF"
+    return stored_name(name_of(path))
 
 
 class Folder:
@@ -80,72 +85,77 @@ class Folder:
         ProgramFileError: From any method, if the folder cannot be listed.
     """
 
-    def __init__(self, path: Path) -> None:
-        self.path = path
+    def __init__(self, path: str | Path) -> None:
+        self.path = text_of(path)
 
     @cached_property
-    def _entries(self) -> tuple[list[Path], list[Path]]:
-        """Files and folders in it."""
+    def _entries(self) -> tuple[list[str], list[str]]:
+        """The names of files and of folders in it."""
         try:
             with os.scandir(self.path) as entries:
                 found = sorted((entry.name, _kind(entry)) for entry in entries)
         except (OSError, ValueError) as error:
-            raise ProgramFileError("program.unreadable", str(self.path), reason=reason_of(error)) from error
-        files = [self.path / name for name, kind in found if kind == stat.S_IFREG]
-        return files, [self.path / name for name, kind in found if kind == stat.S_IFDIR]
+            raise ProgramFileError("program.unreadable", self.path, reason=reason_of(error)) from error
+        files = [name for name, kind in found if kind == stat.S_IFREG]
+        return files, [name for name, kind in found if kind == stat.S_IFDIR]
+
+    def _path(self, name: str | None) -> str | None:
+        return None if name is None else joined(self.path, name)
 
     @cached_property
-    def _by_name(self) -> dict[str, Path]:
-        return {path.name.casefold(): path for path in reversed(self._entries[0])}
+    def _by_name(self) -> dict[str, str]:
+        return {name.casefold(): name for name in reversed(self._entries[0])}
 
     @cached_property
-    def _by_stored_name(self) -> dict[str, Path]:
-        return {stored_name(path.name): path for path in reversed(self._entries[0])}
+    def _by_stored_name(self) -> dict[str, str]:
+        return {stored_name(name): name for name in reversed(self._entries[0])}
 
     @cached_property
-    def _folders(self) -> dict[str, Path]:
-        return {stored_name(path.name): path for path in reversed(self._entries[1])}
+    def _folders(self) -> dict[str, str]:
+        return {stored_name(name): name for name in reversed(self._entries[1])}
 
     @cached_property
-    def _by_number(self) -> dict[int, list[Path]]:
-        found: dict[int, list[Path]] = {}
-        for path in self._entries[0]:
-            number = number_of_file(path)
+    def _by_number(self) -> dict[int, list[str]]:
+        found: dict[int, list[str]] = {}
+        for name in self._entries[0]:
+            number = number_of_file(name)
             if number is not None:
-                found.setdefault(number, []).append(path)
+                found.setdefault(number, []).append(name)
         return found
 
-    def folder(self, name: str) -> Path | None:
+    def folder(self, name: str) -> str | None:
         """The folder inside it with this SINUMERIK name (`_N_SPF_DIR` is `SPF.DIR` on a PC)."""
-        return self._folders.get(name)
+        return self._path(self._folders.get(name))
 
-    def named(self, name: str, suffixes: tuple[str, ...]) -> Path | None:
+    def named(self, name: str, suffixes: tuple[str, ...]) -> str | None:
         """The file of this name with the first of the suffixes that exists; case does not matter."""
         wanted = (name.casefold() + suffix.casefold() for suffix in suffixes)
-        return next((self._by_name[each] for each in wanted if each in self._by_name), None)
+        return self._path(next((self._by_name[each] for each in wanted if each in self._by_name), None))
 
-    def stored(self, name: str) -> Path | None:
+    def stored(self, name: str) -> str | None:
         """The file with this SINUMERIK name (`_N_SUB1_SPF` is `SUB1.SPF` on a PC)."""
-        return self._by_stored_name.get(name)
+        return self._path(self._by_stored_name.get(name))
 
     def stored_names(self) -> list[str]:
         """The SINUMERIK names of all files in it."""
         return list(self._by_stored_name)
 
-    def numbered(self, number: int, digits: int) -> Path | None:
+    def numbered(self, number: int, digits: int) -> str | None:
         """The file whose name is this program number: `O0010` before `O10` before `0010`, then by suffix."""
 
-        def preference(path: Path) -> tuple[bool, bool, int, str]:
-            stem = program_stem(path)
+        def preference(name: str) -> tuple[bool, bool, int, str]:
+            stem = program_stem(name)
             figures = stem.lstrip("oO")
-            suffix = path.name[len(stem) :].lower()
-            return stem == figures, len(figures) != digits, SUFFIXES.index(suffix), path.name
+            suffix = name[len(stem) :].lower()
+            return stem == figures, len(figures) != digits, SUFFIXES.index(suffix), name
 
-        return min(self._by_number.get(number, []), key=preference, default=None)
+        return self._path(min(self._by_number.get(number, []), key=preference, default=None))
 
-    def headed(self, number: int) -> list[Path]:
+    def headed(self, number: int) -> list[str]:
         """The program files, whatever their names, in which a program of this number starts near the top."""
-        programs = (path for path in self._entries[0] if path.suffix.lower() in SUFFIXES)
+        programs = (
+            joined(self.path, name) for name in self._entries[0] if suffix_of(name).lower() in SUFFIXES
+        )
         return [path for path in programs if number in _numbers_at_top(path)]
 
 
@@ -157,7 +167,7 @@ def _kind(entry: os.DirEntry[str]) -> int:
         return 0
 
 
-def _numbers_at_top(path: Path) -> set[int]:
+def _numbers_at_top(path: str) -> set[int]:
     try:
         top = read_regular(path, _HEADING_BYTES)
     except OSError:

@@ -8,9 +8,9 @@ read when a call asks for them, once.
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
+from polycnc.deferred.paths import is_dir, name_of, parent_of, resolved, text_of
 from polycnc.deferred.records import replace
 from polycnc.messages.catalogue import listed
 from polycnc.program import names
@@ -24,6 +24,7 @@ from polycnc.program.text import split_lines
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
+    from pathlib import Path
 
 EXTERNAL = "external:"
 """Prefix of the directories of an external memory: reached by EXTCALL and M198, never by a normal call."""
@@ -44,13 +45,13 @@ def load_programs(
     """
     long = read_long(path) if encoding is None else None
     if long is not None:
-        source = Source(Path(path).name, path, long.file.codec, long.file.replaced)
+        source = Source(name_of(path), path, long.file.codec, long.file.replaced)
         programs = split_programs(long, source, default)
     else:
         decoded = decode(read_file(path), encoding)
-        source = Source(Path(path).name, path, decoded.encoding, decoded.replaced)
+        source = Source(name_of(path), path, decoded.encoding, decoded.replaced)
         programs = split_programs(split_lines(decoded.text, path), source, default)
-    number = number_of_file(Path(path))
+    number = number_of_file(path)
     first = programs[0]
     if (
         number is not None
@@ -91,9 +92,9 @@ class ProgramStore:
         edited: Edits | None = None,
     ) -> None:
         for path in search:
-            if not Path(path).is_dir():
+            if not is_dir(path):
                 raise ProgramFileError("program.search-missing", str(path))
-        self.search = [Path(path) for path in search]
+        self.search = [text_of(path) for path in search]
         self.form = form
         self.encoding = encoding
         self.reaches_host = bool(self.search)
@@ -106,12 +107,12 @@ class ProgramStore:
         self._edited: Edits = {} if edited is None else edited
         self._added: list[Program] = []
         self._main: Program | None = None
-        self._beside: Path | None = None
+        self._beside: str | None = None
         self._by_name: dict[tuple[str, str], Program] = {}
         self._by_number: dict[tuple[str, int], Program] = {}
         self._removed: set[tuple[str, str]] = set()
-        self._folders: dict[Path, Folder] = {}
-        self._files: dict[Path, tuple[Program, ...]] = {}
+        self._folders: dict[str, Folder] = {}
+        self._files: dict[str, tuple[Program, ...]] = {}
 
     # --- filling --------------------------------------------------------------------------------------------
 
@@ -137,16 +138,16 @@ class ProgramStore:
 
         The folder of a workpiece (`SHAFT.WPD`) stands for the main program that selecting it selects.
         """
-        path = self._of_workpiece(Path(path))
-        programs = load_programs(str(path), self.encoding, self.form)
+        path = self._of_workpiece(text_of(path))
+        programs = load_programs(path, self.encoding, self.form)
         if self._main is None:
-            self._beside = Path(path).parent
+            self._beside = parent_of(path)
             self.reaches_host = True
-        return self._add([self._placed(program, Path(path)) for program in programs])
+        return self._add([self._placed(program, path) for program in programs])
 
-    def _of_workpiece(self, path: Path) -> Path:
-        stored = names.stored_name(path.name)
-        if self.form is not Form.SINUMERIK or not stored.endswith(names.WORKPIECE) or not path.is_dir():
+    def _of_workpiece(self, path: str) -> str:
+        stored = names.stored_name(name_of(path))
+        if self.form is not Form.SINUMERIK or not stored.endswith(names.WORKPIECE) or not is_dir(path):
             return path
         folder = self._folder(path)
         main = names.main_of_workpiece(stored, folder.stored_names())
@@ -171,7 +172,7 @@ class ProgramStore:
             directory, name = self._place_of_key(key, external)
             programs[0] = replace(first, name=name, directory=external + directory)
             return self._add(programs)
-        number = number_of_file(Path(key))
+        number = number_of_file(key)
         if number is not None and first.number is None:
             programs[0] = replace(first, name=names.program_name(number), number=number)
         placed = [replace(program, directory=external) for program in programs]
@@ -188,7 +189,7 @@ class ProgramStore:
 
     def kept(self, name: str) -> Program | None:
         """The edited program that a user names: by its name or number, with its directory or without; None for none."""
-        wanted, number = name.casefold(), number_of_file(Path(name))
+        wanted, number = name.casefold(), number_of_file(name)
         stored = names.stored_name(name.rpartition("/")[2]).casefold()
         for (directory, key), program in self._edited.items():
             if program is None:
@@ -266,7 +267,7 @@ class ProgramStore:
     def _directory_beside(self) -> str:
         return self._main.directory if self._main and self._main.directory else self._directory
 
-    def _placed(self, program: Program, path: Path) -> Program:
+    def _placed(self, program: Program, path: str) -> Program:
         """A SINUMERIK program of the host gets its stored name and the directory of its folder."""
         if program.form is not Form.SINUMERIK:
             return program
@@ -274,11 +275,11 @@ class ProgramStore:
         return replace(
             program,
             name=program.name if is_named else stored_name_of_file(path),
-            directory=program.directory or self._directory_of_folder(path.parent),
+            directory=program.directory or self._directory_of_folder(parent_of(path)),
         )
 
-    def _directory_of_folder(self, folder: Path) -> str:
-        name = names.stored_name(folder.resolve().name)
+    def _directory_of_folder(self, folder: str) -> str:
+        name = names.stored_name(name_of(resolved(folder)))
         if name.endswith("_WPD"):
             return "/_N_WKS_DIR/" + name
         return "/" + name if "/" + name in names.STANDARD_DIRS else self._directory_beside()
@@ -337,9 +338,9 @@ class ProgramStore:
                 return next((each for each in programs if each.number == number), programs[0])
             holders = folder.headed(number)
             if len(holders) > 1:
-                files = listed(path.name for path in holders)
+                files = listed(map(name_of, holders))
                 raise ProgramFileError(
-                    "program.number-twice", str(folder.path), number=f"{number:04d}", files=files
+                    "program.number-twice", folder.path, number=f"{number:04d}", files=files
                 )
             for each in self._load(holders[0]) if holders else ():
                 if each.number == number:
@@ -459,7 +460,7 @@ class ProgramStore:
         if self._beside and path == ("" if directory.startswith(EXTERNAL) else self._directory_beside()):
             yield self._folder(self._beside)
         for root in self._roots():
-            folder: Path | None = root
+            folder: str | None = root
             for part in path.split("/")[1:]:
                 folder = self._folder(folder).folder(part) if folder else None
             if folder and path:
@@ -469,14 +470,14 @@ class ProgramStore:
         if directory in (names.SPF_DIR, names.DEF_DIR, EXTERNAL):
             yield from map(self._folder, self.search)
 
-    def _roots(self) -> Iterator[Path]:
+    def _roots(self) -> Iterator[str]:
         if self._beside:
             yield self._beside
-            root = self._beside.resolve()
+            root = resolved(self._beside)
             for part in reversed(self._directory_beside().split("/")[1:]):
-                if names.stored_name(root.name) != part:
+                if names.stored_name(name_of(root)) != part:
                     break
-                root = root.parent
+                root = parent_of(root)
             else:
                 yield root
         yield from self.search
@@ -488,12 +489,12 @@ class ProgramStore:
             yield self._folder(self._beside)
         yield from map(self._folder, self.search)
 
-    def _folder(self, path: Path) -> Folder:
+    def _folder(self, path: str) -> Folder:
         return self._folders.setdefault(path, Folder(path))
 
-    def _load(self, path: Path, default: Form | None = None) -> tuple[Program, ...]:
+    def _load(self, path: str, default: Form | None = None) -> tuple[Program, ...]:
         if path not in self._files:
-            self._files[path] = load_programs(str(path), self.encoding, default or self.form)
+            self._files[path] = load_programs(path, self.encoding, default or self.form)
         return self._files[path]
 
 
@@ -503,7 +504,7 @@ def _key(directory: str, name: str) -> tuple[str, str]:
 
 def _definition_files(folder: Folder) -> list[str]:
     """Definition files in a folder: all of `DEF.DIR`; elsewhere names alone that nothing else can have."""
-    is_theirs = "/" + names.stored_name(folder.path.resolve().name) == names.DEF_DIR
+    is_theirs = "/" + names.stored_name(name_of(resolved(folder.path))) == names.DEF_DIR
     return [
         name
         for name in folder.stored_names()

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from pathlib import Path
+from os import PathLike
 from typing import TYPE_CHECKING
 
 from polycnc.channel.channel import DEFAULT_BLOCK_LIMIT
+from polycnc.deferred.paths import exists, joined, parent_of, text_of
 from polycnc.messages.catalogue import listed
 from polycnc.messages.files import refuse_inputs
 from polycnc.session.errors import SessionError
@@ -14,6 +15,7 @@ from polycnc.session.session import Session
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+    from pathlib import Path
 
     from polycnc.control.interface import Control
     from polycnc.machine.model import Machine
@@ -33,7 +35,7 @@ def open_session(
     search: str | Path | Sequence[str | Path] = (),
     encoding: str | None = None,
     files: Mapping[str, str] | None = None,
-    folder: Path | None = None,
+    folder: str | Path | None = None,
     block_limit: int = DEFAULT_BLOCK_LIMIT,
     keep: bool = True,
     timed: bool = True,
@@ -70,7 +72,7 @@ def open_session(
 
     if block_limit < 1:
         raise SessionError("session.block-limit", limit=block_limit)
-    folders = (search,) if isinstance(search, str | Path) else search
+    folders = (search,) if isinstance(search, str | PathLike) else search
     content = decode(source, encoding).text if isinstance(source, bytes) else source
     is_text = isinstance(source, bytes) or (isinstance(source, str) and "\n" in source)
     chosen = _control(control) if control else _guess(content, name, is_text=is_text, encoding=encoding)
@@ -103,7 +105,7 @@ def _main_program(store: ProgramStore, content: str | Path, *, is_text: bool) ->
 
 def _of_memory(store: ProgramStore, name: str | Path) -> Program | None:
     """The program of the control's memory that is meant where no such file exists; None for none."""
-    return None if Path(name).exists() else store.kept(str(name))
+    return None if exists(name) else store.kept(str(name))
 
 
 #: Where a SINUMERIK program lies that comes as a text.
@@ -113,7 +115,7 @@ _MAIN_PROGRAM = "/_N_WKS_DIR/_N_TEST_WPD/_N_MAIN_MPF"
 def _machine_and_setup(
     machine: str | Path | None,
     setup: Mapping[str, object] | str | Path | None,
-    folder: Path | None,
+    folder: str | Path | None,
     control: Control,
 ) -> tuple[Machine, Setup]:
     """The machine of the call, else that of the setup, else the control's usual one; and the setup itself."""
@@ -124,7 +126,7 @@ def _machine_and_setup(
         start = parse_setup(setup)
     else:
         start = load_setup(setup)
-        folder = Path(setup).parent
+        folder = parent_of(setup)
     chosen = machine or _beside(folder, start.machine) or control.default_machine
     built = load_machine(chosen)
     if start.channels:
@@ -138,9 +140,9 @@ def _machine_and_setup(
     return built, start
 
 
-def _beside(folder: Path | None, machine: str) -> str:
+def _beside(folder: str | Path | None, machine: str) -> str:
     """A machine file is looked up from the folder of the file that names it."""
-    return str(folder / machine) if folder is not None and machine.endswith(".toml") else machine
+    return joined(text_of(folder), machine) if folder is not None and machine.endswith(".toml") else machine
 
 
 def _control(control_id: str) -> Control:
@@ -192,18 +194,20 @@ def run(
     `print_to` is a file for what the program prints (DPRNT and the like), and none that the run reads; the other
     arguments, and what is raised, are those of `open_session`.
     """
-    output = None if print_to is None else Path(print_to)
+    output = None if print_to is None else text_of(print_to)
     inputs = (source, machine, setup, memory)
-    refuse_inputs([output], [each for each in inputs if isinstance(each, str | Path)])
+    refuse_inputs([output], [each for each in inputs if isinstance(each, str | PathLike)])
     session = open_session(
         source, control=control, machine=machine, setup=setup, search=search, encoding=encoding,
         block_limit=block_limit, bulk=bulk, memory=memory,
     )  # fmt: skip
     result = session.run()
-    if isinstance(memory, str | Path):
+    if isinstance(memory, str | PathLike):
         session.channel.retained.close()
     if output is not None:
+        from pathlib import Path
+
         refuse_inputs([output], result.files)
         printed = (f"{row['text']}\n" for row in result.rows if row["type"] == "print")
-        output.write_text("".join(printed), encoding="utf-8")
+        Path(output).write_text("".join(printed), encoding="utf-8")
     return result

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
-from importlib import import_module
-from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
-from polycnc.control.alarm_text import catalogue_of
+from polycnc.deferred.modules import import_module, is_installed
 from polycnc.deferred.records import dataclass, field
 from polycnc.machine.layout import axis_layout
 from polycnc.messages import AlarmError, text
@@ -232,7 +230,11 @@ class Result:
         for channel in (self.channel, *others):
             if channel.number not in self._channels:
                 layout = axis_layout(self.machine, channel.number)
-                display = self.display if channel is self.channel else Display(channel.toolpath, layout)
+                display = (
+                    self.display
+                    if channel is self.channel
+                    else Display(channel.toolpath, layout, names=self.control.display_names)
+                )
                 self._channels[channel.number] = ChannelResult(
                     channel, display, self.metadata, self.catalogue
                 )
@@ -328,6 +330,8 @@ class Result:
     @cached_property
     def catalogue(self) -> Catalogue:
         """The texts of all alarms of this control and this machine."""
+        from polycnc.control.alarm_text import catalogue_of
+
         return catalogue_of(self.control, self.machine)
 
     @property
@@ -358,5 +362,5 @@ def _itself(record: RunRecord) -> RunRecord:
 
 def _need(library: str) -> None:
     """A table can only be made where its library is installed."""
-    if find_spec(library) is None:
+    if not is_installed(library):
         raise SessionError("session.no-library", library=library)

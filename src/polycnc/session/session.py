@@ -82,7 +82,7 @@ class Session:
         self.channel.passes = Passes()
         self.channel.standstill = Standstill()
         self.group = ChannelGroup(self.channel)
-        display = Display(toolpath, axis_layout(machine, 1), self._event_text)
+        display = Display(toolpath, axis_layout(machine, 1), self._event_text, control.display_names)
         lead: Lead = {
             "start": self.channel.coordinates.machine,
             "tool": setup.tool_at_start(1),

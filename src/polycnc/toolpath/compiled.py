@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
     from polycnc.kernels.layout import Bytes, Floats, Ints, Ints32
     from polycnc.toolpath.digits import Forms
-    from polycnc.toolpath.survey import Box, Moves
+    from polycnc.toolpath.survey import Boxes, Contexts, Moves
 
 #: Writes rows as text; see `digits.fill`.
 Fill: TypeAlias = "Callable[[Forms, Ints32, Floats, int, int, Bytes, Ints], int]"
@@ -25,7 +25,7 @@ LIBRARY = Library(
 
 
 @cache
-def survey() -> Callable[[Moves, int, Bytes, Ints, Floats, Box], int]:
+def survey() -> Callable[[Moves, int, Bytes, Ints, Floats, Contexts, Boxes], int]:
     """The compiled kernel; the plain one where there is none."""
     return LIBRARY.kernel("survey")
 

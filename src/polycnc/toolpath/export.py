@@ -126,17 +126,17 @@ class Parquet:
     """
 
     def __init__(self, stream: IO[bytes], display: Display, metadata: Metadata) -> None:
-        from polycnc import __version__
         from polycnc.parquet.schema import Content, Field
         from polycnc.parquet.writer import Writer
         from polycnc.toolpath.columns.numbers import Numbers
+        from polycnc.version import MADE_BY
 
         contents = {"line": Content.WHOLE} | dict.fromkeys(NAMES, Content.NAME)
         contents |= dict.fromkeys(TEXTS, Content.TEXT)
         self._fields = [Field(name, contents.get(name, Content.NUMBER)) for name in table_columns(display)]
         self._texts = frozenset((*NAMES, *TEXTS))
         self._display, self._numbers = display, Numbers(display)
-        self._writer = Writer(stream, self._fields, metadata, f"polycnc version {__version__}")
+        self._writer = Writer(stream, self._fields, metadata, MADE_BY)
 
     def take(self, chunk: Chunk) -> None:
         """Write the rows of a chunk."""

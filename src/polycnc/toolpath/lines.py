@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import re
 from array import array
-from importlib.util import find_spec
 from operator import itemgetter
 from typing import TYPE_CHECKING, Protocol, cast
 
+from polycnc.deferred.modules import is_installed
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.toolpath.compiled import fill
 from polycnc.toolpath.digits import ALONE, END, LEFT_OUT, LONGEST_NUMBER, PLACE, WHOLE, Forms
@@ -75,7 +75,7 @@ class Lines:
 
     def of(self, chunk: Chunk) -> Iterator[bytes]:
         """The lines of a chunk, some at a time, in UTF-8."""
-        if len(chunk) < COLUMN_ROWS or find_spec("numpy") is None:
+        if len(chunk) < COLUMN_ROWS or not is_installed("numpy"):
             yield from map(self._alone, self._display.records_of(chunk))
             return
         rows = _Rows(self._display, chunk)
@@ -213,9 +213,7 @@ class _Rows:
             record["feed"] = _mark(1 + 2 * count)
         if "center" in record:
             centers = cast("dict[str, float]", record["center"])
-            record["center"] = {
-                name: self._mark_of(f"center_{display.axes[names.index(name)]}") for name in centers
-            }
+            record["center"] = {name: self._mark_of(f"center_{name}") for name in centers}
         if "turns" in record:
             record["turns"] = self._mark_of("turns")
         return cast("Record", record)

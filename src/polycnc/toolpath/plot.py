@@ -15,9 +15,12 @@ from xml.sax.saxutils import escape
 from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Sequence
 
+    from polycnc.geometry.frames import Vector
     from polycnc.toolpath.strokes import Stroke
+
+    Counted = Callable[[Iterable[Vector]], Iterable[Vector]]
 
 #: Okabe and Ito's colours, told apart by people who see red and green alike.
 TOOL_COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c510a", "#000000")
@@ -91,7 +94,11 @@ class _Frame:
 
 
 def svg(
-    strokes: Sequence[Stroke], views: Sequence[View], title: str, labels: Sequence[AxisLabel] = XYZ
+    strokes: Sequence[Stroke],
+    views: Sequence[View],
+    title: str,
+    labels: Sequence[AxisLabel] = XYZ,
+    counted: Counted = iter,
 ) -> str:
     """A drawing of the strokes.
 
@@ -100,6 +107,7 @@ def svg(
         views: The projections, drawn from left to right.
         title: Written above the drawing.
         labels: What the control calls the geometry axes X, Y and Z.
+        counted: Gives points on to be drawn, where somebody counts them: those of all strokes in every view.
     """
     low, high = _box(strokes)
     span = max(max(high[v.right] - low[v.right], high[v.up] - low[v.up]) for v in views)
@@ -114,7 +122,7 @@ def svg(
     colours = {tool: TOOL_COLOURS[i % len(TOOL_COLOURS)] for i, tool in enumerate(tools)}
     bottom = _TITLE + 10.0 + max(frame.height for frame in frames) + MARGIN
     height = bottom + _LEGEND_LINE * (len(tools) + 1) + 10.0
-    body = [line for frame in frames for line in _view(frame, strokes, colours, labels)]
+    body = [line for frame in frames for line in _view(frame, strokes, colours, labels, counted)]
     body += _legend(bottom, colours)
     return "\n".join([*_head(max(left, 320.0), height, title), *body, "</svg>", ""])
 
@@ -140,7 +148,11 @@ def _head(width: float, height: float, title: str) -> Iterator[str]:
 
 
 def _view(
-    frame: _Frame, strokes: Sequence[Stroke], colours: dict[str, str], labels: Sequence[AxisLabel]
+    frame: _Frame,
+    strokes: Sequence[Stroke],
+    colours: dict[str, str],
+    labels: Sequence[AxisLabel],
+    counted: Counted,
 ) -> Iterator[str]:
     """One projection: grid, axis texts, path."""
     view = frame.view
@@ -154,7 +166,7 @@ def _view(
     edge = f'x="{frame.left:.1f}" y="{frame.top:.1f}" width="{frame.width:.1f}" height="{frame.height:.1f}"'
     yield f'<clipPath id="edge-{name}"><rect {edge}/></clipPath><g clip-path="url(#edge-{name})">'
     for stroke in strokes:
-        points = _drawn(frame, stroke)
+        points = _drawn(frame, counted(stroke.points))
         if len(points) < 2:
             continue
         path = "M" + " ".join(f"{x:.2f},{y:.2f}" for x, y in points)
@@ -180,11 +192,11 @@ def _plunges(frame: _Frame, stroke: Stroke) -> Iterator[tuple[str, str, str]]:
             yield f"{frame.x(end[right]):.2f}", f"{frame.y(end[up]):.2f}", stroke.tool
 
 
-def _drawn(frame: _Frame, stroke: Stroke) -> list[tuple[float, float]]:
-    """The points of a stroke on the sheet, without those that nobody could tell apart."""
+def _drawn(frame: _Frame, points: Iterable[Vector]) -> list[tuple[float, float]]:
+    """Points of a stroke on the sheet, without those that nobody could tell apart."""
     drawn: list[tuple[float, float]] = []
     last = (0.0, 0.0)
-    for point in stroke.points:
+    for point in points:
         last = (frame.x(point[frame.view.right]), frame.y(point[frame.view.up]))
         if not drawn or abs(last[0] - drawn[-1][0]) >= NEAR or abs(last[1] - drawn[-1][1]) >= NEAR:
             drawn.append(last)

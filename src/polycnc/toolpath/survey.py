@@ -5,7 +5,6 @@ A function on arrays that runs as it is and as machine code (`kernels/`).
 
 from __future__ import annotations
 
-from array import array
 from math import atan2, inf, sqrt, tau
 
 from polycnc.deferred.named_tuples import NamedTuple
@@ -32,55 +31,95 @@ class Moves(NamedTuple):
     curves: Floats
 
 
-class Box(NamedTuple):
-    """The least and the greatest position of each axis, and least and greatest feed; it only grows."""
+class Contexts(NamedTuple):
+    """What the rows of each context count for, by its number.
+
+    Attributes:
+        system: Number of the system of coordinates that its positions stand in.
+        box: Boxes of its rapids and of its cuts, by their numbers; -1 for none.
+    """
+
+    system: Ints
+    box: Ints
+
+
+class Boxes(NamedTuple):
+    """Of each box the least and the greatest position of every axis, and least and greatest feed; they only grow."""
 
     low: Floats
     high: Floats
     feeds: Floats
 
 
-def empty_box(axes: int) -> Box:
-    """A box that holds nothing yet."""
-    return Box(array("d", [inf] * axes), array("d", [-inf] * axes), array("d", (inf, -inf)))
+def add_box(boxes: Boxes, axes: int) -> None:
+    """Add a box that holds nothing yet."""
+    boxes.low.extend([inf] * axes)
+    boxes.high.extend([-inf] * axes)
+    boxes.feeds.extend((inf, -inf))
 
 
-def survey(moves: Moves, first: int, classes: Bytes, geometry: Ints, before: Floats, box: Box) -> int:
-    """Widen a box by a run of moves of one context that all cut, or all do not; gives the row behind them.
+def survey(
+    moves: Moves,
+    first: int,
+    classes: Bytes,
+    geometry: Ints,
+    before: Floats,
+    contexts: Contexts,
+    boxes: Boxes,
+) -> int:
+    """Widen boxes by the moves from a row on that stand in one system of coordinates.
+
+    A cut reaches from where the row in front of it ends, which may be a rapid.
 
     Args:
         moves: Columns of a chunk.
-        first: Row that the run begins with.
-        classes: For each kind RAPIDS, CUTS or STANDS; where no axis moves, the box stays.
+        first: Row to begin with.
+        classes: For each kind RAPIDS, CUTS or STANDS; where no axis moves, boxes stay.
         geometry: Columns of X, Y and Z, -1 for a missing one.
-        before: Positions in front of the chunk; nothing where none is known.
-        box: Of the run.
+        before: Position in front of the first row, in its system; nothing where none is known.
+        contexts: See there.
+        boxes: See there.
+
+    Returns:
+        The row behind them: the first one of another system, or without a box.
     """
-    low, high = box.low, box.high
-    n, row = len(low), first
-    context, kind = moves.context[first], classes[moves.kind[first]]
-    while row < len(moves.kind) and moves.context[row] == context and classes[moves.kind[row]] == kind:
+    n, row = len(moves.end) // len(moves.kind), first
+    system, cut = contexts.system[moves.context[first]], -1
+    while row < len(moves.kind) and contexts.system[moves.context[row]] == system:
+        kind, number = classes[moves.kind[row]], -1
         if kind != STANDS:
-            for i in range(n):
-                value = moves.end[row * n + i]
-                if value < low[i]:
-                    low[i] = value
-                if value > high[i]:
-                    high[i] = value
+            number = contexts.box[2 * moves.context[row] + kind]
+            if number < 0:
+                return row
+            reach(boxes, number * n, moves.end, row * n, n)
         if kind == CUTS:
-            feed = moves.feed[row]
-            if feed < box.feeds[0]:
-                box.feeds[0] = feed
-            if feed > box.feeds[1]:
-                box.feeds[1] = feed
-            if moves.curve[row] >= 0 and moves.kind[row] in _ARCS:
-                at, ccw = CURVE_WIDTH * moves.curve[row], moves.kind[row] in _CCW
-                if row > 0:
-                    widen(moves.end, (row - 1) * n, moves.end, row * n, moves.curves, at, ccw, geometry, box)
-                elif len(before) > 0:
-                    widen(before, 0, moves.end, row * n, moves.curves, at, ccw, geometry, box)
+            start, at = moves.end, (row - 1) * n
+            if row == first:
+                start, at = before, 0
+            if number != cut and len(start) > 0:
+                reach(boxes, number * n, start, at, n)
+            if moves.feed[row] < boxes.feeds[2 * number]:
+                boxes.feeds[2 * number] = moves.feed[row]
+            if moves.feed[row] > boxes.feeds[2 * number + 1]:
+                boxes.feeds[2 * number + 1] = moves.feed[row]
+            if moves.curve[row] >= 0 and moves.kind[row] in _ARCS and len(start) > 0:
+                curve, ccw = CURVE_WIDTH * moves.curve[row], moves.kind[row] in _CCW
+                widen(
+                    start, at, moves.end, row * n, moves.curves, curve, ccw, geometry, boxes, number * n
+                )  # fmt: skip
+        cut = number if kind == CUTS else -1
         row += 1
     return row
+
+
+def reach(boxes: Boxes, into: int, points: Floats, at: int, axes: int) -> None:
+    """Widen a box, from place `into` on, by a point, from place `at` on."""
+    for i in range(axes):
+        value = points[at + i]
+        if value < boxes.low[into + i]:
+            boxes.low[into + i] = value
+        if value > boxes.high[into + i]:
+            boxes.high[into + i] = value
 
 
 def widen(
@@ -92,7 +131,8 @@ def widen(
     at: int,
     ccw: bool,
     geometry: Ints,
-    box: Box,
+    boxes: Boxes,
+    into: int,
 ) -> None:
     """Widen a box by where an arc turns back along X, Y or Z between its ends.
 
@@ -105,7 +145,8 @@ def widen(
         at: See `curves`.
         ccw: Counter-clockwise about the normal.
         geometry: Columns of X, Y and Z.
-        box: See `survey`.
+        boxes: See `survey`.
+        into: Where the box begins among them.
     """
     for axis in range(3):
         share = curves[at + 3 + axis]
@@ -117,9 +158,9 @@ def widen(
             full = curves[at + 6] >= 1.0 or (abs(a - c) < _BEYOND and abs(b - d) < _BEYOND)
             if ccw != (share > 0.0):
                 a, b, c, d = c, d, a, b
-            _widen_flat(a, b, c, d, full, u, v, geometry[right], geometry[up], box)
+            _widen_flat(a, b, c, d, full, u, v, geometry[right], geometry[up], boxes, into)
             return
-    _widen_tilted(start, start_at, end, end_at, curves, at, ccw, geometry, box)
+    _widen_tilted(start, start_at, end, end_at, curves, at, ccw, geometry, boxes, into)
 
 
 def _of(point: Floats, at: int, column: int) -> float:
@@ -127,7 +168,17 @@ def _of(point: Floats, at: int, column: int) -> float:
 
 
 def _widen_flat(
-    a: float, b: float, c: float, d: float, full: bool, u: float, v: float, right: int, up: int, box: Box
+    a: float,
+    b: float,
+    c: float,
+    d: float,
+    full: bool,
+    u: float,
+    v: float,
+    right: int,
+    up: int,
+    boxes: Boxes,
+    into: int,
 ) -> None:
     """An arc about an axis, counter-clockwise from spoke (a, b) to (c, d) about (u, v)."""
     turn = a * d - b * c
@@ -142,21 +193,21 @@ def _widen_flat(
         west, south = not (b < 0.0 and d > 0.0), not (c < 0.0 and a > 0.0)
     radius = sqrt(a * a + b * b)
     if east:
-        _include(box, right, u + radius)
+        _include(boxes, into, right, u + radius)
     if west:
-        _include(box, right, u - radius)
+        _include(boxes, into, right, u - radius)
     if north:
-        _include(box, up, v + radius)
+        _include(boxes, into, up, v + radius)
     if south:
-        _include(box, up, v - radius)
+        _include(boxes, into, up, v - radius)
 
 
-def _include(box: Box, column: int, value: float) -> None:
+def _include(boxes: Boxes, into: int, column: int, value: float) -> None:
     if column >= 0:
-        if value < box.low[column]:
-            box.low[column] = value
-        if value > box.high[column]:
-            box.high[column] = value
+        if value < boxes.low[into + column]:
+            boxes.low[into + column] = value
+        if value > boxes.high[into + column]:
+            boxes.high[into + column] = value
 
 
 def _widen_tilted(
@@ -168,7 +219,8 @@ def _widen_tilted(
     at: int,
     ccw: bool,
     geometry: Ints,
-    box: Box,
+    boxes: Boxes,
+    into: int,
 ) -> None:
     side = 1.0 if ccw else -1.0
     nx, ny, nz = side * curves[at + 3], side * curves[at + 4], side * curves[at + 5]
@@ -197,7 +249,7 @@ def _widen_tilted(
             wy = sign * ((1.0 if axis == 1 else 0.0) - share * ny)
             wz = sign * ((1.0 if axis == 2 else 0.0) - share * nz)
             if _angle(sx, sy, sz, wx, wy, wz, nx, ny, nz) <= sweep:
-                _include(box, geometry[axis], curves[at + axis] + sign * radius * flat)
+                _include(boxes, into, geometry[axis], curves[at + axis] + sign * radius * flat)
 
 
 def _angle(

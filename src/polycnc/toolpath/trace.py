@@ -7,9 +7,10 @@ within one turn.
 
 from __future__ import annotations
 
-from importlib.util import find_spec
 from typing import TYPE_CHECKING, cast
 
+from polycnc.deferred.functions import loaded_when_called
+from polycnc.deferred.modules import is_installed
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.units import INCH_MM
@@ -17,7 +18,9 @@ from polycnc.toolpath.digits import STEPS
 from polycnc.toolpath.events import Raised
 from polycnc.toolpath.kinds import ARC_KINDS, TYPE_NAMES, Kind
 from polycnc.toolpath.modes import FeedMode
-from polycnc.transformation.rows import machine_rows, mapped_rows, work_rows
+
+with loaded_when_called():
+    from polycnc.transformation import rows as of_columns
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -130,6 +133,10 @@ class Display:
         toolpath: The toolpath that the rows belong to.
         layout: Geometry and rotary axes of the channel.
         alarm_text: Gives the text of an alarm.
+        names: What the work display may call an axis beside its own name (`Context.names`).
+
+    Attributes:
+        names: All names of the work display, those of the axes first.
     """
 
     def __init__(
@@ -137,8 +144,10 @@ class Display:
         toolpath: Toolpath,
         layout: AxisLayout,
         alarm_text: Callable[[Raised], str] | None = None,
+        names: Sequence[str] = (),
     ) -> None:
         self.axes = toolpath.axes
+        self.names = (*self.axes, *(name for name in names if name not in self.axes))
         self.toolpath = toolpath
         self.layout = layout
         self._alarm_text = alarm_text
@@ -184,7 +193,7 @@ class Display:
         """The records of one chunk. Long chunks go by whole columns, which gives the same values."""
         contexts = self.toolpath.contexts
         single = any(each.names or each.shown_by is not None or each.is_hidden for each in contexts)
-        if len(chunk) >= COLUMN_ROWS and not single and find_spec("numpy") is not None:
+        if len(chunk) >= COLUMN_ROWS and not single and is_installed("numpy"):
             yield from self._records_by_column(chunk)
         else:
             yield from self._motions(self.toolpath.rows_of(chunk))
@@ -234,7 +243,9 @@ class Display:
             rows: NDArray[np.bool_] | slice = columns.context == number if len(numbers) > 1 else slice(None)
             context = self.toolpath.contexts[number]
             scale = self.scale(context)
-            seen = end[rows] if context.shown_by is None else work_rows(context.shown_by, end[rows])
+            seen = (
+                end[rows] if context.shown_by is None else of_columns.work_rows(context.shown_by, end[rows])
+            )
             work[rows] = seen * scale.work
             turning.extend((rows, i) for i in self.modulo(context))
             machine[rows] = _machine_columns(end[rows], context, self.layout.geometry) * scale.machine
@@ -381,12 +392,13 @@ class Display:
             if context.shown_by is not None:
                 points = columns.end[rows]
                 points[:, geometry] = center
-                center = work_rows(context.shown_by, points)[:, geometry]
+                center = of_columns.work_rows(context.shown_by, points)[:, geometry]
             along = np.abs(curves[:, 3:6]) > 1e-9
             tilted = along.sum(axis=1) > 1
             for k, i in enumerate(geometry):
                 if i >= 0:
-                    column = found.setdefault(f"center_{self.axes[i]}", np.full(len(is_arc), np.nan))
+                    name = (context.names or self.axes)[i]
+                    column = found.setdefault(f"center_{name}", np.full(len(is_arc), np.nan))
                     values = np.rint(center[:, k] * scale.work[i] * STEPS) / STEPS + 0.0
                     column[rows] = np.where(tilted | ~along[:, k], values, np.nan)
             turns = np.rint((curves[:, 6] + 1.0) * STEPS) / STEPS
@@ -422,7 +434,7 @@ def _machine_columns(
     """`Toolpath.to_machine` for whole columns (n, axes), in the same order of operations."""
     machine = end
     if context.transformation is not None:
-        machine = machine_rows(context.transformation, machine)
+        machine = of_columns.machine_rows(context.transformation, machine)
     if not context.frame.is_identity:
-        machine = mapped_rows(context.frame, machine, geometry)
+        machine = of_columns.mapped_rows(context.frame, machine, geometry)
     return machine + context.offsets if context.offsets else machine

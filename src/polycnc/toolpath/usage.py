@@ -8,17 +8,17 @@ image of their box.
 from __future__ import annotations
 
 from array import array
-from importlib.util import find_spec
-from itertools import product
+from itertools import groupby, product
 from math import inf
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.modules import is_installed
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass, field
 from polycnc.toolpath.compiled import survey
 from polycnc.toolpath.kinds import CURVE_WIDTH, RAPID_KINDS, Kind
 from polycnc.toolpath.modes import FeedMode
-from polycnc.toolpath.survey import CUTS, RAPIDS, STANDS, Box, Moves, empty_box
+from polycnc.toolpath.survey import CUTS, RAPIDS, STANDS, Boxes, Contexts, Moves, add_box
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
@@ -44,7 +44,7 @@ MANY, PARTS, VERY_MANY = 200, 4, 5000
 
 @dataclass(slots=True)
 class Extents:
-    """The least and the greatest position of each axis; `low` above `high` as long as none is known."""
+    """The least and the greatest position by axis or name; `low` above `high` as long as none is known."""
 
     low: list[float]
     high: list[float]
@@ -71,7 +71,7 @@ class ToolUsage:
 
     Attributes:
         tool: Number or name; 0 for none.
-        work: Extents of its cuts on the work display.
+        work: Extents of its cuts on the work display, by the display's names.
         machine: The same on the machine display, mm.
         units: Of the work display while it cut, `mm` or `inch`, in order of use.
         speeds: Programmed spindle speeds (rpm), in order of use.
@@ -100,6 +100,14 @@ class Views(NamedTuple):
         return cls(Extents.empty(axes), Extents.empty(axes))
 
 
+class Box(NamedTuple):
+    """The least and the greatest position of each axis, and least and greatest feed."""
+
+    low: Sequence[float]
+    high: Sequence[float]
+    feeds: Sequence[float]
+
+
 class Usage:
     """Collects what a program uses while its toolpath grows: `take` fits a session's consumers.
 
@@ -120,50 +128,84 @@ class Usage:
         self.offsets: dict[str, None] = {}
         self._survey = survey()
         self._last: tuple[tuple[float, ...], int] | None = None
+        self._contexts = Contexts(array("q"), array("q"))
+        self._systems: dict[tuple[object, ...], int] = {}
+        self._led: set[int] = set()
 
     def take(self, chunk: Chunk) -> None:
         """Look through a chunk."""
         if not len(chunk):
             return
-        contexts = self._display.toolpath.contexts
+        self._add_contexts()
+        contexts, known = self._display.toolpath.contexts, self._contexts
         moves = Moves(chunk.kind, chunk.context, chunk.feed, chunk.end, chunk.curve, chunk.curves)
-        before = array("d", self._last[0] if self._last is not None else ())
-        boxes: dict[tuple[int, int], Box] = {}
-        views: dict[tuple[int, int], Views] = {}
+        boxes, keys = Boxes(array("d"), array("d"), array("d")), list[tuple[int, int]]()
         row = 0
         while row < len(chunk):
-            context, kind = chunk.context[row], _CLASSES[chunk.kind[row]]
-            box = boxes.get((context, kind))
-            if box is None:
-                box = boxes[context, kind] = empty_box(self._axes)
-            if kind == CUTS:
-                self._start(chunk, row, contexts[context], box)
-            first = row
-            row = self._survey(moves, row, _CLASSES, self._geometry(contexts[context]), before, box)
-            if kind != STANDS and _is_led(contexts[context]):
-                seen = views.setdefault((context, kind), Views.empty(self._axes))
-                self._look(chunk, range(first, row), contexts[context], seen)
-        for (context, kind), box in boxes.items():
-            if kind != STANDS:
-                self._count(contexts[context], box, views.get((context, kind)), is_cut=kind == CUTS)
+            number, kind = chunk.context[row], _CLASSES[chunk.kind[row]]
+            if kind != STANDS and known.box[2 * number + kind] < 0:
+                known.box[2 * number + kind] = len(keys)
+                keys.append((number, kind))
+                add_box(boxes, self._axes)
+            before = self._before(chunk, row, contexts[number])
+            geometry = self._geometry(contexts[number])
+            row = self._survey(moves, row, _CLASSES, geometry, before, known, boxes)
+        views = self._views(chunk) if self._led else {}
+        for place, (number, kind) in enumerate(keys):
+            known.box[2 * number + kind] = -1
+            box = _box(boxes, place, self._axes)
+            self._count(contexts[number], box, views.get((number, kind)), is_cut=kind == CUTS)
         self._last = tuple(chunk.end[-self._axes :]), chunk.context[-1]
+
+    def _add_contexts(self) -> None:
+        """Note the systems of new contexts."""
+        contexts, systems = self._display.toolpath.contexts, self._contexts.system
+        for number in range(len(systems), len(contexts)):
+            context = contexts[number]
+            system = context.frame, context.offsets, context.transformation
+            systems.append(self._systems.setdefault(system, len(self._systems)))
+            self._contexts.box.extend((-1, -1))
+            if _is_led(context):
+                self._led.add(number)
 
     def _geometry(self, context: Context) -> array[int]:
         """Columns of X, Y and Z where arcs are."""
         made = context.transformation
         return array("q", self._display.layout.geometry if made is None else made.geometry)
 
+    def _before(self, chunk: Chunk, row: int, context: Context) -> array[float]:
+        """The position in front of a row in the system of a context; empty where no row says it."""
+        if row:
+            before, number = chunk.end[(row - 1) * self._axes : row * self._axes], chunk.context[row - 1]
+        elif self._last is not None:
+            before, number = array("d", self._last[0]), self._last[1]
+        else:
+            return array("d")
+        toolpath = self._display.toolpath
+        seen = toolpath.seen_from(
+            list(before), toolpath.contexts[number], context, self._display.layout.geometry
+        )
+        return array("d", seen)
+
+    def _views(self, chunk: Chunk) -> dict[tuple[int, int], Views]:
+        """How far moves reach on the displays where these show something else than the rows."""
+        contexts, views = self._display.toolpath.contexts, dict[tuple[int, int], Views]()
+        for number, first, end in chunk.context_runs():
+            if number not in self._led:
+                continue
+            for kind, rows in groupby(range(first, end), lambda row: _CLASSES[chunk.kind[row]]):
+                if kind != STANDS:
+                    found = list(rows)
+                    seen = views.setdefault((number, kind), Views.empty(self._axes))
+                    self._look(chunk, range(found[0], found[-1] + 1), contexts[number], seen)
+        return views
+
     def _look(self, chunk: Chunk, rows: range, context: Context, views: Views) -> None:
         """See how far moves of one context reach on both displays."""
         toolpath, geometry = self._display.toolpath, self._display.layout.geometry
         made = context.transformation or context.shown_by
         assert made is not None
-        n, start, before = self._axes, list[float](), self._last
-        if rows.start:
-            at = rows.start - 1
-            before = tuple(chunk.end[at * n : rows.start * n]), chunk.context[at]
-        if before is not None:
-            start = toolpath.seen_from(list(before[0]), toolpath.contexts[before[1]], context, geometry)
+        n, start = self._axes, list(self._before(chunk, rows.start, context))
         seers = [(views.machine, lambda point: toolpath.to_machine(point, context, geometry))]
         if context.shown_by is not None:
             seers.append((views.shown, context.shown_by.to_work))
@@ -195,13 +237,14 @@ class Usage:
         name = context.tool_name or context.tool
         tool = self.tools.get(name)
         if tool is None:
-            tool = self.tools[name] = ToolUsage(name, Extents.empty(self._axes), Extents.empty(self._axes))
+            work = Extents.empty(len(self._display.names))
+            tool = self.tools[name] = ToolUsage(name, work, Extents.empty(self._axes))
         scale = self._display.scale(context)
-        work = [
-            [value * factor for value, factor in zip(corner, scale.work, strict=True)]
-            for corner in (low, high)
-        ]
-        tool.work.include(*work)
+        for i, shown in enumerate(context.names or self._display.axes):
+            if shown:
+                place, factor = self._display.names.index(shown), scale.work[i]
+                tool.work.low[place] = min(tool.work.low[place], low[i] * factor)
+                tool.work.high[place] = max(tool.work.high[place], high[i] * factor)
         tool.machine.include(*machine)
         tool.units.setdefault(scale.unit)
         if context.spindle_rpm and context.spindle_direction:
@@ -212,30 +255,13 @@ class Usage:
             least, most = tool.feeds.get(unit, (inf, -inf))
             tool.feeds[unit] = min(least, box.feeds[0] * scale.feed), max(most, box.feeds[1] * scale.feed)
 
-    def _start(self, chunk: Chunk, row: int, context: Context, box: Box) -> None:
-        """The point from which a run of cuts begins, where the row in front shows it in the same system."""
-        n = self._axes
-        if row:
-            before, number = tuple(chunk.end[(row - 1) * n : row * n]), chunk.context[row - 1]
-        elif self._last is not None:
-            before, number = self._last
-        else:
-            return  # no row says where the axes stood before the first one
-        was = self._display.toolpath.contexts[number]
-        if (was.frame, was.offsets, was.transformation) == (
-            context.frame,
-            context.offsets,
-            context.transformation,
-        ):
-            for i, value in enumerate(before):
-                box.low[i], box.high[i] = min(box.low[i], value), max(box.high[i], value)
-
     def _machine_box(
         self, context: Context, low: Sequence[float], high: Sequence[float]
     ) -> tuple[list[float], list[float]]:
         """A box on the machine display, around the images of its corners: under a turned frame a little too large."""
         toolpath, geometry = self._display.toolpath, self._display.layout.geometry
-        moved = [i for i in range(self._axes) if i in geometry and low[i] != high[i]]
+        turns = context.transformation is not None or not context.frame.is_identity
+        moved = [i for i in range(self._axes) if turns and i in geometry and low[i] != high[i]]
         corners = []
         for sides in product((low, high), repeat=len(moved)):
             corner = list(low)
@@ -257,6 +283,12 @@ def _scaled(extents: Extents, factors: Sequence[float]) -> tuple[list[float], li
     return low, high
 
 
+def _box(boxes: Boxes, place: int, axes: int) -> Box:
+    """One of many boxes."""
+    at = slice(place * axes, (place + 1) * axes)
+    return Box(boxes.low[at], boxes.high[at], boxes.feeds[2 * place : 2 * place + 2])
+
+
 def _is_led(context: Context) -> bool:
     """Whether a display shows something else than the rows, but for a shift and a turn."""
     return context.transformation is not None or context.shown_by is not None
@@ -264,7 +296,7 @@ def _is_led(context: Context) -> bool:
 
 def _far_rows(chunk: Chunk, rows: range, start: Sequence[float], seers: Sequence[Seen]) -> Iterable[int]:
     """Rows of a run among which are those that reach farthest: of many straight ones only these."""
-    if len(rows) < MANY or find_spec("numpy") is None:
+    if len(rows) < MANY or not is_installed("numpy"):
         return rows
     import numpy as np
 

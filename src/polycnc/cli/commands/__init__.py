@@ -5,8 +5,9 @@
 
 from __future__ import annotations
 
-from importlib import import_module
 from typing import TYPE_CHECKING
+
+from polycnc.deferred.modules import import_module
 
 if TYPE_CHECKING:
     from polycnc.cli.declaration import Commands

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from polycnc.cli import options
 from polycnc.cli.console import fail, say, show
-from polycnc.cli.declaration import Argument, Commands, Option
+from polycnc.cli.declaration import Argument, Commands, Option, Path
 from polycnc.cli.output import write_whole
 from polycnc.messages import text
 from polycnc.messages.catalogue import listed
@@ -54,7 +53,7 @@ def import_file(
     control: options.Control = None,
     machine: options.Machine = None,
     setup: options.Setup = None,
-    folder: Annotated[Path, Option("help.data.folder", "--folder")] = Path(),
+    folder: Annotated[Path, Option("help.data.folder", "--folder", metavar="DIR")] = Path(),
     overwrite: Annotated[bool, Option("help.data.overwrite", "--overwrite")] = False,
     _lang: options.Lang = None,
 ) -> int:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import json
 from enum import StrEnum
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from polycnc.cli import options
 from polycnc.cli.console import fail, show
-from polycnc.cli.declaration import Commands, Option
+from polycnc.cli.declaration import Commands, Option, Path
+from polycnc.cli.progress import Waiting
 from polycnc.messages import text
 from polycnc.messages.catalogue import listed
 
@@ -48,7 +48,9 @@ def features(
         return fail(text("session.control-unknown", control=control, known=listed(ids())), 2)
     if cases is not None and not cases.is_dir():
         return fail(text("file.unreadable", file=cases, reason=text("file.no-folder")), 2)
-    found = shipped() if cases is None and tests is None else proved(cases, tests)
+    files = [] if cases is None else case_files(cases)
+    with Waiting("polycnc features", len(files), "files") as waiting:
+        found = shipped() if cases is None and tests is None else proved(cases, tests, waiting.each)
     if control is not None:
         found = {control: found.get(control, {})}
     if form is Format.JSON:
@@ -58,7 +60,7 @@ def features(
     if output is None:
         show(content)
     else:
-        refuse_inputs([output], [tests, *([] if cases is None else case_files(cases))])
+        refuse_inputs([output], [tests, *files])
         write_whole(output, content)
     return 0
 

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from polycnc.cli import options
 from polycnc.cli.console import fail, note, say, show
-from polycnc.cli.declaration import Argument, Commands, Option
+from polycnc.cli.declaration import Argument, Commands, Option, Path
 from polycnc.cli.output import write_whole
 from polycnc.messages import text
 from polycnc.messages.catalogue import listed
@@ -82,7 +81,7 @@ def export(
     file: File,
     kinds: Annotated[list[str] | None, Argument("help.memory.kinds", metavar="KIND…")] = None,
     machine: options.Machine = None,
-    folder: Annotated[Path | None, Option("help.memory.folder", "--folder")] = None,
+    folder: Annotated[Path | None, Option("help.memory.folder", "--folder", metavar="DIR")] = None,
     output: options.Output = None,
     overwrite: Annotated[bool, Option("help.memory.overwrite", "--overwrite")] = False,
     _lang: options.Lang = None,

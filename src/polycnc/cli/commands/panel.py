@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from functools import partial
-from pathlib import Path
 from secrets import token_urlsafe
 from typing import TYPE_CHECKING, Annotated
 
 from polycnc.cli import options
 from polycnc.cli.console import fail, say
-from polycnc.cli.declaration import Argument, Commands, Option
+from polycnc.cli.declaration import Argument, Commands, Option, Path
 from polycnc.cli.progress import end as end_of_waiting
 from polycnc.messages import text
 from polycnc.messages.catalogue import language
@@ -30,13 +29,13 @@ _Replay = Annotated[Path | None, Option("help.panel.replay", "--replay", metavar
 
 
 def _no_number(value: float) -> str:
-    """Typer takes what is no number for one in every range."""
+    """Click takes what is no number for one in every range."""
     return "nan is not in the range 0.01<=x<=1000.0." if value != value else ""
 
 
 @commands.command("help.panel")
 def panel(
-    file: Annotated[Path | None, Argument("help.panel.file", metavar="[FILE]")] = None,
+    file: Annotated[Path | None, Argument("help.panel.file", metavar="FILE")] = None,
     control: Annotated[list[str] | None, Option("help.option.control", "--control", metavar="ID")] = None,
     machine: options.Machine = None,
     setup: options.Setup = None,
@@ -48,10 +47,10 @@ def panel(
     record: _Record = None,
     replay: _Replay = None,
     host: Annotated[str, Option("help.panel.host", "--host", metavar="ADDRESS")] = "127.0.0.1",
-    port: Annotated[int, Option("help.panel.port", "--port", limits=(1, 65535))] = PORT,
+    port: Annotated[int, Option("help.panel.port", "--port", metavar="NUMBER", limits=(1, 65535))] = PORT,
     speed: Annotated[
         float,
-        Option("help.panel.speed", "--speed", limits=(0.01, 1000.0), refusal=_no_number),
+        Option("help.panel.speed", "--speed", metavar="NUMBER", limits=(0.01, 1000.0), refusal=_no_number),
     ] = 1.0,
     no_open: Annotated[bool, Option("help.panel.no-open", "--no-open")] = False,
     _lang: options.Lang = None,

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from polycnc.cli import options
 from polycnc.cli.console import fail, say
-from polycnc.cli.declaration import Argument, Commands
+from polycnc.cli.declaration import Argument, Commands, Path
 from polycnc.messages import text
 from polycnc.messages.catalogue import listed
 

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from enum import StrEnum
-from importlib.util import find_spec
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from polycnc.cli import options
 from polycnc.cli.console import fail, note
-from polycnc.cli.declaration import Argument, Commands, Option
+from polycnc.cli.declaration import Argument, Commands, Option, Path
 from polycnc.cli.diagnostics import diagnostics_of
 from polycnc.cli.progress import Waiting, WaitingForRun
+from polycnc.deferred.modules import is_installed
 from polycnc.messages import text
 
 if TYPE_CHECKING:
@@ -47,7 +46,7 @@ def plot(
     suffix = output.suffix.lower()
     if suffix not in (".svg", ".png"):
         return fail(text("plot.suffix", file=output), 2)
-    if profile and find_spec("numpy") is None:
+    if profile and not is_installed("numpy"):
         return fail(text("run.no-samples"), 2)
     session = opening.session(file, keep=not profile)
     result, drawing = _profile(session, file.name) if profile else _path(session, view, file.name)
@@ -97,7 +96,9 @@ def _drawing(result: Result, view: ViewName | None, title: str) -> str:
     with Waiting(title, len(result.toolpath), "rows") as waiting:
         rows = waiting.each(result.toolpath.rows())
         drawn = list(strokes(result.toolpath, geometry, rows=rows))
-    return svg(drawn, views, title, labels)
+    points = sum(len(stroke.points) for stroke in drawn)
+    with Waiting(title, len(views) * points, "points") as waiting:
+        return svg(drawn, views, title, labels, waiting.each)
 
 
 def _write_png(output: Path, drawing: str) -> None:

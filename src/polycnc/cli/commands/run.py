@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import re
-from contextlib import ExitStack
-from importlib.util import find_spec
-from pathlib import Path
 from typing import IO, TYPE_CHECKING, Annotated, Any
 
 from polycnc.cli import options
-from polycnc.cli.console import fail, note, show, standard_input
-from polycnc.cli.declaration import Argument, Commands, Option
+from polycnc.cli.console import fail, show, standard_input
+from polycnc.cli.declaration import Argument, Commands, Option, Path
 from polycnc.cli.progress import WaitingForRun
+from polycnc.deferred.contexts import ExitStack
+from polycnc.deferred.modules import is_installed
 from polycnc.deferred.regexes import regex
 from polycnc.messages import text
 from polycnc.messages.catalogue import listed
@@ -35,8 +34,6 @@ SAMPLES = (".parquet", ".csv")
 #: Units of a sampling period, in seconds; the shortest period.
 _UNITS = {"us": 1e-6, "ms": 1e-3, "s": 1.0, "": 1.0}
 _SHORTEST_S = 1e-6
-#: Below so many rows nobody waits, with compiled kernels or without.
-_FELT_ROWS = 20_000
 _PERIOD = regex(r"(\d+\.?\d*|\.\d+)(us|ms|s|)", re.ASCII)
 
 
@@ -62,7 +59,7 @@ def run(
     if trace is not None and trace.suffix.lower() not in TRACES:
         return fail(text("run.suffix", file=trace, known=listed(TRACES)), 2)
     period = period_s(sample[0]) if sample is not None else 0.0
-    if sample is not None and find_spec("numpy") is None:
+    if sample is not None and not is_installed("numpy"):
         return fail(text("run.no-samples"), 2)
     if sample is not None and (period is None or sample[1].suffix.lower() not in SAMPLES):
         return fail(text("run.sample", period=sample[0], file=sample[1], known=listed(SAMPLES)), 2)
@@ -76,7 +73,7 @@ def run(
         from polycnc.cli.output import refuse_twice
 
         refuse_twice(outputs)
-    source = standard_input() if is_stdin else Path(file)
+    source = standard_input() if is_stdin else file
     session = opening.session(source, keep=False, timed=not no_time, memory=memory)
     happenings = Happenings(session.result.display)
     session.consumers.append(happenings.take)
@@ -105,29 +102,13 @@ def run(
 
 
 def _say_more(account: TimeAccount | None, result: Result, session: Session) -> None:
-    """Which limits held for how long, where that is asked for; what of the setup had no effect; what made it slow."""
+    """Which limits held for how long, where that is asked for; what of the setup had no effect."""
     from polycnc.cli.report import explained
     from polycnc.cli.told import tell_unheeded
 
     if account is not None:
         show(explained(account.parts, result.plan.times, account.hidden_s))
     tell_unheeded(session.channel.control, session.channel.setup.parameters)
-    if len(result.toolpath) >= _FELT_ROWS:
-        _say_if_slow(planned=result.timed)
-
-
-def _say_if_slow(*, planned: bool) -> None:
-    """A note behind a long run where this installation has no compiled kernels, and nobody has chosen so."""
-    from polycnc.kernels.native import Lack
-    from polycnc.language.bulk.compiled import LIBRARY
-
-    lack = LIBRARY.lack
-    if planned and lack is None:
-        from polycnc.motion.compiled import LIBRARY as PLANNING
-
-        lack = PLANNING.lack
-    if lack in (Lack.MISSING, Lack.STALE):
-        note(f"polycnc: {text(f'run.kernels.{lack}')}")
 
 
 def _usage_of(session: Session) -> Usage:

@@ -5,12 +5,11 @@ from __future__ import annotations
 import sys
 from contextlib import contextmanager
 from enum import StrEnum
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from polycnc.cli import options
 from polycnc.cli.console import coloured, note, say
-from polycnc.cli.declaration import Argument, Commands, Option
+from polycnc.cli.declaration import Argument, Commands, Option, Path
 from polycnc.cli.progress import Waiting
 
 if TYPE_CHECKING:

@@ -46,6 +46,7 @@ from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.emitter import nc_shapes
 from polycnc.language.sinumerik.executable import SinumerikProgram
 from polycnc.language.sinumerik.interface import LanguageMemory
+from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES
 from polycnc.language.sinumerik.names.initialisation import RESET, initialise
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.language.sinumerik.names.variables import Variable
@@ -110,6 +111,7 @@ class Sinumerik:
     default_machine: ClassVar[str] = "mill3"
     parameter_files: ClassVar[tuple[str, ...]] = ("sinumerik/data/machine_data.toml",)
     tools_have_names: ClassVar[bool] = True
+    display_names: ClassVar[tuple[str, ...]] = GEOMETRY_AXES
     last_bit: ClassVar[int] = 31
     mdi_intervenes: ClassVar[bool] = False
     presets_by_hand: ClassVar[bool] = True

@@ -79,7 +79,7 @@ class WordAddressControl:
 
     Attributes:
         id: Control id.
-        alarm_series: As `Control` says.
+        alarm_series, display_names: As `Control` says.
         alarm_files: Files with the alarm texts, as `folder/file`; of two texts for a number the later counts.
         form: How program files are marked off.
         default_machine: Built-in machine of a run that names none.
@@ -152,6 +152,7 @@ class WordAddressControl:
     form: ClassVar[Form] = Form.WORD_ADDRESS
     default_machine: ClassVar[str] = "mill3"
     tools_have_names: ClassVar[bool] = False
+    display_names: ClassVar[tuple[str, ...]] = ()
     last_bit: ClassVar[int] = 7
     mdi_intervenes: ClassVar[bool] = True
     presets_by_hand: ClassVar[bool] = False

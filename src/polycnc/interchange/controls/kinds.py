@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cache
-from importlib import import_module
 from typing import TYPE_CHECKING, Any, TypeAlias
 
+from polycnc.deferred.modules import import_module
 from polycnc.deferred.records import dataclass
 
 if TYPE_CHECKING:

@@ -226,16 +226,18 @@ def quoted(text: str, *parts: Code | Plain) -> Code:
 @lru_cache(maxsize=512)
 def _quotation(text: str) -> Code:
     """A text as a tree, once for each text of our own sources; a hole is the tree of a set with a number."""
-    import ast
+    import _ast as ast
 
-    statement = ast.parse(text).body[0]
+    tree = compile(text, "<quotation>", "exec", ast.PyCF_ONLY_AST)
+    assert isinstance(tree, ast.Module)
+    statement = tree.body[0]
     code = _tree(statement.value if isinstance(statement, ast.Expr) else statement)
     assert isinstance(code, Code)
     return code
 
 
 def _tree(part: object) -> object:
-    import ast
+    import _ast as ast
 
     if isinstance(part, ast.expr_context | ast.operator | ast.unaryop | ast.cmpop | ast.boolop):
         return Kind(type(part).__name__)
@@ -311,6 +313,6 @@ def _fixed(kind: Kind) -> object:
 
 @cache
 def _class_of(kind: Kind) -> Any:
-    import ast
+    import _ast as ast
 
     return getattr(ast, kind)

@@ -1,7 +1,7 @@
 """The kinds of nodes that trees of generated code have, by the names that `ast` has for their classes.
 
-`ast` itself makes a class of every kind there is, which takes longer than many a program runs. It is loaded where code
-is compiled: by `code.node`, `code.quoted` and `shapes`.
+`ast` itself takes longer to load than many a program runs: half of that are these classes, which `_ast` makes, and
+half what they need not. So `_ast` is loaded, where code is compiled: by `code.node`, `code.quoted` and `shapes`.
 """
 
 from __future__ import annotations

@@ -104,7 +104,7 @@ def with_values(function: FunctionType, values: tuple[object, ...]) -> FunctionT
 
 def compiled(function: Function) -> CodeType:
     """Python's code of a function."""
-    import ast
+    import _ast as ast
 
     lifted = [f"n{i}" for i in range(function.numbers)] + [f"o{i}" for i in range(function.objects)]
     parameters = [ast.arg(each, lineno=1, col_offset=0) for each in (*function.parameters, *lifted)]

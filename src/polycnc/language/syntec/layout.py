@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from copy import copy
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 from polycnc.channel.stack import Executable
@@ -147,6 +146,8 @@ class Layout:
 
 def raising(error: AlarmError) -> Step:
     """The step of a statement that cannot be read. It stands in the line of the mistake."""
+    from copy import copy
+
     alarm = copy(error)
     alarm.line = 0
 

@@ -6,9 +6,9 @@ import re
 from collections.abc import Callable, Mapping
 from functools import partial
 from math import isfinite
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
+from polycnc.deferred.paths import suffix_of, text_of
 from polycnc.deferred.regexes import regex
 from polycnc.machine.documents import DocumentError, toml_values, yaml_values
 from polycnc.machine.errors import SetupError, nearest
@@ -30,6 +30,7 @@ from polycnc.messages.files import read_utf_8, reason_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
+    from pathlib import Path
 
     from polycnc.geometry.surfaces import Surface
     from polycnc.machine.model import Machine
@@ -89,18 +90,18 @@ def load_setup(path: str | Path) -> Setup:
     Raises:
         SetupError: The file cannot be read or is wrong; the error names the line and the key.
     """
-    path = Path(path)
+    path = text_of(path)
     try:
         text = read_utf_8(path)
     except (OSError, UnicodeError) as error:
-        raise SetupError(str(path), 0, 0, "unreadable", detail=reason_of(error)) from error
-    is_toml = path.suffix.lower() == ".toml"
+        raise SetupError(path, 0, 0, "unreadable", detail=reason_of(error)) from error
+    is_toml = suffix_of(path).lower() == ".toml"
     data = _document(path, text, is_toml=is_toml)
     try:
         return Setup() if data is None else _setup((), data)
     except _BadValueError as bad:
         line, column = (toml_place if is_toml else yaml_place)(text, bad.where)
-        raise SetupError(str(path), line, column, bad.message, **bad.args_by_name) from None
+        raise SetupError(path, line, column, bad.message, **bad.args_by_name) from None
 
 
 def check_axes(setup: Setup, machine: Machine, path: str | Path = "") -> None:
@@ -139,15 +140,15 @@ def _misfit(path: str | Path, where: Where, message: str, **args: object) -> Set
     line = column = 0
     if path:
         text = read_utf_8(path)
-        line, column = (toml_place if Path(path).suffix.lower() == ".toml" else yaml_place)(text, where)
+        line, column = (toml_place if suffix_of(path).lower() == ".toml" else yaml_place)(text, where)
     return SetupError(str(path), line, column, message, where=".".join(map(str, where)), **args)
 
 
-def _document(path: Path, text: str, *, is_toml: bool) -> object:
+def _document(path: str, text: str, *, is_toml: bool) -> object:
     try:
         return toml_values(text) if is_toml else yaml_values(text)
     except DocumentError as bad:
-        raise SetupError(str(path), bad.line, bad.column, bad.message, **bad.args_by_name) from None
+        raise SetupError(path, bad.line, bad.column, bad.message, **bad.args_by_name) from None
 
 
 # Readers of single values.

@@ -11,10 +11,10 @@ told apart what uses more of some axis's acceleration or jerk: the change of the
 from __future__ import annotations
 
 from array import array
-from importlib.util import find_spec
 from math import hypot, inf, sqrt
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.modules import is_installed
 from polycnc.motion.explain.causes import EVEN, SAME, Cause, Part, asked_speed, is_uneven
 from polycnc.motion.kernels.columns import PLACES, UNEVEN_FORMS, Form, PieceRecord, piece_width
 from polycnc.motion.time_constants import Use
@@ -140,7 +140,7 @@ class TimeAccount:
 
     def take(self, chunk: Chunk) -> None:
         """Note what the program asks for in a chunk's rows; comes before the planner takes the chunk."""
-        if len(chunk) >= MANY and self._columns is None and find_spec("numpy") is not None:
+        if len(chunk) >= MANY and self._columns is None and is_installed("numpy"):
             from polycnc.motion.explain.columns import Columns
 
             self._columns = Columns(self._toolpath, self._planner, self._tops)

@@ -103,11 +103,10 @@ class Facts:
     def forget(self, before: int) -> None:
         """Nobody asks for a row before this one."""
         k = before - self._first
-        if k <= 0:
+        if k <= len(self._kind) // 2:  # to drop a few would move all others
             return
         self._kind, self._program = self._kind[k:].copy(), self._program[k:].copy()
         self._line, self._context = self._line[k:].copy(), self._context[k:].copy()
         self._rpm = self._rpm[k:].copy()
         self._first = before
-        for row in [row for row in self._threads if row < before]:
-            del self._threads[row]
+        self._threads = {row: told for row, told in self._threads.items() if row >= before}

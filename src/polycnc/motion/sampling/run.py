@@ -9,13 +9,13 @@ from __future__ import annotations
 
 from functools import cached_property
 from math import sqrt
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 import numpy as np
 
 from polycnc.motion.kernels.columns import PLACES, Form, PieceRecord
 from polycnc.motion.kernels.jerk import window_s
-from polycnc.motion.law import STEPS, Law
+from polycnc.motion.law import STEPS, Law, Phase
 from polycnc.motion.sampling.tents import CURVE, LINE, under_tents
 
 if TYPE_CHECKING:
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
     from polycnc.motion.limits import AxisRapid
 
+_Kind = TypeVar("_Kind", bound=np.generic)
 Numbers: TypeAlias = "NDArray[np.float64]"
 #: Indices: of rows, axes, pieces.
 Places: TypeAlias = "NDArray[np.int64]"
@@ -74,17 +75,19 @@ class Run:
         ]
         start, end = block[PLACES], block[PLACES + 1]
         length = np.maximum(pieces[:, PieceRecord.LENGTH], 1e-300)
-        bent = np.isin(pieces[:, PieceRecord.FORM], (Form.BENT, Form.CURVED, Form.JERKED))[:, None]
+        forms = pieces[:, PieceRecord.FORM]
+        bent = ((forms == Form.BENT) | (forms == Form.CURVED) | (forms == Form.JERKED))[:, None]
         scale = (length / pieces[:, PieceRecord.MARGIN])[:, None]
-        chord = end - start
-        self.rows = np.concatenate([self.rows, pieces[:, PieceRecord.ROW].astype(np.int64)])
-        ways = np.cumsum(np.concatenate([self._ways[-1:], pieces[:, PieceRecord.LENGTH]]))
-        self._ways = np.concatenate([self._ways[:-1], ways])
-        self._length = np.concatenate([self._length, length])
-        self._start, self._end = np.concatenate([self._start, start]), np.concatenate([self._end, end])
-        self._is_bent |= bool(bent.any())
-        self._leave = np.concatenate([self._leave, np.where(bent, block[0] * scale, chord)])
-        self._arrive = np.concatenate([self._arrive, np.where(bent, block[1] * scale, chord)])
+        chord = leave = arrive = end - start
+        if bent.any():
+            self._is_bent = True
+            leave, arrive = (np.where(bent, side * scale, chord) for side in block[:2])
+        self.rows = _joined(self.rows, pieces[:, PieceRecord.ROW].astype(np.int64))
+        ways = np.cumsum(_joined(self._ways[-1:], pieces[:, PieceRecord.LENGTH]))
+        self._ways = _joined(self._ways[:-1], ways)
+        self._length = _joined(self._length, length)
+        self._start, self._end = _joined(self._start, start), _joined(self._end, end)
+        self._leave, self._arrive = _joined(self._leave, leave), _joined(self._arrive, arrive)
         self.__dict__.pop("_edges", None)
         if self._bends is not None:
             bends = zip(self._bends, (block[2], block[3]), strict=True)
@@ -164,6 +167,8 @@ class Run:
 
     def piece_at(self, time: Numbers) -> Places:
         """Index of the piece at times from the start of the run."""
+        if len(self.rows) == 1:
+            return np.zeros(len(time), np.int64)
         return self._index(self.law.mean(time - self._blend, self._ramp))
 
     def at(self, time: Numbers) -> Moved:
@@ -231,14 +236,21 @@ class Run:
 
     def _each_alone(self, time: Numbers) -> Moved:
         """Every axis by its own law."""
-        columns: list[Moved] = []
+        position = np.repeat(self._start[:1], len(time), axis=0)
+        velocity, acceleration = np.zeros_like(position), np.zeros_like(position)
         for i, (law, ramp) in enumerate(zip(self._alone, self._ramps, strict=True)):
             start, end = float(self._start[0, i]), float(self._end[0, i])
-            sense = 1.0 if end >= start else -1.0
-            way, speed, rate = law.motion(time, ramp)
-            columns.append((start + sense * way, sense * speed, sense * rate))
-        position, velocity, acceleration = (np.stack(values, axis=1) for values in zip(*columns, strict=True))
+            if start != end:
+                sense = 1.0 if end >= start else -1.0
+                way, speed, rate = law.motion(time, ramp)
+                position[:, i], velocity[:, i] = start + sense * way, sense * speed
+                acceleration[:, i] = sense * rate
         return position, velocity, acceleration
+
+
+def _joined(known: NDArray[_Kind], more: NDArray[_Kind]) -> NDArray[_Kind]:
+    """What is known, and more behind it: most runs have but one part."""
+    return np.concatenate([known, more]) if len(known) else more
 
 
 def _phases(pieces: Numbers) -> Moved:
@@ -258,8 +270,19 @@ def _phases(pieces: Numbers) -> Moved:
 
 def _trapezoid(way: float, top: float, pull: float) -> Law:
     """From rest to rest."""
-    peak = min(top, sqrt(way * pull))
-    up = 0.5 * peak * peak / pull
-    ways, speeds = np.array([up, max(way - 2.0 * up, 0.0), up]), np.array([0.0, peak, peak])
-    sums = np.array([peak, 2.0 * peak, peak])
-    return Law.of(2.0 * ways / np.where(sums > 0.0, sums, np.inf), ways, speeds)
+    peak, law = min(top, sqrt(way * pull)), Law()
+    if peak > 0.0:
+        up = 0.5 * peak * peak / pull
+        at_peak = max(way - 2.0 * up, 0.0)
+        parts = (
+            (2.0 * up / peak, up, 0.0),
+            (2.0 * at_peak / (2.0 * peak), at_peak, peak),
+            (2.0 * up / peak, up, peak),
+        )
+        phases = [
+            Phase(seconds, part, speed, 2.0 * (part - speed * seconds) / (seconds * seconds))
+            for seconds, part, speed in parts
+            if seconds > 0.0
+        ]
+        law.run(0.0, 0.0, phases)
+    return law

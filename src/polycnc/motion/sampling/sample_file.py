@@ -66,14 +66,14 @@ class Parquet:
     def __init__(
         self, stream: IO[bytes], axes: tuple[str, ...], programs: list[str], metadata: Mapping[str, str]
     ) -> None:
-        from polycnc import __version__
         from polycnc.parquet.schema import Content, Field
         from polycnc.parquet.writer import Writer
+        from polycnc.version import MADE_BY
 
         contents = {"program": Content.NAME, "line": Content.WHOLE}
         fields = [Field(name, contents.get(name, Content.NUMBER)) for name in names(axes)]
         self._programs = programs
-        self._writer = Writer(stream, fields, metadata, f"polycnc version {__version__}")
+        self._writer = Writer(stream, fields, metadata, MADE_BY)
         self._gathered = _Gathered()
 
     def take(self, samples: Samples) -> None:

@@ -313,12 +313,13 @@ class _Followed:
 
     def __init__(self, run: Run, facts: Facts) -> None:
         self.run = run
-        rows = np.unique(run.rows)
+        rows = run.rows if len(run.rows) == 1 else np.unique(run.rows)
         self._last = int(rows[-1])
         self.rpm = facts.rpm(rows)
-        self._starts = run.enters(rows)
+        self._starts = run.enters(rows) if len(rows) > 1 else np.zeros(1)
         self._starts[0] = 0.0
-        self._turned = np.concatenate([[0.0], np.cumsum(6.0 * self.rpm[:-1] * np.diff(self._starts))])
+        self._turned = np.zeros(len(rows))
+        np.cumsum(6.0 * self.rpm[:-1] * np.diff(self._starts), out=self._turned[1:])
 
     def go_on(self, pieces: Numbers, facts: Facts) -> None:
         """More pieces of the run."""

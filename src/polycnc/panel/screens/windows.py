@@ -398,7 +398,7 @@ def _magazine(at: Asked) -> Rows:
 
 def _version(at: Asked) -> Rows:
     """What runs here: polycnc and its version, the control, the machine."""
-    from polycnc import __version__
+    from polycnc.version import __version__
 
     control = at.screen.control
     told = {"polycnc": __version__, "NCK": control.control.id, "PLC": control.machine.id}

@@ -23,10 +23,18 @@ _NOWHERE: dict[str, float] = {}
 
 
 def table_columns(display: Display) -> tuple[str, ...]:
-    """Names of the columns: positions as `x`, `machine_x`, `center_x`."""
-    names = [axis.lower() for axis in display.axes]
-    positions = [prefix + name for _, prefix in POSITIONS for name in names]
+    """Names of the columns: positions as `x`, `machine_x`, `center_x`.
+
+    Where the work display calls an axis otherwise (Y of TRANSMIT, X of GEOAX), its value stands under that name.
+    """
+    positions = [name for key, _ in POSITIONS for name in positions_of(key, display)]
     return (*FIRST, *positions, *NUMBERS, *TEXTS)
+
+
+def positions_of(key: Literal["to", "machine", "center"], display: Display) -> list[str]:
+    """Names of the columns of one kind of positions; the work display may call an axis by several."""
+    prefix = dict(POSITIONS)[key]
+    return [prefix + name.lower() for name in (display.axes if key == "machine" else display.names)]
 
 
 def flattened(record: Record) -> dict[str, object]:

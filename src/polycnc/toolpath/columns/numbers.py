@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from array import array
-from importlib.util import find_spec
 from math import nan
 from typing import TYPE_CHECKING
 
+from polycnc.deferred.modules import is_installed
 from polycnc.toolpath.columns.compiled import LIBRARY, show
-from polycnc.toolpath.columns.names import NUMBERS, POSITIONS, TEXTS, flattened
+from polycnc.toolpath.columns.names import NUMBERS, POSITIONS, TEXTS, flattened, positions_of
 from polycnc.toolpath.columns.shown import FEED, PLACES, PROGRAM, TOOL, TURNS, TYPE, UNIT, Rows, View
 from polycnc.toolpath.kinds import ARC_KINDS, TYPE_NAMES, Kind
 from polycnc.toolpath.trace import COLUMN_ROWS, UNITS
@@ -16,9 +16,12 @@ from polycnc.toolpath.trace import COLUMN_ROWS, UNITS
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
+    import numpy as np
+    from numpy.typing import NDArray
+
     from polycnc.toolpath.context import Context
     from polycnc.toolpath.table import Chunk
-    from polycnc.toolpath.trace import Display, Record
+    from polycnc.toolpath.trace import Display, Record, Shown
 
 #: Columns in front of the positions.
 _HEAD = {"type": TYPE, "program": PROGRAM, "unit": UNIT, "tool": TOOL, "feed": FEED, "turns": TURNS}
@@ -40,8 +43,10 @@ class Numbers:
         self._display = display
         axes = [axis.lower() for axis in display.axes]
         positions = [prefix + axis for _, prefix in POSITIONS for axis in axes]
+        named = [name for key, _ in POSITIONS for name in positions_of(key, display) if name not in positions]
         rare = [name for name in (*NUMBERS, *TEXTS) if name not in _HEAD]
-        self._columns = _HEAD | {name: PLACES + i for i, name in enumerate((*positions, *rare))}
+        self._columns = _HEAD | {name: PLACES + i for i, name in enumerate((*positions, *named, *rare))}
+        self._places = len(self._columns) - len(rare)
         self._of_arcs = {"turns", *positions[2 * len(axes) :]}
         #: What every row has, of its own.
         self._common = {*_HEAD, *positions} - self._of_arcs
@@ -61,7 +66,7 @@ class Numbers:
         self._height, self._filled = len(chunk), self._common | (self._of_arcs if arcs else set())
         types = {name: number for number, name in enumerate(TYPE_NAMES)}
         self._texts = {"type": types, "tool": self._tools, "code": {}, "text": {}}
-        self._make_room(PLACES + len(POSITIONS) * len(self._display.axes))
+        self._make_room(self._places)
         fill = self._by_numpy if self._is_for_numpy(chunk) else self._by_kernel
         for i in fill(chunk, arcs=arcs):
             row = self._display.toolpath.row_of(chunk, i)
@@ -84,15 +89,13 @@ class Numbers:
             self.table = self.table + room if self.table else room
 
     def _is_for_numpy(self, chunk: Chunk) -> bool:
-        """Transformations come as Python code; so does the kernel where it is not compiled."""
+        """Transformations and other names of axes come as Python code; so does the kernel where it is not compiled."""
         contexts = self._display.toolpath.contexts
-        numbers = {number for number, _, _ in chunk.context_runs()}
-        if any(
-            contexts[number].transformation is not None or contexts[number].shown_by is not None
-            for number in numbers
-        ):
-            return True
-        return LIBRARY.lack is not None and len(chunk) >= COLUMN_ROWS and find_spec("numpy") is not None
+        for number in {number for number, _, _ in chunk.context_runs()}:
+            context = contexts[number]
+            if context.transformation is not None or context.shown_by is not None or context.names:
+                return True
+        return LIBRARY.lack is not None and len(chunk) >= COLUMN_ROWS and is_installed("numpy")
 
     def _by_kernel(self, chunk: Chunk, *, arcs: bool) -> Iterable[int]:
         """Fill the columns; gives the rows that have more than these."""
@@ -146,14 +149,34 @@ class Numbers:
         ]
         table[PLACES : PLACES + axes] = shown.work.T
         table[PLACES + axes : PLACES + 2 * axes] = shown.machine.T
+        self._put_named(table, shown)
         if arcs:
             table[TURNS] = table[PLACES + 2 * axes : PLACES + 3 * axes] = nan
             for name, values in display.arcs(shown).items():
                 table[self._columns[name.lower()]] = values
+                self._filled.add(name.lower())
         others: list[int] = np.flatnonzero(
             (columns.curve >= 0) & ~np.isin(columns.kind, tuple(ARC_KINDS))
         ).tolist()
         return others
+
+    def _put_named(self, table: NDArray[np.float64], shown: Shown) -> None:
+        """Move what the work display calls otherwise than the axes into the columns of these names."""
+        import numpy as np
+
+        contexts, axes = self._display.toolpath.contexts, len(self._display.axes)
+        numbers: list[int] = np.unique(shown.columns.context).tolist()
+        for number in numbers:
+            if names := contexts[number].names:
+                rows = shown.columns.context == number
+                table[PLACES : PLACES + axes, rows] = nan
+                for name, values in zip(names, shown.work[rows].T, strict=True):
+                    if name:
+                        column = self._columns[name.lower()]
+                        if name.lower() not in self._filled:
+                            self._filled.add(name.lower())
+                            table[column] = nan
+                        table[column, rows] = values
 
     def _add(self, row: int, record: Record, *, is_event: bool) -> None:
         """Add what a record says beside what every row has."""

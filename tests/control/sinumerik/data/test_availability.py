@@ -8,9 +8,10 @@ from typing import get_args, get_type_hints
 import pytest
 
 from polycnc.control.sinumerik.data.availability import TABLE, refused
+from polycnc.deferred.paths import read_text
 from polycnc.machine import schema
 
-GROUPS = tomllib.loads(TABLE.read_text(encoding="utf-8"))
+GROUPS = tomllib.loads(read_text(TABLE))
 
 
 def _literals(field: str) -> set[str]:

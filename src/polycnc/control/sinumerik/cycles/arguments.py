@@ -7,6 +7,7 @@ else by a name, its signature says so: `_FR:feed`.
 
 from __future__ import annotations
 
+from functools import cache
 from math import isfinite
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +18,8 @@ from polycnc.language.sinumerik.errors import arithmetic
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from polycnc.control.sinumerik.family import SinumerikChannel
 
 
@@ -57,6 +60,12 @@ def kind_of(parameter: str) -> tuple[str, str]:
     return name, said or next((kind for kind, names in KINDS.items() if name in names), LENGTH)
 
 
+@cache
+def _kinds_of(signature: tuple[str, ...]) -> Mapping[str, str]:
+    """What the parameters of a cycle are, by name: a modal call has the same at every hole."""
+    return dict(map(kind_of, signature))
+
+
 class Arguments:
     """The arguments of one call.
 
@@ -79,7 +88,7 @@ class Arguments:
         if written > len(signature):
             raise AlarmError("12340", text=cycle)
         self.cycle = cycle
-        self._kinds = dict(map(kind_of, signature))
+        self._kinds = _kinds_of(signature)
         self._length = length_factor(channel.mode)
         self._feed = tables.feed_type(channel.mode).factor
         if channel.mode["unit"] == "G700":

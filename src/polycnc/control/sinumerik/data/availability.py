@@ -6,14 +6,15 @@ on 840D sl.
 
 from __future__ import annotations
 
-import tomllib
-from pathlib import Path
 from typing import TYPE_CHECKING
+
+from polycnc.deferred.paths import package_path, read_text
+from polycnc.deferred.toml import loads
 
 if TYPE_CHECKING:
     from collections.abc import Collection
 
-TABLE = Path(__file__).with_suffix(".toml")
+TABLE = package_path("control", "sinumerik", "data", "availability.toml")
 #: Marks of the table.
 ABSENT, OPTION = "-", "o"
 
@@ -22,7 +23,7 @@ def refused(variant: str, options: Collection[str]) -> frozenset[str]:
     """The words that a variant does not have, with the options that are on; none without a variant."""
     if not variant:
         return frozenset()
-    table = tomllib.loads(TABLE.read_text(encoding="utf-8"))
+    table = loads(read_text(TABLE))
     column = table["variants"].index(variant)
     return frozenset(
         word

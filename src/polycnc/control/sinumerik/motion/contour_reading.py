@@ -6,7 +6,6 @@ back behind them, or by a reset.
 
 from __future__ import annotations
 
-from copy import copy
 from math import isnan
 from typing import TYPE_CHECKING
 
@@ -89,6 +88,8 @@ def reading_from_here(
     channel: SinumerikChannel, *, keeps_modes: bool, recorder: Recorder | None = None
 ) -> ContourReading:
     """A contour is going to be read: what there is before; with `keeps_modes` also the modal functions."""
+    from copy import copy
+
     channel.flush()
     modes = channel.control.save(channel) if keeps_modes else None
     return ContourReading(

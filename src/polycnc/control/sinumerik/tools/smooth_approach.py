@@ -180,6 +180,7 @@ def retract(draft: Draft) -> Step | None:
     draft.steps.append(_remember_feed)
 
     def run(channel: SinumerikChannel, values: Values) -> None:
+        stages.refuse_open_change(channel, draft.codes["block_motion"])
         cutter = stages.active_cutter(channel)
         compensation = cutter.side if cutter is not None else 0
         direction = circles.last_direction(channel, columns, axes)

@@ -42,6 +42,8 @@ with loaded_when_called():
     from polycnc.control.sinumerik.tools import cutting_data, faces
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.tools.edges import Edge
     from polycnc.geometry.arcs import Point
@@ -141,6 +143,7 @@ def change_plane(channel: SinumerikChannel) -> None:
     found = [stage for kind in OF_PLANE if (stage := channel.path.find(kind)) and stage.plane.u != first]
     if not found:
         return
+    refuse_open_change(channel, "G17 G18 G19")
     if active_cutter(channel) is not None:
         raise AlarmError("10757")
     if any(stage.active for stage in found):
@@ -196,10 +199,31 @@ def policy(channel: SinumerikChannel) -> Policy:
 
 
 def _settle_corner(channel: SinumerikChannel, what: str = "G40 G41 G42") -> None:
-    """Compensation changes; PC0001 between the two moves of a chamfer or rounding, which belong to one contour."""
+    """PC0001 between the two moves of a chamfer or rounding, which have to be of one kind; one of RNDM is left out."""
     stage = channel.path.find(CornerStage)
     if stage is not None and not stage.settle():
         raise not_supported(f"CHF CHR RND: {what}")
+
+
+def _behind_corner(channel: SinumerikChannel, change: Callable[[], None]) -> None:
+    """Compensation changes: behind the chamfer or rounding that waits for its second move, at once where none does.
+
+    The shape lies in the programmed contour, whatever is compensated of it. Edges of a contour tool are chosen for the
+    contour to come: PC0001.
+    """
+    stage = channel.path.find(CornerStage)
+    if stage is None or channel.path.find(ContourTool) is not None:
+        _settle_corner(channel)
+        change()
+    else:
+        stage.change(change)
+
+
+def refuse_open_change(channel: SinumerikChannel, what: str) -> None:
+    """PC0001 where compensation changes behind a chamfer or rounding that still waits for its second move."""
+    stage = channel.path.find(CornerStage)
+    if stage is not None and stage.changes_later:
+        raise not_supported(f"CHF CHR RND G40 G41 G42: {what}")
 
 
 def end_blocks(channel: SinumerikChannel) -> None:
@@ -230,30 +254,42 @@ def select_side(channel: SinumerikChannel) -> None:
     Contour.of(channel).linear = seat.frame_in_front(channel).m
     if channel.mode["tool_offset"] in (*spatial.CODES, *FACES):
         _check_size(channel)
-    if channel.mode["tool_offset"] in spatial.CODES:
-        spatial.select_side(channel)
+    if channel.mode["tool_offset"] in (*spatial.CODES, *FACES):
+        _settle_corner(channel)
+        select = spatial.select_side if channel.mode["tool_offset"] in spatial.CODES else faces.select
+        select(channel)
         return
-    if channel.mode["tool_offset"] in FACES:
-        faces.select(channel)
-        return
-    _settle_corner(channel)
-    stage = cutter(channel)
-    stage.policy = policy(channel)
-    lead(channel, stage, tool_plane(channel).frame)
-    _release_edge(channel)
-    channel.path.take(ContourTool)
-    stage.engage(SIDES[channel.mode["compensation"]], *_offset(channel))
-    _choose_edges(channel, stage)
+    if _cuts_with_edges(channel):
+        _settle_corner(channel)
+    rules, frame = policy(channel), tool_plane(channel).frame
+    side, offset = SIDES[channel.mode["compensation"]], _offset(channel)
+
+    def engage() -> None:
+        stage = cutter(channel)
+        stage.policy = rules
+        lead(channel, stage, frame)
+        _release_edge(channel)
+        channel.path.take(ContourTool)
+        stage.engage(side, *offset)
+        _choose_edges(channel, stage)
+
+    _behind_corner(channel, engage)
+
+
+def _cuts_with_edges(channel: SinumerikChannel) -> bool:
+    """Whether the tool is a contour tool (7.1), where MD28290 says so."""
+    active, enabled = channel.memory.tools.edge, channel.memory.data.integer("$MC_MM_SHAPED_TOOLS_ENABLE")
+    return active is not None and active.has_angle_limits and bool(enabled)
 
 
 def _choose_edges(channel: SinumerikChannel, stage: CutterCompensation) -> None:
-    """A contour tool (7.1), where MD28290 says so, cuts with those of its edges that touch the contour.
+    """A contour tool cuts with those of its edges that touch the contour.
 
     PC0001 where a toolholder, mirror or scale would change its angles, and where its edges cannot cut (`ContourTool`).
     """
     tools, led = channel.memory.tools, tool_plane(channel)
-    active, enabled = tools.edge, channel.memory.data.integer("$MC_MM_SHAPED_TOOLS_ENABLE")
-    if active is None or not active.has_angle_limits or not enabled:
+    active = tools.edge
+    if active is None or not _cuts_with_edges(channel):
         return
     linear = Frame(seat.frame_in_front(channel).m)
     is_even = led.frame is IDENTITY and abs(led.scale - 1.0) < EVEN and not linear.mirrors
@@ -337,13 +373,18 @@ def _lead_walls(channel: SinumerikChannel) -> None:
 
 def leave_contour(channel: SinumerikChannel) -> None:
     """G40: the next move leads back to the programmed path."""
+    if spatial.stage_of(channel) is not None or faces.stage_of(channel) is not None:
+        _settle_corner(channel)
     spatial.leave(channel)
     faces.leave(channel)
-    stage = active_cutter(channel)
-    if stage is not None:
-        _settle_corner(channel)
-        _release_edge(channel)
-        stage.cancel()
+
+    def leave() -> None:
+        stage = active_cutter(channel)
+        if stage is not None:
+            _release_edge(channel)
+            stage.cancel()
+
+    _behind_corner(channel, leave)
 
 
 def begin_anew(channel: SinumerikChannel) -> None:
@@ -361,14 +402,22 @@ def begin_anew(channel: SinumerikChannel) -> None:
 def changed_radius(channel: SinumerikChannel) -> None:
     """Another edge, TOFFR, OFFN or ISD while compensation is active."""
     spatial.follow(channel)
-    stage = active_cutter(channel)
-    if stage is not None and channel.mode["compensation"] != "G40":
+    waits = channel.path.find(CornerStage)
+    is_active = active_cutter(channel) is not None or (waits is not None and waits.changes_later)
+    if is_active and channel.mode["compensation"] != "G40":
         _check_shape(channel)
-        _settle_corner(channel)
-        _release_edge(channel)
-        channel.path.take(ContourTool)
-        stage.change_radius(*_offset(channel))
-        _choose_edges(channel, stage)
+        if _cuts_with_edges(channel):
+            _settle_corner(channel)
+        offset = _offset(channel)
+
+        def follow() -> None:
+            stage = cutter(channel)
+            _release_edge(channel)
+            channel.path.take(ContourTool)
+            stage.change_radius(*offset)
+            _choose_edges(channel, stage)
+
+        _behind_corner(channel, follow)
         channel.context_changed()  # rows tell the distance from the contour
 
 
@@ -409,10 +458,15 @@ def changed_rules(channel: SinumerikChannel) -> None:
 
 def suspend(channel: SinumerikChannel) -> None:
     """CUTCONON, CUTCONOF: blocks keep the vector of the last one, or are compensated themselves again."""
-    stage = channel.path.find(CutterCompensation)
-    if stage is not None:
-        _release_edge(channel)
-        stage.suspended = channel.mode["constant_side"] == "CUTCONON"
+    suspended = channel.mode["constant_side"] == "CUTCONON"
+
+    def change() -> None:
+        stage = channel.path.find(CutterCompensation)
+        if stage is not None:
+            _release_edge(channel)
+            stage.suspended = suspended
+
+    _behind_corner(channel, change)
 
 
 def distance(channel: SinumerikChannel) -> float:

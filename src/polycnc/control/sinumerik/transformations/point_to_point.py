@@ -106,6 +106,7 @@ def go(channel: SinumerikChannel, kind: Kind, end: list[float], feed: float) -> 
     leading = {law.leading for laws in Couplings.of(channel).laws().values() for law in laws}
     if leading & seat.transformed(channel):
         raise not_supported("PTP: TRAILON LEADON EGON")
+    stages.refuse_open_change(channel, "PTP")
     if stages.active_cutter(channel) is not None:
         raise AlarmError("14144")
     machine = _configured(channel, transformation, end)

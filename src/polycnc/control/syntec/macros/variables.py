@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Callable
-from random import Random
 from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.states.state import Lifetime, State, lasting, retained
@@ -16,6 +15,7 @@ from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
+    from random import Random
     from typing import Self
 
     from polycnc.channel.stack import Level
@@ -137,12 +137,19 @@ class SpaceState(State, lifetime=Lifetime.POWER):
     modal_doubles: dict[int, Value] = lasting(Lifetime.RESET, factory=dict)
 
 
+def _numbers() -> Random:
+    """The numbers of RANDOM: the same ones in every run."""
+    from random import Random
+
+    return Random(0)
+
+
 @dataclass(slots=True)
 class FunctionState(State, lifetime=Lifetime.POWER):
     """What functions remember: PUSH and POP, RANDOM, SETDRAW."""
 
     stack: list[Value] = lasting(Lifetime.RESET, factory=list)
-    random: Random = field(default_factory=lambda: Random(0))
+    random: Random = field(default_factory=_numbers)
     colour: int = 0
     filled: bool = False
     radius: float = 0.0

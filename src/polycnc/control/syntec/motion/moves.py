@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from contextlib import contextmanager
 from functools import partial
 from math import copysign, hypot, nan
 from typing import TYPE_CHECKING
@@ -25,6 +24,7 @@ from polycnc.control.word_address.motion.path import CENTER_WORDS
 from polycnc.control.word_address.states import LastSkip
 from polycnc.control.word_address.tools import radius
 from polycnc.control.word_address.tools.radius import RadiusState
+from polycnc.deferred.contexts import contextmanager
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field, replace
 from polycnc.geometry import arcs

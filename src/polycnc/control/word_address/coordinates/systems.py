@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from contextlib import nullcontext
 from math import nan
 from typing import TYPE_CHECKING
 
@@ -11,6 +10,7 @@ from polycnc.control.word_address.auxiliary.interlocks import note_reference_ret
 from polycnc.control.word_address.coordinates import tip
 from polycnc.control.word_address.memory import EXTERNAL
 from polycnc.control.word_address.tools.radius import suspended
+from polycnc.deferred.contexts import nullcontext
 from polycnc.deferred.records import dataclass, field, replace
 from polycnc.geometry.frames import IDENTITY, Frame, translation
 from polycnc.geometry.vectors import cross, dot, minus

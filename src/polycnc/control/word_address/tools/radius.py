@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.path import Move
 from polycnc.channel.states.state import Lifetime, State
+from polycnc.deferred.contexts import contextmanager
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.planes import PLANES

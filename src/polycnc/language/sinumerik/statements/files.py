@@ -6,7 +6,6 @@ an alarm.
 
 from __future__ import annotations
 
-import hashlib
 from typing import TYPE_CHECKING, Any
 
 from polycnc.deferred.records import replace
@@ -198,6 +197,8 @@ def checksum(channel: NcChannel, result: Reference, name: str, first: int | None
     if not start <= end < columns:
         return 4
     width = len(array.items) // columns
+    import hashlib
+
     content = repr((variable.type.value, array.items[start * width : (end + 1) * width]))
     if result.variable.length < CHECKSUM_LENGTH:
         return 10
