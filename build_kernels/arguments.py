@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 from enum import Enum, auto
 from functools import cache
-from typing import TYPE_CHECKING, get_args
+from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.kernels import description
@@ -61,7 +61,7 @@ def _argument(hint: object) -> Argument:
         return Argument(Kind.RECORD, type=hint)
     if isinstance(hint, type) and issubclass(hint, tuple):
         return _group(hint)
-    code = get_args(hint)[-1] if get_args(hint) else None
+    *_, code = getattr(hint, "__metadata__", (None,))
     if not isinstance(code, str):
         msg = f"a kernel cannot take {hint}"
         raise TypeError(msg)

@@ -327,11 +327,13 @@ def test_an_error_within_leaves_a_class_as_it_was() -> None:
 
 DESCRIBE = """
 import dataclasses, gc, importlib, inspect, json, pkgutil, re, sys, typing
-from polycnc.deferred import named_tuples, records
+from polycnc.deferred import named_tuples, records, typing as names
 if sys.argv[1] == "theirs":
     for name in ("dataclass", "field", "fields", "replace", "is_dataclass", "MISSING"):
         setattr(records, name, getattr(dataclasses, name))
     named_tuples.NamedTuple = typing.NamedTuple
+    for name in set(names.__all__) - {"is_class_variable"}:  # the library looks for its own `ClassVar`
+        setattr(names, name, getattr(typing, name))
 import polycnc
 
 for each in pkgutil.walk_packages(polycnc.__path__, "polycnc."):

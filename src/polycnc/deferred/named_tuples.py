@@ -10,7 +10,8 @@ What nothing here uses is left out: named tuples that are generic.
 from __future__ import annotations
 
 from collections import namedtuple
-from typing import TYPE_CHECKING, Any
+
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable

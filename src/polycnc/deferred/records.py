@@ -16,9 +16,9 @@ import sys
 from operator import attrgetter
 from reprlib import recursive_repr
 from types import MappingProxyType, MemberDescriptorType
-from typing import TYPE_CHECKING, Any, ClassVar, get_origin
 
 from polycnc.deferred.class_statements import ClassStatement, body_of, lead_super
+from polycnc.deferred.typing import TYPE_CHECKING, Any, is_class_variable
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -96,7 +96,6 @@ _STEPS = "__steps_of_init__"
 #: Where the library keeps its fields.
 _OF_LIBRARY = "__dataclass_fields__"
 #: How the annotations of what is no field begin.
-_CLASS_VARIABLES = "ClassVar", "typing.ClassVar"
 
 
 class _Later:
@@ -210,9 +209,7 @@ def _members(
     noted: dict[str, object] = {
         each: take(each, MISSING)
         for each, hint in take("__annotations__", _NOTHING).items()
-        if not (
-            hint.startswith(_CLASS_VARIABLES) if type(hint) is str else ClassVar in (hint, get_origin(hint))
-        )
+        if not (is_class_variable(hint))
     }
     if like is not object:
         noted = {

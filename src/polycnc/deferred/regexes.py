@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Any, AnyStr, cast
+
+from polycnc.deferred.typing import TYPE_CHECKING, Any, cast
 
 if TYPE_CHECKING:
     from re import RegexFlag
+    from typing import AnyStr
 
 #: What a compiled one has, beside its source.
 _MEMBERS = (

@@ -8,7 +8,7 @@ from __future__ import annotations
 import sys
 from collections.abc import MutableSequence
 from functools import partial
-from typing import TYPE_CHECKING, Annotated, Any, ForwardRef, TypeVar, cast, get_args
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar, cast
 
 from polycnc.kernels.c_types import Integer, Number, Structure, put
 
@@ -61,16 +61,15 @@ def meaning(of: type | Callable[..., object]) -> dict[str, Any]:
 
 def _meant(hint: Any, scope: dict[str, Any]) -> Any:
     """Most are texts, which are names, or expressions, for which `typing` takes much longer."""
-    if isinstance(hint, ForwardRef):  # of a named tuple
-        hint = hint.__forward_arg__
+    hint = getattr(hint, "__forward_arg__", hint)  # of a named tuple of the library
     if not isinstance(hint, str):
         return hint
     return _SIMPLE.get(hint) or scope.get(hint) or eval(hint, scope)
 
 
-def _numbers(hint: object) -> type[Any]:
-    *_, count = get_args(hint)
-    return Number * cast("int", count)
+def _numbers(hint: Any) -> type[Any]:
+    count: int = hint.__metadata__[0]
+    return Number * count
 
 
 class Places:

@@ -22,20 +22,8 @@ if TYPE_CHECKING:
     from polycnc.machine.builder import Builder
     from polycnc.machine.plc import PlcAlarm
     from polycnc.machine.rules import Rule
+    from polycnc.machine.tables import Act, Carries, Pockets, SpeedWait, Timing, Turns
     from polycnc.machine.text import Text
-
-Carries = Literal["tool", "work"]
-Timing = Literal["before", "with", "after"]
-#: What waits until a spindle has its speed: the block that asks for it, the first cut behind it, or nothing.
-SpeedWait = Literal["block", "cut", "never"]
-Pockets = Literal["random", "fixed"]
-Turns = Literal["shortest", "forward"]
-#: What an M function does in the control beside what the machine does.
-Act = Literal[
-    "spindle_clockwise", "spindle_counter_clockwise", "spindle_stop", "tool_change",
-    "feed_override_off", "feed_override_on", "spindle_override_off", "spindle_override_on",
-    "mirror_first_axis", "mirror_second_axis", "mirror_off",
-]  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)

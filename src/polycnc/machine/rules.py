@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 from functools import cache, cached_property
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass
 from polycnc.deferred.regexes import regex
@@ -15,10 +15,11 @@ from polycnc.deferred.regexes import regex
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from polycnc.machine.tables import Latch
+
     Values = Callable[[str], float]
     Condition = Callable[[Values], bool]
 
-Latch = Literal["", "on", "off", "toggle"]
 _SIGNS = "&|!()"
 _TOKEN = regex(rf"\s*(?:(?P<name>[A-Za-z_$][\w$.\[\]]*)|(?P<sign>[{_SIGNS}]))")
 #: How deeply brackets and `!` may be nested.

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, StringConstraints, ValidationError
 
 from polycnc.machine.errors import nearest
-from polycnc.machine.model import Act, Pockets, SpeedWait, Turns
+from polycnc.machine.tables import Act, Pockets, SpeedWait, Turns
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

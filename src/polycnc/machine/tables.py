@@ -7,10 +7,20 @@ from __future__ import annotations
 
 from typing import Literal, NotRequired, TypeAlias, TypedDict
 
-from polycnc.machine.model import Act, Carries, Pockets, SpeedWait, Timing, Turns
-from polycnc.machine.rules import Latch
-
 AxisKind = Literal["linear", "rotary"]
+Carries = Literal["tool", "work"]
+Timing = Literal["before", "with", "after"]
+#: What waits until a spindle has its speed: the block that asks for it, the first cut behind it, or nothing.
+SpeedWait = Literal["block", "cut", "never"]
+Pockets = Literal["random", "fixed"]
+Turns = Literal["shortest", "forward"]
+#: What an M function does in the control beside what the machine does.
+Act = Literal[
+    "spindle_clockwise", "spindle_counter_clockwise", "spindle_stop", "tool_change",
+    "feed_override_off", "feed_override_on", "spindle_override_off", "spindle_override_on",
+    "mirror_first_axis", "mirror_second_axis", "mirror_off",
+]  # fmt: skip
+Latch = Literal["", "on", "off", "toggle"]
 #: In one language, or a text for each.
 TextData: TypeAlias = "str | LanguagesData"
 LanguagesData = TypedDict("LanguagesData", {"en": str, "zh-TW": NotRequired[str]})

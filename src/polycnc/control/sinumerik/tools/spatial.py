@@ -10,7 +10,7 @@ Source: job planning 7.5 (CUT3D…, ISD), 7.6 (ORIC, ORID).
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Protocol, runtime_checkable
+from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.knots import join
 from polycnc.compensation.spatial.rules import (
@@ -31,6 +31,7 @@ from polycnc.machine.kinematics import unit
 from polycnc.messages import AlarmError
 from polycnc.transformation.chain import Chain
 from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
+from polycnc.transformation.seated import Seated
 
 with loaded_when_called():
     from polycnc.compensation.spatial import limiting_surface
@@ -43,7 +44,7 @@ if TYPE_CHECKING:
     from polycnc.channel.moves.path import Move
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.tools.edges import Edge
-    from polycnc.geometry.frames import Frame, Vector
+    from polycnc.geometry.frames import Vector
 
 #: Functions of group 22 that compensate across a tool that turns.
 CODES = frozenset(("CUT3DC", "CUT3DCC", "CUT3DCCD"))
@@ -60,22 +61,6 @@ RULES = Rules(no_corner="10764", changes="10770", square_start=True, no_room="10
 STRAIGHT_DEG = 180.0
 
 
-@runtime_checkable
-class InSeat(Protocol):
-    """A transformation with frames in front of it."""
-
-    @property
-    def inner(self) -> object:
-        """From the basic system to the axes."""
-
-    @property
-    def frame(self) -> Frame:
-        """From the work to the basic system."""
-
-    def basic(self, work: Sequence[float]) -> list[float]:
-        """The point of the basic system for one of the work."""
-
-
 @dataclass(frozen=True, slots=True)
 class ToolOnWork:
     """How the tool stands in work coordinates under an orientation transformation.
@@ -86,14 +71,14 @@ class ToolOnWork:
     """
 
     point: ToolCentrePoint
-    seat: InSeat | None = None
+    seat: Seated | None = None
 
     @classmethod
     def of(cls, transformation: object) -> ToolOnWork | None:
         """Under a transformation; None where that is none of the tool's direction."""
         if isinstance(transformation, ToolCentrePoint):
             return cls(transformation)
-        seat = transformation if isinstance(transformation, InSeat) else None
+        seat = transformation if isinstance(transformation, Seated) else None
         inner = seat.inner if seat is not None else transformation
         inner = inner.links[0] if isinstance(inner, Chain) else inner
         return cls(inner, seat) if isinstance(inner, ToolCentrePoint) else None
