@@ -9,7 +9,9 @@
 `import polycnc` alone loads nothing; the parts come when they are asked for.
 """
 
-from typing import TYPE_CHECKING, Any
+from __future__ import annotations
+
+TYPE_CHECKING = False  # for type checkers true; `typing` would be the first thing that a start imports
 
 if TYPE_CHECKING:
     from polycnc.mainrun import VirtualControl
@@ -29,7 +31,7 @@ __all__ = [
 ]
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> object:
     if name == "set_language":
         from polycnc.messages.catalogue import set_language
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, TypeVar
 
 from polycnc.control.alarm_text import alarm_key
+from polycnc.deferred.typing import TYPE_CHECKING, TypeVar
 from polycnc.messages import text
 
 if TYPE_CHECKING:

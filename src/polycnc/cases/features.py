@@ -9,13 +9,13 @@ from __future__ import annotations
 import json
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 from xml.etree import ElementTree
 
 from polycnc.cases.reading import UnreadableError, read_cases
 from polycnc.cases.runner import run_cases
 from polycnc.cases.selection import Selection
 from polycnc.deferred.paths import package_path
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.messages import Catalogue
 from polycnc.messages.files import reason_of
 

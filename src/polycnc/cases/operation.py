@@ -8,12 +8,12 @@ and in `run`, which ends when the control stands.
 from __future__ import annotations
 
 from inspect import signature
-from typing import TYPE_CHECKING, cast
 
 from polycnc.cases import compare
 from polycnc.cases.format import CaseError
 from polycnc.control import registry
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING, cast
 from polycnc.mainrun import CommandRefused, VirtualControl
 from polycnc.messages import AlarmError, text
 

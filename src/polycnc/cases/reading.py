@@ -5,8 +5,7 @@ They are read as strictly as setups: no key twice, no bombs of aliases, no depth
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.machine.documents import CASES, DocumentError, yaml_values
 from polycnc.machine.errors import SetupError
 from polycnc.messages import UserError

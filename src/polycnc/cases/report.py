@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING
 
 from polycnc.cases.junit import Entry, as_xml
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import text
 
 if TYPE_CHECKING:

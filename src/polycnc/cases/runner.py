@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
-
 from polycnc.cases import compare
 from polycnc.cases.format import Case, CaseError, case_id, parse_case
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING, Literal
 from polycnc.machine.errors import FileError
 from polycnc.memory.file import MemoryFileError
 from polycnc.memory.retained import InMemoryStore

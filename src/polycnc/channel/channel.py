@@ -8,7 +8,6 @@ language compiled, and what differs between controls lies behind `Control`.
 from __future__ import annotations
 
 from math import nan
-from typing import TYPE_CHECKING, ClassVar, Generic
 
 from polycnc.channel.coordinates import Coordinates
 from polycnc.channel.family import ControlT_co, MemoryT_co, ProgramT_co
@@ -32,6 +31,7 @@ from polycnc.channel.waits import (
 )
 from polycnc.deferred.contexts import contextmanager
 from polycnc.deferred.functions import loaded_when_called
+from polycnc.deferred.typing import TYPE_CHECKING, ClassVar, Generic
 from polycnc.geometry.tolerances import FARTHEST
 from polycnc.memory.retained import InMemoryStore
 from polycnc.messages import AlarmError

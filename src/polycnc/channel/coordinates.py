@@ -16,8 +16,7 @@ incremental words; `owes` says whether there is any.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import IDENTITY, Frame
 from polycnc.geometry.tolerances import FARTHEST
 

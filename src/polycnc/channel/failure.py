@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.contexts import suppress
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import Alarm, AlarmError
 from polycnc.program.heads import after_head
 from polycnc.toolpath.events import Raised

@@ -7,7 +7,7 @@ They are covariant, so a handler of a base family takes the channels of every fa
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from typing_extensions import TypeVar
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     MemoryT_co = TypeVar("MemoryT_co", covariant=True, default=Any)
     ProgramT_co = TypeVar("ProgramT_co", bound=Executable, covariant=True, default=Any)
 else:
-    from typing import TypeVar
+    from polycnc.deferred.typing import TypeVar
 
     ControlT_co = TypeVar("ControlT_co", covariant=True)
     MemoryT_co = TypeVar("MemoryT_co", covariant=True)

@@ -7,11 +7,10 @@ programs always give the same result. The run ends with the program of the first
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar
-
 from polycnc.channel.channel import Channel
 from polycnc.channel.waits import Wait, Why
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING, Any, ClassVar
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ is therefore worked out once and kept on the mode, in `plans`.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping

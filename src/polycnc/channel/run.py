@@ -5,7 +5,7 @@ So whoever drives it may stop behind any wait, take a snapshot (`snapshot`) and 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from enum import StrEnum
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, Protocol
 
 from polycnc.channel.family import ProgramT_co
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING, Any, ClassVar, Generic, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

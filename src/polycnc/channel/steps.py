@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, TypeAlias
+
+from polycnc.deferred.typing import TYPE_CHECKING, TypeAlias
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel

@@ -7,7 +7,7 @@ view of its own axes there.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol
+from polycnc.deferred.typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

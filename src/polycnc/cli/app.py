@@ -5,13 +5,13 @@ from __future__ import annotations
 import os
 import sys
 from time import monotonic
-from typing import TYPE_CHECKING, NoReturn
 
 from polycnc.cli import plain
 from polycnc.cli.console import fail, note
 from polycnc.cli.progress import watched
 from polycnc.cli.usage import language_of, translated
 from polycnc.deferred.contexts import contextmanager, suppress
+from polycnc.deferred.typing import TYPE_CHECKING, NoReturn
 from polycnc.messages import text
 from polycnc.messages.catalogue import set_language
 from polycnc.messages.errors import place_of_failure

@@ -10,7 +10,6 @@ import os
 from collections.abc import Mapping
 from enum import StrEnum
 from types import GenericAlias
-from typing import TYPE_CHECKING, Any
 
 import click
 from click.core import ParameterSource
@@ -22,6 +21,7 @@ from polycnc.cli.console import say
 from polycnc.cli.declaration import REQUIRED, Argument, Command, Path, without_none
 from polycnc.cli.plain import COMPLETION
 from polycnc.cli.usage import HELP, translated
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.messages import text
 
 if TYPE_CHECKING:

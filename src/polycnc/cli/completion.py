@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import subprocess
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 import click
 from click.shell_completion import get_completion_class
@@ -12,6 +11,7 @@ from click.shell_completion import get_completion_class
 from polycnc.cli.console import say, show
 from polycnc.cli.output import write_whole
 from polycnc.cli.plain import COMPLETION
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.messages import text
 from polycnc.messages.catalogue import listed
 

@@ -10,9 +10,9 @@ from __future__ import annotations
 import sys
 from functools import cache, cached_property
 from types import UnionType
-from typing import TYPE_CHECKING, Any
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
-
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING, Literal
 from polycnc.messages import Alarm, text
 from polycnc.messages.errors import place_of_failure
 from polycnc.messages.files import reason_with_file

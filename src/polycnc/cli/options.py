@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from enum import StrEnum
-from typing import TYPE_CHECKING, Annotated
 
 from polycnc.channel.channel import DEFAULT_BLOCK_LIMIT
 from polycnc.cli.declaration import Option, Path
 from polycnc.deferred.paths import text_of
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING, Annotated
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable

@@ -6,10 +6,10 @@ import io
 import os
 import stat
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Any
 
 from polycnc.deferred.contexts import contextmanager, suppress
 from polycnc.deferred.paths import resolved
+from polycnc.deferred.typing import IO, TYPE_CHECKING, Any
 from polycnc.messages.files import OutputError
 from polycnc.program.folders import SUFFIXES
 

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import os
 from types import GenericAlias
-from typing import TYPE_CHECKING, Any
 
 from polycnc.cli.commands import COMMANDS, commands_of
 from polycnc.cli.declaration import REQUIRED, Argument, Path, without_none
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence

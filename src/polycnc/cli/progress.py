@@ -10,10 +10,10 @@ import _thread  # a fraction of what `threading` costs at every start
 import os
 import sys
 from time import monotonic
-from typing import TYPE_CHECKING, ClassVar, Never, Protocol, Self, TypeVar
 
 from polycnc.deferred.contexts import contextmanager
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING, ClassVar, Never, Protocol, Self, TypeVar
 from polycnc.messages import text
 
 if TYPE_CHECKING:

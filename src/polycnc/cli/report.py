@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from math import isfinite
-from typing import TYPE_CHECKING
 
 from polycnc.cli.console import coloured
 from polycnc.cli.diagnostics import diagnostics_of
 from polycnc.deferred.functions import loaded_when_called
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import text
 from polycnc.messages.catalogue import listed
 from polycnc.toolpath.events import Message, Print, Stop

@@ -5,9 +5,9 @@ from __future__ import annotations
 import hashlib
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.version import __version__
 
 if TYPE_CHECKING:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.cli.console import note
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import text
 from polycnc.messages.catalogue import listed
 

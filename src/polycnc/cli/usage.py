@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from functools import cache
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.paths import package_path, read_text
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages.catalogue import LANGUAGES, language, language_of_environment
 
 if TYPE_CHECKING:

@@ -10,12 +10,12 @@ behind must not run backwards.
 from __future__ import annotations
 
 from math import hypot
-from typing import TYPE_CHECKING
 
 from polycnc.compensation.ends import blind_end
 from polycnc.compensation.policy import Violation
 from polycnc.compensation.step import Role
 from polycnc.deferred.records import dataclass, replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import arcs, distance, offset
 from polycnc.geometry.offset import Corner, Joint
 from polycnc.geometry.tolerances import NO_WAY

@@ -13,11 +13,11 @@ edge with another shift: the one at which both lines are touched.
 from __future__ import annotations
 
 from math import atan2, degrees, tau
-from typing import TYPE_CHECKING, ClassVar, NoReturn
 
 from polycnc.channel.moves.path import END_OF_BLOCK, Move, Rank, Stage
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING, ClassVar, NoReturn
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -10,12 +10,12 @@ from __future__ import annotations
 
 from enum import Enum
 from math import degrees, hypot, isnan, nan, radians
-from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.moves import origins
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import END_OF_BLOCK, EndOfBlock, Item, Move, PlacedEvent, Rank, Stage
 from polycnc.deferred.records import dataclass, field, replace
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.geometry import arcs, offset
 from polycnc.geometry.tolerances import SAME_POINT_MM
 from polycnc.messages import AlarmError

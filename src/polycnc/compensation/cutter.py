@@ -27,7 +27,6 @@ from __future__ import annotations
 
 from itertools import pairwise
 from math import hypot, nan
-from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.path import END_OF_BLOCK, Item, Move, PlacedEvent, Rank, Stage
 from polycnc.compensation import vectors
@@ -37,6 +36,7 @@ from polycnc.compensation.policy import BENDS, Approach, Violation
 from polycnc.compensation.rows import RowWriter
 from polycnc.compensation.step import NO_VECTOR, Role, Step
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import arcs, offset
 from polycnc.geometry.offset import Corner
 from polycnc.geometry.tolerances import NO_WAY, ROUNDED_MM, SAME_POINT_MM

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.compensation import vectors
 from polycnc.compensation.step import Role
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import offset
 from polycnc.geometry.offset import Corner, Joint
 

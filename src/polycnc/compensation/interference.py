@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import deque
 from itertools import pairwise
 from math import pi
-from typing import TYPE_CHECKING
 
 from polycnc.compensation.avoidance import (
     PATHS,
@@ -19,6 +18,7 @@ from polycnc.compensation.avoidance import (
 from polycnc.compensation.policy import Violation
 from polycnc.compensation.step import Role
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import arcs, offset
 from polycnc.geometry.offset import Corner
 from polycnc.messages import AlarmError

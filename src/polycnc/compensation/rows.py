@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from math import ceil, copysign, hypot, inf, sqrt
-from typing import TYPE_CHECKING
 
 from polycnc.channel.moves import origins
 from polycnc.compensation.step import NO_VECTOR, Role
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import arcs, offset
 from polycnc.geometry.offset import Joint
 from polycnc.geometry.tolerances import NO_WAY

@@ -5,10 +5,10 @@ from __future__ import annotations
 from enum import Enum
 from itertools import pairwise
 from math import hypot
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import arcs, offset
 from polycnc.geometry.offset import Joint
 from polycnc.geometry.tolerances import NO_WAY

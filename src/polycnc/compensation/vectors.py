@@ -9,9 +9,9 @@ cases with other data.
 from __future__ import annotations
 
 from math import asin, atan2, cos, hypot, pi, sin
-from typing import TYPE_CHECKING
 
 from polycnc.compensation.policy import BENDS, Approach
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import offset
 from polycnc.geometry.offset import Corner, Edge, Joint
 

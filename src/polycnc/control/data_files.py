@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Protocol
-
+from polycnc.deferred.typing import TYPE_CHECKING, Any, Protocol
 from polycnc.messages import UserError
 
 if TYPE_CHECKING:

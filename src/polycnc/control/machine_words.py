@@ -7,11 +7,10 @@ rows are asked with the live signals, and this module stands aside.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import InterlockQuery
 

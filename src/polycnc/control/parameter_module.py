@@ -16,10 +16,10 @@ import json
 import sys
 from pathlib import Path
 from textwrap import wrap
-from typing import TYPE_CHECKING
 
 from polycnc.control.parameters import load_parameters
 from polycnc.deferred.paths import package_path
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator

@@ -10,18 +10,18 @@ one name in the lists of all; `word_address/parameters.py` says which these are.
 from __future__ import annotations
 
 from functools import cache, cached_property
-from typing import TYPE_CHECKING, Generic, Literal, TypeAlias, TypeVar, overload
 
 from polycnc.deferred.paths import package_path, read_text
 from polycnc.deferred.records import dataclass
 from polycnc.deferred.toml import loads
+from polycnc.deferred.typing import TYPE_CHECKING, Generic, Literal, TypeAlias, TypeVar, overload
 from polycnc.machine.setup.values import ParameterKey, Parameters, parameter_key
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
-    from typing import Self
 
     from polycnc.control.interface import Control
+    from polycnc.deferred.typing import Self
     from polycnc.machine.setup.values import Value
 
 #: A value that only the machine knows, where the setup does not say it.

@@ -12,7 +12,8 @@ import builtins
 import sys
 from functools import cached_property
 from types import FunctionType
-from typing import TYPE_CHECKING, Any
+
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from collections.abc import Callable

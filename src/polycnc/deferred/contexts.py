@@ -7,7 +7,8 @@ What nothing here uses is left out: context managers as decorators, those of cor
 from __future__ import annotations
 
 from functools import wraps
-from typing import TYPE_CHECKING
+
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from contextlib import ExitStack, contextmanager, nullcontext, suppress

@@ -20,9 +20,9 @@ import builtins
 import sys
 from _thread import RLock
 from types import MethodType, SimpleNamespace
-from typing import TYPE_CHECKING, Any
 
 from polycnc.deferred.modules import import_module
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -10,7 +10,8 @@ from __future__ import annotations
 import errno
 import os
 from stat import S_ISDIR, S_ISREG
-from typing import TYPE_CHECKING
+
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -7,7 +7,7 @@ Whatever else is in a document, and whatever is wrong with it, is the library's.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
         Final,
         Generic,
         Literal,
+        Never,
         NoReturn,
         NotRequired,
         ParamSpec,
@@ -50,7 +51,7 @@ else:
 
         __ror__ = __or__
 
-    IO = Any = ClassVar = Final = Literal = NoReturn = Self = TypeAlias = Union = _Hint()
+    IO = Any = ClassVar = Final = Literal = Never = NoReturn = Self = TypeAlias = Union = _Hint()
 
     class Generic:
         """The base of a class that has parameters for a type checker."""
@@ -118,6 +119,7 @@ __all__ = [
     "Final",
     "Generic",
     "Literal",
+    "Never",
     "NoReturn",
     "NotRequired",
     "ParamSpec",

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 from functools import lru_cache
 from math import acos, atan2, ceil, cos, hypot, pi, sin, sqrt
-from typing import TYPE_CHECKING
 
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import vectors
 from polycnc.geometry.tolerances import NO_WAY
 

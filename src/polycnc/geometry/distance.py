@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from math import hypot
-from typing import TYPE_CHECKING
 
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import arcs, offset
 from polycnc.geometry.tolerances import NO_WAY
 

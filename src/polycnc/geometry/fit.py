@@ -7,8 +7,8 @@ Source: B. K. P. Horn, "Closed-form solution of absolute orientation using unit 
 from __future__ import annotations
 
 from math import hypot, sqrt
-from typing import TYPE_CHECKING
 
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import Frame, Vector
 from polycnc.geometry.vectors import minus
 

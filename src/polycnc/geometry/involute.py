@@ -8,9 +8,9 @@ and the length from the base circle is `r·p²/2`.
 from __future__ import annotations
 
 from math import atan, cos, hypot, sin, sqrt
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass, replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import arcs
 
 if TYPE_CHECKING:

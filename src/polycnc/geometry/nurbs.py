@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from math import sqrt
-from typing import TYPE_CHECKING
+
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

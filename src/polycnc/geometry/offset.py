@@ -11,10 +11,10 @@ from __future__ import annotations
 
 from enum import Enum
 from math import atan2, cos, degrees, hypot, pi, sqrt
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import arcs
 from polycnc.geometry.tolerances import NO_WAY, ROUNDED_MM, SMOOTH_MM
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import TYPE_CHECKING
+
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -7,9 +7,9 @@ cylinder (a bore). A probe's tip touches where its centre comes as near as its r
 from __future__ import annotations
 
 from math import hypot, sqrt
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.geometry.vectors import dot, minus, times
 

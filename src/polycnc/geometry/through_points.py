@@ -12,9 +12,9 @@ from collections.abc import Sequence
 from enum import StrEnum
 from itertools import pairwise
 from math import hypot
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -9,7 +9,8 @@ counter-clockwise; a single point stands for a tool without extent. Lengths are 
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import TYPE_CHECKING
+
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

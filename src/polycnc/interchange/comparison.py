@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from enum import Enum
 from math import isclose
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import fields, is_dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.memory import retained
 
 if TYPE_CHECKING:

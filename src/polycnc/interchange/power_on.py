@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.memory.retained import PROGRAMS, RetainedStore
 from polycnc.session import open_session
 

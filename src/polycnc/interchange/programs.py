@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.interchange.controls.kinds import ARCHIVE, TAPE
 from polycnc.interchange.errors import InterchangeError, ReadingError
 from polycnc.memory.retained import PROGRAMS

@@ -8,9 +8,9 @@ the order of the control's kinds, then setups: what one of them needs, as defini
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from polycnc.control.data_files import DataFileError
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.interchange import programs, setups
 from polycnc.interchange.controls.kinds import ARCHIVE, FILES, texts_of
 from polycnc.interchange.errors import ReadingError

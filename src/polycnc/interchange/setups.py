@@ -6,13 +6,12 @@ all else stays. It says no rotations of frames and no programs; what else it may
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from polycnc.control.fanuc.lathe.tools import files as lathe_files
 from polycnc.control.fanuc.lathe.tools.offset_memory import OffsetMemory
 from polycnc.control.parameters import known_parameters
 from polycnc.control.word_address.macro_b.parameter_input import set_parameter
 from polycnc.control.word_address.memory import ParameterTable, ToolOffsets
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.interchange.errors import ReadingError
 from polycnc.interchange.power_on import channel_on
 from polycnc.machine.setup import edit

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.interchange import comparison, programs, setups
 from polycnc.interchange.controls.kinds import PROGRAMS, SETUP, texts_of
 from polycnc.interchange.errors import InterchangeError

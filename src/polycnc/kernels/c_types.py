@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import sys
 from _ctypes import FUNCFLAG_CDECL, CFuncPtr, Structure, _SimpleCData, addressof
-from typing import Any
+
+from polycnc.deferred.typing import Any
 
 __all__ = [
     "Byte", "Integer", "Number", "Pointer", "SharedObject", "Structure", "Text", "addressof", "contents", "put",

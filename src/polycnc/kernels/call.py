@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.kernels.c_types import Integer, Number, Pointer, addressof
 from polycnc.kernels.description import INTEGER, NUMBER, RECORD
 

@@ -14,8 +14,7 @@ any digest, and no two sources are ever taken for each other.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.kernels.c_types import Text, contents
 
 if TYPE_CHECKING:

@@ -8,8 +8,8 @@ from __future__ import annotations
 import sys
 from collections.abc import MutableSequence
 from functools import partial
-from typing import TYPE_CHECKING, Annotated, Any, TypeVar, cast
 
+from polycnc.deferred.typing import TYPE_CHECKING, Annotated, Any, TypeVar, cast
 from polycnc.kernels.c_types import Integer, Number, Structure, put
 
 if TYPE_CHECKING:

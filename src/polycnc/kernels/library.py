@@ -6,10 +6,10 @@ Their machine code is good for one version of their sources, which lies beside i
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
 
 from polycnc.deferred.modules import import_module
 from polycnc.deferred.paths import package_path, parent_of
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.kernels import native
 
 if TYPE_CHECKING:

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.machine.rules import ConditionError, condition_of, signals_in
 from polycnc.messages.catalogue import listed
 

@@ -9,11 +9,11 @@ false as values; as keys they are words. Case files have their own `Dialect`, in
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Any
 
 from polycnc.deferred.records import dataclass
 from polycnc.deferred.regexes import regex
 from polycnc.deferred.toml import plain
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.machine.places import toml_error_place, yaml_loader
 
 if TYPE_CHECKING:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.paths import package_path
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import Catalogue, UserError
 
 if TYPE_CHECKING:

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from functools import cache
 from math import inf
-from typing import TYPE_CHECKING, Literal, TypeVar, cast
 
 from polycnc.deferred import paths
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.toml import loads
+from polycnc.deferred.typing import TYPE_CHECKING, Literal, TypeVar, cast
 from polycnc.machine.builder import BUILDERS, Builder, builder_names
 from polycnc.machine.documents import DocumentError, toml_values
 from polycnc.machine.errors import MachineFileError

@@ -9,9 +9,9 @@ from __future__ import annotations
 
 from functools import cached_property
 from math import inf
-from typing import TYPE_CHECKING, Literal
 
 from polycnc.deferred.records import dataclass, field, replace
+from polycnc.deferred.typing import TYPE_CHECKING, Literal
 from polycnc.machine.builder import NO_BUILDER
 from polycnc.machine.plc import Plc
 

@@ -11,9 +11,9 @@ from __future__ import annotations
 
 from functools import cached_property
 from itertools import product
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.machine.rules import condition_of, signals_in
 from polycnc.machine.text import NO_TEXT
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from functools import cache
 from math import isfinite
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.paths import package_path
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.machine.text import Text
 from polycnc.messages import Catalogue
 

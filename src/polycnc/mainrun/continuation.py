@@ -6,8 +6,7 @@ they write, and actions of the program act on it. So a program that never asks f
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.mainrun.commands.programs import Programs
 from polycnc.mainrun.commands.settings import Switches
 from polycnc.mainrun.commands.states import State

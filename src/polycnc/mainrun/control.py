@@ -15,11 +15,10 @@ state, `ProgramCommands`, `HandCommands` and `SwitchCommands` are the operator's
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from polycnc.channel.channel import DEFAULT_BLOCK_LIMIT
 from polycnc.channel.states.snapshot import Snapshot as Checkpoint
 from polycnc.control.alarm_text import catalogue_of
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.mainrun.commands.data import DataCommands
 from polycnc.mainrun.commands.hand import HandCommands
 from polycnc.mainrun.commands.permission import Permission

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 from polycnc.control import registry
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.machine import load_machine, load_setup, parse_setup
 from polycnc.machine.model import Machine
 from polycnc.machine.setup.file import check_bits

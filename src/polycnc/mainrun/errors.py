@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from enum import StrEnum
-from typing import TYPE_CHECKING, TypeVar
 
+from polycnc.deferred.typing import TYPE_CHECKING, TypeVar
 from polycnc.messages import UserError, text
 from polycnc.messages.catalogue import language, listed
 

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar, TypeVar
-
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING, ClassVar, TypeVar
 from polycnc.mainrun.commands.states import Mode, State
 from polycnc.mainrun.reading.snapshot import Record
 from polycnc.memory.retained import ALARM_HISTORY, COUNTERS, MESSAGES

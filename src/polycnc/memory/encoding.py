@@ -17,9 +17,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from enum import Enum
 from math import isfinite
-from typing import TYPE_CHECKING, Any, TypeVar
 
 from polycnc.deferred.records import fields, is_dataclass
+from polycnc.deferred.typing import TYPE_CHECKING, Any, TypeVar
 from polycnc.machine.setup.values import ParameterKey
 from polycnc.messages import Alarm
 from polycnc.program.program import Form, Program

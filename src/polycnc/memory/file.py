@@ -15,10 +15,10 @@ import os
 import sqlite3
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import is_frozen
+from polycnc.deferred.typing import TYPE_CHECKING, Any, ClassVar
 from polycnc.memory.encoding import decode, encode
 from polycnc.messages import UserError
 from polycnc.messages.files import reason_of
@@ -26,7 +26,8 @@ from polycnc.messages.files import reason_of
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
     from types import TracebackType
-    from typing import Self
+
+    from polycnc.deferred.typing import Self
 
 #: "pcnc": marks a file as a memory of polycnc (`PRAGMA application_id`).
 APPLICATION_ID = 0x70636E63

@@ -8,7 +8,8 @@ empty when it first asks for it, from its setup.
 from __future__ import annotations
 
 from os import PathLike
-from typing import TYPE_CHECKING, Any, Protocol, TypeVar
+
+from polycnc.deferred.typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -6,9 +6,8 @@ place at the block boundary and keeps the resulting `Alarm`.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
-
 from polycnc.deferred.records import dataclass, field, replace
+from polycnc.deferred.typing import TYPE_CHECKING, Literal
 from polycnc.messages.catalogue import language, text
 
 if TYPE_CHECKING:

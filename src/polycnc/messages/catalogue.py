@@ -7,11 +7,11 @@ import re
 from collections import ChainMap
 from collections.abc import Mapping
 from functools import cache, cached_property
-from typing import TYPE_CHECKING, Literal
 
 from polycnc.deferred.paths import package_path, read_text
 from polycnc.deferred.regexes import regex
 from polycnc.deferred.toml import loads
+from polycnc.deferred.typing import TYPE_CHECKING, Literal
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator

@@ -6,9 +6,9 @@ import errno
 import os
 import stat
 from io import StringIO
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.paths import is_same, text_of
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages.catalogue import messages
 from polycnc.messages.errors import UserError
 

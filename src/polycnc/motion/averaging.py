@@ -12,7 +12,8 @@ takes a number also takes an array: the main run follows moment by moment, sampl
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import TYPE_CHECKING, TypeVar
+
+from polycnc.deferred.typing import TYPE_CHECKING, TypeVar
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from array import array
 from math import ceil, cos, inf, pi, radians
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.motion.compiled import share_rows
 from polycnc.motion.kernels import demands as kernels
 from polycnc.motion.kernels.columns import AT_END, AT_START

@@ -6,9 +6,8 @@ the real axes; under one (polar interpolation, tool centre point) they are those
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.transformation.rows import machine_rows, mapped_rows
 
 if TYPE_CHECKING:

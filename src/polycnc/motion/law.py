@@ -10,9 +10,9 @@ from __future__ import annotations
 from array import array
 from bisect import bisect_left, bisect_right
 from math import sqrt
-from typing import TYPE_CHECKING, TypeAlias
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING, TypeAlias
 from polycnc.motion.averaging import area_after, average, way_after
 
 if TYPE_CHECKING:

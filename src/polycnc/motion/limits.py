@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from array import array
 from math import inf
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.motion.kernels.columns import Limits, PathLimits
 from polycnc.motion.settings import Settings
 from polycnc.motion.time_constants import (

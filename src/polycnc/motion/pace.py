@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from math import hypot, inf, sqrt
 from operator import mul
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.toolpath.modes import FeedMode
 from polycnc.transformation.orientation.linkage import STANDS_MM
 

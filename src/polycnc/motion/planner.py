@@ -11,8 +11,8 @@ from __future__ import annotations
 
 from array import array
 from math import sqrt
-from typing import TYPE_CHECKING
 
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.motion.compiled import kernels, plain
 from polycnc.motion.kernels.columns import PLACES, Form, PieceRecord, Rows, new_state, piece_width
 from polycnc.motion.limits import ContextTables, averages, axis_rapids, is_bent_by_way

@@ -14,9 +14,9 @@ from __future__ import annotations
 from array import array
 from itertools import pairwise
 from math import atan2, ceil, degrees, hypot, inf, pi, radians
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.motion.frames import machine_of
 from polycnc.motion.kernels.columns import PLACES, Form, PieceRecord, Rows, piece_width
 from polycnc.toolpath.row_path import arc_path, line_path

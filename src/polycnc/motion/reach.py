@@ -13,9 +13,9 @@ from __future__ import annotations
 
 from itertools import pairwise
 from math import cos, inf, pi, sqrt
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.motion.demand import PATH_STEP
 from polycnc.motion.kernels.columns import PIECES_PER_TURN
 from polycnc.motion.kernels.demands import NOTHING

@@ -13,9 +13,9 @@ have; where it changes the axes are at rest.
 from __future__ import annotations
 
 from enum import IntEnum
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.toolpath import Kind
 from polycnc.toolpath.kinds import RAPID_KINDS
 

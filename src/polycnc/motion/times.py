@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Self
-
 from polycnc.deferred.records import dataclass, field, fields
+from polycnc.deferred.typing import TYPE_CHECKING, Self
 
 if TYPE_CHECKING:
     from array import array

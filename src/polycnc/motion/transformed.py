@@ -21,8 +21,8 @@ from __future__ import annotations
 from array import array
 from math import hypot, inf, radians
 from operator import sub
-from typing import TYPE_CHECKING
 
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.motion.demand import (
     FULL,
     LOOKS,

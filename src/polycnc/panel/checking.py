@@ -12,9 +12,9 @@ from contextlib import suppress
 from subprocess import DEVNULL, PIPE, Popen
 from threading import Thread
 from time import monotonic
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.mainrun.reading.forecast import Forecast
 
 if TYPE_CHECKING:

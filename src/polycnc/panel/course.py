@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from time import monotonic
-from typing import TYPE_CHECKING
 
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.mainrun import CommandRefused, State
 from polycnc.toolpath.events import Circle, Pen
 from polycnc.view.bodies import MachineBodies, Pose

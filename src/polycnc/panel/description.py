@@ -5,9 +5,9 @@ from __future__ import annotations
 import tomllib
 from functools import cached_property
 from importlib import resources
-from typing import TYPE_CHECKING, Any
 
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.machine.rules import condition_of
 from polycnc.mainrun.commands.states import Mode
 

@@ -14,9 +14,9 @@ from __future__ import annotations
 from enum import StrEnum
 from functools import partial
 from math import isfinite
-from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.data.access import turn_key_switch
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.mainrun import CommandRefused, State
 from polycnc.mainrun.commands.states import Command
 from polycnc.mainrun.errors import OutOfPlace

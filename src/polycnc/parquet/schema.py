@@ -9,9 +9,9 @@ from __future__ import annotations
 import struct
 from binascii import b2a_base64
 from enum import Enum, auto
-from typing import TYPE_CHECKING, TypeAlias, Union
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING, TypeAlias, Union
 from polycnc.parquet import thrift
 
 if TYPE_CHECKING:

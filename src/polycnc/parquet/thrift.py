@@ -5,7 +5,7 @@ Each function gives the type of a value and its bytes.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
+from polycnc.deferred.typing import TYPE_CHECKING, TypeAlias
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

@@ -10,9 +10,9 @@ from __future__ import annotations
 import struct
 import sys
 from array import array
-from typing import IO, TYPE_CHECKING, TypeAlias
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import IO, TYPE_CHECKING, TypeAlias
 from polycnc.parquet import thrift
 from polycnc.parquet.compiled import kernels
 from polycnc.parquet.pages import BLOCK, MOST_VALUES, PART, SLOTS

@@ -7,8 +7,7 @@ lines); `archive` makes a text of programs again, `store` keeps what a run can c
 what a block means.
 """
 
-from typing import TYPE_CHECKING, Any
-
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.program.encoding import Decoded, decode
 from polycnc.program.errors import ProgramFileError
 from polycnc.program.program import Form, Program

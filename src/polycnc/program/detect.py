@@ -8,10 +8,10 @@ their programs usually stay unnamed and the user is asked.
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.program.errors import texts
 from polycnc.program.program import Form, Program
 

@@ -17,10 +17,10 @@ from __future__ import annotations
 
 import codecs
 import re
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.program.errors import ProgramFileError
 from polycnc.program.text import TAPE_CONTROLS
 

@@ -6,10 +6,10 @@ import errno
 import os
 import stat
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.paths import joined, name_of, stem_of, suffix_of, text_of
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages.files import read_regular, reason_of
 from polycnc.program.errors import ProgramFileError
 from polycnc.program.names import stored_name

@@ -16,10 +16,10 @@ from bisect import bisect_right
 from collections.abc import Sequence
 from functools import lru_cache
 from stat import S_ISREG
-from typing import TYPE_CHECKING, overload
 
 from polycnc.deferred.records import dataclass, field
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING, overload
 from polycnc.messages.files import reason_of
 from polycnc.program.encoding import codec_of, has_byte_order_mark
 from polycnc.program.errors import ProgramFileError

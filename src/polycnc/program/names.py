@@ -7,9 +7,8 @@ and 2.1).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

@@ -10,10 +10,10 @@ from __future__ import annotations
 import re
 from itertools import compress, count, pairwise, takewhile
 from operator import itemgetter
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass, replace
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.program.long_text import HEADING_STARTS, LongText
 from polycnc.program.names import default_directory, program_name, stored_directory, stored_name
 from polycnc.program.program import Form, Program

@@ -8,10 +8,9 @@ read when a call asks for them, once.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
-
 from polycnc.deferred.paths import is_dir, name_of, parent_of, resolved, text_of
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING, TypeAlias
 from polycnc.messages.catalogue import listed
 from polycnc.program import names
 from polycnc.program.encoding import decode

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import NoReturn
-
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import NoReturn
 from polycnc.program.errors import ProgramFileError
 
 MAX_LINE = 65_536

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from os import PathLike
-from typing import TYPE_CHECKING
 
 from polycnc.channel.channel import DEFAULT_BLOCK_LIMIT
 from polycnc.deferred.paths import exists, joined, parent_of, text_of
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages.catalogue import listed
 from polycnc.messages.files import refuse_inputs
 from polycnc.session.errors import SessionError

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
 
 from polycnc.deferred.modules import import_module, is_installed
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.machine.layout import axis_layout
 from polycnc.messages import AlarmError, text
 from polycnc.messages.catalogue import language, listed
@@ -16,12 +16,12 @@ from polycnc.toolpath.trace import Display
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
-    from typing import TypedDict
 
     import pyarrow as pa
 
     from polycnc.channel.channel import Channel
     from polycnc.control.interface import Control
+    from polycnc.deferred.typing import TypedDict
     from polycnc.machine.model import Machine
     from polycnc.messages import Alarm, Catalogue
     from polycnc.motion.planner import Planner

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.channel import DEFAULT_BLOCK_LIMIT, Channel
 from polycnc.channel.group import ChannelGroup
 from polycnc.channel.states.passes import Passes
 from polycnc.channel.states.standstill import Standstill
 from polycnc.channel.states.unchanging import unchanging
 from polycnc.channel.waits import Why
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.bulk.settings import Bulk
 from polycnc.machine.layout import axis_layout
 from polycnc.session.result import Result

@@ -7,8 +7,8 @@ toolpath chunk by chunk, so that a long program needs no more memory than a shor
 from __future__ import annotations
 
 from io import StringIO
-from typing import IO, TYPE_CHECKING, Any, Protocol, TypeAlias
 
+from polycnc.deferred.typing import IO, TYPE_CHECKING, Any, Protocol, TypeAlias
 from polycnc.toolpath.columns.names import NAMES, TEXTS, flattened, table_columns
 
 if TYPE_CHECKING:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from enum import StrEnum
 from math import inf
-from typing import TYPE_CHECKING, Literal
 
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING, Literal
 from polycnc.toolpath.modes import AccelerationMode
 
 if TYPE_CHECKING:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from math import atan2, cos, hypot, pi, sin
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS, Kind
 
 if TYPE_CHECKING:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from math import atan2, cos, dist, sin, sqrt, tau
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.arcs import parts_for_chord_error
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.geometry.vectors import cross, dot, minus

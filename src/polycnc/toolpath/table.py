@@ -9,9 +9,9 @@ from __future__ import annotations
 
 from array import array
 from math import isnan, nan
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.toolpath.kinds import CURVE_WIDTH, NO_CURVE, Kind
 

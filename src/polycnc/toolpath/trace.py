@@ -7,12 +7,11 @@ within one turn.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, cast
-
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.modules import is_installed
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING, cast
 from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath.digits import STEPS
 from polycnc.toolpath.events import Raised
@@ -24,11 +23,11 @@ with loaded_when_called():
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sequence
-    from typing import NotRequired, TypedDict
 
     import numpy as np
     from numpy.typing import NDArray
 
+    from polycnc.deferred.typing import NotRequired, TypedDict
     from polycnc.machine.layout import AxisLayout
     from polycnc.toolpath.context import Context
     from polycnc.toolpath.events import Event

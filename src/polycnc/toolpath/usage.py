@@ -10,11 +10,11 @@ from __future__ import annotations
 from array import array
 from itertools import groupby, product
 from math import inf
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.modules import is_installed
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.toolpath.compiled import survey
 from polycnc.toolpath.kinds import CURVE_WIDTH, RAPID_KINDS, Kind
 from polycnc.toolpath.modes import FeedMode

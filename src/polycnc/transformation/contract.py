@@ -9,7 +9,7 @@ Where a transformation leaves an axis alone, its number is the same on both side
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol
+from polycnc.deferred.typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

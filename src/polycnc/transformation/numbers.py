@@ -8,16 +8,17 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
-from typing import TYPE_CHECKING
 
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import QUARTERS, cos_sin_deg
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-    from typing import TypeVar
 
     import numpy as np
     import numpy.typing as npt
+
+    from polycnc.deferred.typing import TypeVar
 
     Column = npt.NDArray[np.float64]
     #: A number, or a column of numbers: one for each point.

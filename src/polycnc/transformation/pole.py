@@ -7,9 +7,9 @@ while the axis turns: it ends and begins on a small ring round the pole, on whic
 from __future__ import annotations
 
 from math import ceil, cos, hypot, pi, sin
-from typing import TYPE_CHECKING, Protocol
 
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -7,9 +7,8 @@ machine. Couplings stand on both sides: `led` are those of the basic system, `dr
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.deferred.records import dataclass, replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import IDENTITY, Frame
 from polycnc.transformation.contract import product
 

@@ -8,9 +8,9 @@ the machine moves about it, for the path is drawn on the work.
 from __future__ import annotations
 
 from math import isfinite
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.vectors import minus, plus
 from polycnc.machine.kinematics import Kinematics
 

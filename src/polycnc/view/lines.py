@@ -8,7 +8,8 @@ its tool's colour. A million points are 20 MB.
 from __future__ import annotations
 
 from array import array
-from typing import TYPE_CHECKING
+
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence

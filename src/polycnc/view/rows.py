@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from itertools import groupby
 from math import cos, isnan, sin, tau
-from typing import TYPE_CHECKING
 
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.toolpath.events import Circle, Pen
 from polycnc.toolpath.kinds import ARC_KINDS, RAPID_KINDS, Kind
 from polycnc.toolpath.modes import FeedMode

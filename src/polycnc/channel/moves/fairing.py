@@ -10,9 +10,9 @@ In single block operation every block is to end where it is programmed, and noth
 from __future__ import annotations
 
 from array import array
-from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.path import Move, Rank, Run, Stage
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.toolpath.compiled import fairing
 from polycnc.toolpath.context import PROGRAMMED
 from polycnc.toolpath.fairing import FADE, POINT, FairedRun

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from itertools import pairwise
 from math import dist, hypot
-from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.toolpath.kinds import ARC_KINDS, Kind
 from polycnc.toolpath.modes import FeedMode
 

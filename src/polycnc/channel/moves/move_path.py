@@ -6,9 +6,9 @@ A part of the way is a number from 0 (start) to 1 (end): of the length on a line
 from __future__ import annotations
 
 from math import asin, atan2, cos, floor, hypot, pi, sin
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import arcs
 from polycnc.geometry.vectors import cross, dot
 from polycnc.toolpath.kinds import CCW_KINDS

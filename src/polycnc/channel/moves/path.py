@@ -13,10 +13,10 @@ from __future__ import annotations
 from array import array
 from itertools import count, pairwise
 from math import nan
-from typing import TYPE_CHECKING, ClassVar, TypeVar
 
 from polycnc.deferred.contexts import contextmanager
 from polycnc.deferred.records import dataclass, replace
+from polycnc.deferred.typing import TYPE_CHECKING, ClassVar, TypeVar
 from polycnc.toolpath.context import PROGRAMMED
 from polycnc.toolpath.kinds import CURVE_WIDTH, Kind
 

@@ -8,11 +8,11 @@ blocks may have been prepared before the path came there.
 from __future__ import annotations
 
 from math import atan2, pi
-from typing import TYPE_CHECKING, Any, TypeVar
 
 from polycnc.channel.moves import knots
 from polycnc.channel.moves.path import Rank, Stage
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING, Any, TypeVar
 from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS, Kind
 from polycnc.toolpath.row_path import arc_path, line_path
 from polycnc.transformation.chain import Chain

@@ -8,9 +8,9 @@ guard that the path puts there; where nothing changes moves, the channel asks at
 from __future__ import annotations
 
 from math import inf
-from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.path import Move, Rank, Stage
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import arcs
 from polycnc.messages import AlarmError
 from polycnc.toolpath.kinds import Kind

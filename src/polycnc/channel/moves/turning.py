@@ -7,12 +7,11 @@ stays on it; an arc becomes so many arcs that they hardly change it from one to 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.moves.knots import share_time
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move, Rank, Stage
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.toolpath.kinds import Kind
 from polycnc.toolpath.modes import CornerMode
 

@@ -7,9 +7,8 @@ same, for ever. A program that counts, reads a clock or changes an offset does n
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.states.state import plain, plain_states, plain_tables
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel

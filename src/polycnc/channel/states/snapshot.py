@@ -29,13 +29,13 @@ from fractions import Fraction
 from functools import partial
 from pathlib import PurePath
 from random import Random
-from typing import TYPE_CHECKING, Any, TypeAlias
 
 from polycnc.channel.mode import Mode
 from polycnc.channel.states.state import State, States
 from polycnc.channel.states.unchanging import UNCHANGING
 from polycnc.deferred.records import is_frozen
 from polycnc.deferred.regexes import Regex
+from polycnc.deferred.typing import TYPE_CHECKING, Any, TypeAlias
 from polycnc.geometry.frames import Frame
 from polycnc.machine.model import Machine
 from polycnc.machine.setup.values import Parameters, Setup

@@ -8,9 +8,8 @@ the virtual control, whose inputs change while the program runs, nobody looks.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.states.unchanging import unchanging
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:

@@ -22,16 +22,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from enum import IntEnum
-from typing import TYPE_CHECKING, Any, ClassVar, TypeVar, overload
 
 from polycnc.deferred.records import MISSING, dataclass, field, fields, is_dataclass
+from polycnc.deferred.typing import TYPE_CHECKING, Any, ClassVar, TypeVar, overload
 from polycnc.machine.setup.values import Parameters
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection
-    from typing import Self
 
     from polycnc.channel.channel import Channel
+    from polycnc.deferred.typing import Self
 
 _T = TypeVar("_T")
 _LIFETIME, _TABLE = "lifetime", "table"

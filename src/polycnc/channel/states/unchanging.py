@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TypeVar
+from polycnc.deferred.typing import TypeVar
 
 _Class = TypeVar("_Class", bound=type)
 #: Classes of which `unchanging` has said so.

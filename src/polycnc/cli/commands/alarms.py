@@ -5,11 +5,11 @@ from __future__ import annotations
 import json
 from enum import StrEnum
 from itertools import chain
-from typing import TYPE_CHECKING, Annotated, Literal
 
 from polycnc.cli import options
 from polycnc.cli.console import fail, say
 from polycnc.cli.declaration import Argument, Commands, Option
+from polycnc.deferred.typing import TYPE_CHECKING, Annotated, Literal
 from polycnc.messages import text
 from polycnc.messages.catalogue import listed
 

@@ -10,13 +10,13 @@ from contextlib import ExitStack, contextmanager, nullcontext
 from enum import StrEnum
 from functools import partial
 from itertools import chain
-from typing import TYPE_CHECKING, Annotated
 
 from polycnc.cli import diagnostics, options
 from polycnc.cli.console import note, show, standard_input
 from polycnc.cli.declaration import Argument, Commands, Option, Path
 from polycnc.cli.progress import away
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING, Annotated
 from polycnc.messages import UserError, text
 from polycnc.messages.catalogue import language, listed, set_language
 

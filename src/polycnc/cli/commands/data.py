@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
-
 from polycnc.cli import options
 from polycnc.cli.console import fail, say, show
 from polycnc.cli.declaration import Argument, Commands, Option, Path
 from polycnc.cli.output import write_whole
+from polycnc.deferred.typing import TYPE_CHECKING, Annotated
 from polycnc.messages import text
 from polycnc.messages.catalogue import listed
 from polycnc.messages.files import refuse_inputs

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import json
 from enum import StrEnum
-from typing import TYPE_CHECKING, Annotated
 
 from polycnc.cli import options
 from polycnc.cli.console import fail, show
 from polycnc.cli.declaration import Commands, Option, Path
 from polycnc.cli.progress import Waiting
+from polycnc.deferred.typing import TYPE_CHECKING, Annotated
 from polycnc.messages import text
 from polycnc.messages.catalogue import listed
 

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Annotated
-
 from polycnc.cli import options
 from polycnc.cli.console import say, show
 from polycnc.cli.declaration import Argument, Commands
+from polycnc.deferred.typing import Annotated
 
 
 def list_machines() -> None:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from functools import partial
 from secrets import token_urlsafe
-from typing import TYPE_CHECKING, Annotated
 
 from polycnc.cli import options
 from polycnc.cli.console import fail, say
 from polycnc.cli.declaration import Argument, Commands, Option, Path
 from polycnc.cli.progress import end as end_of_waiting
+from polycnc.deferred.typing import TYPE_CHECKING, Annotated
 from polycnc.messages import text
 from polycnc.messages.catalogue import language
 

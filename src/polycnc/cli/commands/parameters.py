@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
-
 from polycnc.cli import options
 from polycnc.cli.console import fail, say
 from polycnc.cli.declaration import Argument, Commands, Path
+from polycnc.deferred.typing import TYPE_CHECKING, Annotated
 from polycnc.messages import text
 from polycnc.messages.catalogue import listed
 

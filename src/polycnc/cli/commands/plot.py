@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from enum import StrEnum
-from typing import TYPE_CHECKING, Annotated
 
 from polycnc.cli import options
 from polycnc.cli.console import fail, note
@@ -11,6 +10,7 @@ from polycnc.cli.declaration import Argument, Commands, Option, Path
 from polycnc.cli.diagnostics import diagnostics_of
 from polycnc.cli.progress import Waiting, WaitingForRun
 from polycnc.deferred.modules import is_installed
+from polycnc.deferred.typing import TYPE_CHECKING, Annotated
 from polycnc.messages import text
 
 if TYPE_CHECKING:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from typing import IO, TYPE_CHECKING, Annotated, Any
 
 from polycnc.cli import options
 from polycnc.cli.console import fail, show, standard_input
@@ -12,6 +11,7 @@ from polycnc.cli.progress import WaitingForRun
 from polycnc.deferred.contexts import ExitStack
 from polycnc.deferred.modules import is_installed
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import IO, TYPE_CHECKING, Annotated, Any
 from polycnc.messages import text
 from polycnc.messages.catalogue import listed
 from polycnc.toolpath.events import Print

@@ -5,12 +5,12 @@ from __future__ import annotations
 import sys
 from contextlib import contextmanager
 from enum import StrEnum
-from typing import TYPE_CHECKING, Annotated
 
 from polycnc.cli import options
 from polycnc.cli.console import coloured, note, say
 from polycnc.cli.declaration import Argument, Commands, Option, Path
 from polycnc.cli.progress import Waiting
+from polycnc.deferred.typing import TYPE_CHECKING, Annotated
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from array import array
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.path import END_OF_BLOCK, Move
 from polycnc.compensation.runs.compiled import lead
 from polycnc.compensation.runs.kernels import Offset
 from polycnc.compensation.step import Role, Step
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import offset
 from polycnc.geometry.offset import Corner
 from polycnc.toolpath.kinds import Kind

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from math import sin
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import offset
 from polycnc.geometry.vectors import cross, dot, minus
 from polycnc.machine.kinematics import unit

@@ -6,7 +6,8 @@ Where what lies beside the programmed path bends, and where the tool turns, a ch
 from __future__ import annotations
 
 from math import dist, radians
-from typing import TYPE_CHECKING, Protocol
+
+from polycnc.deferred.typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -9,9 +9,9 @@ reach - the standard's - a·n·m) / (n·v)` along v: with a cylinder nothing whe
 from __future__ import annotations
 
 from math import sqrt
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.vectors import dot, minus, times
 
 if TYPE_CHECKING:

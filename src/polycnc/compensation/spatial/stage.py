@@ -11,7 +11,6 @@ from __future__ import annotations
 from functools import partial
 from itertools import pairwise
 from math import acos, ceil, degrees, sqrt
-from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move, PlacedEvent, Rank, Stage
@@ -19,6 +18,7 @@ from polycnc.compensation.spatial.arcs import Rest, between, crossing, is_across
 from polycnc.compensation.spatial.chords import CHORD_ERROR_MM, bends, doubled, strays
 from polycnc.compensation.spatial.rules import TURNS_ALONG, TURNS_BEFORE, TURNS_NOT
 from polycnc.deferred.records import dataclass, replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.arcs import parts_for_chord_error
 from polycnc.geometry.vectors import cross, dot, minus, times
 from polycnc.messages import AlarmError

@@ -13,9 +13,9 @@ behind the interpolation, 1769.
 from __future__ import annotations
 
 from math import inf
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.toolpath.motion_settings import Ramp
 
 if TYPE_CHECKING:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.macro_b.code_calls import CodeCall, CodeCalls
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from polycnc.control.fanuc.parameters import FanucAxisParameters, FanucParameters

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, cast
-
 from polycnc.control.word_address.auxiliary import functions
+from polycnc.deferred.typing import TYPE_CHECKING, cast
 
 if TYPE_CHECKING:
     from polycnc.control.fanuc.parameters import FanucAxisParameters, FanucParameters

@@ -6,11 +6,10 @@ A row names a range of variables and what reads and writes it; the functions get
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.word_address.auxiliary.functions import Clocks
 from polycnc.control.word_address.macro_b.variables import ControlSwitches, Read, SystemRange, Write
 from polycnc.control.word_address.memory import SentCodes
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.toolpath.events import Message
 
 if TYPE_CHECKING:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from math import atan2, degrees, hypot
-from typing import TYPE_CHECKING
 
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.vectors import axis_vector, cross, dot
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.fanuc.milling.cycles import CYCLES, MILLING_DRILLING, check_rigid_tapping
 from polycnc.control.meldas.parameters import MeldasParameters
 from polycnc.control.word_address.cycles.drilling import CycleState, third_axis
@@ -11,6 +9,7 @@ from polycnc.control.word_address.cycles.shift import shift_by_i_and_j
 from polycnc.control.word_address.motion.path import FEED_MODES
 from polycnc.control.word_address.tools.radius import active_compensation
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.control.fanuc.milling.codes import ADDRESSES, POWER_ON
 from polycnc.control.meldas.alarm_codes import ALARMS
@@ -18,6 +17,7 @@ from polycnc.control.word_address.machining_centre import MillingControl, hartfo
 from polycnc.control.word_address.macro_b.variables import MacroMemory
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING, ClassVar
 from polycnc.toolpath.motion_settings import Ramp
 
 with loaded_when_called():

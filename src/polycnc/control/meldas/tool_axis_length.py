@@ -8,7 +8,6 @@ axes go straight, for the tip is not led (that is G43.4). A table turns nothing 
 from __future__ import annotations
 
 from math import nan
-from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.milling import standing_system
 from polycnc.control.word_address.motion.path import reach
@@ -16,6 +15,7 @@ from polycnc.control.word_address.states import LengthState, TiltState
 from polycnc.control.word_address.tools import length
 from polycnc.control.word_address.tools.length import ALONG_TOOL
 from polycnc.control.word_address.transformations.tool_center_point import angles_named
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:

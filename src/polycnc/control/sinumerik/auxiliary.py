@@ -6,8 +6,6 @@ place of M functions are `replaced.py`.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.machine_words import refuse
 from polycnc.control.sinumerik.couplings import masters, synchronous
 from polycnc.control.sinumerik.couplings.spindle_pairs import turns
@@ -31,6 +29,7 @@ from polycnc.control.sinumerik.tools.sides import FACES
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.variables import part_counts
 from polycnc.deferred.functions import loaded_when_called
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import Auxiliary
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from functools import cached_property
 from math import inf
-from typing import TYPE_CHECKING, Any, ClassVar
 
 from polycnc.channel.states.unchanging import unchanging
 from polycnc.control.sinumerik import axis_names, gcodes, replaced, tables
@@ -42,6 +41,7 @@ from polycnc.control.sinumerik.transformations import seat, smoothing
 from polycnc.control.sinumerik.variables import part_counts, run_times
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING, Any, ClassVar
 from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.emitter import nc_shapes
 from polycnc.language.sinumerik.executable import SinumerikProgram

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol, TypeAlias
-
 from polycnc.control.interface import Control
+from polycnc.deferred.typing import TYPE_CHECKING, Protocol, TypeAlias
 from polycnc.language.sinumerik.interface import LanguageControl
 
 if TYPE_CHECKING:

@@ -9,13 +9,12 @@ Source: list of machine data, and of system variables by name.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from polycnc.channel.stack import LevelKind
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.machine_words import refuse
 from polycnc.control.sinumerik.m_functions import NEVER_CALL, PROGRAM_ENDS
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.language.sinumerik.statements.calls import call_without_arguments, named_program
 from polycnc.messages import AlarmError

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.states.state import Lifetime, end_of
 from polycnc.control.sinumerik import gcodes, tables
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
@@ -13,6 +11,7 @@ from polycnc.control.sinumerik.limits import working_area
 from polycnc.control.sinumerik.tools import selection
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.deferred.functions import loaded_when_called
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.sinumerik.names.frame import NEUTRAL
 
 with loaded_when_called():

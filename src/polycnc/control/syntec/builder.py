@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.word_address.block.codes import GCode
 from polycnc.control.word_address.block.plan import Builder
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.machine.model import program_called
 
 if TYPE_CHECKING:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from functools import cached_property
 from math import hypot, inf
-from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.channel.stack import LevelKind
 from polycnc.control.syntec import cycles, tapping
@@ -29,6 +28,7 @@ from polycnc.control.word_address.coordinates import frames
 from polycnc.control.word_address.states import CurveState
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING, ClassVar
 from polycnc.language.syntec import executable, iso_grammar
 from polycnc.messages import AlarmError
 from polycnc.program import Form

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
+from polycnc.deferred.typing import TYPE_CHECKING, TypeAlias
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel

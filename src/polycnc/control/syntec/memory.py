@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.coordinates.diameters import DiameterState
 from polycnc.control.syntec.macros.variables import (
@@ -20,6 +19,7 @@ from polycnc.control.syntec.macros.variables import (
 from polycnc.control.syntec.units import decimals, least_unit
 from polycnc.control.word_address.memory import Memory
 from polycnc.deferred.functions import loaded_when_called
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.syntec.expressions import NO_SUCH_VARIABLE
 from polycnc.language.syntec.values import VACANT, Text, Vacant, Value, whole
 from polycnc.messages import AlarmError

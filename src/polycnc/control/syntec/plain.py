@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.syntec.motion.arcs import ArcState
 from polycnc.control.word_address.block.plain import PlainBlocks
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.bulk import Spelling
 from polycnc.language.syntec.blocks import MAX_DIGITS
 

@@ -6,11 +6,10 @@ Sources: manual 2.66, 2.84 to 2.86, chapter 6. A pair of spindles is in step as 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.bulk import Note, declare
 from polycnc.toolpath.events import SpindleSpeed
 

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.states.state import Lifetime, State, retained
 from polycnc.control.word_address.auxiliary.overrides import OverrideState
 from polycnc.control.word_address.cycles.drilling import CycleState, lead_from_feed, turn_by_m_code
 from polycnc.cycles.drilling.holes import Action, Stroke
 from polycnc.deferred.records import dataclass, replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath import Kind

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from functools import cached_property
 from math import inf
-from typing import TYPE_CHECKING, Any, ClassVar
 
 from polycnc.channel.stack import LevelKind
 from polycnc.channel.states.unchanging import unchanging
@@ -23,6 +22,7 @@ from polycnc.control.word_address.motion.path_modes import corner_mode
 from polycnc.control.word_address.states import CylinderState, PlaneAxes, PolarState
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING, Any, ClassVar
 from polycnc.geometry.arcs import radius_mismatch
 from polycnc.language.bulk import Spelling
 from polycnc.language.word_address import Grammar, WordAddressProgram

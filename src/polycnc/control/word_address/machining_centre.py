@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from functools import cache
 from math import inf
-from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.control.word_address import rules
 from polycnc.control.word_address.auxiliary.interlocks import MOVES_RULE
@@ -18,6 +17,7 @@ from polycnc.control.word_address.macro_b.custom_macro import CustomMacroControl
 from polycnc.control.word_address.motion import path
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING, ClassVar
 
 with loaded_when_called():
     from polycnc.control.word_address.tools import length

@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 from math import copysign
-from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.channel.states.state import Lifetime, State, retained
 from polycnc.deferred.records import dataclass, field, replace
+from polycnc.deferred.typing import TYPE_CHECKING, ClassVar
 from polycnc.geometry.frames import IDENTITY, Frame
 from polycnc.memory.encoding import encoded
 from polycnc.memory.retained import PARAMETERS, TOOL_OFFSETS, WORK_OFFSETS
 
 if TYPE_CHECKING:
-    from typing import Self
-
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.family import WordAddressChannel
+    from polycnc.deferred.typing import Self
     from polycnc.machine.setup.values import ParameterKey, Tool, Value
 
 #: Name of the offset that is added to every work coordinate system.

@@ -7,9 +7,8 @@ such parameter, the constant holds. Names in capitals are FANUC's mnemonics; wha
 
 from __future__ import annotations
 
-from typing import TypeVar
-
 from polycnc.control.parameters import AxisParameters, Constant, ControlParameters, Parameter
+from polycnc.deferred.typing import TypeVar
 
 
 class MacroAxisParameters(AxisParameters):

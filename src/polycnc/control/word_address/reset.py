@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.states.state import Lifetime, end_of
 from polycnc.control.word_address.coordinates.systems import refresh_zero
 from polycnc.control.word_address.transformations import (
@@ -12,6 +10,7 @@ from polycnc.control.word_address.transformations import (
     normal_line,
     polar_interpolation,
 )
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.family import WordAddressChannel

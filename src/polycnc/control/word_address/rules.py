@@ -6,11 +6,10 @@ feature's module.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.coordinates.tip import TIP_CODES
 from polycnc.deferred.functions import loaded_when_called
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.block.plan import Builder

@@ -5,10 +5,9 @@ So a block that only asks whether a plane is tilted loads nothing of tilted plan
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import IDENTITY
 
 if TYPE_CHECKING:

@@ -5,11 +5,10 @@ Source: SINUMERIK cycles, deep hole drilling (CYCLE83, CYCLE830) and tapping in 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.cycles.count import checked
 from polycnc.cycles.drilling.holes import Action, Stroke
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence

@@ -5,9 +5,9 @@ from __future__ import annotations
 from enum import IntEnum
 from itertools import pairwise
 from math import inf
-from typing import TYPE_CHECKING
 
 from polycnc.cycles.drilling.holes import Action, Hole, Stroke, peck_by_peck, taps
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Container, Iterator

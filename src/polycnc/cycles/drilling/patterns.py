@@ -5,8 +5,7 @@ Angles are degrees, counter-clockwise from the first axis.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import cos_sin_deg
 
 if TYPE_CHECKING:

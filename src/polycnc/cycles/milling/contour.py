@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from enum import Enum
-from typing import TYPE_CHECKING
 
 from polycnc.cycles.milling.stroke import MillStroke, arc, cut, rapid
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:

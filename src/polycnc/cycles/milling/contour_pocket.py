@@ -9,13 +9,13 @@ goes straight towards the nearest wall, which never leaves what it may reach.
 from __future__ import annotations
 
 from math import radians, tan
-from typing import TYPE_CHECKING
 
 from polycnc.cycles.milling import region
 from polycnc.cycles.milling.pockets import Insertion
 from polycnc.cycles.milling.region import NEARER_MM, Loop, RegionError
 from polycnc.cycles.milling.stroke import arc, cut, rapid, steps
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import arcs, distance, offset
 from polycnc.geometry.tolerances import NO_WAY
 

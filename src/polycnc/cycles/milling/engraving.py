@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from math import atan2, cos, hypot, sin
-from typing import TYPE_CHECKING
 
 from polycnc.cycles.milling.letters import HEIGHT, WIDTH, drawn
 from polycnc.cycles.milling.stroke import Place, cut, rapid
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

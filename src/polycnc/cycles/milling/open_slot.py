@@ -5,11 +5,10 @@ Its own x runs along the slot from the middle of the open side, y across; the cl
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.cycles.count import parts
 from polycnc.cycles.milling.stroke import Place, arc, cut, rapid
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.tolerances import NO_WAY
 
 if TYPE_CHECKING:

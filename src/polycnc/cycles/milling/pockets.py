@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from enum import Enum
 from math import radians, tan
-from typing import TYPE_CHECKING
 
 from polycnc.cycles.count import parts
 from polycnc.cycles.milling.stroke import Cavity, Place, arc, cut, rapid, ring, steps
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.tolerances import NO_WAY
 
 if TYPE_CHECKING:

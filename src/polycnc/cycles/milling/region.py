@@ -10,8 +10,8 @@ handed on that comes nearer to a wall than it was asked for; `RegionError` where
 from __future__ import annotations
 
 from math import atan2, floor, hypot, pi
-from typing import TYPE_CHECKING
 
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import arcs, distance, offset
 from polycnc.geometry.tolerances import NO_WAY
 

@@ -10,13 +10,13 @@ roughing.
 from __future__ import annotations
 
 from math import ceil
-from typing import TYPE_CHECKING
 
 from polycnc.cycles.milling import contour_pocket, region
 from polycnc.cycles.milling.contour_pocket import ContourPocket, Pass
 from polycnc.cycles.milling.stroke import cut, rapid
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass, replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import arcs
 
 if TYPE_CHECKING:

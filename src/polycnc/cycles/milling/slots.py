@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from math import asin, degrees, hypot, radians, tan
-from typing import TYPE_CHECKING, Protocol
 
 from polycnc.cycles.milling.pockets import Insertion
 from polycnc.cycles.milling.stroke import Cavity, Place, arc, cut, rapid, slot_ring, steps
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING, Protocol
 from polycnc.geometry.frames import cos_sin_deg
 from polycnc.geometry.tolerances import NO_WAY
 

@@ -6,11 +6,11 @@ Source: SINUMERIK milling cycles (CYCLE76, CYCLE77, CYCLE79).
 from __future__ import annotations
 
 from math import pi, tan
-from typing import TYPE_CHECKING, Protocol
 
 from polycnc.cycles.milling.stroke import Place, arc, cut, rapid, ring
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from math import nan
-from typing import TYPE_CHECKING
 
 from polycnc.cycles.count import parts
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import cos_sin_deg
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.toolpath import Kind

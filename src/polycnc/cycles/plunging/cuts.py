@@ -7,13 +7,13 @@ straight up from wherever it stands the way is open, for a profile has no overha
 from __future__ import annotations
 
 from enum import Enum
-from typing import TYPE_CHECKING
 
 from polycnc.cycles.count import parts
 from polycnc.cycles.plunging.profile import SNUG_MM, Profile, level, stretches
 from polycnc.cycles.turning.contour import Piece, slopes, turned_round
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import offset
 from polycnc.geometry.tolerances import NO_WAY
 

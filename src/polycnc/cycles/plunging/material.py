@@ -6,11 +6,10 @@ stock are the envelope of both, exact with their arcs.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.cycles.plunging.profile import Profile, cropped, dilated, envelope, moved, swept, upright
 from polycnc.cycles.turning.contour import Piece, slopes
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import offset
 from polycnc.geometry.tolerances import NO_WAY
 

@@ -10,11 +10,11 @@ from bisect import bisect_right
 from functools import cached_property
 from itertools import pairwise
 from math import hypot, sqrt
-from typing import TYPE_CHECKING
 
 from polycnc.cycles.count import checked
 from polycnc.cycles.turning.contour import Piece, reversal, shifted, slopes, turned_round
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import arcs, offset
 from polycnc.geometry.tolerances import NO_WAY
 

@@ -8,9 +8,9 @@ inside of the material.
 from __future__ import annotations
 
 from math import copysign, hypot
-from typing import TYPE_CHECKING
 
 from polycnc.cycles.turning.contour import Contour, Piece, shifted, slopes
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import arcs, offset
 from polycnc.geometry.tolerances import NO_WAY
 

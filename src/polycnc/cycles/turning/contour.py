@@ -9,10 +9,10 @@ from __future__ import annotations
 from functools import lru_cache
 from itertools import pairwise
 from math import pi, sqrt
-from typing import TYPE_CHECKING
 
 from polycnc.cycles.turning.stroke import PlaneStroke
 from polycnc.deferred.records import dataclass, replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import arcs, offset
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.toolpath import Kind

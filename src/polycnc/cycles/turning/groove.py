@@ -13,12 +13,12 @@ from __future__ import annotations
 
 from functools import cached_property
 from math import cos, hypot, radians, tan
-from typing import TYPE_CHECKING
 
 from polycnc.cycles.count import parts
 from polycnc.cycles.turning.contour import Piece, crossings, parallel, shifted, slopes, swapped
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import arcs, offset
 from polycnc.geometry.tolerances import NO_WAY
 

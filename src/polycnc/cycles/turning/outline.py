@@ -7,9 +7,9 @@ ends, its blank how far it reaches in front of it and above it.
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 from polycnc.cycles.turning.contour import Piece, points, runs, slopes, swapped
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import offset
 from polycnc.geometry.tolerances import NO_WAY
 

@@ -6,10 +6,10 @@ Coordinates: `a` is the direction of the pecks, `b` the direction in which colum
 from __future__ import annotations
 
 from math import copysign
-from typing import TYPE_CHECKING
 
 from polycnc.cycles.turning.stroke import PlaneStroke, feed, rapid
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.tolerances import NO_WAY
 
 if TYPE_CHECKING:

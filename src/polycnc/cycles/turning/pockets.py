@@ -12,11 +12,11 @@ the next one, from the start side on. A step that lies less deep than a stroke i
 from __future__ import annotations
 
 from math import copysign
-from typing import TYPE_CHECKING
 
 from polycnc.cycles.turning.contour import bumps, deepest, runs, slopes
 from polycnc.cycles.turning.stroke import PlaneStroke, feed
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.toolpath import Kind
 

@@ -7,11 +7,11 @@ way from the start point to the shape's first point; the shape follows.
 from __future__ import annotations
 
 from math import copysign, hypot
-from typing import TYPE_CHECKING
 
 from polycnc.cycles.turning.contour import gaps, shifted
 from polycnc.cycles.turning.pockets import clear_pockets
 from polycnc.cycles.turning.stroke import PlaneStroke, feed
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.toolpath import Kind
 

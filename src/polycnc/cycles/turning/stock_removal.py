@@ -11,12 +11,12 @@ from __future__ import annotations
 from functools import lru_cache
 from itertools import pairwise
 from math import copysign, hypot
-from typing import TYPE_CHECKING
 
 from polycnc.cycles.count import parts
 from polycnc.cycles.turning.contour import Gap, Piece, climb, crossings, gaps, points, swapped
 from polycnc.cycles.turning.stroke import PlaneStroke
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import arcs, offset
 from polycnc.toolpath import Kind
 

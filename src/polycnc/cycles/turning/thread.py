@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from math import copysign, radians, sqrt, tan
-from typing import TYPE_CHECKING
 
 from polycnc.cycles.turning.stroke import PlaneStroke, rapid
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:

@@ -6,11 +6,11 @@ Points are (a, b): `a` along the thread, `b` the radius.
 from __future__ import annotations
 
 from math import copysign, radians, sqrt, tan
-from typing import TYPE_CHECKING
 
 from polycnc.cycles import count
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

@@ -10,11 +10,11 @@ shoulder as well and leaves it on a slope of 8 degrees.
 from __future__ import annotations
 
 from math import cos, radians, sin, tan
-from typing import TYPE_CHECKING
 
 from polycnc.cycles.turning.contour import Piece
 from polycnc.cycles.turning.groove import Corner, GrooveError, with_corner
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import offset
 
 if TYPE_CHECKING:

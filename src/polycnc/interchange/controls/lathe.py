@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.fanuc.lathe.tools import files
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.interchange.controls import mills, parameters
 from polycnc.interchange.controls.kinds import TAPE, Kind, Texts
 

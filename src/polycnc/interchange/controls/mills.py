@@ -8,11 +8,10 @@ it.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.word_address.coordinates import on_table
 from polycnc.control.word_address.memory import ToolOffsets
 from polycnc.control.word_address.tools.data_input import WORK_SYSTEMS
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.units import INCH_MM
 from polycnc.interchange import numbers
 from polycnc.interchange.controls import parameters

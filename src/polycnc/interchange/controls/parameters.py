@@ -8,7 +8,6 @@ are blocks of G10 L50: `N1006 P1 Q3 R0`, P the axis, Q the bit (FANUC macro B re
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Any
 
 from polycnc.control.data_files import DataFileError
 from polycnc.control.parameters import known_parameters
@@ -16,6 +15,7 @@ from polycnc.control.word_address.macro_b.parameter_input import set_parameter
 from polycnc.control.word_address.memory import ParameterTable
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.interchange import numbers
 from polycnc.machine.setup.values import ParameterKey
 from polycnc.messages import text

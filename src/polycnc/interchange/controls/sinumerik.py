@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.sinumerik.data.archive import AREAS
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.interchange.controls.kinds import ARCHIVE, Kind, Texts, Writer
 
 if TYPE_CHECKING:

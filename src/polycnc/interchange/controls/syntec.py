@@ -6,13 +6,12 @@ acts no program writes; the setup has them.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.syntec.coordinates.systems import WORK_SYSTEMS
 from polycnc.control.syntec.macros.machine_parameters import WrittenParameters
 from polycnc.control.syntec.macros.variables import USER, GlobalState, SpaceState
 from polycnc.control.syntec.units import decimals
 from polycnc.control.word_address.memory import EXTERNAL
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.units import INCH_MM
 from polycnc.interchange import numbers
 from polycnc.interchange.controls.kinds import FILES, Kind, Texts

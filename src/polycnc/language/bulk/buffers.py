@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from array import array
-from typing import TYPE_CHECKING
 
 from polycnc.channel.states.unchanging import unchanging
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.bulk.layout import Columns, NoteRecord
 from polycnc.program.long_text import LongText
 from polycnc.program.pages import CONTROLS

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from array import array
-from typing import TYPE_CHECKING
 
 from polycnc.channel.states.unchanging import unchanging
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.bulk.compiled import LIBRARY
 from polycnc.language.bulk.layout import NoteRecord
 from polycnc.transformation.orientation.linkage import room_for

@@ -10,10 +10,10 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Iterable
 from enum import IntEnum
 from math import inf
-from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 from polycnc.language.bulk.conversions import Reading
 
 if TYPE_CHECKING:

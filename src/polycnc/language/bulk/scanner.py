@@ -5,10 +5,10 @@ from __future__ import annotations
 from array import array
 from functools import cached_property
 from math import inf
-from typing import TYPE_CHECKING, Any, Protocol
 
 from polycnc.channel.states.unchanging import unchanging
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING, Any, Protocol
 from polycnc.language.bulk import layout
 from polycnc.language.bulk.buffers import Room, Window
 from polycnc.language.bulk.layout import Columns, State, Tables, new_state

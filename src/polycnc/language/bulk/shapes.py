@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from array import array
-from typing import TYPE_CHECKING
 
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.bulk import layout
 from polycnc.language.bulk.recipe import AS_TYPED, Arc, Call, Return, Straight, Word
 

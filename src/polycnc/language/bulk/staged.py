@@ -7,9 +7,8 @@ note end such a run: they are the interpreter's.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.moves.path import Move, Run
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.bulk import layout
 from polycnc.toolpath.kinds import CURVE_WIDTH, NO_CURVE, Kind
 

@@ -10,8 +10,8 @@ block to block are not in the tree: a `Lifted` stands for each.
 from __future__ import annotations
 
 from functools import cache, lru_cache
-from typing import TYPE_CHECKING, Any, Self
 
+from polycnc.deferred.typing import TYPE_CHECKING, Any, Self
 from polycnc.language.expressions import nodes
 from polycnc.language.expressions.nodes import Kind
 

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.expressions.code import Lifted, assigned, attribute, call, dotted, name
 
 if TYPE_CHECKING:

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from sys import float_info
-from typing import Generic, TypeVar
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import Generic, TypeVar
 from polycnc.language.expressions import code, nodes
 from polycnc.language.expressions.code import Code, Lifted
 from polycnc.language.expressions.nodes import Kind

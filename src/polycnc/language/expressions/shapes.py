@@ -9,9 +9,9 @@ from __future__ import annotations
 
 from functools import lru_cache
 from types import CodeType, FunctionType
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.expressions.code import Body, given, node
 
 if TYPE_CHECKING:

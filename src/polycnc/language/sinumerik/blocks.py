@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.expressions.code import Code, constant, quoted, sequence
 from polycnc.language.sinumerik import keywords, runtime
 from polycnc.language.sinumerik.actions.block import action, fine_offset_of_block

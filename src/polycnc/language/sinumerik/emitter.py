@@ -6,9 +6,8 @@ once for each shape of block, not for each block.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.expressions import nodes
 from polycnc.language.expressions.code import (
     PASS,

@@ -9,11 +9,11 @@ from __future__ import annotations
 import re
 from array import array
 from bisect import bisect_left
-from typing import TYPE_CHECKING
 
 from polycnc.channel.states.unchanging import unchanging
 from polycnc.channel.steps import forget_steps, kept_steps
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.expressions.hot_loop import HotLoop
 from polycnc.language.expressions.joined import MOST_JOINS, led_by
 from polycnc.language.sinumerik import iso_dialect

@@ -7,9 +7,9 @@ number), F (6 decimals), E, G, S (text), X (hexadecimal); `%%` is a percent sign
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.sinumerik.names.values import MAX_STRING, Axis, round_half_up
 from polycnc.messages import AlarmError
 

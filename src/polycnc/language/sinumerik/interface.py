@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
-
 from polycnc.channel.stack import Executable
 from polycnc.channel.states.state import Lifetime, State, lasting, retained
 from polycnc.channel.states.unchanging import unchanging
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.memory.retained import USER_VARIABLES, VARIABLES
 

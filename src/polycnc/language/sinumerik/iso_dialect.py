@@ -10,10 +10,10 @@ ISO milling.
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.sinumerik.errors import not_supported, syntax
 from polycnc.language.sinumerik.lexer import prefix_of
 

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.expressions import nodes
 from polycnc.language.expressions.code import Code, Lifted, assigned, constant, dotted, item, quoted, sequence
 from polycnc.language.expressions.operators import TIGHTEST

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NoReturn
-
+from polycnc.deferred.typing import TYPE_CHECKING, NoReturn
 from polycnc.language.sinumerik.errors import arithmetic
 from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError

@@ -23,9 +23,9 @@ from math import (
     tan,
     trunc,
 )
-from typing import TYPE_CHECKING, Any
 
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.expressions.operators import overflow
 from polycnc.language.sinumerik.errors import arithmetic
 from polycnc.language.sinumerik.lexer import number_of

@@ -8,10 +8,10 @@ code. A shape is learnt only if the compiler itself lifted exactly the numbers t
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from polycnc.channel.steps import Step

@@ -8,9 +8,9 @@ decimal point, a Double as with one; a VACANT word counts as not written. See `l
 from __future__ import annotations
 
 from math import isfinite
-from typing import TYPE_CHECKING, Any
 
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.expressions.code import sequence
 from polycnc.language.syntec.expressions import ABOVE_COMPARISONS, OPERATORS, Reader
 from polycnc.language.syntec.tokens import Token, fault

@@ -5,11 +5,11 @@ from __future__ import annotations
 import re
 from bisect import bisect_left, bisect_right
 from operator import attrgetter
-from typing import TYPE_CHECKING
 
 from polycnc.channel.states.unchanging import unchanging
 from polycnc.channel.steps import several
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.syntec.blocks import TypedBlock
 from polycnc.language.syntec.expressions import syntec_shapes
 from polycnc.language.syntec.layout import NO_SEQUENCE

@@ -9,8 +9,8 @@ function. The code works on `m`, the channel's memory:
 from __future__ import annotations
 
 from math import isfinite
-from typing import TYPE_CHECKING, Any, Protocol
 
+from polycnc.deferred.typing import TYPE_CHECKING, Any, Protocol
 from polycnc.language.expressions import nodes
 from polycnc.language.expressions.code import Code, Lifted, call, constant, name, unary
 from polycnc.language.expressions.cursor import Cursor

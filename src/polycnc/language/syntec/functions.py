@@ -7,9 +7,9 @@ them.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import cos_sin_deg
 from polycnc.language.syntec.values import DOMAIN, WRONG_TYPE, Text, Value, number
 from polycnc.messages import AlarmError

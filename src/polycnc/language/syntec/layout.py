@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
-
 from polycnc.channel.stack import Executable
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 from polycnc.language.syntec.values import Text, Vacant, is_true, storable, whole
 from polycnc.messages import AlarmError
 

@@ -12,8 +12,7 @@ statement that cannot be read. `check` lists the mistakes of a file without runn
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.expressions.operators import TIGHTEST
 from polycnc.language.syntec.blocks import BlockReader
 from polycnc.language.syntec.expressions import LAST_LOCAL, number_value

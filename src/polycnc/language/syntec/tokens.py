@@ -8,10 +8,10 @@ end a statement.
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.syntec.functions import FUNCTIONS
 from polycnc.messages import AlarmError
 

@@ -8,8 +8,8 @@ counts least input units), so it is kept through every operation. Arithmetic and
 from __future__ import annotations
 
 from math import isfinite, trunc
-from typing import TypeAlias
 
+from polycnc.deferred.typing import TypeAlias
 from polycnc.messages import AlarmError
 
 DOMAIN = "COR-004"

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_right
-from typing import TYPE_CHECKING
 
 from polycnc.channel.states.unchanging import unchanging
 from polycnc.channel.steps import kept_steps, several
 from polycnc.deferred.records import dataclass, field
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.expressions.code import listed
 from polycnc.language.expressions.hot_loop import HotLoop
 from polycnc.language.expressions.joined import MAX_JOINED, MOST_JOINS, led_by

@@ -7,8 +7,8 @@ increment of lengths in the program's unit).
 from __future__ import annotations
 
 import math
-from typing import Any
 
+from polycnc.deferred.typing import Any
 from polycnc.geometry.frames import cos_sin_deg
 from polycnc.language.expressions.operators import overflow
 

@@ -11,8 +11,7 @@ Every block is counted, and near the block limit (`Channel.joined_below`) only t
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.expressions import joined, nodes
 from polycnc.language.expressions.code import (
     added,

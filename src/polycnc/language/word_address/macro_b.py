@@ -10,10 +10,10 @@ from __future__ import annotations
 
 import re
 from math import isinf
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.expressions import nodes
 from polycnc.language.expressions.code import (
     Code,

@@ -11,10 +11,10 @@ as they are written, so a number of which the reader says nothing is never taken
 from __future__ import annotations
 
 from operator import call, itemgetter
-from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING, Protocol, TypeAlias
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Sequence

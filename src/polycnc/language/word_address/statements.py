@@ -7,10 +7,10 @@ steps in `channel.level.data`, so that a jump into a loop is found out at its EN
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Protocol
 
 from polycnc.deferred.records import dataclass
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING, Protocol
 from polycnc.language.expressions.code import assigned
 from polycnc.language.expressions.shapes import with_values
 from polycnc.language.word_address.functions import round_half_away

@@ -19,8 +19,8 @@ An address is a letter, `,R`, or a letter with an index (`X1`, where the control
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
 
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.expressions.shapes import with_values
 
 if TYPE_CHECKING:

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
-
+from polycnc.deferred.typing import TYPE_CHECKING, TypeAlias
 from polycnc.machine.documents import yaml_values
 from polycnc.machine.setup.file import load_setup, parse_setup
 from polycnc.messages.files import read_utf_8

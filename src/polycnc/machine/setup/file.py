@@ -6,10 +6,10 @@ import re
 from collections.abc import Callable, Mapping
 from functools import partial
 from math import isfinite
-from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
 from polycnc.deferred.paths import suffix_of, text_of
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 from polycnc.machine.documents import DocumentError, toml_values, yaml_values
 from polycnc.machine.errors import SetupError, nearest
 from polycnc.machine.places import Key, toml_place, yaml_place

@@ -7,16 +7,16 @@ example): only the control knows what they mean.
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass, field
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
-    from typing import Self
 
+    from polycnc.deferred.typing import Self
     from polycnc.geometry.surfaces import Surface
 
 Value = float | int | str | bool | None | tuple["Value", ...]

@@ -6,8 +6,8 @@ The linear axes follow the rotary ones; the tip stays where it is on the work (S
 from __future__ import annotations
 
 from math import inf, sqrt
-from typing import TYPE_CHECKING
 
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.tolerances import NO_WAY
 
 if TYPE_CHECKING:

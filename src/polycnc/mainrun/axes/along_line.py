@@ -7,8 +7,8 @@ With frames that turn, or behind a transformation, such a line is none of the ma
 from __future__ import annotations
 
 from math import inf
-from typing import TYPE_CHECKING
 
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.mainrun.axes.hand import ENDLESS
 

@@ -7,8 +7,7 @@ superimposed. To add one is `axis.add(source)`; nothing else has to know of it.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol
-
+from polycnc.deferred.typing import TYPE_CHECKING, Protocol
 from polycnc.mainrun.axes.hand import Hand
 from polycnc.mainrun.axes.manual_offset import ManualOffset
 

@@ -7,8 +7,8 @@ When a program has it again the place goes into the path.
 from __future__ import annotations
 
 from math import copysign, inf
-from typing import TYPE_CHECKING, Protocol
 
+from polycnc.deferred.typing import TYPE_CHECKING, Protocol
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.mainrun.axes.hand import ENDLESS
 from polycnc.mainrun.motion.axis_move import AxisMove, axis_move

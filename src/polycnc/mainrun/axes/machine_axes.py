@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from math import inf
-from typing import TYPE_CHECKING, Protocol
 
+from polycnc.deferred.typing import TYPE_CHECKING, Protocol
 from polycnc.mainrun.axes.axis import Axis
 from polycnc.toolpath.modes import AccelerationMode
 

@@ -7,11 +7,11 @@ from __future__ import annotations
 
 from contextlib import suppress
 from math import isfinite
-from typing import TYPE_CHECKING
 
 from polycnc.control.parameters import known_parameters
 from polycnc.control.word_address.macro_b.parameter_input import set_parameter
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.machine.setup.values import parameter_key
 from polycnc.mainrun.commands.states import Command
 from polycnc.mainrun.errors import CommandRefused

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from functools import partial
 from math import inf
-from typing import TYPE_CHECKING
 
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.machine.kinematics import Kinematics, unit
 from polycnc.mainrun.axes.about_tip import AboutTip

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.mainrun.commands.states import is_allowed
 from polycnc.mainrun.errors import MachineRefused, OutOfPlace
 

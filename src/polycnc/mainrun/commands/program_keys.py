@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.alarm_text import catalogue_of
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.mainrun.commands.search import ProgramTest, SearchMode, Wanted, at_line, search
 from polycnc.mainrun.commands.states import Command, Mode, State
 from polycnc.mainrun.errors import CommandRefused, OutOfPlace, SearchStopped

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.mainrun.errors import CommandRefused
 from polycnc.program import Form, ProgramStore, decode, names
 from polycnc.program.heads import sequence_number

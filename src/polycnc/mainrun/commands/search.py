@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from enum import StrEnum
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.mainrun.errors import CommandRefused
 from polycnc.mainrun.preparation.items import Block, Happening, Move
 from polycnc.toolpath import Context

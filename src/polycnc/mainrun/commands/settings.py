@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from math import inf
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.mainrun.preparation.items import Rates
 from polycnc.mainrun.reading.snapshot import PanelSwitches
 

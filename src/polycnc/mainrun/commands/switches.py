@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.mainrun.commands.programs import forget_skipped
 from polycnc.mainrun.commands.settings import SINGLE_BLOCK_KINDS
 from polycnc.mainrun.commands.states import Command, Mode

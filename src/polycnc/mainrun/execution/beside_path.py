@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.intervention import NOTHING_BACK
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.mainrun.motion.geometry import Line
 from polycnc.mainrun.preparation.items import Block, Move

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from itertools import islice, pairwise, takewhile
 from math import hypot
-from typing import TYPE_CHECKING
 
 from polycnc.channel.interpolator import BlockKind
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.mainrun.preparation.items import Block, BlockEnd, Move
 from polycnc.toolpath.context import PROGRAMMED, SHORTENED
 from polycnc.toolpath.modes import CornerMode

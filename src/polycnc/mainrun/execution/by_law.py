@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from math import inf, sqrt
-from typing import TYPE_CHECKING, Protocol
 
+from polycnc.deferred.typing import TYPE_CHECKING, Protocol
 from polycnc.mainrun.motion.law_motion import LawMotion
 from polycnc.mainrun.motion.law_run import NEAR_MM, LawRun
 from polycnc.mainrun.preparation.items import Move

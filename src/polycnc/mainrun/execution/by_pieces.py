@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from math import inf
-from typing import TYPE_CHECKING, Any
 
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.mainrun.motion.follower import Follower
 from polycnc.mainrun.motion.piece_motion import NO_WAYS, AxesMotion, Motion, PathMotion
 from polycnc.mainrun.motion.speed import FREE, Calm

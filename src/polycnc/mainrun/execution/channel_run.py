@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from math import inf
-from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.states import LastSkip
 from polycnc.deferred.records import dataclass, field, replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.mainrun.commands.programs import text_of
 from polycnc.mainrun.execution.interpolator import ChannelInterpolator
 from polycnc.mainrun.reading.snapshot import ActiveBlock, ChannelSnapshot, Positions, SpindleState, ToolState

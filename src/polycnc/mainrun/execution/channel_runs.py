@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from math import inf, nan
-from typing import TYPE_CHECKING, Protocol
 
 from polycnc.channel.channel import Channel
 from polycnc.channel.group import ChannelGroup
 from polycnc.channel.stack import LevelKind
 from polycnc.channel.states.state import Lifetime, end_of
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING, Protocol
 from polycnc.mainrun.axes.channel_axes import ChannelAxes
 from polycnc.mainrun.axes.machine_axes import MachineAxes
 from polycnc.mainrun.errors import CommandRefused

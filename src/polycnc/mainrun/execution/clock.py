@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from math import floor, inf
-from typing import Protocol
+
+from polycnc.deferred.typing import Protocol
 
 
 class Watch(Protocol):

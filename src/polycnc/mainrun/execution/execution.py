@@ -7,9 +7,9 @@ are, and an override or a hold takes effect at the very moment it is given.
 from __future__ import annotations
 
 from math import inf
-from typing import TYPE_CHECKING
 
 from polycnc.channel.waits import TYPED_BLOCKS_DONE, Why
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.mainrun.execution.beside_path import beyond_limits, stops_beside, taken_back
 from polycnc.mainrun.execution.by_law import ByLaw
 from polycnc.mainrun.execution.by_pieces import REST2, ByPieces

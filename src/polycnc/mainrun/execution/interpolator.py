@@ -7,10 +7,10 @@ when a block begins, something is prepared, a signal changes, or an axis comes t
 from __future__ import annotations
 
 from math import acos, degrees, inf
-from typing import TYPE_CHECKING, Protocol
 
 from polycnc.channel.interpolator import HANDWHEEL_OFFSET, BlockKind, Influence, OnPath
 from polycnc.channel.moves.travel import limits_of
+from polycnc.deferred.typing import TYPE_CHECKING, Protocol
 from polycnc.mainrun.axes.commanded import CommandedAxis
 from polycnc.mainrun.axes.overlay import Overlay
 from polycnc.mainrun.execution.block_parts import BlockParts, direction

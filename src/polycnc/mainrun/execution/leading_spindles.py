@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol
-
+from polycnc.deferred.typing import TYPE_CHECKING, Protocol
 from polycnc.mainrun.axes.commanded import OWN_PULL
 from polycnc.mainrun.axes.spindle_turning import DEGREES_S, SpindleTurning
 from polycnc.transformation.couplings.laws import Ratio

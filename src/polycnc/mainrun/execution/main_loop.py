@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from math import ceil, inf
-from typing import TYPE_CHECKING
 
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.mainrun.commands.states import State
 
 if TYPE_CHECKING:

@@ -6,9 +6,9 @@ from contextlib import suppress
 from functools import partial
 from math import inf
 from operator import attrgetter
-from typing import TYPE_CHECKING
 
 from polycnc.channel.waits import TYPED_BLOCKS_DONE
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.mainrun.commands.states import Mode, State
 from polycnc.mainrun.errors import CommandRefused
 from polycnc.mainrun.execution.channel_runs import ChannelRuns

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol
+from polycnc.deferred.typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
     from polycnc.mainrun.preparation.items import Block, Happening

@@ -10,8 +10,8 @@ interpolator.
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
-from typing import TYPE_CHECKING
 
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.motion.averaging import under_tent
 from polycnc.motion.kernels.jerk import window_s
 from polycnc.motion.law import Law

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from math import cos, hypot, sin
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.motion.kernels.columns import PLACES, Form, Limits, PieceRecord, State
 from polycnc.motion.pole import RING_MM
 

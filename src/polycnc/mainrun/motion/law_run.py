@@ -11,9 +11,9 @@ from array import array
 from bisect import bisect_right
 from itertools import pairwise
 from math import hypot, inf, sqrt
-from typing import TYPE_CHECKING, Protocol
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING, Protocol
 from polycnc.motion.law import Law, Phase
 from polycnc.motion.third_order.laws.courses import Axes
 from polycnc.motion.third_order.laws.courses import Phase as Fields

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from math import inf, sqrt
-from typing import TYPE_CHECKING, Any, Protocol
 
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING, Any, Protocol
 from polycnc.mainrun.motion.axis_move import AxisMove, axis_move
 from polycnc.mainrun.motion.geometry import Line
 from polycnc.mainrun.motion.speed import (

@@ -10,9 +10,9 @@ from __future__ import annotations
 
 from array import array
 from math import inf, sqrt
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.motion.averaging import way_after
 from polycnc.motion.kernels.alone import level_peak
 from polycnc.motion.kernels.columns import UNEVEN_FORMS, PieceRecord

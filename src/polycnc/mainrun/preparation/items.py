@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from math import inf
-from typing import TYPE_CHECKING, ClassVar, TypeAlias
 
 from polycnc.channel.interpolator import Influence
 from polycnc.channel.intervention import NOTHING_BACK
 from polycnc.deferred.records import dataclass, replace
+from polycnc.deferred.typing import TYPE_CHECKING, ClassVar, TypeAlias
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
 from math import inf
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.motion.kernels.columns import ContextRecord, new_state
 from polycnc.motion.third_order.laying.room import RunRoom
 from polycnc.motion.third_order.laying.rows import NO_STRETCH, add_row, begin_run, goes_by_law

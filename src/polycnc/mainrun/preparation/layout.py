@@ -8,11 +8,11 @@ out for a higher speed holds for a lower one. Where the axes rest, rows are laid
 from __future__ import annotations
 
 from array import array
-from typing import TYPE_CHECKING
 
 from polycnc.channel.states.unchanging import unchanging
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.kernels.layout import contents_of, put_back
 from polycnc.motion.kernels.columns import MAIN_RUN, RAPID, TAP, THREAD
 from polycnc.motion.time_constants import Use

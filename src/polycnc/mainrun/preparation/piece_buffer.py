@@ -8,8 +8,8 @@ from __future__ import annotations
 from array import array
 from itertools import pairwise
 from math import sqrt
-from typing import TYPE_CHECKING, Any, ClassVar
 
+from polycnc.deferred.typing import TYPE_CHECKING, Any, ClassVar
 from polycnc.mainrun.preparation.layout import Before
 from polycnc.motion.compiled import kernels
 from polycnc.motion.frames import with_axis

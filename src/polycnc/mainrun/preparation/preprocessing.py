@@ -10,11 +10,11 @@ from array import array
 from collections import deque
 from functools import partial
 from math import inf
-from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.intervention import NOTHING_BACK, MovedByHand
 from polycnc.channel.stack import LevelKind
 from polycnc.channel.waits import PREPROCESSING, TYPED_BLOCKS_DONE, Wait, Why
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.mainrun.preparation.items import (
     Block,
     BlockEnd,

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from itertools import islice
 from math import inf
-from typing import TYPE_CHECKING, Any
 
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.mainrun.motion.geometry import piece_cubic
 from polycnc.mainrun.preparation.items import Block, BlockEnd, Move, Piece
 from polycnc.mainrun.preparation.layout import Layout

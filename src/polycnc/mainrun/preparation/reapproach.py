@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from array import array
 from math import inf
-from typing import TYPE_CHECKING
 
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.mainrun.motion.geometry import Line
 from polycnc.mainrun.preparation.items import Move, Piece
 from polycnc.motion.kernels.chords import settle

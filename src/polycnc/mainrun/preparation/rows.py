@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from array import array
 from math import inf
-from typing import TYPE_CHECKING
 
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.mainrun.motion.geometry import row_arc, row_line, turn_arc
 from polycnc.mainrun.preparation.items import Move
 from polycnc.mainrun.preparation.layout import Before, PreparedRow

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from collections import deque
 from math import inf
-from typing import TYPE_CHECKING, TypeAlias
 
+from polycnc.deferred.typing import TYPE_CHECKING, TypeAlias
 from polycnc.mainrun.preparation.items import Block, BlockEnd
 from polycnc.motion.kernels.columns import LARGEST_OVERRIDE
 from polycnc.motion.standing.waits import ORIENT
@@ -18,10 +18,10 @@ from polycnc.toolpath.kinds import CURVE_WIDTH
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
-    from typing import Any
 
     from polycnc.channel.intervention import TakesBack
     from polycnc.channel.stack import Level
+    from polycnc.deferred.typing import Any
     from polycnc.mainrun.preparation.items import Item
     from polycnc.motion.standing.beside import Step
     from polycnc.toolpath import Event

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar
-
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING, ClassVar
 from polycnc.mainrun.preparation.items import Standing
 from polycnc.motion.standing.beside import Awaits, Begins
 from polycnc.motion.standing.zero_mark import Mark, Turns

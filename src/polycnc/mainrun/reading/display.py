@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.machine.layout import axis_layout
 from polycnc.mainrun.reading.snapshot import Positions
 from polycnc.motion.frames import path_of, real_of, work_of

@@ -8,7 +8,6 @@ power-on. Where the program needs the clock or another channel it ends.
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 from polycnc.channel.channel import DEFAULT_BLOCK_LIMIT, Channel
 from polycnc.channel.states.passes import Passes
@@ -16,6 +15,7 @@ from polycnc.channel.states.standstill import Standstill
 from polycnc.channel.waits import CHUNK, Why
 from polycnc.control.registry import control as control_of
 from polycnc.deferred.records import dataclass, replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.bulk.settings import Bulk
 from polycnc.memory.retained import copied
 from polycnc.toolpath import Toolpath

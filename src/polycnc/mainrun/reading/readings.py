@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.mainrun.commands.states import State
 from polycnc.mainrun.reading.snapshot import Overrides, Snapshot
 from polycnc.motion.frames import shown_by_hand

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from functools import partial
 from math import inf
-from typing import TYPE_CHECKING
 
 from polycnc.control.tool_change import WINDOW, stands_at_reference, z_stands_at_change_point
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from polycnc.control.machine_words import MachineSignals
 from polycnc.control.sinumerik.variables.stored import Stored
 from polycnc.control.syntec.macros.variables import BitState
 from polycnc.control.syntec.memory import SyntecMemory
 from polycnc.control.word_address.macro_b.variables import MacroMemory, MacroSignals
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.toolpath.events import SignalWrite
 
 if TYPE_CHECKING:

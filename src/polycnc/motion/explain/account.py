@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from array import array
 from math import inf
-from typing import TYPE_CHECKING
 
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.motion.explain.causes import Cause, Part
 from polycnc.motion.explain.compiled import kernels
 from polycnc.motion.explain.kernels.held import PACES, STEADY, Held, Ledger, Limit, Note, Tables

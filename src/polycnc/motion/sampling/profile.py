@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
 from xml.sax.saxutils import escape
 
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import text
 from polycnc.toolpath.plot import FONT, GRID_COLOUR, TEXT_COLOUR, TOOL_COLOURS, ticks
 

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from functools import cached_property
 from math import sqrt
-from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 import numpy as np
 
+from polycnc.deferred.typing import TYPE_CHECKING, TypeAlias, TypeVar
 from polycnc.motion.kernels.columns import PLACES, Form, PieceRecord
 from polycnc.motion.kernels.jerk import window_s
 from polycnc.motion.law import STEPS, Law, Phase

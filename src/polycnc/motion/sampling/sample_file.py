@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from array import array
-from typing import IO, TYPE_CHECKING, Protocol
+
+from polycnc.deferred.typing import IO, TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping

@@ -7,11 +7,11 @@ gives columns of samples, run by run; what it has given it forgets.
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.motion.kernels.columns import PieceRecord, piece_width
 from polycnc.motion.sampling.facts import Facts, RowFacts
 from polycnc.toolpath import Context, Kind

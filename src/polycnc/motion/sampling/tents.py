@@ -10,9 +10,10 @@ counted from far away are large, and their differences would be noise: they are 
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
+
+from polycnc.deferred.typing import TYPE_CHECKING, TypeAlias
 
 if TYPE_CHECKING:
     from collections.abc import Callable

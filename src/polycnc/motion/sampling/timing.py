@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.motion.kernels.columns import piece_width
 from polycnc.motion.planner import Planner
 from polycnc.toolpath import Kind, Toolpath

@@ -6,9 +6,8 @@ those of its clock.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol, TypeAlias
-
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING, Protocol, TypeAlias
 from polycnc.motion.standing.zero_mark import Mark, Turns
 
 if TYPE_CHECKING:

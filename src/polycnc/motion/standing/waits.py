@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from array import array
 from math import pi, sqrt
-from typing import TYPE_CHECKING, Literal
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING, Literal
 from polycnc.motion.kernels.columns import Form, PieceRecord
 from polycnc.motion.standing.beside import Awaits, Begins, Search, Turning
 from polycnc.motion.standing.zero_mark import Mark, SpindleAngle, Turns

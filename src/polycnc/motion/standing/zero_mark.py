@@ -9,9 +9,9 @@ plan and the main run ask the same objects, the samples wait as the plan does.
 from __future__ import annotations
 
 from math import sqrt
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.motion.kernels.columns import PieceRecord
 
 if TYPE_CHECKING:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from array import array
-from typing import TYPE_CHECKING
 
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.motion.third_order.bent_path import BentPath
 from polycnc.motion.third_order.compiled import kernels
 from polycnc.motion.third_order.parts import bent_part, cut_out

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from array import array
-from typing import TYPE_CHECKING, TypeAlias
 
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING, TypeAlias
 from polycnc.motion.third_order.laws.courses import Axes, Phase
 from polycnc.motion.third_order.laws.quickest import NoLawError, course_of, quickest
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from array import array
 from bisect import bisect_left, bisect_right
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.motion.third_order.bends.bending import NO_ROOM, NOT_WITHIN
 from polycnc.motion.third_order.bends.controls import Spline
 from polycnc.motion.third_order.bends.knots import Samples

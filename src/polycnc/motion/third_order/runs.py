@@ -12,9 +12,9 @@ last up to the rest.
 from __future__ import annotations
 
 from array import array
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.motion.third_order.compiled import kernels
 from polycnc.motion.third_order.parts import (
     Seam,

@@ -6,9 +6,9 @@ from array import array
 from bisect import bisect_left, bisect_right
 from collections import deque
 from math import ceil, inf
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.motion.third_order.compiled import kernels as bending
 from polycnc.motion.third_order.laws.compiled import kernels
 from polycnc.motion.third_order.laws.courses import Known, Phase

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, TypeAlias
 
 from polycnc.control.fanuc.lathe.tools import screens as lathe
 from polycnc.control.fanuc.lathe.tools.screens import Page
 from polycnc.deferred.records import dataclass
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING, TypeAlias
 from polycnc.mainrun import CommandRefused, Mode
 from polycnc.panel.keyed import number_of, whole_number_of
 from polycnc.panel.screens import forms

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from contextlib import suppress
-from typing import TYPE_CHECKING, TypeAlias
 
 from polycnc.control.sinumerik.variables import dialogs
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING, TypeAlias
 from polycnc.mainrun import CommandRefused, State
 from polycnc.messages import text
 from polycnc.panel.screens.masks import Mask, filled, masks_of, overview_of

@@ -9,10 +9,9 @@ Job planning 1.25.4. Behind the label a field may name a variable of the user, w
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.deferred.records import dataclass, field
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.mainrun import CommandRefused
 from polycnc.panel.keyed import number_of, whole_number_of
 

@@ -7,9 +7,9 @@ to OFN9. A touch stops the axis and locks its direction until the contact opens.
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Protocol
 
 from polycnc.control.fanuc.lathe.tools.sensor import CONTACTS, OFFSETS, MeasuredInputB
+from polycnc.deferred.typing import TYPE_CHECKING, Protocol
 from polycnc.mainrun import Mode
 from polycnc.messages import UserError
 

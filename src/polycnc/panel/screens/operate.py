@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
-
 from polycnc.control.sinumerik.variables.blank import blank_of
+from polycnc.deferred.typing import TYPE_CHECKING, TypeAlias
 from polycnc.messages import text
 from polycnc.panel.screens.pages import in_language
 from polycnc.panel.screens.view import Cell

@@ -6,7 +6,6 @@ A column names its source. What a source cannot do it refuses.
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, TypeAlias
 
 from polycnc.control.fanuc.lathe.tools import screens as lathe
 from polycnc.control.fanuc.lathe.tools.screens import RADIUS, TIP, Page
@@ -15,6 +14,7 @@ from polycnc.control.syntec.coordinates.length import set_tool_datum, tool_datum
 from polycnc.control.syntec.coordinates.systems import WORK_SYSTEMS
 from polycnc.control.syntec.motion import conditions
 from polycnc.control.word_address.tools.data_input import LARGEST_OFFSET
+from polycnc.deferred.typing import TYPE_CHECKING, TypeAlias
 from polycnc.mainrun import CommandRefused
 
 if TYPE_CHECKING:

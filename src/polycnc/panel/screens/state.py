@@ -5,9 +5,9 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from datetime import UTC, datetime
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.units import INCH_MM
 from polycnc.mainrun import CommandRefused, Mode, State
 from polycnc.messages import UserError

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from types import MappingProxyType
-from typing import TYPE_CHECKING
 
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.mainrun import CommandRefused
 from polycnc.panel.screens.pages import DIGITS, in_language
 from polycnc.panel.screens.sources import SOURCES

@@ -7,10 +7,10 @@ long, and [CAN] gives it up before anything has been changed.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import TYPE_CHECKING, cast
 
 from polycnc.control.data_files import data_files
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING, cast
 from polycnc.mainrun import CommandRefused, Mode
 from polycnc.panel.screens.state import Operation
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from itertools import zip_longest
-from typing import TYPE_CHECKING, TypeAlias
 
 from polycnc.control.fanuc.lathe.tools.screens import modal_codes
 from polycnc.deferred.records import dataclass
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING, TypeAlias
 from polycnc.geometry.units import INCH_MM
 from polycnc.messages import text
 from polycnc.panel.description import RETURNED, is_returned

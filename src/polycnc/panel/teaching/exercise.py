@@ -22,11 +22,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, TypeAlias
 
 import yaml
 
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING, Any, TypeAlias
 from polycnc.messages import UserError
 from polycnc.messages.catalogue import listed
 from polycnc.panel.teaching.faults import faults

@@ -5,9 +5,9 @@ from __future__ import annotations
 import tomllib
 from functools import cache
 from importlib import resources
-from typing import TYPE_CHECKING, Any
 
 from polycnc.deferred.records import dataclass, replace
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.machine.plc import PlcAlarm
 from polycnc.machine.rules import signals_in
 from polycnc.machine.text import Text

@@ -9,8 +9,8 @@ from __future__ import annotations
 import json
 from collections import deque
 from contextlib import suppress
-from typing import TYPE_CHECKING, Any
 
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.messages import UserError
 
 if TYPE_CHECKING:

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from nicegui.element import Element
 
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.panel.web.markup import cells_of, of_view
 
 if TYPE_CHECKING:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from contextlib import suppress
 from math import ceil
 from time import monotonic
-from typing import TYPE_CHECKING, Any
 
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.mainrun import CommandRefused, State
 from polycnc.messages import UserError
 from polycnc.panel.course import Course

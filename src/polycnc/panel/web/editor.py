@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from time import monotonic
-from typing import TYPE_CHECKING
 
 from nicegui import ui
 
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.mainrun import CommandRefused
 from polycnc.messages import UserError, text
 from polycnc.panel.editing import Check, check_elsewhere, parts, told

@@ -7,8 +7,9 @@ from __future__ import annotations
 
 from http.cookies import CookieError, SimpleCookie
 from secrets import compare_digest
-from typing import TYPE_CHECKING, Any
 from urllib.parse import parse_qs, urlsplit
+
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable, MutableMapping

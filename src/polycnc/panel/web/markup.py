@@ -6,7 +6,8 @@ Cells are what stands in windows and in the status line; what is around them is 
 from __future__ import annotations
 
 from html import escape
-from typing import TYPE_CHECKING
+
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

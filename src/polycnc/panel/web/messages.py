@@ -10,9 +10,9 @@ import json
 from collections.abc import Callable, Mapping
 from inspect import signature
 from math import isfinite
-from typing import TYPE_CHECKING, Any
 
 from polycnc.deferred.records import fields, is_dataclass
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.messages import AlarmError, UserError, text
 from polycnc.messages.catalogue import language
 

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from functools import partial
 from html import escape
-from typing import TYPE_CHECKING
 
 from nicegui import ui
 
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import text
 from polycnc.messages.catalogue import LANGUAGES
 from polycnc.panel.panel import Light

@@ -7,11 +7,11 @@ import signal
 import socket
 from contextlib import contextmanager
 from importlib import resources
-from typing import TYPE_CHECKING
 
 from fastapi import Response, WebSocket, WebSocketDisconnect
 from nicegui import app, ui
 
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import UserError, text
 from polycnc.panel.web.guard import LOOPBACK, Guard
 from polycnc.panel.web.messages import answer

@@ -9,10 +9,10 @@ from __future__ import annotations
 import re
 from array import array
 from operator import itemgetter
-from typing import TYPE_CHECKING, Protocol, cast
 
 from polycnc.deferred.modules import is_installed
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING, Protocol, cast
 from polycnc.toolpath.compiled import fill
 from polycnc.toolpath.digits import ALONE, END, LEFT_OUT, LONGEST_NUMBER, PLACE, WHOLE, Forms
 from polycnc.toolpath.kinds import SHOWN_IN_COLUMNS, Kind

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from polycnc.deferred.typing import TYPE_CHECKING, Literal
 
 if TYPE_CHECKING:
     from polycnc.toolpath.trace import Display, Record

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from array import array
 from math import nan
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.modules import is_installed
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.toolpath.columns.compiled import LIBRARY, show
 from polycnc.toolpath.columns.names import NUMBERS, POSITIONS, TEXTS, flattened, positions_of
 from polycnc.toolpath.columns.shown import FEED, PLACES, PROGRAM, TOOL, TURNS, TYPE, UNIT, Rows, View

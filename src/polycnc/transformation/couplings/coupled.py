@@ -6,9 +6,8 @@ axes count all along the path, and every display, plan and sample has them where
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.transformation.contract import OneToOne, unchanged
 from polycnc.transformation.couplings.graph import in_order
 

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.transformation.couplings.coupled import Coupled
 from polycnc.transformation.couplings.laws import ByCurve
 from polycnc.transformation.seated import Seated

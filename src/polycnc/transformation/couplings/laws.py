@@ -6,9 +6,8 @@ coordinate system, mm or degrees, as numbers or as columns of numbers.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol
-
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING, Protocol
 from polycnc.transformation.numbers import NUMBER, constant
 
 if TYPE_CHECKING:

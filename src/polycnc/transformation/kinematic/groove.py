@@ -7,9 +7,8 @@ beside the work, and the rotary axis stands where the centre line is.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.transformation.contract import OneToOne, unchanged
 
 if TYPE_CHECKING:

@@ -6,9 +6,8 @@ other axis must take back what it adds along Z: `U = X / cos α`, `W = Z - X·ta
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import cos_sin_deg
 from polycnc.transformation.contract import OneToOne, unchanged
 from polycnc.transformation.numbers import constant

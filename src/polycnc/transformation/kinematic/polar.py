@@ -5,9 +5,8 @@ The linear axis follows by the distance of a point from the centre, the rotary o
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.transformation.contract import unchanged
 from polycnc.transformation.numbers import (
     DEGREE,

@@ -5,8 +5,7 @@ Positions are degrees by axis name; several solutions are lists of them.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.angles import TURN_DEG, nearest_turn
 
 if TYPE_CHECKING:

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import atan2, cos, hypot, radians, sin, sqrt, tau
-from typing import TYPE_CHECKING
 
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.vectors import cross, dot, minus, times
 from polycnc.machine.kinematics import turn_about
 from polycnc.transformation.numbers import DEGREE

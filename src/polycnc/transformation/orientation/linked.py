@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from array import array
-from typing import TYPE_CHECKING
 
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import IDENTITY
 from polycnc.transformation.orientation.linkage import JOINT_WIDTH, MOST_JOINTS, Linkage
 from polycnc.transformation.orientation.tool_centre import ToolCentrePoint

@@ -11,9 +11,9 @@ from __future__ import annotations
 
 from itertools import combinations
 from math import acos, atan2, degrees, hypot, sqrt
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import IDENTITY, Frame
 from polycnc.geometry.vectors import cross, dot, times
 from polycnc.machine.kinematics import turn_about, unit

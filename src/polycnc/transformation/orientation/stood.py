@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from array import array
 from math import inf
-from typing import TYPE_CHECKING
 
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import IDENTITY
 from polycnc.machine.kinematics import unit
 from polycnc.transformation.orientation.records import StandRecord

@@ -8,9 +8,8 @@ orientation: they matter where rotary positions are *found* for a direction (`so
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.vectors import minus, plus
 from polycnc.machine.kinematics import unit
 from polycnc.transformation.contract import unchanged

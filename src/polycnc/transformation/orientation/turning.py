@@ -12,9 +12,9 @@ from __future__ import annotations
 from itertools import pairwise
 from math import ceil, dist, radians, sqrt
 from operator import sub
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass, replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.transformation.orientation.choice import nearest
 from polycnc.transformation.orientation.directions import angle_between
 from polycnc.transformation.orientation.solutions import pole_angle, solutions_for

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from math import asin, atan2, degrees
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import IDENTITY, Frame, translation
 from polycnc.transformation.planes.tilted import by_fixed_axes
 

@@ -7,8 +7,8 @@ What the table turns takes the plane with it: it is worked out anew. What the he
 from __future__ import annotations
 
 from math import hypot
-from typing import TYPE_CHECKING
 
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import IDENTITY, Frame, rotation, translation
 from polycnc.geometry.vectors import axis_vector, cross, minus
 from polycnc.machine.kinematics import turn_about

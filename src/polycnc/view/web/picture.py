@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import asdict
-from typing import TYPE_CHECKING
 
 from nicegui import ui
 from nicegui.element import Element
 
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import text
 
 if TYPE_CHECKING:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.dwell import dwell as seconds_or_revolutions
 from polycnc.control.fanuc.lathe.cycles.modal import GRINDING
 from polycnc.control.fanuc.lathe.states import DrawingState
 from polycnc.control.word_address.auxiliary import functions
 from polycnc.control.word_address.block.plan import NOT_YET
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:

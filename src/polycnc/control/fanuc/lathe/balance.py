@@ -7,12 +7,11 @@ A path without a program is not waited for: so the program of one turret can be 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.waits import PreprocessingStop
 from polycnc.control.fanuc.lathe.cycles.modal import CYCLES
 from polycnc.control.fanuc.lathe.states import BalanceState
 from polycnc.control.word_address.motion.path import target
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

@@ -7,7 +7,6 @@ whatever the system: that of system A, and of B and C where A has none. So handl
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.lathe import balance as turning_balance
 from polycnc.control.fanuc.lathe.coordinates import limits, systems
@@ -24,6 +23,7 @@ from polycnc.control.word_address.macro_b import code_calls
 from polycnc.control.word_address.motion import path, path_modes
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, replace
+from polycnc.deferred.typing import TYPE_CHECKING
 
 with loaded_when_called():
     from polycnc.control.fanuc.lathe import auxiliary as turning_auxiliary

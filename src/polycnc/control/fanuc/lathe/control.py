@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.channel.stack import LevelKind
 from polycnc.control.fanuc.acceleration import accelerated
@@ -35,6 +34,7 @@ from polycnc.control.word_address.states import PolarState
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING, ClassVar
 from polycnc.toolpath.modes import FeedMode
 
 with loaded_when_called():

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar
-
 from polycnc.channel.states.state import Lifetime, lasting
 from polycnc.control.word_address.macro_b.variables import MacroMemory
 from polycnc.control.word_address.memory import ProgrammingFrames
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING, ClassVar
 from polycnc.geometry.frames import IDENTITY, Frame, scaling, translation
 
 with loaded_when_called():

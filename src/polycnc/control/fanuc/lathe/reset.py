@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.states.state import Lifetime, end_of
 from polycnc.control.fanuc.lathe.coordinates import limits, systems
 from polycnc.control.fanuc.lathe.cycles.modal import CYCLES
@@ -17,6 +15,7 @@ from polycnc.control.word_address.coordinates.systems import ZeroState
 from polycnc.control.word_address.cycles.drilling import CycleState
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.deferred.functions import loaded_when_called
+from polycnc.deferred.typing import TYPE_CHECKING
 
 with loaded_when_called():
     from polycnc.control.word_address.transformations import cylinder, normal_line, polar_interpolation

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.fanuc.lathe.cycles import drilling, speed_arrival, tapping
 from polycnc.control.fanuc.lathe.cycles.modal import CYCLES, FINISHING, GRINDING, READING
 from polycnc.control.fanuc.lathe.motion import threads
@@ -17,6 +15,7 @@ from polycnc.control.word_address.coordinates.frames import ROTATION_RULE
 from polycnc.control.word_address.macro_b import code_calls, interruption
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 
 with loaded_when_called():
     from polycnc.control.fanuc.lathe import balance

@@ -5,10 +5,9 @@ The order goes to the machine as an event with its words. The angle is no place 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.toolpath.events import BuilderCode, SpindleWait
 
 if TYPE_CHECKING:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.fanuc.lathe.tools.offset_memory import OffsetMemory
 from polycnc.control.fanuc.lathe.tools.offsets import OffsetState, offset_changed, refresh
 from polycnc.control.fanuc.system_variables import (
@@ -19,6 +17,7 @@ from polycnc.control.word_address.memory import EXTERNAL
 from polycnc.control.word_address.states import LastSkip
 from polycnc.control.word_address.tools.radius import tool_position
 from polycnc.control.word_address.transformations import cylinder
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from polycnc.control.fanuc.lathe.memory import TurningMemory

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import wraps
-from typing import TYPE_CHECKING, Any
 
 from polycnc.control.fanuc.milling.cycles import MILLING_DRILLING
 from polycnc.control.word_address.auxiliary import functions
@@ -24,6 +23,7 @@ from polycnc.control.word_address.macro_b import code_calls
 from polycnc.control.word_address.motion import path, path_modes
 from polycnc.control.word_address.tools.radius import SIDES
 from polycnc.deferred.functions import loaded_when_called
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 
 with loaded_when_called():
     from polycnc.control.fanuc import dwell

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.control.fanuc.acceleration import accelerated
 from polycnc.control.fanuc.alarm_codes import ALARMS
@@ -21,6 +20,7 @@ from polycnc.control.word_address.macro_b.variables import MacroMemory
 from polycnc.control.word_address.motion import path
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING, ClassVar
 
 with loaded_when_called():
     from polycnc.control.fanuc import tool_plane

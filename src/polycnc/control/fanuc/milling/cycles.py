@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.fanuc.milling.parameters import FanucMillingParameters
 from polycnc.control.word_address.auxiliary.functions import RigidTappingState
 from polycnc.control.word_address.coordinates.on_table import OnTable
@@ -19,6 +17,7 @@ from polycnc.control.word_address.cycles.drilling import (
 from polycnc.control.word_address.cycles.shift import shift_by_i_and_j
 from polycnc.cycles.drilling import holes
 from polycnc.deferred.functions import loaded_when_called
+from polycnc.deferred.typing import TYPE_CHECKING
 
 with loaded_when_called():
     from polycnc.control.word_address.transformations import workpiece

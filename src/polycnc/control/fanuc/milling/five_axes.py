@@ -9,8 +9,6 @@ What nobody here knows for sure is PC0001.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.compensation.spatial.rules import INTERSECTION_FIRST, Corners, Rules
 from polycnc.control.fanuc.milling.parameters import FanucMillingParameters
 from polycnc.control.word_address.coordinates.on_table import OnTable
@@ -21,6 +19,7 @@ from polycnc.control.word_address.tools import radius, spatial
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.tool_center_point import plan_with_direction
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:

@@ -9,7 +9,6 @@ of the next one; in between the tip goes straight. G41.3 and G40 move the tool b
 from __future__ import annotations
 
 from math import acos, degrees, sqrt
-from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.path import Move, PlacedEvent, Rank, Stage
 from polycnc.control.fanuc.milling import five_axes
@@ -19,6 +18,7 @@ from polycnc.control.word_address.coordinates.tip import TIP_CODES
 from polycnc.control.word_address.tools.radius import RadiusState, place_of_block
 from polycnc.control.word_address.tools.spatial import posture_of
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.vectors import dot, minus, times
 from polycnc.messages import AlarmError
 

@@ -6,11 +6,11 @@ I J K are then the normal of the surface that is cut. The angle holds until the 
 from __future__ import annotations
 
 from math import cos, radians, sin, sqrt
-from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.transformations.tool_center_point import plan_with_direction
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.vectors import dot, minus, times
 
 if TYPE_CHECKING:

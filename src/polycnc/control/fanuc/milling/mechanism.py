@@ -6,9 +6,8 @@ The machine file has the rotary axes; vectors that parameters give take the plac
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.vectors import axis_vector, minus, plus, times
 from polycnc.machine.kinematics import Kinematics, unit
 from polycnc.transformation.planes.tilted import by_leaning

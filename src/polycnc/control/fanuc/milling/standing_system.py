@@ -8,7 +8,6 @@ Arcs, chamfers and roundings are those on the table; it may turn their plane in 
 from __future__ import annotations
 
 from math import nan
-from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.milling import leaning
 from polycnc.control.fanuc.milling.five_axes import not_yet
@@ -20,6 +19,7 @@ from polycnc.control.word_address.motion.arcs import mirrors_plane, scales, writ
 from polycnc.control.word_address.tools import length
 from polycnc.control.word_address.transformations import tool_center_point, workpiece
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.vectors import axis_vector, cross, dot
 from polycnc.machine.kinematics import unit

@@ -8,7 +8,6 @@ I J K of G41.6 name directions in it. With 19696#5 WKP = 1 words name points of 
 from __future__ import annotations
 
 from math import nan
-from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.fanuc.milling import five_axes, leading_edge
@@ -22,6 +21,7 @@ from polycnc.control.word_address.tools import radius, spatial
 from polycnc.control.word_address.transformations.tilted_plane import turn_to
 from polycnc.control.word_address.transformations.tool_center_point import angles_named
 from polycnc.deferred.records import dataclass, replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import translation
 from polycnc.toolpath import Kind
 

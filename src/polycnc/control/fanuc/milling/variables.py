@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.fanuc.system_variables import (
     COMMON_VARIABLES,
     axis_at,
@@ -21,6 +19,7 @@ from polycnc.control.word_address.states import LastSkip, LengthState
 from polycnc.control.word_address.tools.length import renew_length
 from polycnc.control.word_address.tools.radius import RadiusState, tool_position
 from polycnc.control.word_address.transformations import cylinder
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.family import MacroChannel

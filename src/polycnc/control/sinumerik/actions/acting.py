@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from polycnc.control.sinumerik.actions import polynomials
 from polycnc.control.sinumerik.actions.cycles import RunningCycle
 from polycnc.control.sinumerik.actions.procedures import PROCEDURES
@@ -13,6 +11,7 @@ from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.positions import ModuloRange
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.sinumerik.runtime import elements_left, read_length, set_elements, write_length
 from polycnc.messages import AlarmError
 

@@ -6,8 +6,6 @@ action that raises an alarm is not looked at any more; the others go on (10.7).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from polycnc.channel.interpolator import Influence, PassiveWatcher
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.actions import axes as action_axes
@@ -20,6 +18,7 @@ from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.signals import measuring_actions
 from polycnc.control.sinumerik.variables import in_force
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.sinumerik.errors import arithmetic
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import Deed

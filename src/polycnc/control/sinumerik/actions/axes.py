@@ -7,7 +7,6 @@ reorganised: the block waits until everything before it is executed and the axis
 from __future__ import annotations
 
 from math import nan
-from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, lasting
 from polycnc.channel.waits import PreprocessingStop
@@ -17,6 +16,7 @@ from polycnc.control.sinumerik.couplings.links import coupled
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.messages import AlarmError

@@ -8,8 +8,6 @@ its place on the table waits until that comes to where it stands (9.3).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from polycnc.channel.interpolator import PassiveWatcher
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.actions import axes as action_axes
@@ -19,6 +17,7 @@ from polycnc.control.sinumerik.curve_tables.memory import CurveTables, table_of
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError
 from polycnc.transformation.couplings.graph import CircularCouplingError

@@ -5,9 +5,8 @@ ICYCOF runs all lines that follow in one cycle, and waits for no axis.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Protocol
-
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING, Any, Protocol
 from polycnc.language.sinumerik.actions.code import Acting
 from polycnc.messages import AlarmError
 

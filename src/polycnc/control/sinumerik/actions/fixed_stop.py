@@ -5,11 +5,10 @@ No machine of polycnc has a fixed stop: the selection is kept with its torque an
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.messages import AlarmError
 

@@ -10,7 +10,6 @@ CORROF takes them away, DRFOF the handwheel's: the axis stays, coordinates know 
 from __future__ import annotations
 
 from math import inf
-from typing import TYPE_CHECKING
 
 from polycnc.channel.interpolator import HANDWHEEL_OFFSET
 from polycnc.channel.states.state import Lifetime, State, lasting
@@ -18,6 +17,7 @@ from polycnc.control.sinumerik import tables
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import Deed

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.sinumerik.actions import couplings, polynomials
 from polycnc.control.sinumerik.actions.run import Deleted
 from polycnc.control.sinumerik.block import arguments
@@ -11,6 +9,7 @@ from polycnc.control.sinumerik.channels import axis_requests
 from polycnc.control.sinumerik.channels.coordination import group_of
 from polycnc.control.sinumerik.oscillation.strokes import Oscillations
 from polycnc.control.sinumerik.tools import online
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import Alarm, AlarmError
 
 if TYPE_CHECKING:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.sinumerik.actions import fifo, fixed_stop, overlay, polynomials, timers
 from polycnc.control.sinumerik.actions.actions import SynchronisedActions
 from polycnc.control.sinumerik.actions.axes import EXCHANGE_VARIABLES
@@ -11,6 +9,7 @@ from polycnc.control.sinumerik.actions.run import Deleted
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.positions import shown
 from polycnc.control.sinumerik.tables import MINUTE
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.sinumerik.names.values import Type
 
 if TYPE_CHECKING:

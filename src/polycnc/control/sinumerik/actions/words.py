@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.actions import fixed_stop
 from polycnc.control.sinumerik.actions.axes import ActionAxes
@@ -11,6 +9,7 @@ from polycnc.control.sinumerik.block.positions import Dimension, is_diameter
 from polycnc.control.sinumerik.m_functions import DIRECTIONS
 from polycnc.control.sinumerik.signals import measuring_actions
 from polycnc.deferred.functions import loaded_when_called
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.geometry.units import INCH_MM
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import Auxiliary, HFunction, SpindleSpeed

@@ -7,8 +7,6 @@ axes under each.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.actions.axes import ActionAxes
 from polycnc.control.sinumerik.block import arguments
@@ -19,6 +17,7 @@ from polycnc.control.sinumerik.tools import stages
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.transformations.data_sets import native
 from polycnc.control.sinumerik.transformations.selection import deselect_frames, end_contour
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.messages import AlarmError

@@ -6,9 +6,8 @@ geometry and orientation axes are as fast as any other axis then.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.sinumerik import tables
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from polycnc.control.interface import HandMotion

@@ -5,11 +5,10 @@ The examples of TRANSMIT and TRACYL begin with SPOS for that reason: the path go
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.actions import axes as action_axes
 from polycnc.control.sinumerik.transformations import seat
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.family import SinumerikChannel

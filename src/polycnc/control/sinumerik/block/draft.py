@@ -7,10 +7,10 @@ the same block in the same modal state is worked out once.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, Protocol
 
 from polycnc.control.sinumerik.block.positions import AxisTerm, axis_term
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING, Any, Protocol
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.language.sinumerik.words import WordAlarm, WordShape
 

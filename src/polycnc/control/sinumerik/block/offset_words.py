@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.sinumerik import auxiliary
 from polycnc.control.sinumerik.block.draft import axis_column
 from polycnc.control.sinumerik.block.positions import number, whole
 from polycnc.control.sinumerik.tables import length_factor
 from polycnc.control.sinumerik.tools import sides, stages
 from polycnc.control.sinumerik.tools.holders import active as carriers
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.sinumerik.words import WordAlarm
 
 if TYPE_CHECKING:

@@ -6,9 +6,8 @@ does (`language.bulk.declare`): the motion functions and dimensions of its head,
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.sinumerik.block.positions import AxisTerm, Dimension
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.bulk import (
     Conversion,
     Scaling,

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from functools import partial
 from math import nan
-from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.machine_words import asking, move_words, plc_of
@@ -35,6 +34,7 @@ from polycnc.control.sinumerik.transformations import seat, smoothing
 from polycnc.control.sinumerik.transformations.words import SECOND, SINGLE, TRIPLES
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.bulk import Enter, Idle, Note, declare
 from polycnc.messages import AlarmError
 

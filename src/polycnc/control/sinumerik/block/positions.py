@@ -7,13 +7,13 @@ from __future__ import annotations
 
 from enum import Enum
 from math import floor
-from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik.data.machine_data import MachineData
 from polycnc.control.sinumerik.motion import indexing
 from polycnc.control.sinumerik.tables import length_factor
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.language.sinumerik.words import WordAlarm

@@ -5,8 +5,6 @@ Source: Fundamentals (MSG, SETMS, WAITS, FGROUP, BRISKA …), job planning 5.5 (
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.sinumerik.actions import actions, fixed_stop, overlay, polynomials
 from polycnc.control.sinumerik.actions import axes as action_axes
 from polycnc.control.sinumerik.axes import geometry
@@ -31,6 +29,7 @@ from polycnc.control.sinumerik.tools.management import lists, magazines, monitor
 from polycnc.control.sinumerik.transformations import seat, selection, start
 from polycnc.control.sinumerik.variables import dialogs, lengths
 from polycnc.control.sinumerik.variables.stored import Stored
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.sinumerik.names.initialisation import NEW_CONFIGURATION, initialise
 from polycnc.messages import Alarm, AlarmError
 from polycnc.toolpath.events import Message, Print, Shown

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.bulk.formulas.postfix import OtherError
 from polycnc.language.bulk.formulas.typed_postfix import Sort, TypedPostfix
 from polycnc.language.bulk.layout import LOOPS, Operation

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from math import inf
-from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.block.routines import SinumerikRoutines, sort_of
 from polycnc.control.sinumerik.block.variables_at_hand import VariablesAtHand
 from polycnc.control.sinumerik.limits.working_area import BASIC, MACHINE, Ranges, radius_beside
 from polycnc.control.sinumerik.motion.last_move import ArcOfMove, LastMove
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.arcs import is_even
 from polycnc.language.bulk import (
     Conditions,

@@ -9,7 +9,6 @@ Source: job planning 1.25.2.5 (SBLOF, SBLON), 8.4.
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
 
 from polycnc.channel.stack import LevelKind
 from polycnc.channel.states.state import Lifetime, State
@@ -17,6 +16,7 @@ from polycnc.channel.waits import Wait, Why
 from polycnc.control.sinumerik.signals import sections
 from polycnc.deferred.records import dataclass
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from polycnc.channel.stack import Level

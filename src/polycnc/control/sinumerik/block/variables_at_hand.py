@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from array import array
 from math import nan
-from typing import TYPE_CHECKING, Any
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.bulk.formulas.postfix import OtherError
 from polycnc.language.bulk.formulas.typed_postfix import Located, Sort
 from polycnc.language.bulk.layout import NUMBERED, VARIABLES

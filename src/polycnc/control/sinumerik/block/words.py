@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 from math import nan, pi
-from typing import TYPE_CHECKING
 
 from polycnc.control.machine_words import asking, plc_of
 from polycnc.control.sinumerik import auxiliary, replaced, tables
@@ -27,6 +26,7 @@ from polycnc.control.sinumerik.signals import fixed_stop
 from polycnc.control.sinumerik.tables import length_factor
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.deferred.functions import loaded_when_called
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.bulk import Note, declare
 from polycnc.language.sinumerik.names.spindles import spindle_number as named_spindle
 from polycnc.language.sinumerik.names.values import Axis

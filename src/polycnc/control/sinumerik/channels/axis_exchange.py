@@ -6,12 +6,11 @@ it waits where another channel has it. At power-on an axis belongs to the first 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from polycnc.channel.waits import Wait, Why
 from polycnc.control.sinumerik.block.arguments import Arguments, Procedure
 from polycnc.control.sinumerik.channels.coordination import group_of
 from polycnc.deferred.functions import loaded_when_called
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.messages import AlarmError
 

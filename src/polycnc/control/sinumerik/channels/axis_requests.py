@@ -6,8 +6,6 @@ has released it. Asked for once it is neutral in its channel, asked for again it
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from polycnc.channel.interpolator import PassiveWatcher
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.actions import axes as action_axes
@@ -15,6 +13,7 @@ from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.channels import axis_exchange
 from polycnc.control.sinumerik.channels.coordination import group_of
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:

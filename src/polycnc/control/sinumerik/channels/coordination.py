@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from polycnc.channel.group import ChannelGroup
 from polycnc.control.sinumerik.block.arguments import Arguments
 from polycnc.control.sinumerik.data.machine_data import MachineData
 from polycnc.deferred.functions import loaded_when_called
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.sinumerik.statements.calls import named_program
 from polycnc.messages import AlarmError
 from polycnc.program.names import WORKPIECE, stored_directory

@@ -9,10 +9,10 @@ The order of bytes, which neither states, is that of the least significant first
 from __future__ import annotations
 
 import struct
-from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik.variables.stored import Stored
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import MemoryWrite

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from itertools import pairwise
 from math import atan2, degrees, floor, sqrt
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import arcs, offset
 from polycnc.geometry.tolerances import NO_WAY
 

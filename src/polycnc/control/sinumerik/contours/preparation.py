@@ -7,7 +7,6 @@ noted as its block means it, before roundings and chamfers are put in, which bec
 from __future__ import annotations
 
 from math import isnan
-from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.moves.path import Rank, Stage
 from polycnc.channel.states.state import Lifetime, State
@@ -30,6 +29,7 @@ from polycnc.control.sinumerik.transformations import seat
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass, replace
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.geometry.units import INCH_MM

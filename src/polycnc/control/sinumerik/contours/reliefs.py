@@ -9,10 +9,9 @@ row at which it falls next, negative, or END for the last time.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.sinumerik.contours.elements import SAME_MM, Element
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import offset
 
 if TYPE_CHECKING:

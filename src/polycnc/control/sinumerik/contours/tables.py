@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from itertools import count
-from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik.block.arguments import whole
 from polycnc.control.sinumerik.contours.elements import (
@@ -15,6 +14,7 @@ from polycnc.control.sinumerik.contours.elements import (
     is_full_circle,
 )
 from polycnc.control.sinumerik.contours.reliefs import Linked, link
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.geometry import offset
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.sinumerik.names.values import Type

@@ -6,7 +6,6 @@ Source: job planning 15.4 to 15.6.
 from __future__ import annotations
 
 from itertools import combinations
-from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik.block.arguments import whole
 from polycnc.control.sinumerik.block.single_block import RunningBlock
@@ -14,6 +13,7 @@ from polycnc.control.sinumerik.contours.elements import SAME_MM
 from polycnc.control.sinumerik.contours.tables import element_of
 from polycnc.control.sinumerik.motion import circles, moves
 from polycnc.control.sinumerik.tables import length_factor
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.geometry import arcs, offset
 from polycnc.geometry.planes import PLANES
 from polycnc.language.sinumerik.names.values import Type

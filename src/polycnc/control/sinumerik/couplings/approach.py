@@ -5,12 +5,11 @@ The machine's controller enables it by "enable following axis overlay" (DB31 ff.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.moves.travel import check_straight
 from polycnc.control.sinumerik.actions import axes as action_axes
 from polycnc.control.sinumerik.couplings.links import Couplings
 from polycnc.control.sinumerik.errors import not_supported
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind

@@ -6,11 +6,10 @@ planning, glossary (gantry axis, synchronised axis); Function Manual G1 (MD37100
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.moves.path import Rank, Stage
 from polycnc.control.sinumerik.couplings.links import Couplings, Kind, Link, put
 from polycnc.control.sinumerik.data.machine_data import MachineData
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError
 from polycnc.transformation.couplings.laws import Ratio

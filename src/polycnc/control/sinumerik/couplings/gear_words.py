@@ -6,13 +6,13 @@ A following spindle is a pair of spindles (`spindle_pairs.py`): it turns with it
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.couplings import gears, spindle_pairs, synchronous
 from polycnc.control.sinumerik.couplings.gears import BLOCK_CHANGES, Gear, Gears, key_of, name_of
 from polycnc.control.sinumerik.couplings.spindle_pairs import Pair, SpindlePairs, turns
 from polycnc.control.sinumerik.errors import not_supported
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.sinumerik.names.spindles import spindle_number
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.messages import AlarmError

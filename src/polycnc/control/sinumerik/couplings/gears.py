@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from functools import partial
 from math import inf
-from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik import tables
@@ -29,6 +28,7 @@ from polycnc.control.sinumerik.tables import length_factor
 from polycnc.control.sinumerik.variables import in_force
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.sinumerik.names.spindles import spindle_number
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.messages import AlarmError

@@ -6,13 +6,12 @@ place to where it is.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.couplings import generated, switching
 from polycnc.control.sinumerik.couplings.links import Couplings, Kind, Link, places
 from polycnc.control.sinumerik.couplings.stage import SynchronisationStage
 from polycnc.control.sinumerik.curve_tables.memory import table_of
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import AlarmError
 from polycnc.transformation.couplings.laws import ByCurve
 

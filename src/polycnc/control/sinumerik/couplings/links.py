@@ -9,7 +9,6 @@ again. A coupling takes a seat of its own, or a side of that of the transformati
 from __future__ import annotations
 
 from enum import IntEnum
-from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.curve_tables.memory import CurveTables
@@ -17,6 +16,7 @@ from polycnc.control.sinumerik.data.machine_data import MachineData
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field, replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.transformation.couplings.laws import Ratio

@@ -8,7 +8,6 @@ effect on it, and NEWCONF lets a new value of the datum act.
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.moves.path import Rank, Stage
 from polycnc.channel.states.state import Lifetime, State
@@ -18,6 +17,7 @@ from polycnc.control.sinumerik.couplings.spindle_pairs import Pair, SpindlePairs
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.language.sinumerik.names.spindles import spindle_number
 from polycnc.language.sinumerik.names.values import Axis

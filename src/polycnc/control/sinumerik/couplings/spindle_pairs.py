@@ -7,14 +7,13 @@ angle while they turn.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.block.positions import ModuloRange
 from polycnc.control.sinumerik.data.machine_data import MachineData
 from polycnc.control.sinumerik.feed import spindle_speed
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import AlarmError
 from polycnc.transformation.couplings.graph import CircularCouplingError, in_order
 from polycnc.transformation.couplings.laws import Ratio

@@ -6,7 +6,6 @@ The move on which its place comes to where it is gets a coupling from there on; 
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.move_path import PIECES, MovePath
 from polycnc.channel.moves.path import Rank, Stage
@@ -14,6 +13,7 @@ from polycnc.control.sinumerik.couplings.links import Couplings, Link, places, p
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.frames import active
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.transformation.couplings.laws import ByCurve
 

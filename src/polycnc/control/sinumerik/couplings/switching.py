@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.sinumerik.actions.axes import ActionAxes
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.couplings.links import OF_MACHINE, Couplings, put
@@ -12,6 +10,7 @@ from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.frames import active
 from polycnc.control.sinumerik.tools import stages
 from polycnc.control.sinumerik.transformations import seat
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import AlarmError
 from polycnc.transformation.couplings.graph import CircularCouplingError, in_order
 

@@ -8,13 +8,13 @@ positions are passed within a turn, which takes no time here.
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik.couplings import spindle_pairs
 from polycnc.control.sinumerik.couplings.spindle_pairs import Pair, SpindlePairs, turns
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tables import TURN
 from polycnc.deferred.functions import loaded_when_called
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import SpindleWait
 

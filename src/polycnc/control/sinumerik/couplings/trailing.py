@@ -6,11 +6,10 @@ when they are coupled. A following axis may lead others.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.couplings import switching
 from polycnc.control.sinumerik.couplings.links import Couplings, Kind, Link, places
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import AlarmError
 from polycnc.transformation.couplings.laws import Ratio
 

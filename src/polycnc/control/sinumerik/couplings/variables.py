@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from polycnc.control.sinumerik.actions.couplings import waits_for_place
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.positions import shown
@@ -13,6 +11,7 @@ from polycnc.control.sinumerik.couplings.links import Couplings, Kind
 from polycnc.control.sinumerik.couplings.spindle_pairs import SYNCHRONOUS, SpindlePairs
 from polycnc.control.sinumerik.tables import MINUTE
 from polycnc.control.sinumerik.tangential.definitions import coupling_state
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.sinumerik.names.spindles import spindle_number
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.messages import AlarmError

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.curve_tables.memory import (
     DYNAMIC,
@@ -16,6 +14,7 @@ from polycnc.control.sinumerik.curve_tables.memory import (
     memory_named,
     table_of,
 )
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:

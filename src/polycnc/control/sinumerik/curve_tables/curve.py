@@ -8,10 +8,10 @@ table.
 from __future__ import annotations
 
 from math import floor, inf
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import polynomials
 from polycnc.geometry.polynomials import Coefficients
 from polycnc.geometry.tolerances import NO_WAY

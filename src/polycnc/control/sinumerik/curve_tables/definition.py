@@ -6,14 +6,13 @@ functions, frames, positions and R parameters are as before CTABDEF.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.curve_tables.curve import ONCE, PERIODIC_IN_BOTH, CurveTable
 from polycnc.control.sinumerik.curve_tables.memory import CurveTables, memory_named
 from polycnc.control.sinumerik.motion.contour_reading import ContourReading, reading_from_here
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.messages import AlarmError
 

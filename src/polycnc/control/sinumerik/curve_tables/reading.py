@@ -7,11 +7,10 @@ into the variable that the call names.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.curve_tables.memory import table_of
 from polycnc.control.sinumerik.tables import length_factor
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:

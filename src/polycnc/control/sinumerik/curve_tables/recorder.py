@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from itertools import groupby
 from math import ceil, radians
-from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Recorder
@@ -16,6 +15,7 @@ from polycnc.control.sinumerik.couplings.links import without_couplings
 from polycnc.control.sinumerik.curve_tables import splines
 from polycnc.control.sinumerik.curve_tables.curve import Segment
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.polynomials import NODES, fitted, turns
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError

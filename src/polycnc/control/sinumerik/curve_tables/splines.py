@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from itertools import pairwise
 from math import dist
-from typing import TYPE_CHECKING
 
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.polynomials import trimmed
 from polycnc.geometry.through_points import End, akima_tangents, cubic_tangents, lengths
 

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from functools import cache
 from math import isfinite
-from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.tables import length_factor
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.sinumerik.errors import arithmetic
 from polycnc.messages import AlarmError

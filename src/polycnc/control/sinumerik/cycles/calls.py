@@ -8,7 +8,6 @@ run a contour program and plan what follows from it, and goes on behind it; what
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.stack import Level, LevelKind
 from polycnc.control.sinumerik import auxiliary
@@ -20,6 +19,7 @@ from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.motion.last_move import LastMove
 from polycnc.control.sinumerik.punching import block as punching
 from polycnc.control.sinumerik.tools import stages
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.sinumerik.statements.sections import count_levels, end_of_subprogram
 from polycnc.messages import AlarmError
 

@@ -7,12 +7,11 @@ wall on the same path.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.sinumerik.cycles.levels import Levels, levels, sign
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tools.edges import DP_CLEARANCE, DP_SIDE_ANGLE
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError
 

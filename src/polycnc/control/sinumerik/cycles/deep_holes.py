@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import re
 from functools import partial
-from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik import auxiliary, tables
 from polycnc.control.sinumerik.cycles.drilling import (
@@ -24,6 +23,7 @@ from polycnc.control.sinumerik.replaced import program_of
 from polycnc.cycles.drilling import deep_hole as deep
 from polycnc.cycles.drilling.deep_hole import Zone
 from polycnc.cycles.drilling.holes import Action, Stroke
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from math import radians, tan
-from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.cycles.levels import Levels, levels, sign
@@ -15,6 +14,7 @@ from polycnc.cycles.drilling import deep_hole as deep
 from polycnc.cycles.drilling import holes
 from polycnc.cycles.drilling.holes import Action, Stroke
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.units import INCH_MM
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind

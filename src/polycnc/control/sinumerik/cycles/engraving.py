@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from math import radians
-from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.cycles.levels import levels
 from polycnc.control.sinumerik.cycles.milling import check_start_point, feed_of, perform
@@ -13,6 +12,7 @@ from polycnc.control.sinumerik.errors import not_supported
 from polycnc.cycles.milling.engraving import Circle, Inscription, Line, gap_of_width, strokes
 from polycnc.cycles.milling.letters import drawn
 from polycnc.cycles.milling.stroke import Place
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import cos_sin_deg
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.sinumerik import gcodes
 from polycnc.control.sinumerik.block import procedures
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed import tolerances
 from polycnc.control.sinumerik.reset import start_code
 from polycnc.control.sinumerik.transformations import smoothing
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:

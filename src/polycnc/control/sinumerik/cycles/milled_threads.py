@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.sinumerik.cycles.drilling import written_pitch
 from polycnc.control.sinumerik.cycles.levels import levels
 from polycnc.control.sinumerik.cycles.milling import (
@@ -21,6 +19,7 @@ from polycnc.cycles.drilling.deep_hole import degressive_depths
 from polycnc.cycles.milling import drilled_thread
 from polycnc.cycles.milling import thread as thread_milling
 from polycnc.cycles.milling.stroke import Place, steps
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError
 

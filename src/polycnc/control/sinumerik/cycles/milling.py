@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from math import radians, sin
-from typing import TYPE_CHECKING
 
 from polycnc.channel.stack import LevelKind
 from polycnc.control.sinumerik.cycles.chamfers import CHAMFER, chamfer, is_chamfer
@@ -17,6 +16,7 @@ from polycnc.cycles.milling.open_slot import OpenSlot
 from polycnc.cycles.milling.pockets import Insertion, Pocket
 from polycnc.cycles.milling.stroke import MillStroke, Place, steps
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind

@@ -11,11 +11,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 from math import nan
-from typing import TYPE_CHECKING, ParamSpec, TypeAlias
 
 from polycnc.control.sinumerik.axes import spindles as spindle_axes
 from polycnc.control.sinumerik.motion import circles
 from polycnc.control.sinumerik.motion import moves as motion
+from polycnc.deferred.typing import TYPE_CHECKING, ParamSpec, TypeAlias
 from polycnc.geometry.planes import PLANES
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from math import hypot
-from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.cycles.count import checked
 from polycnc.cycles.drilling import patterns
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import cos_sin_deg
 from polycnc.language.sinumerik.statements.calls import call_modal
 from polycnc.messages import AlarmError

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.cycles.chamfers import CHAMFER, chamfer
 from polycnc.control.sinumerik.cycles.contours.reading import read
@@ -29,6 +28,7 @@ from polycnc.cycles.milling import facing, spigots
 from polycnc.cycles.milling.contour import Approach, ApproachShape, PathMilling
 from polycnc.cycles.milling.stroke import Place, steps
 from polycnc.cycles.turning.contour import parallel, turned_round
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError
 

@@ -13,7 +13,6 @@ take the tool about its tip, as the call must ask for.
 from __future__ import annotations
 
 from math import atan2, degrees, inf, nan
-from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik import auxiliary
 from polycnc.control.sinumerik.cycles.swivel_record import Record, record_of
@@ -25,6 +24,7 @@ from polycnc.control.sinumerik.motion import moves as motion
 from polycnc.control.sinumerik.tools.holders import active as carriers
 from polycnc.control.sinumerik.tools.selection import unscaled
 from polycnc.control.sinumerik.transformations import seat
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import IDENTITY, Frame, rotation
 from polycnc.geometry.planes import PLANES
 from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES, NEUTRAL, NcFrame

@@ -7,7 +7,6 @@ by hand: the cycle says where to.
 from __future__ import annotations
 
 from math import inf
-from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.tools.holders.stored import (
     AXIS_NAMES,
@@ -20,6 +19,7 @@ from polycnc.control.sinumerik.tools.holders.stored import (
     CarrierData,
 )
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.machine.kinematics import Kinematics
 from polycnc.machine.model import Joint
 from polycnc.messages import AlarmError

@@ -5,8 +5,6 @@ Source: SINUMERIK standard cycles, manual of the cycles (signatures, sequences, 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.sinumerik.cycles import (
     deep_holes,
     drilling,
@@ -29,6 +27,7 @@ from polycnc.control.sinumerik.cycles.turning import (
     undercuts,
 )
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Callable

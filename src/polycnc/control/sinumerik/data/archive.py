@@ -7,12 +7,11 @@ standard value is not in it.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.block.arguments import Arguments, Procedure
 from polycnc.control.sinumerik.tools.edges import DP_TYPE
 from polycnc.control.sinumerik.tools.holders.stored import TYPES, CarrierData
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.sinumerik.names.frame import COMPONENTS, GEOMETRY_AXES, NEUTRAL, NcFrame
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.language.sinumerik.names.variables import Array

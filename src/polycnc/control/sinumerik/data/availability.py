@@ -6,10 +6,9 @@ on 840D sl.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.deferred.paths import package_path, read_text
 from polycnc.deferred.toml import loads
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Collection

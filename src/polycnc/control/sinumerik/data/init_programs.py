@@ -8,11 +8,10 @@ machine data excepted (job planning 2.1, 2.2).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.stack import LevelKind
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.sinumerik.names.frame import NEUTRAL
 from polycnc.program.names import WORKING_MEMORY, WORKPIECE
 

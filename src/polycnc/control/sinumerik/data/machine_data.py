@@ -8,14 +8,13 @@ with a metric basic system.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.states.state import Lifetime, State, lasting, retained
 from polycnc.control.sinumerik import axis_names
 from polycnc.control.sinumerik.data import of_machine
 from polycnc.control.sinumerik.data.delivered import DATA
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.memory.retained import PARAMETERS
 from polycnc.messages import AlarmError
 

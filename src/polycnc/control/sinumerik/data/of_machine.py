@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from math import isfinite
-from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.tables import MM_PER_M
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES
 
 if TYPE_CHECKING:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.moves.fairing import FairingStage
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.family import SinumerikChannel

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.moves.path import PlacedEvent
 from polycnc.control.sinumerik.feed.profile_stage import ProfileStage, TellsFeed
 from polycnc.control.sinumerik.feed.profiles import Profile, ProgrammedFeed
 from polycnc.control.sinumerik.tables import POLYNOMIAL
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.block.draft import Values

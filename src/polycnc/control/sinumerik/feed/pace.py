@@ -6,7 +6,6 @@ Source: Fundamentals; job planning 16.1 (statement list).
 from __future__ import annotations
 
 from math import hypot, inf, pi
-from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik import gcodes, tables
@@ -17,6 +16,7 @@ from polycnc.control.sinumerik.tables import MINUTE
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.arcs import EVEN
 from polycnc.toolpath.context import Pace
 from polycnc.toolpath.modes import FeedMode

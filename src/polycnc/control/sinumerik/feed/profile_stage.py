@@ -7,7 +7,6 @@ it, so a row of such blocks is held until another one comes.
 from __future__ import annotations
 
 from math import hypot
-from typing import TYPE_CHECKING
 
 from polycnc.channel.moves import knots
 from polycnc.channel.moves.move_path import MovePath
@@ -16,6 +15,7 @@ from polycnc.control.sinumerik.feed import profiles
 from polycnc.control.sinumerik.feed.profiles import Course, Profile
 from polycnc.control.sinumerik.tables import CONSTANT, CUBIC
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.toolpath.events import Event
 from polycnc.toolpath.kinds import Kind
 from polycnc.toolpath.modes import FeedMode

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from itertools import pairwise
 from math import ceil, isnan, nan
-from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.tables import LINEAR, POLYNOMIAL
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

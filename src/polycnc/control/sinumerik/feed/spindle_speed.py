@@ -6,7 +6,6 @@ Source: Fundamentals (G96, G961, G962, G97, G971, G972, LIMS, SCC; FPR, FPRAON, 
 from __future__ import annotations
 
 from math import pi
-from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.actions.axes import ActionAxes
@@ -17,6 +16,7 @@ from polycnc.control.sinumerik.tables import MM_PER_M
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.messages import AlarmError
 

@@ -6,10 +6,9 @@ The planner lets the axes take up speed as they can.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.sinumerik.block.positions import number
 from polycnc.control.sinumerik.tables import TURN, length_factor
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:

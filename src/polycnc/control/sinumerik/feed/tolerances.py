@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import hypot, prod
-from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, lasting
 from polycnc.control.sinumerik.block.arguments import Arguments
@@ -15,6 +14,7 @@ from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.variables.row import RowWithStop
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.language.sinumerik.words import WordAlarm

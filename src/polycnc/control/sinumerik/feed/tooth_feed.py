@@ -5,11 +5,10 @@ Source: Fundamentals (G95, FZ).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.sinumerik.block.positions import number
 from polycnc.control.sinumerik.feed.path_feed import PathFeed, ToothFeed
 from polycnc.control.sinumerik.motion import moves
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.sinumerik.words import WordAlarm
 
 if TYPE_CHECKING:

@@ -9,7 +9,6 @@ Source: Fundamentals (GWPSON, GWPSOF), job planning 13.1.
 from __future__ import annotations
 
 from math import inf, pi
-from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.errors import not_supported
@@ -17,6 +16,7 @@ from polycnc.control.sinumerik.tables import MINUTE, MM_PER_M
 from polycnc.control.sinumerik.tools.edges import DP_LENGTH, DP_RADIUS, GRINDING_TYPES
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import SignalWrite
 

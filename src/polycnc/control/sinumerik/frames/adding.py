@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from polycnc.control.sinumerik.frames.memory import (
     AFTER_PROGRAMMABLE,
     AFTER_SETTABLE,
@@ -13,6 +11,7 @@ from polycnc.control.sinumerik.frames.memory import (
 )
 from polycnc.control.sinumerik.frames.variables import FRAME_VARIABLES
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:

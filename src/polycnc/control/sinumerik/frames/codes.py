@@ -7,7 +7,6 @@ G26).
 from __future__ import annotations
 
 from math import cos, radians, sin
-from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.block.positions import AxisTerm, number
 from polycnc.control.sinumerik.feed import spindle_speed
@@ -15,6 +14,7 @@ from polycnc.control.sinumerik.frames import active as frames
 from polycnc.control.sinumerik.limits import working_area
 from polycnc.control.sinumerik.motion.polar import Polar
 from polycnc.control.sinumerik.tables import length_factor
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import Frame, Vector
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.vectors import cross

@@ -12,12 +12,12 @@ from __future__ import annotations
 
 from functools import reduce
 from operator import matmul
-from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, lasting, retained
 from polycnc.control.sinumerik import gcodes
 from polycnc.control.sinumerik.data.machine_data import MachineData
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.sinumerik.names.frame import NEUTRAL, NcFrame, ctrans
 from polycnc.memory.retained import WORK_OFFSETS, filled
 from polycnc.messages import AlarmError

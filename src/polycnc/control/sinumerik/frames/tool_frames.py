@@ -9,7 +9,6 @@ Source: statement list, groups 52 and 53; Function Manual K2 (frame rotation in 
 from __future__ import annotations
 
 from math import atan2, cos, sin
-from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.frames import active as frames
 from polycnc.control.sinumerik.frames.memory import BEFORE_BASE, chain
@@ -17,6 +16,7 @@ from polycnc.control.sinumerik.tools.holders import active as carriers
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.transformations.posture import Posture
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import Frame, Vector
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.vectors import axis_vector, cross, dot, minus, times

@@ -6,12 +6,12 @@ Source: job planning 5.1.1 (predefined frame variables), 5.2 (components), 5.7 (
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik.frames import active as frames
 from polycnc.control.sinumerik.frames.memory import SYSTEM_FRAMES
 from polycnc.control.sinumerik.variables.row import Indices, Row
 from polycnc.control.sinumerik.variables.stored import Stored
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES, NcFrame
 from polycnc.language.sinumerik.names.spindles import axis_of_spindle
 from polycnc.language.sinumerik.names.values import Axis, Type

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.sinumerik.iso import frames, holes, offsets, reference, subprograms, systems, turning
 from polycnc.control.sinumerik.iso.running import IsoRun
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.sinumerik.errors import NcSyntaxError
 from polycnc.language.sinumerik.iso_dialect import MOTIONS
 

@@ -8,12 +8,12 @@ into a rotation, as the dialect has it; a mirror beside either of them is refuse
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.frames import active
 from polycnc.control.sinumerik.frames.memory import ISO_MIRROR, ISO_ROTATION, ISO_SCALE
 from polycnc.control.sinumerik.iso import holes
 from polycnc.control.sinumerik.tools import stages
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.planes import PLANES
 from polycnc.language.sinumerik.names.frame import (

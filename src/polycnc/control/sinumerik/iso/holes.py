@@ -8,7 +8,6 @@ counts from where the tool began and the depth from R. K repeats, and under G91 
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.cycles import calls, drilling
 from polycnc.control.sinumerik.cycles.table import Cycle
@@ -18,6 +17,7 @@ from polycnc.cycles.drilling import deep_hole, holes
 from polycnc.cycles.drilling.holes import Hole
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.language.sinumerik.iso_dialect import CORNERS, MOTIONS

@@ -6,10 +6,9 @@ be the same.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.sinumerik.iso import holes
 from polycnc.control.sinumerik.tools.selection import LengthSign
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.sinumerik.iso_dialect import CALLS
 
 if TYPE_CHECKING:

@@ -7,10 +7,10 @@ A program that begins with PROC is one of the control's own language, and reads 
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
 
 from polycnc.channel.stack import LevelKind
 from polycnc.control.sinumerik.iso.macro_words import LETTERS, WORDS
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.sinumerik.lexer import prefix_of
 from polycnc.language.sinumerik.statements.calls import call_program, call_without_arguments, named_program
 

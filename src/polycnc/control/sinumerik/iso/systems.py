@@ -6,9 +6,8 @@ and C in it. Source: general knowledge of the control's ISO turning.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.sinumerik.iso.subprograms import MACROS
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.sinumerik.errors import not_supported
 
 if TYPE_CHECKING:

@@ -6,7 +6,6 @@ Codes are those of system B (`systems`). Source: general knowledge of the contro
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.block import positions
@@ -15,6 +14,7 @@ from polycnc.control.sinumerik.cycles import calls
 from polycnc.control.sinumerik.cycles.table import Cycle
 from polycnc.cycles.turning import single
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.sinumerik.iso_dialect import MOTIONS
 from polycnc.toolpath import Kind
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from math import hypot
-from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik.limits import protection, working_area
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.sinumerik.names.variables import Array

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from itertools import pairwise
 from math import inf
-from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Rank, Stage
@@ -23,6 +22,7 @@ from polycnc.control.sinumerik.motion.contour_reading import (
     without_away,
 )
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import arcs, zones
 from polycnc.geometry.planes import PLANES
 from polycnc.language.sinumerik.names.frame import NcFrame

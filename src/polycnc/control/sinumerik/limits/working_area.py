@@ -8,7 +8,6 @@ Fundamentals (G25, G26, WALIMON, WALIMOF; WALCS0 to WALCS10), machine data 36100
 from __future__ import annotations
 
 from math import inf
-from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.moves.path import Move
 from polycnc.channel.moves.travel import Travel
@@ -19,6 +18,7 @@ from polycnc.control.sinumerik.variables.stored import Stored
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.planes import PLANES
 from polycnc.language.sinumerik.names.values import Type

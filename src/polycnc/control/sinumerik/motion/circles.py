@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from functools import partial
 from math import cos, hypot, pi, radians, sin
-from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move
@@ -21,6 +20,7 @@ from polycnc.control.sinumerik.motion.polar import Polar
 from polycnc.control.sinumerik.tables import length_factor
 from polycnc.control.sinumerik.tools.tool_plane import CHORD_ERROR_MM, bends_arcs
 from polycnc.deferred.functions import loaded_when_called
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import arcs
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY

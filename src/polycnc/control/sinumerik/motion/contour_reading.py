@@ -7,12 +7,12 @@ back behind them, or by a reset.
 from __future__ import annotations
 
 from math import isnan
-from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.path import Recorder
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.motion.last_move import LastMove
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Container

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
 from math import floor
-from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.block import arguments
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.messages import AlarmError

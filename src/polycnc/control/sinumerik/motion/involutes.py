@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from functools import partial
 from math import atan, hypot, radians, sqrt
-from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.chord_path import ChordPath
 from polycnc.channel.moves.knots import write_chords
@@ -17,6 +16,7 @@ from polycnc.control.sinumerik.motion import moves
 from polycnc.control.sinumerik.motion.circles import RoundACentre
 from polycnc.control.sinumerik.motion.last_move import ArcOfMove, LastMove
 from polycnc.control.sinumerik.tools.tool_plane import CHORD_ERROR_MM
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import arcs, involute
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import cos, isnan, nan, radians, sin, tan
-from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik import tables
@@ -24,6 +23,7 @@ from polycnc.control.sinumerik.tables import length_factor
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.geometry.units import INCH_MM

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from itertools import pairwise
 from math import hypot
-from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.knots import join
 from polycnc.channel.moves.move_path import MovePath
@@ -17,6 +16,7 @@ from polycnc.channel.moves.path import Rank, Stage
 from polycnc.control.sinumerik.motion.last_move import LastMove
 from polycnc.control.sinumerik.motion.spline_stage import TOLERANCE_MM
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.through_points import End, akima_tangents, chords, cubic_tangents
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.geometry.vectors import cross, minus

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from math import nan
-from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from polycnc.geometry.frames import Vector

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:

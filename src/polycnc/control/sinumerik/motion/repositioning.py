@@ -9,7 +9,6 @@ on which the tool is. After it the routine ends and the rest of the interrupted 
 from __future__ import annotations
 
 from math import hypot, isnan, nan
-from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.stack import LevelKind
 from polycnc.channel.states.state import Lifetime, State
@@ -22,6 +21,7 @@ from polycnc.control.sinumerik.tools import stages
 from polycnc.control.sinumerik.tools.sides import SIDES
 from polycnc.control.sinumerik.variables.row import RowWithStop
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.language.sinumerik.names.values import Axis, Type

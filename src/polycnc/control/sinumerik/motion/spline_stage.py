@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from itertools import groupby
 from operator import itemgetter
-from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.path import Rank, Stage
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.nurbs import nurbs_chords
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.toolpath import Kind

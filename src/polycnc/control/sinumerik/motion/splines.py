@@ -9,7 +9,6 @@ from __future__ import annotations
 from functools import partial
 from itertools import pairwise
 from math import hypot
-from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.moves.chord_path import ChordPath
 from polycnc.channel.moves.knots import write_chords
@@ -28,6 +27,7 @@ from polycnc.control.sinumerik.tables import length_factor
 from polycnc.control.sinumerik.tools import stages
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.geometry.through_points import End
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.language.sinumerik.words import WordAlarm

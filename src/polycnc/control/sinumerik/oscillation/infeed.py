@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from math import ceil, copysign
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from polycnc.channel.interpolator import Interpolator

@@ -6,7 +6,6 @@ Their values go into setting data along with the path, when the axes are there (
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.actions import axes as action_axes
@@ -18,6 +17,7 @@ from polycnc.control.sinumerik.oscillation.infeed import Infeed, PartialInfeeds
 from polycnc.control.sinumerik.oscillation.strokes import Oscillations
 from polycnc.control.sinumerik.tables import length_factor
 from polycnc.control.sinumerik.transformations import seat
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.toolpath.events import Deed

@@ -6,8 +6,6 @@ cut paths without strokes too.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.block.positions import number
 from polycnc.control.sinumerik.data.machine_data import MachineData
@@ -17,6 +15,7 @@ from polycnc.control.sinumerik.signals import measuring
 from polycnc.control.sinumerik.tables import length_factor
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.planes import PLANES
 from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError

@@ -7,12 +7,12 @@ hold back. The marks end here.
 from __future__ import annotations
 
 from math import ceil, hypot
-from typing import TYPE_CHECKING
 
 from polycnc.channel.moves import origins
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move, PlacedEvent, Rank, Stage
 from polycnc.deferred.records import dataclass, replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.toolpath.context import SHORTENED, Pace
 from polycnc.toolpath.events import Event, Stroke

@@ -5,12 +5,11 @@ No machine of polycnc has a stop, so an axis that travels to one goes to the end
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.sinumerik.actions.fixed_stop import DATA, FixedStops
 from polycnc.control.sinumerik.block.draft import axis_column
 from polycnc.control.sinumerik.block.positions import number
 from polycnc.control.sinumerik.tables import length_factor
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError

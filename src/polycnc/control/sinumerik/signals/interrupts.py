@@ -8,8 +8,6 @@ still made; a routine that ends without REPOS leaves it, and the next block goes
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Rank, Stage
 from polycnc.channel.stack import LevelKind
@@ -18,6 +16,7 @@ from polycnc.control.sinumerik.actions import actions
 from polycnc.control.sinumerik.block.positions import of_display
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field, replace
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.sinumerik.statements.calls import call_without_arguments, named_program
 from polycnc.messages import AlarmError
 

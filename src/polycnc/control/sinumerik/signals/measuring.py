@@ -7,8 +7,6 @@ running block. A job that deletes the distance to go ends the move there, withou
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move, Rank, Stage
 from polycnc.channel.states.state import Lifetime, State
@@ -17,6 +15,7 @@ from polycnc.control.sinumerik.block.positions import of_display, shown
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.variables.row import Indices, RowWithStop
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError

@@ -6,8 +6,6 @@ the place of an edge is exact on lines.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from polycnc.channel.interpolator import PassiveWatcher
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move
@@ -25,6 +23,7 @@ from polycnc.control.sinumerik.signals.measuring import (
 )
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind

@@ -11,13 +11,13 @@ side. The part along the tool is never mirrored.
 from __future__ import annotations
 
 from math import cos, nan, radians, sin
-from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.draft import axis_column
 from polycnc.control.sinumerik.block.positions import axis_term, number
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.vectors import axis_vector, cross
 from polycnc.language.sinumerik.words import WordAlarm

@@ -6,8 +6,6 @@ effect. Blocks of G331 and G332 are a section for stops by themselves, as long a
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.block.arguments import Arguments, Procedure
 from polycnc.control.sinumerik.couplings.links import Couplings, Kind
@@ -15,6 +13,7 @@ from polycnc.control.sinumerik.data.machine_data import MachineData
 from polycnc.control.sinumerik.variables.row import Indices, RowWithStop
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.language.sinumerik.statements.sections import ENDS_CONTEXT
 

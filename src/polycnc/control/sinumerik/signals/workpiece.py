@@ -9,7 +9,6 @@ Function Manual.
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.block.positions import SHOWS_DIAMETERS, diameter_function, shown
@@ -24,6 +23,7 @@ from polycnc.control.sinumerik.signals.workpiece_memory import (
     Measurement,
     Result,
 )
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.messages import AlarmError

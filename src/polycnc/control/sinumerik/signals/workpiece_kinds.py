@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from math import acos, asin, atan2, cos, degrees, dist, hypot, radians, sin, sqrt
-from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.frames.memory import AFTER_PROGRAMMABLE, AFTER_SETTABLE, BEFORE_BASE, chain
 from polycnc.control.sinumerik.signals.workpiece_memory import POINTS, RESULTS, Bit, Measurement, Result
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.units import INCH_MM
 from polycnc.geometry.vectors import cross, minus

@@ -7,11 +7,11 @@ at a corner it turns the short way.
 from __future__ import annotations
 
 from math import atan2, ceil, degrees, hypot, inf, pi, sqrt
-from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.angles import TURN_DEG, nearest_turn
 
 if TYPE_CHECKING:

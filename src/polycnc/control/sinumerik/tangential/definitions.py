@@ -6,7 +6,6 @@ A word of a coupled axis is put to its offset angle: absolute ones take the plac
 from __future__ import annotations
 
 from math import inf, nan
-from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.path import PlacedEvent
 from polycnc.channel.states.state import Lifetime, State
@@ -21,6 +20,7 @@ from polycnc.control.sinumerik.tangential.coupling import Coupling
 from polycnc.control.sinumerik.tangential.stage import Positioned, TangentialStage
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass, field, replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind

@@ -8,7 +8,6 @@ the latest up to the end of the move.
 from __future__ import annotations
 
 from math import degrees, inf
-from typing import TYPE_CHECKING
 
 from polycnc.channel.moves import knots, origins
 from polycnc.channel.moves.move_path import MovePath
@@ -17,6 +16,7 @@ from polycnc.control.sinumerik.limits.working_area import WORKING_AREA, Ranges
 from polycnc.control.sinumerik.tangential.coupling import SAME_DEG, Coupling, Course, course
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.deferred.records import dataclass, replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.toolpath.events import Event
 from polycnc.toolpath.kinds import ARC_KINDS, Kind
 from polycnc.toolpath.modes import FeedMode

@@ -13,11 +13,11 @@ Source: job planning 7.11; Function Manual W1 (cutting data modification), descr
 from __future__ import annotations
 
 from math import atan2, ceil, copysign, degrees, floor
-from typing import TYPE_CHECKING
 
 from polycnc.compensation.tips import tip_direction
 from polycnc.control.sinumerik.tools.edges import DP_CLEARANCE, DP_DIRECTION, DP_HOLDER_ANGLE, DP_TIP
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import cos_sin_deg
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.vectors import axis_vector, dot

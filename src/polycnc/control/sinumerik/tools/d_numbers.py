@@ -6,10 +6,10 @@ Source: job planning 7.2 (DL), 7.7 (D numbers).
 from __future__ import annotations
 
 from itertools import combinations
-from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.block.arguments import Arguments, Procedure
 from polycnc.control.sinumerik.tools.memory import FLAT
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.sinumerik.names.variables import Reference
 from polycnc.messages import AlarmError
 

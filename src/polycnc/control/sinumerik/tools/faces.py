@@ -10,7 +10,6 @@ Source: job planning 7.5.1 to 7.5.4.
 from __future__ import annotations
 
 from math import acos, hypot, radians, sin, sqrt
-from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.knots import join
 from polycnc.channel.moves.move_path import MovePath
@@ -22,6 +21,7 @@ from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.transformations.directions import SQUARE
 from polycnc.control.sinumerik.transformations.posture import Orienting
 from polycnc.deferred.records import dataclass, replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.arcs import parts_for_chord_error
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.vectors import axis_vector, dot

@@ -10,8 +10,6 @@ Source: job planning 7.3 (SD42900 to SD42960, TOWSTD …); Function Manual W1 (b
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.sinumerik.tools.edges import (
     COARSE,
     DIRECTION,
@@ -23,6 +21,7 @@ from polycnc.control.sinumerik.tools.edges import (
     FINE,
 )
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import IDENTITY, Frame, Vector
 from polycnc.machine.kinematics import unit
 

@@ -6,11 +6,10 @@ names the master one. Source: job planning 16.1 (SETMTH); Function Manual Tool M
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.states.state import Lifetime, State, lasting
 from polycnc.control.sinumerik.data.machine_data import MachineData
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel

@@ -5,8 +5,6 @@ Source: job planning 7.1 (tool parameters), 7.3 (assignment of lengths); Fundame
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.states.state import Lifetime, State, retained
 from polycnc.compensation.tips import tip_direction
 from polycnc.control.sinumerik.data.machine_data import MachineData
@@ -30,6 +28,7 @@ from polycnc.control.sinumerik.tools.lengths import (
 )
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.vectors import axis_vector, minus, times
@@ -43,10 +42,10 @@ with loaded_when_called():
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
-    from typing import Self
 
     from polycnc.channel.channel import Channel
     from polycnc.control.sinumerik.tools.cutting_data import CuttingData
+    from polycnc.deferred.typing import Self
     from polycnc.geometry.frames import Frame, Vector
     from polycnc.machine.setup.values import Tool as SetupTool
 

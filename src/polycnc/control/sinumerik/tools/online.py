@@ -8,8 +8,6 @@ Source: job planning 7.4 (FTOCON, PUTFTOC), 7.10 (TOFFON, TOFFOF, `$AA_TOFF`).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.frames import active as frames
@@ -18,6 +16,7 @@ from polycnc.control.sinumerik.tools import selection
 from polycnc.control.sinumerik.tools.edges import DP_WEAR_LENGTH
 from polycnc.control.sinumerik.tools.holders.active import ActiveCarrier
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.messages import AlarmError
 

@@ -18,7 +18,6 @@ As its direction is that of the contour's first move, an approach waits for that
 from __future__ import annotations
 
 from math import isnan, nan
-from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.path import Move
 from polycnc.channel.states.state import Lifetime, State
@@ -38,6 +37,7 @@ from polycnc.control.sinumerik.tools.smooth_stage import (
     with_value,
 )
 from polycnc.deferred.records import dataclass, replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.units import INCH_MM
 from polycnc.messages import AlarmError

@@ -6,12 +6,12 @@ See `smooth_approach` for what an approach is made of.
 from __future__ import annotations
 
 from math import isnan
-from typing import TYPE_CHECKING, TypeAlias
 
 from polycnc.channel.moves import origins
 from polycnc.channel.moves.path import Move, Rank, Stage
 from polycnc.control.sinumerik.tables import RETRACTIONS
 from polycnc.deferred.records import dataclass, replace
+from polycnc.deferred.typing import TYPE_CHECKING, TypeAlias
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind

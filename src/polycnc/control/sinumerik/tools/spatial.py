@@ -10,7 +10,6 @@ Source: job planning 7.5 (CUT3D…, ISD), 7.6 (ORIC, ORID).
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.knots import join
 from polycnc.compensation.spatial.rules import (
@@ -27,6 +26,7 @@ from polycnc.control.sinumerik.tools.sides import SIDES, Contour
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass, replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.machine.kinematics import unit
 from polycnc.messages import AlarmError
 from polycnc.transformation.chain import Chain

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from functools import partial
 from math import hypot, nan
-from typing import TYPE_CHECKING, NoReturn
 
 from polycnc.channel.moves.knots import Motions, join
 from polycnc.compensation.contour_tool import ContourTool, CuttingEdge
@@ -29,6 +28,7 @@ from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.transformations.walls import WallStage
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING, NoReturn
 from polycnc.geometry.arcs import EVEN
 from polycnc.geometry.frames import IDENTITY, Frame
 from polycnc.geometry.offset import Joint, Outer

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from itertools import pairwise
 from math import hypot
-from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move, Rank, Stage
@@ -19,6 +18,7 @@ from polycnc.control.sinumerik.transformations import seat
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.arcs import EVEN, circle_image, is_even
 from polycnc.geometry.frames import IDENTITY, Frame, Vector
 from polycnc.geometry.planes import PLANES

@@ -6,7 +6,6 @@ Writing `$TC_DP…` of a tool or an edge that is not there makes it. Source: job
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed import tooth_feed, wheels
@@ -28,6 +27,7 @@ from polycnc.control.sinumerik.tools.lengths import counts_as_turning
 from polycnc.control.sinumerik.tools.memory import FLAT
 from polycnc.control.sinumerik.variables.row import Indices, Row
 from polycnc.control.sinumerik.variables.stored import Stored
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.messages import AlarmError
 

@@ -8,10 +8,10 @@ machine file; how far they lie apart, and how far the tool lies from them, data 
 from __future__ import annotations
 
 from math import atan2, degrees
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass, replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.vectors import dot, times
 from polycnc.machine.kinematics import Kinematics, unit
 from polycnc.messages import AlarmError

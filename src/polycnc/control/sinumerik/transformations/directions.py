@@ -6,7 +6,6 @@ All directions are unit vectors of the basic system, from the tip along the tool
 from __future__ import annotations
 
 from math import radians
-from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.tables import length_factor
 from polycnc.control.sinumerik.transformations.words import (
@@ -21,6 +20,7 @@ from polycnc.control.sinumerik.transformations.words import (
     LETTERS,
     SECOND,
 )
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import IDENTITY, Frame
 from polycnc.geometry.vectors import dot
 from polycnc.language.sinumerik.words import WordAlarm

@@ -9,13 +9,13 @@ from __future__ import annotations
 
 from itertools import pairwise
 from math import radians
-from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import EndOfBlock, Move, PlacedEvent, Rank, Stage
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.transformations.posture import Posture
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 from polycnc.transformation.orientation.directions import angle_between

@@ -6,11 +6,10 @@ then moves the oblique axis alone, and the tool meets that point along it.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.motion import moves
 from polycnc.control.sinumerik.transformations import seat
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 from polycnc.transformation.chain import Chain

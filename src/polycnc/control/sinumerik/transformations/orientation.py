@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from itertools import pairwise
 from math import degrees, dist, nan
-from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import Move
@@ -30,6 +29,7 @@ from polycnc.control.sinumerik.transformations.words import (
     take,
 )
 from polycnc.control.sinumerik.transformations.words import DIRECTION as END_DIRECTION
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.bulk import Idle, declare
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from math import inf
-from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.block.positions import Dimension, number
 from polycnc.control.sinumerik.couplings.links import Couplings, bare
@@ -15,6 +14,7 @@ from polycnc.control.sinumerik.transformations import data_sets, seat
 from polycnc.control.sinumerik.transformations.orientation import is_point_to_point
 from polycnc.control.sinumerik.transformations.pole_sides import plane_of, stand
 from polycnc.control.sinumerik.transformations.posture import Orienting, Posture
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.language.sinumerik.words import WordAlarm

@@ -7,12 +7,11 @@ ones it comes back on its own side. With 1 or 2 it keeps its side, and the rotar
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.moves.pole import PoleStage, standing
 from polycnc.control.sinumerik.couplings import links
 from polycnc.control.sinumerik.transformations.seat import Transformations
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.transformation.chain import Chain
 from polycnc.transformation.kinematic.polar import PolarPlane
 

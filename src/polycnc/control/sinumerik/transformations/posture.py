@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import AlarmError
 from polycnc.transformation.orientation.choice import is_within, on_turns_within
 from polycnc.transformation.orientation.directions import unit_of

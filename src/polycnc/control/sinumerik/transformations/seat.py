@@ -8,7 +8,6 @@ or the tool calls `stand`, by way of `frames.active.apply`.
 from __future__ import annotations
 
 from math import inf
-from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.states.state import Lifetime, State, lasting
 from polycnc.control.sinumerik import axis_names
@@ -18,6 +17,7 @@ from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tools.lengths import OF_MACHINE
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, replace
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.vectors import minus, plus
 from polycnc.language.sinumerik.names.frame import GEOMETRY_AXES

@@ -6,7 +6,6 @@ A change of transformation deselects the frames (6.10; MD10602 keeps them), the 
 from __future__ import annotations
 
 from math import nan
-from typing import TYPE_CHECKING
 
 from polycnc.channel.failure import stand_at_last_row
 from polycnc.compensation.corner import CornerStage
@@ -27,6 +26,7 @@ from polycnc.control.sinumerik.transformations.pole_sides import PoleSides, plan
 from polycnc.control.sinumerik.transformations.seat import Transformations
 from polycnc.control.sinumerik.transformations.walls import WallStage
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.language.sinumerik.names.frame import NEUTRAL
 from polycnc.messages import AlarmError

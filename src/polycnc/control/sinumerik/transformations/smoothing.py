@@ -8,12 +8,11 @@ along its block, as it turns without smoothing.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.sinumerik.feed.tolerances import Smoothing, contour_tolerance
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.transformations.words import BY_PATH, CONES
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.toolpath.context import Fairing
 from polycnc.toolpath.modes import CornerMode
 

@@ -8,11 +8,11 @@ direction the shortest way; of ORIROTR and ORIROTT the direction into which the 
 from __future__ import annotations
 
 from math import atan2, degrees
-from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.transformations.directions import tangent_of
 from polycnc.control.sinumerik.transformations.words import ANGLES
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.vectors import cross, dot, minus, times
 from polycnc.machine.kinematics import turn_about, unit
 from polycnc.messages import AlarmError

@@ -7,11 +7,11 @@ out by `orientation`. So both ways give the same bits.
 from __future__ import annotations
 
 from array import array
-from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.transformations import data_sets, seat
 from polycnc.control.sinumerik.transformations.posture import Orienting, Posture
 from polycnc.control.sinumerik.transformations.words import DIRECTION
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import IDENTITY
 from polycnc.transformation.orientation.directions import great_circle, tangent_at_end
 from polycnc.transformation.orientation.records import StandRecord

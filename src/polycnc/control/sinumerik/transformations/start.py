@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.motion import moves
 from polycnc.control.sinumerik.transformations import data_sets, seat
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 

@@ -9,7 +9,6 @@ OFFN, it goes evenly.
 from __future__ import annotations
 
 from math import ceil, degrees, hypot, sqrt
-from typing import TYPE_CHECKING
 
 from polycnc.channel.moves import origins
 from polycnc.channel.moves.knots import cut
@@ -17,6 +16,7 @@ from polycnc.channel.moves.move_path import MovePath
 from polycnc.channel.moves.path import END_OF_BLOCK, Item, Move, PlacedEvent, Rank, Stage
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.toolpath.kinds import CCW_KINDS
 
 if TYPE_CHECKING:

@@ -5,10 +5,9 @@ They are taken while the block is worked out; `orientation` says where they lead
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from polycnc.control.sinumerik.block.positions import number
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.sinumerik.words import WordAlarm
 from polycnc.messages import AlarmError
 

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.moves.origins import KIND
 from polycnc.control.sinumerik.errors import not_supported
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.toolpath.context import SHORTENED
 

@@ -5,9 +5,8 @@ A name is read as an expression of the main program, so it means what it means t
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from polycnc.deferred.contexts import contextmanager
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.expressions.code import quoted
 from polycnc.language.sinumerik.blocks import BlockCompiler
 from polycnc.language.sinumerik.lexer import tokenize

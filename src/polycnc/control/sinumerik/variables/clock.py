@@ -10,10 +10,10 @@ Source: the list manual of system variables by name.
 from __future__ import annotations
 
 from datetime import datetime, timedelta
-from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:

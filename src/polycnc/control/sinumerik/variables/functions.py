@@ -5,8 +5,6 @@ Source: job planning 5.2 (frame functions), 14.1 (axis functions), 10.4.13 (POSR
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from polycnc.control.sinumerik.block.arguments import Arguments
 from polycnc.control.sinumerik.block.positions import ModuloRange
 from polycnc.control.sinumerik.contours import use
@@ -18,6 +16,7 @@ from polycnc.control.sinumerik.limits import calcposi
 from polycnc.control.sinumerik.signals import workpiece
 from polycnc.control.sinumerik.tools import d_numbers
 from polycnc.control.sinumerik.tools.management import components, corrections, environments, lists, magazines
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.geometry import fit
 from polycnc.language.sinumerik.formatting import formatted
 from polycnc.language.sinumerik.keywords import CONTROL_FUNCTIONS

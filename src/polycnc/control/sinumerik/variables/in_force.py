@@ -8,11 +8,11 @@ the main run takes it over when the axes are there.
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Any, TypeAlias
 
 from polycnc.channel.moves.path import Move, PlacedEvent, Rank, Stage
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING, Any, TypeAlias
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import Deed

@@ -9,12 +9,12 @@ axes have their own unit (`block/positions.py`).
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, TypeAlias
 
 from polycnc.control.sinumerik.data.delivered import LENGTHS as DATA
 from polycnc.control.sinumerik.frames.variables import FRAME_VARIABLES
 from polycnc.control.sinumerik.tables import data_factor
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING, Any, TypeAlias
 from polycnc.language.sinumerik.names.values import Axis
 
 if TYPE_CHECKING:

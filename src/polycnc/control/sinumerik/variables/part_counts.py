@@ -5,11 +5,10 @@ MD27880 says which of them count, and whether at M2 and M30 or at an M function 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from polycnc.channel.states.state import Lifetime, State, retained
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.messages import Alarm, AlarmError
 from polycnc.toolpath.events import Deed

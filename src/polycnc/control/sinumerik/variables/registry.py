@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from functools import partial
 from math import isnan
-from typing import TYPE_CHECKING, Any
 
 from polycnc.control.sinumerik import gcodes
 from polycnc.control.sinumerik.actions.variables import ACTION_VARIABLES, OF_ACTIONS, TIMED_VARIABLES
@@ -63,6 +62,7 @@ from polycnc.control.sinumerik.variables.stored import Stored
 from polycnc.control.sinumerik.variables.surroundings import SURROUNDINGS
 from polycnc.deferred.records import dataclass, replace
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.sinumerik.names.frame import NcFrame
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.messages import AlarmError

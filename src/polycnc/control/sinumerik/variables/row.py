@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, TypeAlias
 
+from polycnc.deferred.typing import TYPE_CHECKING, Any, TypeAlias
 from polycnc.language.sinumerik.names.values import Type
 
 if TYPE_CHECKING:

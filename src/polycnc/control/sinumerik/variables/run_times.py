@@ -7,7 +7,6 @@ says MD27860.
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.interpolator import PassiveWatcher
 from polycnc.channel.states.state import Lifetime, State
@@ -16,6 +15,7 @@ from polycnc.control.sinumerik.actions.actions import SynchronisedActions
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.deferred.records import dataclass, field
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import Deed

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, TypeAlias
-
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING, Any, TypeAlias
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel

@@ -7,9 +7,8 @@ Source: job planning 1.1.2 (prefixes), the list manual of system variables by na
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from polycnc.control.sinumerik.variables.stored import Stored
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.messages import AlarmError
 

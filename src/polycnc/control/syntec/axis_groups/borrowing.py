@@ -5,14 +5,13 @@ An axis roams where Pr742 is 1 and Pr701 on names more than one group for it. No
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.channel.waits import Wait, Why
 from polycnc.control.syntec.axis_groups.names import CODES, axis_of_code
 from polycnc.control.syntec.coordinates.turns import TurnState
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.block.plan import AxisWord
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from polycnc.control.syntec.family import SyntecChannel

@@ -5,10 +5,9 @@ A change of the length stops look-ahead: under radius compensation the block in 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.word_address.memory import ToolOffsets
 from polycnc.control.word_address.tools import length
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.units import INCH_MM
 
 if TYPE_CHECKING:

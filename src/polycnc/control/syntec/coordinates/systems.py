@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.syntec.axis_groups.names import map_virtual_axis
 from polycnc.control.syntec.coordinates.turns import (
@@ -26,6 +24,7 @@ from polycnc.control.word_address.coordinates.systems import (
 from polycnc.control.word_address.memory import EXTERNAL
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import about, scaling
 from polycnc.geometry.planes import PLANES
 from polycnc.language.syntec.values import to_long

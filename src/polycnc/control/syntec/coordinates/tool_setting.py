@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from math import nan
-from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.coordinates.systems import WORK_SYSTEMS
 from polycnc.control.syntec.parameters import SyntecParameters
@@ -14,6 +13,7 @@ from polycnc.control.word_address.memory import EXTERNAL
 from polycnc.control.word_address.motion import skip
 from polycnc.control.word_address.states import LengthState
 from polycnc.control.word_address.tools import length
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath import Kind
 from polycnc.toolpath.events import Auxiliary

@@ -7,7 +7,6 @@ G54.4 P1 is on.
 from __future__ import annotations
 
 from math import inf
-from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, lasting, retained
 from polycnc.control.syntec.parameters import SyntecParameters
@@ -17,6 +16,7 @@ from polycnc.control.word_address.states import LengthState
 from polycnc.control.word_address.tools.radius import active_compensation
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field, replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import IDENTITY, Frame
 from polycnc.memory.retained import TILTED_PLANES, WORK_TURNS
 from polycnc.toolpath.context import Pace
@@ -27,11 +27,10 @@ with loaded_when_called():
     from polycnc.transformation.planes import tilted
 
 if TYPE_CHECKING:
-    from typing import Self
-
     from polycnc.channel.channel import Channel
     from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.syntec.memory import SyntecMemory
+    from polycnc.deferred.typing import Self
     from polycnc.toolpath import Context
 
 

@@ -8,7 +8,6 @@ control both go by themselves: there the tip is held on the work.
 from __future__ import annotations
 
 from math import nan
-from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.coordinates.turns import TurnState, keep_plane, renew_preset_frame
 from polycnc.control.syntec.five_axes import mechanism
@@ -24,6 +23,7 @@ from polycnc.control.word_address.transformations.tilted_plane import (
     stand_along,
     turn_about_tip,
 )
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import IDENTITY
 from polycnc.toolpath import Kind
 from polycnc.transformation.orientation import choice

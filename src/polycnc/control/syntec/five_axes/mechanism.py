@@ -9,10 +9,9 @@ of a head lies from its last rotary axis.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.syntec.units import least_unit
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import IDENTITY, Frame
 from polycnc.geometry.vectors import axis_vector, dot, times
 from polycnc.machine.kinematics import Kinematics, unit

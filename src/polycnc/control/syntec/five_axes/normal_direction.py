@@ -7,12 +7,12 @@ The control plane is the one across the axis.
 from __future__ import annotations
 
 from math import inf
-from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.coordinates.turns import TurnState
 from polycnc.control.word_address.states import PolarState
 from polycnc.control.word_address.transformations.normal_line import GROUP, LEFT, NormalLineRules, end
 from polycnc.control.word_address.transformations.normal_stage import Direction, NormalStage
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.units import INCH_MM
 

@@ -9,12 +9,12 @@ manual does not say how the tool turns there.
 from __future__ import annotations
 
 from math import nan
-from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.coordinates.turns import PostureState, TurnState
 from polycnc.control.syntec.motion.moves import feed_to
 from polycnc.control.word_address.motion.path import reach
 from polycnc.control.word_address.transformations.tilted_plane import turn_to
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.vectors import dot
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.compensation.spatial.rules import ARC_FIRST, INTERSECTION, Corners, Rules
 from polycnc.control.syntec.coordinates.turns import PostureState
@@ -13,6 +11,7 @@ from polycnc.control.word_address.tools import radius, spatial
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.normal_stage import NormalStage
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:

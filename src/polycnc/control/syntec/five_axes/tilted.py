@@ -6,8 +6,6 @@ is aligned by G53.1, G53.3 or G53.6 (`alignment`).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, cast
-
 from polycnc.control.syntec.coordinates.turns import (
     OVER_POWER_OFF,
     KeptPlane,
@@ -28,6 +26,7 @@ from polycnc.control.word_address.transformations.tilted_plane import (
     stand_along,
 )
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING, cast
 from polycnc.geometry.frames import IDENTITY, Frame, rotation, translation
 from polycnc.transformation.planes.tilted import by_euler, by_rotary_axes, square_on
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.syntec.coordinates import length as tool_length
 from polycnc.control.syntec.coordinates.turns import (
     FollowingState,
@@ -19,6 +17,7 @@ from polycnc.control.word_address.coordinates.systems import refresh_zero
 from polycnc.control.word_address.coordinates.tip import TIP_CODES, TipState
 from polycnc.control.word_address.states import LengthState, PolarState
 from polycnc.control.word_address.transformations import normal_line, tool_center_point
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import IDENTITY
 from polycnc.language.bulk import declare, declared
 

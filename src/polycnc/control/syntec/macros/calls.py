@@ -6,8 +6,6 @@ when it is over (macro language reference, sections 4.2 and 7).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from polycnc.channel.stack import LevelKind
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.machine_words import refuse
@@ -18,6 +16,7 @@ from polycnc.control.syntec.macros.variables import INDEXED_LETTERS, Locals
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.syntec.blocks import FORMS
 from polycnc.language.syntec.values import Text, Value
 from polycnc.language.word_address import WordBlock

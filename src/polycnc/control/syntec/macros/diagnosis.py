@@ -6,9 +6,8 @@ a switch (`D376: 3`), else 0; a drive variable is VACANT, which is what the cont
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.syntec.values import VACANT, Text, Value, to_long
 from polycnc.messages import AlarmError
 

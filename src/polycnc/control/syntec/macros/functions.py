@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from functools import partial
-from typing import TYPE_CHECKING
 
 from polycnc.channel.waits import PREPROCESSING
 from polycnc.control.syntec.macros import records
@@ -12,6 +11,7 @@ from polycnc.control.syntec.macros.system_variables import system_variable
 from polycnc.control.syntec.macros.variables import BitState, FunctionState
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.syntec.values import VACANT, Text, Vacant, Value, number, whole
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import Circle, Message, Pen, Print

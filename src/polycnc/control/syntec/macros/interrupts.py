@@ -7,7 +7,6 @@ whole increment. While M96 is active the modal state says so, so that only then 
 from __future__ import annotations
 
 from math import nan
-from typing import TYPE_CHECKING
 
 from polycnc.channel.stack import LevelKind
 from polycnc.channel.states.state import Lifetime, State
@@ -19,6 +18,7 @@ from polycnc.control.word_address.motion import path
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass, replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.toolpath import Kind
 
 with loaded_when_called():

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.states.state import Lifetime, State, retained
 from polycnc.control.syntec.five_axes import mechanism
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.memory.retained import PARAMETERS
 from polycnc.messages import AlarmError
 

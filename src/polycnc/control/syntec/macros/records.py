@@ -8,11 +8,11 @@ schema of that cycle names. Schemas are the builder's: the setup gives each as a
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.deferred.records import dataclass, field
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.syntec.values import Text, Vacant, Value, whole
 from polycnc.messages import AlarmError
 

@@ -5,10 +5,9 @@ Unlike `@` these ways reach the registers of the interface too.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.syntec.macros.variables import SHOWN_REGISTERS
 from polycnc.control.syntec.motion.oscillation import OVERRIDE, PERCENTAGES, override_set
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from polycnc.control.syntec.family import SyntecChannel

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.syntec.macros.variables import SpaceState
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.syntec.blocks import TypedBlock
 
 if TYPE_CHECKING:

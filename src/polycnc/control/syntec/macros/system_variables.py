@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from math import isnan
-from typing import TYPE_CHECKING, cast
 
 from polycnc.control.syntec.builder import macro_program
 from polycnc.control.syntec.coordinates.systems import WORK_SYSTEMS
@@ -29,6 +28,7 @@ from polycnc.control.word_address.states import LastSkip
 from polycnc.control.word_address.tools.length import renew_length
 from polycnc.control.word_address.tools.radius import active_compensation
 from polycnc.deferred.functions import loaded_when_called
+from polycnc.deferred.typing import TYPE_CHECKING, cast
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.syntec.values import VACANT, Value, number, to_long, whole
 from polycnc.messages import AlarmError

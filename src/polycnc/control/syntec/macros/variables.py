@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.states.state import Lifetime, State, lasting, retained
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.syntec.expressions import LAST_LOCAL, NO_SUCH_VARIABLE
 from polycnc.language.syntec.values import VACANT, Text, Vacant, Value, number, storable, to_long, whole
 from polycnc.memory.retained import REGISTERS, VARIABLES
@@ -16,11 +16,11 @@ from polycnc.messages import AlarmError
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
     from random import Random
-    from typing import Self
 
     from polycnc.channel.stack import Level
     from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.syntec.memory import SyntecMemory
+    from polycnc.deferred.typing import Self
 
 Read = Callable[["SyntecMemory", int], Value]
 Write = Callable[["SyntecMemory", int, Value], None]

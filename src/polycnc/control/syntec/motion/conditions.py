@@ -6,19 +6,18 @@ What a set holds the manual does not print; here it is the highest speed of the 
 from __future__ import annotations
 
 from math import inf
-from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, retained
 from polycnc.control.syntec.parameters import SyntecParameters
 from polycnc.deferred.records import dataclass, replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.memory.retained import MACHINING_CONDITIONS
 from polycnc.toolpath.context import Pace
 
 if TYPE_CHECKING:
-    from typing import Self
-
     from polycnc.channel.channel import Channel
     from polycnc.control.syntec.family import SyntecChannel
+    from polycnc.deferred.typing import Self
     from polycnc.toolpath import Context
 
 #: Sets for users: P1Q1 is 1, P1Q2 2, P3Q3 9.

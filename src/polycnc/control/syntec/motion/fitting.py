@@ -6,10 +6,9 @@ geometry axes, is left as it is, and so are its corners: there the path keeps to
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.moves.path import Move, Rank, Stage
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.toolpath.modes import CornerMode
 
 if TYPE_CHECKING:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from functools import partial
 from math import copysign, hypot, nan
-from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, lasting
 from polycnc.control.syntec.coordinates.turns import POSTURE, TurnState
@@ -27,6 +26,7 @@ from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.deferred.contexts import contextmanager
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field, replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import arcs
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.planes import PLANES

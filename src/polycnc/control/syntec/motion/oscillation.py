@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from functools import partial
 from math import nan
-from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, lasting
 from polycnc.control.syntec.axis_groups.names import CODES, axis_of_code
@@ -24,6 +23,7 @@ from polycnc.control.word_address.motion.oscillation import (
 )
 from polycnc.control.word_address.transformations.normal_stage import NormalStage
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:

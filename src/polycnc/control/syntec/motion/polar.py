@@ -7,8 +7,6 @@ with any pair of axes, in the plane that a block with G17, G18 or G19 has made o
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.syntec.coordinates.diameters import DiameterState
 from polycnc.control.word_address.states import PolarState
@@ -21,6 +19,7 @@ from polycnc.control.word_address.transformations.polar_interpolation import (
 )
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.planes import PLANES
 
 with loaded_when_called():

@@ -6,9 +6,8 @@ normal direction control (2.83). Which way the others take, the shortest or one 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.word_address.block.rules import Rule
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from math import copysign
-from typing import TYPE_CHECKING
 
 from polycnc.control.syntec.motion.moves import SkipGroup, SkipState, skip_source
 from polycnc.control.word_address.motion import path, skip
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath import Kind
 

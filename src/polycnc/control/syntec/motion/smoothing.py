@@ -6,8 +6,6 @@ what lies between them within the tolerance that the mode gives.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.syntec.coordinates.turns import leads_tip
 from polycnc.control.syntec.motion.fitting import FittingStage
@@ -16,6 +14,7 @@ from polycnc.control.syntec.units import least_unit
 from polycnc.control.word_address.motion.path_modes import PathModeState
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath.events import Deed
 from polycnc.toolpath.modes import CornerMode
@@ -24,11 +23,10 @@ with loaded_when_called():
     from polycnc.control.word_address.motion import nurbs
 
 if TYPE_CHECKING:
-    from typing import Self
-
     from polycnc.channel.channel import Channel
     from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.words import Words
+    from polycnc.deferred.typing import Self
     from polycnc.toolpath import Context
 
 ON = 10_000

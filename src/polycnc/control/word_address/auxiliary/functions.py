@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.states.state import Lifetime, State, plain
 from polycnc.control.word_address.motion.path import FEED_MODES
 from polycnc.control.word_address.tools.radius import suspended
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.bulk import Conversion, Note, Scaling, SetFeed, Word, declare
 from polycnc.toolpath.events import SecondAuxiliary, SpindleSpeed, ToolSelection

@@ -5,8 +5,6 @@ What it refuses is asked in `control/machine_words.py`.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.machine_words import (
     UNKNOWN_M,
     MachineSignals,
@@ -18,6 +16,7 @@ from polycnc.control.machine_words import (
 )
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.bulk import Note, declare, declared
 
 if TYPE_CHECKING:

@@ -6,14 +6,13 @@ that nothing else takes along. A G code has to be declared.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from polycnc.control.machine_words import plc_of, refuse
 from polycnc.control.word_address.auxiliary import functions
 from polycnc.control.word_address.auxiliary.interlocks import guarded, unlisted
 from polycnc.control.word_address.block.codes import GCode, MCode, Order
 from polycnc.control.word_address.block.plan import NOT_YET, sent_words
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import BuilderCode
 

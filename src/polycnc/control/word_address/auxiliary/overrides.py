@@ -5,12 +5,11 @@ The toolpath's context says which overrides and whether feed hold act; what runs
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.deferred.contexts import contextmanager
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.toolpath.modes import CornerMode
 
 with loaded_when_called():

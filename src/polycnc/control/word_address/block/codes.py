@@ -9,9 +9,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from enum import IntEnum
-from typing import TYPE_CHECKING, Any
 
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel

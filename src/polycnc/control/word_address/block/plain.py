@@ -6,11 +6,10 @@ that anything has wrapped or added (a modal macro, a corner, an interruption) sa
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.machine_words import may_refuse_moves
 from polycnc.control.word_address.motion import arcs
 from polycnc.deferred.functions import loaded_when_called
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.planes import PLANES
 from polycnc.language.bulk import Arc, Conditions, Recipe, Spelling
 from polycnc.language.bulk.layout import FIRST_CODE, FIRST_FORMULA, FIRST_M_CODE, FORMS, NUMBERED

@@ -8,8 +8,6 @@ modal state; later blocks of the same shape only bring new numbers.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.intervention import NOTHING_BACK, TakesBack
 from polycnc.control.word_address.block.codes import GCode, MCode, Order, Step
 from polycnc.control.word_address.block.numbers import Convert, NumberRules, length_converter
@@ -19,6 +17,7 @@ from polycnc.control.word_address.motion.path_modes import end_of_exact_stop, ex
 from polycnc.deferred.functions import Deferred
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.bulk import Idle, Later, Note, declare, declared
 from polycnc.language.word_address.words import FORMS, is_fixed_code
 from polycnc.messages import AlarmError

@@ -7,11 +7,10 @@ not plain, never on where the axes stand.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.word_address.coordinates.systems import ZeroState, work_frame, zero_offsets
 from polycnc.control.word_address.states import CylinderState, LengthState, ModalCallState, TiltState
 from polycnc.control.word_address.tools.radius import RadiusState, active_compensation
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.family import MacroChannel, WordAddressChannel

@@ -6,8 +6,8 @@ A control declares its `halts`: rules in the order in which they are asked, of w
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, TypeAlias
 
+from polycnc.deferred.typing import TYPE_CHECKING, Any, TypeAlias
 from polycnc.language.word_address.words import ExpressionBlock, WordBlock
 
 if TYPE_CHECKING:

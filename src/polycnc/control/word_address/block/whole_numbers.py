@@ -8,9 +8,9 @@ rounded to a whole number, halves away from zero (FANUC macro B reference 2.1).
 from __future__ import annotations
 
 from enum import Enum
-from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.block.rules import Rule
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.bulk import Idle, declare
 from polycnc.language.word_address.functions import round_half_away
 from polycnc.language.word_address.words import FORMS, code_key, is_fixed_code

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.word_address.block.numbers import angle_converter, length_converter
 from polycnc.control.word_address.block.whole_numbers import DecimalPoint
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.word_address.functions import round_half_away
 

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.word_address.block.numbers import conversion
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.bulk import Target, Word
 
 if TYPE_CHECKING:

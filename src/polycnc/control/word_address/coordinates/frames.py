@@ -8,13 +8,13 @@ shape, its angle is not scaled, and a mirror of one axis of the plane turns its 
 from __future__ import annotations
 
 from math import hypot
-from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.motion.arcs import mirrors_plane
 from polycnc.control.word_address.motion.path import reach
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import IDENTITY, about, cos_sin_deg, rotation, scaling
 from polycnc.geometry.planes import PLANES
 from polycnc.language.bulk import Idle, declare

@@ -6,11 +6,10 @@ move of a block, for where they stand at its end (`follow`).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.states.state import Lifetime, State, retained
 from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_zero
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import Frame, translation
 from polycnc.memory.retained import WORKPIECE_ERRORS
 

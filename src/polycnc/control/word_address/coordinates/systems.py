@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from math import nan
-from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State, lasting
 from polycnc.control.word_address.auxiliary.interlocks import note_reference_return
@@ -12,17 +11,17 @@ from polycnc.control.word_address.memory import EXTERNAL
 from polycnc.control.word_address.tools.radius import suspended
 from polycnc.deferred.contexts import nullcontext
 from polycnc.deferred.records import dataclass, field, replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import IDENTITY, Frame, translation
 from polycnc.geometry.vectors import cross, dot, minus
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:
-    from typing import Self
-
     from polycnc.channel.channel import Channel
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import MacroChannel, WordAddressChannel
+    from polycnc.deferred.typing import Self
     from polycnc.geometry.frames import Vector
     from polycnc.transformation.planes.misplaced import Misplaced
 

@@ -9,7 +9,6 @@ from the block that enters the mode until the mode ends.
 from __future__ import annotations
 
 from math import nan
-from typing import TYPE_CHECKING
 
 from polycnc.channel.intervention import TakesBack
 from polycnc.channel.states.state import Lifetime, State, lasting
@@ -27,6 +26,7 @@ from polycnc.control.word_address.motion.path import FEED_MODES, reach
 from polycnc.control.word_address.tools.radius import suspended
 from polycnc.cycles.drilling.holes import TAPS, Action, Cycle, Hole, Stroke
 from polycnc.deferred.records import dataclass, field, replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.planes import PLANES
 from polycnc.language.bulk import Straight, declare

@@ -6,10 +6,10 @@ The cycle stands in a block before, with L0 so that it only stores its data; wit
 from __future__ import annotations
 
 from math import nan
-from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.cycles.drilling import CycleState, drill_here, is_active
 from polycnc.cycles.drilling import patterns
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.planes import PLANES
 from polycnc.toolpath import Kind
 

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.word_address.cycles.drilling import CycleState, hole_of
 from polycnc.control.word_address.cycles.plunge import plunge_of
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.bulk.recipe import Drilled
 from polycnc.messages import AlarmError
 from polycnc.toolpath.context import NO_OVERLAP

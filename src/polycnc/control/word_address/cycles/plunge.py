@@ -11,11 +11,11 @@ from __future__ import annotations
 from array import array
 from functools import lru_cache
 from math import nan
-from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.travel import check_point
 from polycnc.cycles.drilling.holes import Action
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.tolerances import FARTHEST, NO_WAY
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from math import nan
-from typing import TYPE_CHECKING
 
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.word_address.block.words_as_data import word_as_data
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.bulk import Call, Return, Target, Word
 
 if TYPE_CHECKING:

@@ -7,8 +7,6 @@ of blocks differ inside and outside.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.stack import LevelKind
 from polycnc.control.machine_words import refuse
 from polycnc.control.word_address.auxiliary import functions
@@ -18,6 +16,7 @@ from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words import Words
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.machine.model import program_called
 
 with loaded_when_called():

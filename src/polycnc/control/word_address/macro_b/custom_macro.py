@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar
-
 from polycnc.channel.stack import LevelKind
 from polycnc.control.word_address.auxiliary import overrides
 from polycnc.control.word_address.block import whole_numbers
@@ -14,6 +12,7 @@ from polycnc.control.word_address.macro_b.variables import locals_of
 from polycnc.control.word_address.motion import path_modes
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING, ClassVar
 from polycnc.messages import AlarmError
 from polycnc.program import ProgramFileError
 from polycnc.toolpath.modes import FeedMode

@@ -7,7 +7,6 @@ follows from what the interruption program does (FANUC macro B §6).
 from __future__ import annotations
 
 from math import dist
-from typing import TYPE_CHECKING
 
 from polycnc.channel.stack import LevelKind
 from polycnc.channel.states.state import Lifetime, State
@@ -16,6 +15,7 @@ from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.macro_b.variables import LOCALS
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.stack import LevelKind
 from polycnc.control.word_address.block.numbers import length_converter
 from polycnc.control.word_address.block.plan import Arguments
@@ -11,6 +9,7 @@ from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.macro_b import calls_as_data, subprograms
 from polycnc.control.word_address.macro_b.variables import LOCALS
 from polycnc.control.word_address.states import ModalCall, ModalCallState
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.bulk import declare
 

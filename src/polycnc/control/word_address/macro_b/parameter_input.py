@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.memory import ParameterTable
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.machine.setup.values import ParameterKey
 
 if TYPE_CHECKING:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from array import array
 from math import nan
-from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.block.plain import PlainBlocks
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.word_address.patterns import MEMORIES
 from polycnc.language.word_address.words import is_fixed_code
 from polycnc.messages import AlarmError

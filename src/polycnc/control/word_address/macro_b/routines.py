@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from array import array
 from math import isnan
-from typing import TYPE_CHECKING
 
 from polycnc.channel.stack import LevelKind
 from polycnc.control.word_address.macro_b.variables import LOCALS
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.bulk.formulas.postfix import OtherError, Postfix
 from polycnc.language.bulk.layout import Operation
 from polycnc.language.bulk.routines.kept import MOST_LINES

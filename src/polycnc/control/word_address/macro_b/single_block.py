@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.word_address.macro_b.variables import ControlSwitches
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.word_address.executable import SkippedBlock
 
 if TYPE_CHECKING:

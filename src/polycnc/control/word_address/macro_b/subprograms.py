@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.stack import LevelKind
 from polycnc.control.word_address.macro_b import calls_as_data
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.bulk import declare
 
 if TYPE_CHECKING:

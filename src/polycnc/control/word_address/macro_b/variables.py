@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.states.state import Lifetime, State, retained
 from polycnc.channel.states.unchanging import unchanging
 from polycnc.control.word_address.memory import Memory
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.word_address.functions import round_half_away
 from polycnc.memory.retained import VARIABLE_NAMES, VARIABLES

@@ -7,9 +7,9 @@ of centre words. Spirals and arcs of several turns are not known here.
 from __future__ import annotations
 
 from math import acos, asin, pi, tau
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import arcs
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY

@@ -9,9 +9,9 @@ axis (FANUC macro B reference 10.5).
 from __future__ import annotations
 
 from math import dist, hypot
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.functions import loaded_when_called
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import arcs
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.tolerances import NO_WAY

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.moves.knots import Motions
 from polycnc.compensation.corner import CornerStage, CornerViolation, Shape
 from polycnc.compensation.plane import Plane
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.planes import PLANES
 
 if TYPE_CHECKING:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from math import cos, hypot, nan, radians, sin, tan
-from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.block.numbers import angle_converter
 from polycnc.control.word_address.motion.path import reach
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.planes import PLANES
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind

@@ -5,11 +5,11 @@ from __future__ import annotations
 from functools import partial
 from itertools import pairwise
 from math import dist
-from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.knots import write_chords
 from polycnc.control.word_address.motion import path
 from polycnc.control.word_address.states import Curve, CurveState
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:

@@ -8,13 +8,13 @@ where it is; without power it stops at once.
 from __future__ import annotations
 
 from enum import Enum
-from typing import TYPE_CHECKING, Protocol
 
 from polycnc.channel.interpolator import PassiveWatcher
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.channel.waits import PreprocessingStop
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING, Protocol
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath.events import Deed

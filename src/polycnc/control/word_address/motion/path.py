@@ -7,7 +7,6 @@ step turns them into a target of the absolute display and hands the move to the 
 from __future__ import annotations
 
 from math import nan
-from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.block.words_as_data import targets_as_data, word_as_data
@@ -19,6 +18,7 @@ from polycnc.control.word_address.motion.arcs import (
     scales_one_axis,
 )
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import arcs
 from polycnc.geometry.planes import PLANES
 from polycnc.language.bulk import Arc, Straight, declare

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.word_address.coordinates.frames import turns_plane
 from polycnc.control.word_address.coordinates.systems import ZeroState
 from polycnc.control.word_address.coordinates.tip import TipState
@@ -11,6 +9,7 @@ from polycnc.control.word_address.states import CylinderState, PlaneAxes
 from polycnc.control.word_address.tools.radius import RadiusState, idle_or_active
 from polycnc.control.word_address.transformations import cylinder
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.planes import PLANES
 
 if TYPE_CHECKING:

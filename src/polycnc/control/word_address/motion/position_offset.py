@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from math import copysign, nan
-from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.coordinates.frames import scale_of
 from polycnc.control.word_address.motion.arcs import center_by_radius, emit_arc
 from polycnc.control.word_address.motion.path import CENTER_WORDS, reach
 from polycnc.control.word_address.tools.radius import RadiusState
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.planes import PLANES
 from polycnc.toolpath import Kind
 

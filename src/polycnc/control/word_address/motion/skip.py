@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from functools import partial
 from math import dist
-from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.auxiliary.overrides import fixed_feed
 from polycnc.control.word_address.motion.path import FEED_MODES, reach
 from polycnc.control.word_address.states import LastSkip
 from polycnc.deferred.contexts import nullcontext
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.machine.setup.values import SkipInput
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind

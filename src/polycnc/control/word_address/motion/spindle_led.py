@@ -7,13 +7,13 @@ spindle's speed; laws of `transformation/couplings` add what other axes make of 
 from __future__ import annotations
 
 from math import copysign
-from typing import TYPE_CHECKING
 
 from polycnc.channel.interpolator import PassiveWatcher
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.channel.waits import PreprocessingStop
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.toolpath.events import Deed
 
 if TYPE_CHECKING:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.word_address.motion.path import FEED_MODES, reach
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath import Kind
 from polycnc.toolpath.modes import FeedMode

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.word_address.tools import radius
 from polycnc.control.word_address.tools.radius import RadiusState, direction_of, place_of_block
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from polycnc.compensation.cutter import CutterCompensation

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.word_address.coordinates.systems import refresh_zero
 from polycnc.control.word_address.macro_b import parameter_input
 from polycnc.control.word_address.memory import EXTERNAL
 from polycnc.control.word_address.tools.length import renew_length
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from math import isclose, nan
-from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.coordinates import tip
 from polycnc.control.word_address.coordinates.systems import ZeroState, frame_as_told, refresh_zero
 from polycnc.control.word_address.cycles import drilling
 from polycnc.control.word_address.states import UPRIGHT, LengthState
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.vectors import times
 from polycnc.toolpath import Kind
 

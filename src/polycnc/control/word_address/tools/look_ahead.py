@@ -8,9 +8,8 @@ too (II.5.2.5, example 5).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.word_address.tools.radius import active_compensation
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.bulk import declare, declared
 
 if TYPE_CHECKING:

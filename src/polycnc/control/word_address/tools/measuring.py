@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from math import copysign, nan
-from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.states import LengthState
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:

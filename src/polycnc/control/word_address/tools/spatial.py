@@ -7,13 +7,13 @@ corners are passed and what is refused is told by the controls.
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.knots import join
 from polycnc.control.word_address.coordinates.systems import work_zero
 from polycnc.control.word_address.coordinates.tip import TipState
 from polycnc.control.word_address.tools import radius
 from polycnc.control.word_address.tools.radius import SIDES, RadiusState
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from polycnc.compensation.spatial.rules import Corners, Rules

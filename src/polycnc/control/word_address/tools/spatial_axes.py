@@ -8,10 +8,9 @@ straight.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol
-
 from polycnc.compensation.spatial.chords import Directions
 from polycnc.compensation.spatial.stage import SpatialStage
+from polycnc.deferred.typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

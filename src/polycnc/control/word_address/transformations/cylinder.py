@@ -7,10 +7,10 @@ surface, so that arcs, radius compensation and the planner see a plane.
 from __future__ import annotations
 
 from math import pi
-from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.states import CylinderState
 from polycnc.control.word_address.tools.radius import RadiusState, active_compensation
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.planes import PLANES
 
 if TYPE_CHECKING:

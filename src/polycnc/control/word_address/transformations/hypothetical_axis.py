@@ -5,13 +5,12 @@ A helix whose one plane axis is hypothetical becomes a sine curve of the others;
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.moves.knots import join
 from polycnc.channel.moves.path import Rank, Stage
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.deferred.records import dataclass, replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import arcs
 from polycnc.toolpath import Kind
 from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS

@@ -11,10 +11,9 @@ and the stage of the path (`normal_stage`) are the same on all.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.word_address.transformations.normal_stage import CUTS, SAME_DEG, Direction, NormalStage
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.planes import PLANES
 from polycnc.toolpath import Kind
 

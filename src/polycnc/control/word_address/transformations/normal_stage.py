@@ -7,10 +7,10 @@ the first part of a long one, or in front of it.
 from __future__ import annotations
 
 from math import atan2, degrees, hypot, inf
-from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.path import Rank, Stage
 from polycnc.deferred.records import dataclass, replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import arcs
 from polycnc.geometry.angles import nearest_turn
 from polycnc.toolpath.kinds import CCW_KINDS, Kind

@@ -6,11 +6,10 @@ toolpath are Cartesian; the linear axis follows by the distance from the rotatio
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.word_address.block.numbers import length_converter
 from polycnc.control.word_address.states import CylinderState, PolarState
 from polycnc.control.word_address.tools.radius import RadiusState
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.planes import PLANES
 
 if TYPE_CHECKING:

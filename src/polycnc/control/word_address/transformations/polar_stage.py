@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.moves.pole import PoleStage, standing
 from polycnc.control.word_address.states import PolarState
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from polycnc.transformation.kinematic.polar import PolarPlane

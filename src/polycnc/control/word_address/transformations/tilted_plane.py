@@ -7,7 +7,6 @@ with the table when the tool is aligned; on one with a swivel head the length of
 from __future__ import annotations
 
 from math import nan
-from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.coordinates import frames, on_table
 from polycnc.control.word_address.coordinates.on_table import OnTable
@@ -24,6 +23,7 @@ from polycnc.control.word_address.motion.planes import choose_basic_axes
 from polycnc.control.word_address.states import LengthState, TiltState
 from polycnc.control.word_address.tools import length
 from polycnc.control.word_address.tools.radius import RadiusState
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import IDENTITY, Frame, rotation, translation
 from polycnc.geometry.vectors import times
 from polycnc.messages import AlarmError

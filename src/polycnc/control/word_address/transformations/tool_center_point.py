@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from array import array
 from math import nan
-from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.block.words import Words
 from polycnc.control.word_address.block.words_as_data import targets_as_data
@@ -27,6 +26,7 @@ from polycnc.control.word_address.motion.planes import choose_basic_axes
 from polycnc.control.word_address.states import LengthState, TiltState
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.tilted_plane import nearest_angles
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.vectors import times
 from polycnc.language.bulk import Straight, declare

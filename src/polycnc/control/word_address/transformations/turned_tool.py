@@ -8,7 +8,6 @@ lies under the nose, wherever it is named.
 from __future__ import annotations
 
 from math import nan
-from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.coordinates import on_table, tip
 from polycnc.control.word_address.coordinates.on_table import OnTable
@@ -18,6 +17,7 @@ from polycnc.control.word_address.states import TiltState
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations.tilted_plane import turn_to
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import IDENTITY
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind

@@ -7,7 +7,6 @@ out the work zero. Rotary axes of the table may turn in rapids and straight cuts
 from __future__ import annotations
 
 from math import nan
-from typing import TYPE_CHECKING
 
 from polycnc.control.word_address.block.codes import Order
 from polycnc.control.word_address.coordinates import on_table, tip
@@ -20,6 +19,7 @@ from polycnc.control.word_address.states import TiltState
 from polycnc.control.word_address.tools import data_input
 from polycnc.control.word_address.transformations import turned_tool
 from polycnc.control.word_address.transformations.tilted_plane import check_compensation
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.bulk import Idle, declare
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind

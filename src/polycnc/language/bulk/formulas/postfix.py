@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.bulk.layout import STACK, Operation
 from polycnc.language.expressions import nodes
 from polycnc.language.expressions.code import Code, Lifted, constant, dotted

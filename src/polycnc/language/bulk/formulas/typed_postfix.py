@@ -8,9 +8,9 @@ has no sign, and what only types tell apart is left to the interpreter.
 from __future__ import annotations
 
 from enum import Enum, auto
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.bulk.formulas.postfix import OtherError
 from polycnc.language.bulk.layout import HELD, STACK, Operation
 from polycnc.language.expressions import nodes

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from array import array
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.bulk import layout
 from polycnc.language.bulk.kernels import NO_BLOCK, read_block
 from polycnc.language.bulk.routines.flow import NOT_SCANNED

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from array import array
-from typing import TYPE_CHECKING, Any, Protocol
 
+from polycnc.deferred.typing import TYPE_CHECKING, Any, Protocol
 from polycnc.language.bulk.layout import LOCALS, LOOPS, MOST_FRAMES
 from polycnc.language.bulk.routines.kept import Routines
 from polycnc.language.bulk.routines.layout import NO_ROUTINE, Frame

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.bulk.routines.layout import LineKind
 
 if TYPE_CHECKING:

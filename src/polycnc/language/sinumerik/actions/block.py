@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.expressions.code import constant, quoted, sequence
 from polycnc.language.sinumerik.actions.code import KEYWORDS, UNITS, ActionCode, Needs
 from polycnc.language.sinumerik.actions.cycle import technology_cycle

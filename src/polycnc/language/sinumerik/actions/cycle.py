@@ -6,9 +6,8 @@ their writing is checked.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.expressions.code import Code, quoted, sequence
 from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.actions.code import Cycle, CycleLine, Needs

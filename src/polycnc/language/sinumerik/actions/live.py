@@ -7,8 +7,7 @@ in the tuple of these values stands for it (10.1.2).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.expressions import nodes
 from polycnc.language.expressions.code import Code, call, constant, given, item, name, quoted, sequence
 from polycnc.language.expressions.shapes import Function, TooDeepError

@@ -6,9 +6,8 @@ that exist. Siemens' own files come before those of the builder, and these befor
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.sinumerik.names.initialisation import remember_first_values
 from polycnc.language.sinumerik.names.variables import Array
 from polycnc.messages import AlarmError

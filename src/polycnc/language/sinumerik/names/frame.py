@@ -11,9 +11,9 @@ Source: job planning 5.2 (frame variables, components), 5.3 (coarse and fine off
 from __future__ import annotations
 
 from math import asin, atan2, cos, degrees, hypot
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass, field, replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import IDENTITY, Frame, Matrix, Vector, rotation, scaling
 from polycnc.memory.encoding import encoded
 

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol
-
+from polycnc.deferred.typing import TYPE_CHECKING, Protocol
 from polycnc.language.expressions.code import Code, assigned, attribute, constant, item, quoted, sequence
 from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.errors import NcSyntaxError

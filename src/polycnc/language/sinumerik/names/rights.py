@@ -7,8 +7,7 @@ in a cycle directory has that of its directory, if it is higher.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.sinumerik.errors import NcSyntaxError
 
 if TYPE_CHECKING:

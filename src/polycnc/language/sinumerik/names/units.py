@@ -5,8 +5,7 @@ A value with a unit of length is kept in metric units; a program in inches (G700
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.sinumerik.emitter import provide
 

@@ -7,9 +7,8 @@ ones (GUD) in a list of their own. An array is an `Array` in its slot, a paramet
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.sinumerik.names.values import MAX_STRING, Type
 from polycnc.language.sinumerik.runtime import fitting, limited
 

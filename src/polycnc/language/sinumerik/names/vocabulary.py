@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Any
 
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.statements.calls import find_program
 from polycnc.messages import AlarmError

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from polycnc.channel.stack import LevelKind
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.expressions.code import Code, assigned, attribute, constant, quoted, sequence
 from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.emitter import provide

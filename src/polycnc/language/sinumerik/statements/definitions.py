@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.expressions.code import Code, assigned, quoted, sequence
 from polycnc.language.expressions.code import constant as literal
 from polycnc.language.sinumerik import keywords

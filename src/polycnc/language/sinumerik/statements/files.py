@@ -6,9 +6,8 @@ an alarm.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.sinumerik.names.rights import LOWEST
 from polycnc.language.sinumerik.names.values import MAX_STRING, Type
 from polycnc.language.sinumerik.names.variables import Array, Reference

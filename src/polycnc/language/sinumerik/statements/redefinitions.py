@@ -7,9 +7,8 @@ units as well; all other data of the control their rights alone, setting data th
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.expressions.code import quoted, sequence
 from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.emitter import provide

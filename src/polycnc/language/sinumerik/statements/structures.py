@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.sinumerik.lexer import JUMPS, prefix_of, tokenize
 from polycnc.messages import AlarmError
 

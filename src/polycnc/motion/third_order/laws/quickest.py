@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from array import array
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.motion.third_order.laws.barrier import BANDS
 from polycnc.motion.third_order.laws.compiled import kernels
 from polycnc.motion.third_order.laws.courses import Course, Ends, Known, Nodes, Phase, Shape, Stencil

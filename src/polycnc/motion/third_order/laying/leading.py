@@ -6,9 +6,9 @@ from array import array
 from bisect import bisect_left
 from collections import deque
 from math import inf, sqrt
-from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.motion.compiled import run_kernel
 from polycnc.motion.kernels.columns import CURVE_WIDTH, SHARES, Rows, State
 from polycnc.motion.third_order.laws.compiled import kernels

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from array import array
-from typing import TYPE_CHECKING, cast
 
+from polycnc.deferred.typing import TYPE_CHECKING, cast
 from polycnc.motion.kernels.columns import new_state
 from polycnc.motion.third_order.bends.stretches import Stretches
 from polycnc.motion.third_order.laws.courses import Axes

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from functools import wraps
 from math import copysign, nan
-from typing import TYPE_CHECKING, TypeVar
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.fanuc.lathe.cycles.modal import SingleCycleState
@@ -16,6 +15,7 @@ from polycnc.control.word_address.coordinates.systems import ZeroState
 from polycnc.control.word_address.tools.radius import RadiusState, active_compensation, suspended
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING, TypeVar
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.planes import PLANES
 from polycnc.toolpath import Kind

@@ -7,13 +7,12 @@ the direction I J K. A second one counts within the first. The display shows the
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.fanuc.lathe.coordinates import systems
 from polycnc.control.fanuc.lathe.tools.offsets import OffsetState
 from polycnc.control.word_address.states import TiltState
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.control.word_address.transformations import tilted_plane
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import IDENTITY, translation
 from polycnc.machine.kinematics import turn_about
 

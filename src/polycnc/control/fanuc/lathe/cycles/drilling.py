@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import cache, partial
-from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.lathe.coordinates.systems import without_rotation
 from polycnc.control.fanuc.lathe.cycles import speed_arrival, tapping
@@ -16,6 +15,7 @@ from polycnc.control.word_address.cycles.hole_halts import Halts
 from polycnc.cycles.drilling import holes, lathe
 from polycnc.cycles.drilling.lathe import Joint
 from polycnc.deferred.records import dataclass, replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.planes import PLANES
 from polycnc.toolpath.context import OVERLAPS, STROKE
 from polycnc.toolpath.events import Auxiliary

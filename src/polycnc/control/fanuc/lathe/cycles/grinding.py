@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.fanuc.code_calls import PROGRAM_M
 from polycnc.control.fanuc.lathe.coordinates.systems import plane_axes, sense
 from polycnc.control.fanuc.lathe.cycles.modal import GrindingState
@@ -11,6 +9,7 @@ from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.word_address.block.numbers import length_converter
 from polycnc.control.word_address.motion.skip import signal_position
 from polycnc.cycles.turning.grinding import Grinding, GrindStroke, oscillate, traverse
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.units import INCH_MM
 from polycnc.toolpath import Kind
 

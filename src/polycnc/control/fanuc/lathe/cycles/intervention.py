@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.intervention import TakesBack
 from polycnc.control.fanuc.lathe.cycles.modal import CYCLES
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from itertools import groupby
 from math import copysign, nan
-from typing import TYPE_CHECKING
 
 from polycnc.channel.stack import Level, LevelKind
 from polycnc.control.fanuc.lathe.coordinates.systems import plane_axes, senses, set_rotation, without_rotation
@@ -40,6 +39,7 @@ from polycnc.cycles.turning.peck import Pecks, peck_columns
 from polycnc.cycles.turning.rough import rough
 from polycnc.cycles.turning.thread import ThreadCuts, thread_passes
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.word_address.functions import round_half_away

@@ -7,8 +7,6 @@ they reach the toolpath. Then everything is put back, and the cycle cuts along t
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.moves.path import Recorder
 from polycnc.channel.stack import LevelKind
 from polycnc.channel.states.snapshot import Snapshot
@@ -26,6 +24,7 @@ from polycnc.control.word_address.macro_b import interruption
 from polycnc.control.word_address.tools.radius import RadiusState, side_on_display, violation_codes
 from polycnc.cycles.turning.contour import Contour, Piece
 from polycnc.deferred.records import dataclass, field, replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.language.word_address.executable import WordAddressProgram

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.fanuc.code_calls import PROGRAM_M
 from polycnc.control.fanuc.lathe.coordinates.systems import (
     feed_number,
@@ -24,6 +22,7 @@ from polycnc.control.fanuc.lathe.motion.threads import (
 from polycnc.control.word_address.motion.skip import signal_position
 from polycnc.cycles.turning import single
 from polycnc.cycles.turning.thread import Runout, thread_pass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.units import INCH_MM
 

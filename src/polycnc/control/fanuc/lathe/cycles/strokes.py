@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from math import nan
-from typing import TYPE_CHECKING
 
 from polycnc.compensation.cutter import CutterCompensation
 from polycnc.control.fanuc.lathe.coordinates.systems import plane_axes
@@ -22,6 +21,7 @@ from polycnc.control.word_address.tools.radius import (
     side_on_display,
     suspended,
 )
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import offset
 from polycnc.geometry.planes import PLANES
 from polycnc.toolpath import Kind

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.control.word_address.cycles.drilling import CycleState
 from polycnc.control.word_address.motion.path import FEED_MODES
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.toolpath.modes import FeedMode
 
 if TYPE_CHECKING:

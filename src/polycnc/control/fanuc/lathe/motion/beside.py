@@ -6,11 +6,11 @@ Polygon turning, electronic gear box, its two pairs, synchronous control, oscill
 from __future__ import annotations
 
 from math import nan, pi, radians, sin
-from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.lathe.states import BesideState
 from polycnc.control.word_address.motion.oscillation import Fixed, Oscillator, Strokes, speed_of_feed
 from polycnc.control.word_address.motion.spindle_led import Lead, SpindleLed
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 from polycnc.transformation.couplings.laws import Ratio

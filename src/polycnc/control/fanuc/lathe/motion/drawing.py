@@ -7,7 +7,6 @@ angle only is a line whose end lies where it meets the line of the next block; i
 from __future__ import annotations
 
 from math import nan, radians, sin, tan
-from typing import TYPE_CHECKING
 
 from polycnc.compensation.corner import Shape
 from polycnc.control.fanuc.lathe.coordinates.systems import plane_axes
@@ -17,6 +16,7 @@ from polycnc.control.word_address.block.numbers import Convert, angle_converter
 from polycnc.control.word_address.motion import path
 from polycnc.control.word_address.motion.line_by_angle import leaves_line
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import offset
 from polycnc.geometry.frames import cos_sin_deg
 from polycnc.toolpath import Kind

@@ -7,13 +7,13 @@ has told, and halts; the next start leads it back, and the rest of the move is m
 from __future__ import annotations
 
 from math import nan
-from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.lathe.motion.threads import ThreadState
 from polycnc.control.fanuc.lathe.states import RetractState
 from polycnc.control.fanuc.lathe.tools.offsets import THREADS
 from polycnc.control.word_address.motion.arc_signals import made_arc
 from polycnc.control.word_address.motion.skip import fraction_at
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 

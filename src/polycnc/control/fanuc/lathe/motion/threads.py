@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from math import hypot
-from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.fanuc.lathe.coordinates.systems import feed_number, plane_axes
@@ -13,6 +12,7 @@ from polycnc.control.word_address.motion.arcs import center_by_radius
 from polycnc.control.word_address.motion.path import CENTER_WORDS, reach
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import arcs
 from polycnc.geometry.planes import PLANES
 from polycnc.geometry.tolerances import NO_WAY

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.fanuc.lathe.coordinates import limits
 from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.fanuc.lathe.tools.offset_memory import OffsetMemory, y_offset_axis
@@ -15,6 +13,7 @@ from polycnc.control.word_address.tools.data_input import (
     life_not_counted,
     refuse_words,
 )
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from polycnc.control.fanuc.lathe.family import LatheChannel

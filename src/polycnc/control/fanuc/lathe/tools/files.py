@@ -7,8 +7,6 @@ overwritten, everything else stays. A damaged file changes nothing at all.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from polycnc.control.data_files import DataFileError
 from polycnc.control.fanuc.lathe.tools.data_input import BASIC, GEOMETRY, MAX_OFFSET_MM, further_words
 from polycnc.control.fanuc.lathe.tools.offset_memory import OffsetMemory
@@ -16,6 +14,7 @@ from polycnc.control.fanuc.lathe.tools.offsets import MAX_OFFSETS, offset_change
 from polycnc.control.word_address.tools.data_input import WORK_SYSTEMS
 from polycnc.deferred.records import dataclass, field
 from polycnc.deferred.regexes import regex
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping

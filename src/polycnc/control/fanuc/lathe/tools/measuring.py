@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from math import copysign, nan
-from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.lathe.coordinates.systems import plane_axes
 from polycnc.control.fanuc.lathe.tools.offset_memory import OffsetMemory
 from polycnc.control.fanuc.lathe.tools.offsets import OffsetState, nose_radius, nose_tip, offset_changed
 from polycnc.control.word_address.motion import skip
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.toolpath import Kind
 
 if TYPE_CHECKING:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.stack import LevelKind
 from polycnc.compensation.policy import Approach, Policy
 from polycnc.control.fanuc.lathe.cycles.modal import is_reading
@@ -12,6 +10,7 @@ from polycnc.control.fanuc.lathe.tools.offsets import OffsetState
 from polycnc.control.word_address.tools import look_ahead, radius
 from polycnc.control.word_address.tools.radius import RadiusState
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.offset import Joint, Outer
 from polycnc.geometry.planes import PLANES
 

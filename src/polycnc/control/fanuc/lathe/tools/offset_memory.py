@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.channel.states.state import Lifetime, State, retained
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.memory.encoding import encoded
 from polycnc.memory.retained import TOOL_OFFSETS, WORK_SHIFT
 
 if TYPE_CHECKING:
-    from typing import Self
-
     from polycnc.control.fanuc.lathe.family import LatheChannel
+    from polycnc.deferred.typing import Self
     from polycnc.machine.setup.values import Offsets, Tool
 
 

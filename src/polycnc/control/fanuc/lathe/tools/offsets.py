@@ -7,7 +7,6 @@ programmed point (the display then holds it), or it *shifts* the coordinate syst
 from __future__ import annotations
 
 from math import nan
-from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.compensation.tips import tip_direction
@@ -20,6 +19,7 @@ from polycnc.control.word_address.coordinates.systems import ZeroState, refresh_
 from polycnc.control.word_address.macro_b.code_calls import calls_by_tool
 from polycnc.control.word_address.tools.radius import RadiusState, compensation_stage, side_on_display
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.planes import PLANES
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind

@@ -7,7 +7,6 @@ wear, both in one (8136#6), or second geometry. A field is an axis by its name, 
 from __future__ import annotations
 
 from enum import Enum
-from typing import TYPE_CHECKING
 
 from polycnc.control.fanuc.lathe.coordinates.limits import renew_zones
 from polycnc.control.fanuc.lathe.parameters import LatheParameters
@@ -16,6 +15,7 @@ from polycnc.control.fanuc.lathe.tools.files import MAX_TIP, shown, taken
 from polycnc.control.fanuc.lathe.tools.offset_memory import OffsetMemory
 from polycnc.control.fanuc.lathe.tools.offsets import MAX_OFFSETS, offset_changed, refresh
 from polycnc.control.word_address.macro_b.parameter_input import set_parameter
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import UserError
 
 if TYPE_CHECKING:

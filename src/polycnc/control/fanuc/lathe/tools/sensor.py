@@ -6,14 +6,13 @@ touch writes the offset of the chosen number, and the axis is locked in the dire
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.fanuc.lathe.tools import screens
 from polycnc.control.fanuc.lathe.tools.files import shown
 from polycnc.control.fanuc.lathe.tools.offset_memory import OffsetMemory
 from polycnc.control.fanuc.lathe.tools.offsets import OffsetState
 from polycnc.control.fanuc.lathe.tools.screens import Page, ScreenRefusal
+from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from polycnc.control.fanuc.lathe.family import LatheChannel

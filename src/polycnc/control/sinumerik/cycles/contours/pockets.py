@@ -6,7 +6,6 @@ Source: SINUMERIK standard cycles, cycles, section 5 (CYCLE62 to CYCLE64): param
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.cycles.chamfers import CHAMFER, chamfer
 from polycnc.control.sinumerik.cycles.contours.reading import read_chosen
@@ -30,6 +29,7 @@ from polycnc.cycles.milling.pockets import Insertion
 from polycnc.cycles.milling.region import RegionError
 from polycnc.cycles.milling.stroke import steps
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from functools import partial
 from math import nan
-from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.path import Recorder
 from polycnc.channel.stack import LevelKind
@@ -18,6 +17,7 @@ from polycnc.control.sinumerik.motion.contour_reading import ContourReading, rea
 from polycnc.cycles.turning.contour import Contour, Piece
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import offset
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.language.sinumerik.statements.calls import call_section, call_without_arguments, named_program

@@ -6,7 +6,6 @@ Source: SINUMERIK Operate, contour turning; parameter lists of the externally pr
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.cycles.turning.work import LIFT_MM, Work, onwards
@@ -19,6 +18,7 @@ from polycnc.cycles.turning.allowance import with_stock
 from polycnc.cycles.turning.contour import Contour, Piece, turned_round
 from polycnc.cycles.turning.stroke import PlaneStroke
 from polycnc.deferred.records import dataclass, field, replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import offset
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind

@@ -5,8 +5,6 @@ Source: SINUMERIK Operate, contour turning (grooving, plunge turning); the manua
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.sinumerik.cycles.milling import feed_of
 from polycnc.control.sinumerik.cycles.turning import blanks
 from polycnc.control.sinumerik.cycles.turning.grooves import STEP, require_edge, tool_width
@@ -30,6 +28,7 @@ from polycnc.cycles.plunging.profile import (
 from polycnc.cycles.turning import outline
 from polycnc.cycles.turning.stroke import PlaneStroke
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind

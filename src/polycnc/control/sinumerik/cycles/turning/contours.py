@@ -6,7 +6,6 @@ Source: SINUMERIK Operate, contour turning (stock removal); parameter lists of t
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.cycles.contours.reading import read_chosen
 from polycnc.control.sinumerik.cycles.milling import feed_of
@@ -30,6 +29,7 @@ from polycnc.cycles.turning.contour import Contour, shifted, turned_round
 from polycnc.cycles.turning.stock_removal import Removal, blank, remove
 from polycnc.cycles.turning.stroke import PlaneStroke
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 

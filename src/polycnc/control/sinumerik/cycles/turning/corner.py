@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from itertools import pairwise
 from math import copysign
-from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.cycles.milling import feed_of
 from polycnc.control.sinumerik.cycles.moves import require_tool
@@ -15,6 +14,7 @@ from polycnc.cycles.turning.contour import Contour, Piece, turned_round
 from polycnc.cycles.turning.groove import SHARP, Corner, GrooveError, with_corner
 from polycnc.cycles.turning.stock_removal import Removal, remove
 from polycnc.cycles.turning.stroke import PlaneStroke
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import arcs, offset
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from math import dist, radians, tan
-from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.cycles.moves import require_tool
 from polycnc.control.sinumerik.cycles.turning.work import LIFT_MM
@@ -12,6 +11,7 @@ from polycnc.control.sinumerik.tools import stages
 from polycnc.cycles.turning import groove as turning
 from polycnc.cycles.turning.groove import Corner, Groove, GrooveError, Side
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:

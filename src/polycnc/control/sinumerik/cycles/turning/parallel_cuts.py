@@ -5,8 +5,6 @@ Source: SINUMERIK Operate, contour turning (stock removal); the manuals at hand 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.sinumerik.cycles.milling import feed_of
 from polycnc.control.sinumerik.cycles.turning.blanks import NOTHING
 from polycnc.control.sinumerik.cycles.turning.contour_grooves import height, perform
@@ -14,6 +12,7 @@ from polycnc.control.sinumerik.cycles.turning.work import onwards
 from polycnc.cycles.plunging import cuts
 from polycnc.cycles.plunging.cuts import Use
 from polycnc.cycles.plunging.profile import Profile, envelope, layers, level, profile, shifted_layers, upright
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:

@@ -6,7 +6,6 @@ Source: SINUMERIK Operate, cut-off; parameter lists of the externally programmed
 from __future__ import annotations
 
 from math import inf
-from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.cycles.moves import require_tool
@@ -15,6 +14,7 @@ from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tools import stages
 from polycnc.cycles.turning.contour import Contour, Piece
 from polycnc.cycles.turning.stroke import PlaneStroke
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import offset
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.cycles.contours.reading import read
 from polycnc.control.sinumerik.cycles.milling import feed_of
@@ -13,6 +12,7 @@ from polycnc.cycles.turning.allowance import with_stock
 from polycnc.cycles.turning.contour import Contour, turned_round
 from polycnc.cycles.turning.outline import farthest
 from polycnc.cycles.turning.stock_removal import Removal, blank, remove
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:

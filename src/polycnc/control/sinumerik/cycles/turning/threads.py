@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from itertools import pairwise
 from math import atan2, degrees
-from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.cycles.drilling import METRIC_PITCHES, pitch, written_pitch
 from polycnc.control.sinumerik.cycles.turning.work import LIFT_MM
@@ -12,6 +11,7 @@ from polycnc.control.sinumerik.errors import not_supported
 from polycnc.cycles.turning import thread_chain as thread_turning
 from polycnc.cycles.turning.thread_chain import Thread
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:

@@ -6,7 +6,6 @@ Source: SINUMERIK standard cycles; SINUMERIK ONE, NC programming, externally pro
 from __future__ import annotations
 
 from math import dist
-from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.cycles.milling import feed_of
 from polycnc.control.sinumerik.cycles.moves import require_tool
@@ -21,6 +20,7 @@ from polycnc.cycles.turning.groove import GrooveError
 from polycnc.cycles.turning.stock_removal import Removal, remove
 from polycnc.cycles.turning.stroke import PlaneStroke
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import offset
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from math import copysign
-from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.tools import stages
 from polycnc.cycles.count import parts
@@ -12,6 +11,7 @@ from polycnc.cycles.turning.outline import farthest
 from polycnc.cycles.turning.stock_removal import is_clear, way_clear, way_over
 from polycnc.cycles.turning.stroke import PlaneStroke
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import offset
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.messages import AlarmError

@@ -9,7 +9,6 @@ Source: job planning 7.9 (TCARR), 7.11 (CUTMOD).
 from __future__ import annotations
 
 from itertools import product
-from typing import TYPE_CHECKING
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.data.machine_data import MachineData
@@ -17,6 +16,7 @@ from polycnc.control.sinumerik.tools.holders.stored import Carrier, CarrierData
 from polycnc.control.sinumerik.tools.lengths import direction_of
 from polycnc.control.sinumerik.tools.selection import rules_of
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.angles import TURN_DEG
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.planes import PLANES

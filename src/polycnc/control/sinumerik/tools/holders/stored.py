@@ -10,10 +10,10 @@ Source: job planning 7.8.
 from __future__ import annotations
 
 from math import inf
-from typing import TYPE_CHECKING, ClassVar
 
 from polycnc.channel.states.state import Lifetime, State, retained
 from polycnc.deferred.records import dataclass
+from polycnc.deferred.typing import TYPE_CHECKING, ClassVar
 from polycnc.geometry.frames import IDENTITY, Frame, translation
 from polycnc.language.sinumerik.names.values import Axis, Type
 from polycnc.machine.kinematics import turn_about

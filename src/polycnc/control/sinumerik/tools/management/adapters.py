@@ -7,10 +7,9 @@ whether their lengths take the place of `$TC_DP21` to 23, nor what the numbers o
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.variables.stored import Stored
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.messages import AlarmError
 

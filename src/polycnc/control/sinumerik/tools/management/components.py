@@ -5,8 +5,6 @@ Source: job planning 16.1 (what the function does); arguments and results are th
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tables import data_factor
 from polycnc.control.sinumerik.tools.edges import (
@@ -27,6 +25,7 @@ from polycnc.control.sinumerik.tools.management.systems import BASIC, MACHINE, S
 from polycnc.control.sinumerik.tools.selection import rules_of
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import replace
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import IDENTITY
 
 if TYPE_CHECKING:

@@ -7,8 +7,6 @@ Manual W1 (parameters and results, as known).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.tables import data_factor
 from polycnc.control.sinumerik.tools.edges import (
@@ -41,6 +39,7 @@ from polycnc.control.sinumerik.tools.management.components import WEAR as OF_WEA
 from polycnc.control.sinumerik.tools.management.environments import ORDER, field_of
 from polycnc.control.sinumerik.tools.management.systems import TOOL, WORK
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.sinumerik.names.values import Axis
 from polycnc.messages import AlarmError
 

@@ -7,7 +7,6 @@ Source: job planning 16.1 (what the functions do); Function Manual W1 (arguments
 from __future__ import annotations
 
 from math import copysign
-from typing import TYPE_CHECKING, Any
 
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik.tools.lengths import Rules, axes_of
@@ -15,6 +14,7 @@ from polycnc.control.sinumerik.tools.management.systems import NAMES, SYSTEMS, W
 from polycnc.control.sinumerik.tools.selection import rules_of
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.geometry.frames import IDENTITY, Frame
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.messages import AlarmError

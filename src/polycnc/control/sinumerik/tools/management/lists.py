@@ -5,12 +5,11 @@ Source: job planning 16.1 (what the functions do); Function Manual Tool Manageme
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.sinumerik.auxiliary import edge_selected, first_location, load_tool
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.tools import master_holder
 from polycnc.control.sinumerik.tools.management import magazines
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.messages import AlarmError
 from polycnc.toolpath.events import ToolSelection

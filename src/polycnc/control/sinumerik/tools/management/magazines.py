@@ -7,11 +7,10 @@ Source: job planning 16.1; Function Manual Tool Management.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.sinumerik.auxiliary import load_tool
 from polycnc.control.sinumerik.variables.stored import Stored
 from polycnc.deferred.functions import loaded_when_called
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.messages import AlarmError
 

@@ -7,10 +7,9 @@ Source: job planning 16.1; Function Manual Tool Management ($TC_TP9 bit 1, $TC_M
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.tools.management.lists import DISABLED, WARNED, set_state, state_of
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.messages import AlarmError
 

@@ -9,11 +9,11 @@ a length means something. Source: Function Manual W1 (names of the systems; line
 from __future__ import annotations
 
 from math import isclose
-from typing import TYPE_CHECKING
 
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.tools.selection import rules_of
 from polycnc.control.sinumerik.transformations import seat
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import IDENTITY, Frame
 from polycnc.geometry.vectors import cross
 

@@ -6,12 +6,11 @@ active are chosen by T where their magazine has groups. Source: job planning 16.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from polycnc.control.sinumerik.block import arguments
 from polycnc.control.sinumerik.tools.management.lists import ACTIVE, DISABLED, set_state, state_of
 from polycnc.control.sinumerik.tools.management.magazines import TOOL, values_of
 from polycnc.control.sinumerik.variables.stored import Stored
+from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
