@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import inf
 from typing import TYPE_CHECKING, Any
 
+from polycnc.deferred.records import replace
 from polycnc.mainrun.motion.geometry import piece_cubic
 from polycnc.mainrun.preparation.items import Block, BlockEnd, Move, Piece
 from polycnc.mainrun.preparation.layout import Layout
@@ -161,6 +162,14 @@ class Queue:
             self.items.appendleft(front)
         front.done = max(done - on_piece, 0.0) / front.total
         return self._piece(front, record, is_last=is_last), record, on_piece
+
+    def rest_before(self, move: Move, rates: ChannelRates) -> bool:
+        """Lay what is prepared out so that the axes, which stand, rest before a move of it; false where they do anyway."""
+        if move.prepared is None or move.row in self._buffer.rows_from_rest():
+            return False
+        move.prepared = replace(move.prepared, rests=True)
+        self.lay_again(rates, at_rest=True)
+        return True
 
     def _row_is_prepared(self, move: Move) -> bool:
         """Whether pieces of a row are still to come."""
