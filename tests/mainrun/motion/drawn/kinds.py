@@ -20,6 +20,7 @@ KINDS: tuple[tuple[type[Writer], tuple[str, ...]], ...] = (
     (mixed.Contour, ALL),
     (milling.Holes, MILLS),
     (milling.Taps, MILLS),
+    (milling.Spirals, ("meldas-m",)),
     (milling.Turned, MILLS),
     (milling.Tip, ("fanuc-m", "syntec-mill")),
     (milling.Plane, ("fanuc-m",)),

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from math import hypot
+from math import cos, hypot, sin
 from typing import TYPE_CHECKING
 
 from tests.mainrun.motion.drawn.mixed import Blocks
-from tests.mainrun.motion.random_programs import FEEDS
+from tests.mainrun.motion.random_programs import FEEDS, HEADS
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -76,6 +76,27 @@ class Taps(Holes):
         self.lines.append(f"G1 F{draw.choice(FEEDS)}.")
 
 
+class Spirals(Blocks):
+    """Arcs whose radius changes along them (G02.1)."""
+
+    def kinds(self) -> list[Callable[[], None]]:
+        return [self.spiral, self.spiral, self.line]
+
+    def spiral(self) -> None:
+        draw, (x, y, z) = self.random, self.place
+        angle, sweep = draw.uniform(0.0, 6.28), draw.uniform(0.5, 6.0)
+        radius, last = draw.uniform(3.0, 15.0), draw.uniform(1.0, 20.0)
+        i, j = -radius * cos(angle), -radius * sin(angle)
+        sense = draw.choice((1.0, -1.0))
+        angle += sense * sweep
+        self.place = (
+            round(x + i + last * cos(angle), 4),
+            round(y + j + last * sin(angle), 4),
+            round(z + draw.choice((0.0, 2.0)), 3),
+        )
+        self.write("G3.1" if sense > 0.0 else "G2.1", rest=f" I{i:.4f} J{j:.4f}")
+
+
 class Turned(Blocks):
     """Blocks in systems that are turned, mirrored and scaled."""
 
@@ -117,6 +138,9 @@ class Plane(Blocks):
     """Lines and arcs of polar interpolation (G12.1) on a mill."""
 
     machine = "mill4-xyzc"
+
+    def head(self) -> str:
+        return f"{HEADS[self.control]} G64"
 
     def program(self) -> str:
         draw = self.random
