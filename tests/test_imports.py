@@ -22,6 +22,7 @@ SOURCE = Path(polycnc.__file__).parent
 #: From the ground up: a folder (or module) imports only those that stand before it.
 LAYERS = (
     "version",
+    "finder",
     "deferred",
     "kernels",
     "parquet",
@@ -210,9 +211,9 @@ def test_a_small_run_loads_no_heavy_library(tmp_path: Path, command: str) -> Non
 
 #: What a start does without: a tenth of a short run, and more. `re`, which start scripts load, brings what it needs.
 NOT_OF_LIBRARY = {
-    "ast", "contextlib", "copy", "dataclasses", "datetime", "fnmatch", "hashlib", "importlib", "inspect", "ipaddress",
-    "ntpath", "pathlib", "random", "signal", "string", "tempfile", "threading", "tomllib", "traceback", "urllib",
-    "warnings",
+    "ast", "contextlib", "copy", "ctypes", "dataclasses", "datetime", "fnmatch", "hashlib", "importlib", "inspect",
+    "ipaddress", "ntpath", "pathlib", "random", "signal", "string", "struct", "tempfile", "threading", "tomllib",
+    "traceback", "urllib", "warnings",
 }  # fmt: skip
 
 

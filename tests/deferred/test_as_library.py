@@ -64,15 +64,21 @@ def outcome(act: Callable[[], object]) -> tuple[str, Any]:
         return type(error).__name__, text
 
 
-def record_by(decorator: Any, fields: Any, options: Any, bases: tuple[type, ...] = ()) -> Any:
-    """A class of these fields, finished by a decorator of dataclasses."""
+def record_by(
+    decorator: Any, fields: Any, options: Any, bases: tuple[type, ...] = (), *, is_stated: bool = False
+) -> Any:
+    """A class of these fields, finished by a decorator of dataclasses, which may stand above a class statement."""
+    values = {name: dataclasses.field(**told) for name, said in fields if (told := SAID[said]) is not None}
+    if is_stated:
+        lines = ["@decorator(**options)", "class Made(*bases):", "    __qualname__ = 'Made'"]
+        lines += [
+            f"    {name}: int" + (f" = values[{name!r}]" if name in values else "") for name, _ in fields
+        ]
+        scope = {"decorator": decorator, "options": options, "bases": bases, "values": values}
+        exec("\n".join(lines), scope)
+        return scope["Made"]
     body: dict[str, Any] = {"__annotations__": dict.fromkeys([name for name, _ in fields], "int")}
-    body["__qualname__"] = "Made"
-    for name, said in fields:
-        told = SAID[said]
-        if told is not None:
-            body[name] = dataclasses.field(**told)
-    return decorator(**options)(type("Made", bases, body))
+    return decorator(**options)(type("Made", bases, body | values | {"__qualname__": "Made"}))
 
 
 def described(thing: Any) -> list[object]:
@@ -123,23 +129,26 @@ def assert_same(ours: Callable[[], Any], theirs: Callable[[], Any], calls: Any) 
 
 
 @settings(max_examples=150, deadline=None)
-@given(FIELDS, OPTIONS, CALLS)
-def test_a_dataclass_does_what_that_of_the_library_does(fields: Any, options: Any, calls: Any) -> None:
+@given(FIELDS, OPTIONS, CALLS, st.booleans())
+def test_a_dataclass_does_what_that_of_the_library_does(
+    fields: Any, options: Any, calls: Any, is_stated: bool
+) -> None:
     assert_same(
-        lambda: record_by(records.dataclass, fields, options),
+        lambda: record_by(records.dataclass, fields, options, is_stated=is_stated),
         lambda: record_by(dataclasses.dataclass, fields, options),
         calls,
     )
 
 
 @settings(max_examples=150, deadline=None)
-@given(FIELDS, FIELDS, OPTIONS, OPTIONS, CALLS, st.permutations(["ours", "ours", "theirs"]))
+@given(FIELDS, FIELDS, OPTIONS, OPTIONS, CALLS, st.permutations(["ours", "ours", "theirs"]), st.booleans())
 def test_one_inherits_from_ours_or_from_the_librarys(
-    fields: Any, more: Any, options: Any, own: Any, calls: Any, who: list[str]
+    fields: Any, more: Any, options: Any, own: Any, calls: Any, who: list[str], is_stated: bool
 ) -> None:
     def made(base: str, child: str) -> Any:
         by = {"ours": records.dataclass, "theirs": dataclasses.dataclass}
-        return record_by(by[child], more, own, (record_by(by[base], fields, options),))
+        inherited = record_by(by[base], fields, options, is_stated=is_stated)
+        return record_by(by[child], more, own, (inherited,), is_stated=is_stated)
 
     # Else ours would refuse no object of the class that inherits, but those of the other.
     assume(outcome(lambda: record_by(dataclasses.dataclass, fields, options))[0] == "gives")

@@ -17,7 +17,10 @@ from tests.kernels import sums
 
 ROOT = Path(__file__).resolve().parents[2]
 #: What the machine code of `sums` is made of.
-SOURCES = ("src/polycnc/kernels/layout.py", "tests/kernels/halves.py", "tests/kernels/sums.py")
+SOURCES = (
+    "src/polycnc/kernels/c_types.py", "src/polycnc/kernels/layout.py", "tests/kernels/halves.py",
+    "tests/kernels/sums.py",
+)  # fmt: skip
 
 
 @pytest.fixture(scope="module")

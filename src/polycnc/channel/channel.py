@@ -11,7 +11,6 @@ from math import nan
 from typing import TYPE_CHECKING, ClassVar, Generic
 
 from polycnc.channel.coordinates import Coordinates
-from polycnc.channel.failure import begin_again, end_run, stand_at_last_row, take_back
 from polycnc.channel.family import ControlT_co, MemoryT_co, ProgramT_co
 from polycnc.channel.intervention import NOTHING_BACK, MovedByHand
 from polycnc.channel.mode import Mode, ModeTable
@@ -32,12 +31,16 @@ from polycnc.channel.waits import (
     Why,
 )
 from polycnc.deferred.contexts import contextmanager
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.geometry.tolerances import FARTHEST
 from polycnc.memory.retained import InMemoryStore
 from polycnc.messages import AlarmError
 from polycnc.toolpath import NO_CURVE, Context, Event, Kind, Toolpath
 from polycnc.toolpath.events import Stop
 from polycnc.toolpath.table import CHUNK_ROWS, is_way
+
+with loaded_when_called():
+    from polycnc.channel import failure
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -299,7 +302,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         is_changed = self.path.changes_ends
         self.flush()
         if is_changed:
-            stand_at_last_row(self)
+            failure.stand_at_last_row(self)
         self.finished = True
 
     # ---- running -------------------------------------------------------------------------------------------------
@@ -350,17 +353,17 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
                     wait, self._wait = self._wait, None
                     return wait
         except AlarmError as error:
-            take_back(self, found_ahead=bool(error.line))
+            failure.take_back(self, found_ahead=bool(error.line))
             self.fail(error)
         except PreprocessingStop:
-            begin_again(self)
+            failure.begin_again(self)
             wait, self._wait = self._wait or PREPROCESSING, None
             return wait
         except ArithmeticError as error:
-            take_back(self)
+            failure.take_back(self)
             self.fail(self.control.arithmetic_alarm(error))
         except RecursionError:
-            take_back(self)
+            failure.take_back(self)
             self.fail(AlarmError("PC0003"))
         return None
 
@@ -455,12 +458,12 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         try:
             self.path.flush()
         except AlarmError as error:
-            take_back(self, found_ahead=True)
+            failure.take_back(self, found_ahead=True)
             self.fail(error)
 
     def fail(self, error: AlarmError) -> None:
         """End the run with an alarm."""
-        end_run(self, error)
+        failure.end_run(self, error)
 
     # ---- writing -------------------------------------------------------------------------------------------------
 

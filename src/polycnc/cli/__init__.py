@@ -16,6 +16,8 @@ import os
 import sys
 from typing import TYPE_CHECKING, NoReturn
 
+from polycnc import finder
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -37,6 +39,7 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
     try:
         gc.set_threshold(_NEW_OBJECTS)
         if arguments is None:
+            finder.install()
             _open_closed_streams()
             os.environ.setdefault(_MATRIX_THREADS, "1")
             atexit.register(leaving.end)  # as the first, so that it is called last

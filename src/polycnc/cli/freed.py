@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-import ctypes
 import sys
+
+from polycnc.deferred.contexts import suppress
+from polycnc.kernels.c_types import SharedObject
 
 #: `mallopt` of the GNU C library: from which size on a piece of memory is a mapping of its own, and how much may lie
 #: free at the end of the heap; the most that it takes for the first.
@@ -16,6 +18,8 @@ def keep_freed_memory() -> None:
 
     The system fills each of its pages with zeros again. Other C libraries are left as they are.
     """
-    if sys.platform == "linux" and (mallopt := getattr(ctypes.CDLL(None), "mallopt", None)) is not None:
-        mallopt(_MMAP_THRESHOLD, _LARGEST_MMAP_THRESHOLD)
-        mallopt(_TRIM_THRESHOLD, _MOST_FREE)
+    if sys.platform == "linux":
+        with suppress(AttributeError):
+            mallopt = SharedObject(None).function("mallopt")
+            mallopt(_MMAP_THRESHOLD, _LARGEST_MMAP_THRESHOLD)
+            mallopt(_TRIM_THRESHOLD, _MOST_FREE)

@@ -8,10 +8,13 @@ from typing import TYPE_CHECKING
 
 from polycnc.cli.console import coloured
 from polycnc.cli.diagnostics import diagnostics_of
-from polycnc.cli.formats import lines_of
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.messages import text
 from polycnc.messages.catalogue import listed
 from polycnc.toolpath.events import Message, Print, Stop
+
+with loaded_when_called():
+    from polycnc.cli import formats
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Iterator, Sequence
@@ -63,7 +66,7 @@ def _lines(result: Result, happenings: Happenings, file: str, usage: Usage | Non
     program = result.program.name
     yield text("run.head", program=program, control=result.control.id, machine=result.machine.id)
     for diagnostic in diagnostics_of(result, file):
-        head, *remedy = lines_of(diagnostic)
+        head, *remedy = formats.lines_of(diagnostic)
         yield coloured(head, "red" if diagnostic.severity == "error" else "yellow")
         yield from remedy
     if result.ok:

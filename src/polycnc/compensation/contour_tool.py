@@ -77,7 +77,7 @@ class ContourTool(Stage):
         refuse: Raises an alarm.
     """
 
-    rank: ClassVar[Rank] = Rank.EDGES
+    rank: ClassVar[int] = Rank.EDGES
 
     def __init__(
         self,

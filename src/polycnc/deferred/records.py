@@ -12,11 +12,13 @@ What nothing here uses is left out: `InitVar`, `kw_only`, `order` and `unsafe_ha
 
 from __future__ import annotations
 
-from functools import cached_property
+import sys
 from operator import attrgetter
 from reprlib import recursive_repr
-from types import FunctionType, MappingProxyType, MemberDescriptorType
+from types import MappingProxyType, MemberDescriptorType
 from typing import TYPE_CHECKING, Any, ClassVar, get_origin
+
+from polycnc.deferred.class_statements import ClassStatement, body_of, lead_super
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -28,9 +30,21 @@ else:
 
     def dataclass(cls=None, /, *, frozen=False, slots=False, eq=True):
         """A class whose annotated names are its fields; see `dataclasses.dataclass`."""
-        if cls is None:
-            return lambda cls: _dataclass(cls, frozen=frozen, slots=slots, eq=eq)
-        return _dataclass(cls, frozen=frozen, slots=slots, eq=eq)
+        if cls is not None:
+            return _dataclass(cls, frozen=frozen, slots=slots, eq=eq)
+        if not slots:
+            return lambda cls: _dataclass(cls, frozen=frozen, slots=False, eq=eq)
+
+        def made(name, bases, body, **named):
+            like = bases[0] if bases else object
+            return _with_slots(type, name, bases, body, named, like, frozen=frozen, eq=eq)
+
+        def decorator(cls):
+            statement.end()
+            return cls if _NOTED in cls.__dict__ else _dataclass(cls, frozen=frozen, slots=True, eq=eq)
+
+        statement = ClassStatement(made)
+        return decorator
 
     def field(**told):
         """What is to be known of a field; see `dataclasses.field`."""
@@ -79,17 +93,10 @@ _GIVEN = "__given_fields__"
 _MANY = 512
 #: Where a class keeps what `_put_values` does for its objects.
 _STEPS = "__steps_of_init__"
-#: What most defaults are; none is a field of the library.
-_OURS = frozenset((type, str, int, float, bool, tuple, type(None)))
-#: Where members of a class that are no functions have theirs.
-_BEHIND: dict[type, str] = {
-    classmethod: "__func__",
-    staticmethod: "__func__",
-    property: "fget",
-    cached_property: "func",
-}
 #: Where the library keeps its fields.
 _OF_LIBRARY = "__dataclass_fields__"
+#: How the annotations of what is no field begin.
+_CLASS_VARIABLES = "ClassVar", "typing.ClassVar"
 
 
 class _Later:
@@ -101,7 +108,7 @@ class _Later:
 
 _LATER = _Later()
 #: What a class says of fields that is no dataclass.
-_NOTHING: dict[str, object] = {}
+_NOTHING: dict[str, Any] = {}
 
 
 def is_frozen(cls: type) -> bool:
@@ -146,45 +153,98 @@ class Field:
 
 
 def _dataclass(cls: Any, *, frozen: bool, slots: bool, eq: bool) -> type:
-    body = cls.__dict__
-    noted: dict[str, object] = {}
-    inherits = cls.__bases__ != (object,)
-    if inherits:
-        _check_bases(cls, frozen=frozen)
-    for name, hint in body.get("__annotations__", {}).items():
-        if not _is_of_class(hint):
-            value = body.get(name, MISSING)
-            if value is MISSING and inherits:
-                value = getattr(cls, name, MISSING)
-            noted[name] = value if type(value) in _OURS else _told(value)
-    added = _methods(lambda: cls, body, frozen=frozen, eq=eq)
-    added |= {_NOTED: noted, _OF_LIBRARY: _DESCRIBED, "__frozen__": frozen, "__signature__": _SIGNED}
-    # Else the library would write down its signature.
-    added["__doc__"] = body.get("__doc__") or cls.__name__
-    if "__match_args__" not in body:
-        added["__match_args__"] = _POSITIONAL
+    """The dataclass of a class that has been made."""
+    name, bases = cls.__name__, cls.__bases__
+    like = cls if bases != (object,) else object
     if slots:
-        if frozen:  # what pickle would otherwise set by `setattr`
-            added.setdefault("__getstate__", body.get("__getstate__", _state))
-            added.setdefault("__setstate__", body.get("__setstate__", _put_state))
-        cls = _with_slots(cls, noted, added)
-        _lead_super(cls, body)
-        return cls  # type: ignore[no-any-return]
-    for name, value in noted.items():
+        made = _with_slots(type(cls), name, bases, body_of(cls), {}, like, frozen=frozen, eq=eq)
+        lead_super(made, cls)
+        return made
+    noted, members = _members(lambda: cls, name, bases, cls.__dict__, like, frozen=frozen, eq=eq)
+    for each, value in noted.items():
         if isinstance(value, Field):
             if value.default is MISSING:
-                delattr(cls, name)
+                delattr(cls, each)
             else:
-                setattr(cls, name, value.default)
-    for name, value in added.items():
-        setattr(cls, name, value)
+                setattr(cls, each, value.default)
+    for each, value in members.items():
+        setattr(cls, each, value)
     return cls  # type: ignore[no-any-return]
 
 
-def _check_bases(cls: type, *, frozen: bool) -> None:
+def _with_slots(
+    kind: Callable[..., type], name: str, bases: tuple[type, ...], body: dict[str, Any],
+    named: Mapping[str, Any], like: type, *, frozen: bool, eq: bool,
+) -> type:  # fmt: skip
+    """The dataclass of the body of a class, with a slot for every field that no base has one for.
+
+    `kind` makes a class of name, bases, body and what is `named` beside the bases; `like` is any class that inherits
+    what this one does.
+    """
+    noted, members = _members(lambda: made, name, bases, body, like, frozen=frozen, eq=eq)
+    if frozen:  # what pickle would otherwise set by `setattr`
+        body.setdefault("__getstate__", _state)
+        body.setdefault("__setstate__", _put_state)
+    body |= members
+    inherited: set[str] = set()
+    for each in like.__mro__[:-1]:
+        slots = each.__dict__.get("__slots__", ())
+        inherited.update((slots,) if isinstance(slots, str) else slots)
+        if _OF_LIBRARY in each.__dict__:
+            noted = {**dict.fromkeys(_noted(each), MISSING), **noted}
+    for field_name in noted:
+        body.pop(field_name, None)
+    body["__slots__"] = (*[each for each in noted if each not in inherited],)
+    made = kind(name, bases, body, **named)
+    return made
+
+
+def _members(
+    made: Callable[[], type], name: str, bases: tuple[type, ...], body: Mapping[str, Any], like: type,
+    *, frozen: bool, eq: bool,
+) -> tuple[dict[str, object], dict[str, Any]]:  # fmt: skip
+    """What the body of a class says of fields, and what its class has beside it; `made` gives it when it is used."""
+    if like is not object:
+        _check_bases(bases, frozen=frozen)
+    take = body.get
+    noted: dict[str, object] = {
+        each: take(each, MISSING)
+        for each, hint in take("__annotations__", _NOTHING).items()
+        if not (
+            hint.startswith(_CLASS_VARIABLES) if type(hint) is str else ClassVar in (hint, get_origin(hint))
+        )
+    }
+    if like is not object:
+        noted = {
+            each: getattr(like, each, MISSING) if value is MISSING else value for each, value in noted.items()
+        }
+    if "dataclasses" in sys.modules:  # else nothing in it can be the library's
+        noted = {each: _told(value) for each, value in noted.items()}
+    members: dict[str, Any] = {
+        _NOTED: noted, _OF_LIBRARY: _DESCRIBED, "__frozen__": frozen, "__signature__": _SIGNED,
+        "__doc__": body.get("__doc__") or name,  # else the library would write down its signature
+    }  # fmt: skip
+    if "__match_args__" not in body:
+        members["__match_args__"] = _POSITIONAL
+    if "__init__" not in body:
+        members["__init__"] = _first_init(made)
+    if "__repr__" not in body:
+        members["__repr__"] = _repr
+    if eq:
+        if "__eq__" not in body:
+            members["__eq__"] = _made_later(made, "__eq__", _eq)
+        # A class that has `__eq__` of its own and no `__hash__` has None there.
+        if "__hash__" not in body or (body["__hash__"] is None and "__eq__" in body):
+            members["__hash__"] = _made_later(made, "__hash__", _hash) if frozen else None
+    if frozen:
+        members["__setattr__"], members["__delattr__"] = _refuse_to_set, _refuse_to_delete
+    return noted, members
+
+
+def _check_bases(bases: tuple[type, ...], *, frozen: bool) -> None:
     """Refuse that some fields of an object change and others do not."""
     base: Any
-    for base in cls.__bases__:
+    for base in bases:
         is_other: bool | None = getattr(base, "__frozen__", None)
         if is_other is None and hasattr(base, _OF_LIBRARY):
             is_other = base.__dataclass_params__.frozen
@@ -203,41 +263,6 @@ def _told(value: object) -> object:
         return value
     told = {name: getattr(value, name) for name in Field.__slots__ if name not in ("name", "type")}
     return Field(**{name: each for name, each in told.items() if each is not dataclasses.MISSING})
-
-
-def _is_of_class(hint: object) -> bool:
-    """Whether an annotation is no field's."""
-    if isinstance(hint, str):
-        return hint.startswith(("ClassVar", "typing.ClassVar"))
-    return hint is ClassVar or get_origin(hint) is ClassVar
-
-
-def _with_slots(cls: type, noted: Mapping[str, object], added: Mapping[str, object]) -> type:
-    """The class once more, with a slot for every field that no base has one for."""
-    inherited: set[str] = set()
-    for each in cls.__mro__[1:-1]:
-        slots = each.__dict__.get("__slots__", ())
-        inherited.update((slots,) if isinstance(slots, str) else slots)
-        if _OF_LIBRARY in each.__dict__:
-            noted = {**dict.fromkeys(_noted(each), MISSING), **noted}
-    body = {**cls.__dict__, **added}
-    body["__slots__"] = (*[name for name in noted if name not in inherited],)
-    for name in (*noted, "__dict__", "__weakref__"):
-        body.pop(name, None)
-    body["__qualname__"] = cls.__qualname__
-    return type(cls)(cls.__name__, cls.__bases__, body)
-
-
-def _lead_super(cls: type, body: Mapping[str, object]) -> None:
-    """Let `super()` in the methods of `body` mean the class that has slots, not the one whose body was read."""
-    for member in body.values():
-        behind = _BEHIND.get(type(member))
-        function = getattr(member, behind) if behind else member
-        if type(function) is FunctionType and function.__closure__ is not None:
-            free = function.__code__.co_freevars
-            if "__class__" in free:  # a cell that all methods share
-                function.__closure__[free.index("__class__")].cell_contents = cls
-                return
 
 
 # ---- fields ----------------------------------------------------------------------------------------------------
@@ -343,22 +368,6 @@ _DESCRIBED, _POSITIONAL, _SIGNED = _Described(), _Positional(), _Signed()
 
 
 # ---- methods that are written ----------------------------------------------------------------------------------
-
-
-def _methods(
-    made: Callable[[], type], body: Mapping[str, object], *, frozen: bool, eq: bool
-) -> dict[str, Any]:
-    """The methods of a class, but for those of its own; `made` gives it when they are called."""
-    added: dict[str, Any] = {"__init__": _first_init(made), "__repr__": _repr}
-    if eq:
-        added["__eq__"] = _made_later(made, "__eq__", _eq)
-    kept = {name: method for name, method in added.items() if name not in body}
-    # A class that has `__eq__` of its own and no `__hash__` has None there.
-    if eq and ("__hash__" not in body or (body["__hash__"] is None and "__eq__" in body)):
-        kept["__hash__"] = _made_later(made, "__hash__", _hash) if frozen else None
-    if frozen:
-        kept["__setattr__"], kept["__delattr__"] = _refuse_to_set, _refuse_to_delete
-    return kept
 
 
 def _made_later(

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import ctypes
 from typing import TYPE_CHECKING, Any
 
+from polycnc.kernels.c_types import Integer, Number, Pointer, addressof
 from polycnc.kernels.description import INTEGER, NUMBER, RECORD
 
 if TYPE_CHECKING:
@@ -13,8 +13,8 @@ if TYPE_CHECKING:
 #: So many calls take their arguments apart one by one before that is written out for a kernel: it makes each faster
 #: by a third, and takes as long as some hundred calls.
 _FEW = 512
-_TYPES = {RECORD: (ctypes.c_void_p,), INTEGER: (ctypes.c_int64,), NUMBER: (ctypes.c_double,)}
-_ARRAY = ctypes.c_void_p, ctypes.c_int64
+_TYPES = {RECORD: (Pointer,), INTEGER: (Integer,), NUMBER: (Number,)}
+_ARRAY = Pointer, Integer
 _BRACKETS = str.maketrans("", "", "()")
 
 
@@ -22,12 +22,11 @@ def caller(entry: Any, signature: str) -> Callable[..., Any]:
     """What is called like a kernel, and calls its machine code.
 
     Args:
-        entry: The function of the shared object; `ctypes` learns here what it takes.
+        entry: The function of the shared object; it learns here what it takes.
         signature: What the kernel takes (`description`).
     """
     codes = signature.translate(_BRACKETS)
     entry.argtypes = [each for code in codes for each in _TYPES.get(code, _ARRAY)]
-    entry.restype = ctypes.c_int64
     left = _FEW
     written: Callable[..., Any] | None = None
 
@@ -48,7 +47,7 @@ def _handed(given: Iterable[Any], codes: str) -> list[Any]:
     handed: list[Any] = []
     for each, code in zip(_apart(given), codes, strict=True):
         if code in _TYPES:
-            handed.append(ctypes.addressof(each) if code == RECORD else each)
+            handed.append(addressof(each) if code == RECORD else each)
         elif each.typecode == code:
             handed += each.buffer_info()
         else:
@@ -82,7 +81,7 @@ def _written(entry: Any, signature: str) -> Callable[..., Any]:
         f"    return entry({', '.join(given)})\n"
     )
     scope = {
-        "entry": entry, "addressof": ctypes.addressof, "codes": tuple(wanted), "wanted": wanted,
+        "entry": entry, "addressof": addressof, "codes": tuple(wanted), "wanted": wanted,
         "refuse": _refuse,
     }  # fmt: skip
     exec(source, scope)

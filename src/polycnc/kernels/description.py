@@ -14,11 +14,14 @@ any digest, and no two sources are ever taken for each other.
 
 from __future__ import annotations
 
-import ctypes
 from typing import TYPE_CHECKING
+
+from polycnc.kernels.c_types import Text, contents
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+
+    from polycnc.kernels.c_types import SharedObject
 
 #: Signs of a record, a whole number and another one.
 RECORD, INTEGER, NUMBER = "*", "#", "."
@@ -38,24 +41,24 @@ class Description:
         ValueError: There is none.
     """
 
-    def __init__(self, code: ctypes.CDLL, symbol: str) -> None:
-        place = ctypes.addressof(ctypes.c_char.in_dll(code, symbol))
-        text = ctypes.string_at(place)
+    def __init__(self, code: SharedObject, symbol: str) -> None:
+        place = code.address(symbol)
+        text = Text(place).value
         kernels, _, sources = text.decode("ascii").partition("\n\n")
         self.signatures: Mapping[str, str] = dict(line.split(" ") for line in kernels.split("\n"))
         self._sources = [line.split(" ") for line in sources.split("\n")]
-        self._contents = place + len(text) + 1
+        self._place = place + len(text) + 1
 
     def fits(self, root: str) -> bool:
         """Whether the sources that lie below a folder are those."""
-        place = self._contents
+        known, place = contents(self._place, sum(int(size) for _, size in self._sources)), 0
         for name, size in self._sources:
             try:
                 with open(f"{root}/{name}", "rb", buffering=0) as file:  # noqa: PTH123  # `Path` takes twice as long
                     found = file.read()
             except OSError:
                 return False
-            if len(found) != int(size) or found != ctypes.string_at(place, len(found)):
+            if len(found) != int(size) or not known.startswith(found, place):
                 return False
             place += len(found)
         return True

@@ -5,11 +5,12 @@ A kernel's annotations are its declaration. The build reads them (`meaning`), an
 
 from __future__ import annotations
 
-import ctypes
 import sys
 from collections.abc import MutableSequence
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any, ForwardRef, TypeVar, cast, get_args
+
+from polycnc.kernels.c_types import Integer, Number, Structure, put
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -23,33 +24,33 @@ Ints = Annotated[MutableSequence[int], "q"]
 Floats = Annotated[MutableSequence[float], "d"]
 
 _SIMPLE = {each.__name__: each for each in (int, float, bool)}
-_R = TypeVar("_R", bound=ctypes.Structure)
+_R = TypeVar("_R", bound=Structure)
 
 
 def record(cls: type[_R]) -> type[_R]:
-    """Make a `ctypes.Structure` of its annotations: `float`, `int`, or `Annotated[Floats, count]` for so many numbers.
+    """Make a `Structure` of its annotations: `float`, `int`, or `Annotated[Floats, count]` for so many numbers.
 
     The same memory is an object with named fields in Python and a structure in machine code.
     """
-    types: dict[object, type[Any]] = {float: ctypes.c_double, int: ctypes.c_int64}
+    types: dict[object, type[Any]] = {float: Number, int: Integer}
     cls._fields_ = [(name, types.get(hint) or _numbers(hint)) for name, hint in meaning(cls).items()]
     cls.memento = _memento  # type: ignore[attr-defined]
     return cls
 
 
-def _memento(instance: ctypes.Structure) -> Callable[[], None]:
+def _memento(instance: Structure) -> Callable[[], None]:
     """For a snapshot: what brings the numbers of a record back."""
     return partial(put_back, instance, contents_of(instance))
 
 
-def contents_of(instance: ctypes.Structure) -> bytes:
+def contents_of(instance: Structure) -> bytes:
     """The numbers of a record, for `put_back`."""
     return bytes(instance)
 
 
-def put_back(instance: ctypes.Structure, contents: bytes) -> None:
+def put_back(instance: Structure, contents: bytes) -> None:
     """Give a record the numbers that it once had."""
-    ctypes.memmove(ctypes.addressof(instance), contents, len(contents))
+    put(instance, contents)
 
 
 def meaning(of: type | Callable[..., object]) -> dict[str, Any]:
@@ -69,7 +70,7 @@ def _meant(hint: Any, scope: dict[str, Any]) -> Any:
 
 def _numbers(hint: object) -> type[Any]:
     *_, count = get_args(hint)
-    return ctypes.c_double * cast("int", count)
+    return Number * cast("int", count)
 
 
 class Places:

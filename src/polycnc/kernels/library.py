@@ -100,7 +100,7 @@ class Library:
         if name not in self._callers:
             from polycnc.kernels.call import caller
 
-            self._callers[name] = caller(code[name], described.signatures[name])
+            self._callers[name] = caller(code.function(name), described.signatures[name])
         return self._callers[name]
 
     def kernel(self, name: str) -> Callable[..., Any]:

@@ -6,12 +6,12 @@ No compiler is needed when it runs, and only this file is ever loaded. A source 
 
 from __future__ import annotations
 
-import ctypes
 import os
 import sys
 from functools import cache
 
 from polycnc.deferred.paths import package_path
+from polycnc.kernels.c_types import SharedObject
 
 #: Where this variable of the environment says `python`, kernels run as they are written.
 CHOICE = "POLYCNC_KERNELS"
@@ -28,10 +28,10 @@ class Lack:
 
 
 @cache
-def load(file: str) -> ctypes.CDLL | None:
+def load(file: str) -> SharedObject | None:
     """A shared object; None where there is none, none that can be loaded here, or where plain kernels are chosen."""
     try:
-        return ctypes.CDLL(file) if is_wanted() else None
+        return SharedObject(file) if is_wanted() else None
     except OSError:
         return None
 

@@ -14,7 +14,6 @@ from itertools import product
 from typing import TYPE_CHECKING
 
 from polycnc.deferred.records import dataclass
-from polycnc.deferred.regexes import regex
 from polycnc.machine.rules import condition_of, signals_in
 from polycnc.machine.text import NO_TEXT
 
@@ -24,12 +23,22 @@ if TYPE_CHECKING:
     from polycnc.machine.rules import Condition, Rule, Values
     from polycnc.machine.text import Text
 
-_WORD = regex(r"M\d+|G\d+(?:\.\d+)?|[STB]_CODE|UNKNOWN_M|KEY_\w+|CYCLE_START|MODE_\w+|MOVE_\w+|HOME_\w+")
+#: What is asked for at one moment, beside M and G codes: by its name, or by how its name begins.
+_WORDS = frozenset(("S_CODE", "T_CODE", "B_CODE", "UNKNOWN_M", "CYCLE_START"))
+_KINDS = frozenset(("KEY", "MODE", "MOVE", "HOME"))
 
 
 def is_word(signal: str) -> bool:
     """Whether a signal is something that is asked for at one moment."""
-    return _WORD.fullmatch(signal) is not None
+    kind, _, rest = signal.partition("_")
+    if kind in _KINDS:
+        return rest.replace("_", "0").isalnum()
+    whole, point, digits = signal[1:].partition(".")
+    if signal[:1] == "M":
+        return signal[1:].isdecimal()
+    if signal[:1] == "G":
+        return whole.isdecimal() and (digits.isdecimal() or not point)
+    return signal in _WORDS
 
 
 @dataclass(frozen=True)

@@ -12,27 +12,29 @@ from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.motion.compiled import share_rows
+from polycnc.motion.kernels import demands as kernels
 from polycnc.motion.kernels.columns import AT_END, AT_START
-from polycnc.motion.kernels.demands import BEND, LOOK_DEG, LOOKS, MOST_LOOKS, NOTHING, TURN, TWIST, UNEVEN
+from polycnc.motion.kernels.demands import LOOK_DEG, LOOKS, MOST_LOOKS, NOTHING, TWIST, UNEVEN
 from polycnc.transformation.orientation.linkage import room_for
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from polycnc.motion.kernels.columns import Limits
     from polycnc.motion.pole import PathLeg
     from polycnc.toolpath.table import Chunk
 
 __all__ = [
-    "BEND", "FULL", "LOOKS", "NOTHING", "PATH_STEP", "TURN", "TWIST", "UNEVEN", "Bounds", "Demand", "RowShares",
-    "Shares",
-    "asked_of", "between", "bound_tip", "looks_along", "share_ends",
+    "FULL", "LOOKS", "NOTHING", "PATH_STEP", "TWIST", "UNEVEN", "Bounds", "Corner", "Demand", "RowShares", "Shares",
+    "asked_of", "between", "bound_tip", "even_row", "farthest", "looks_along", "share_ends", "within",
 ]  # fmt: skip
 
 #: Derivatives along the path are differences over so many mm or degrees at most.
 PATH_STEP = 5e-3
 #: The turn of a full circle; rows are looked at after so much of it at most, radians.
 FULL, LOOK = 2.0 * pi, radians(LOOK_DEG)
+#: A corner reaches as far along a row as there is so much left of what there is at the row's end; looks.
+KEPT, FAR_LOOKS = 0.8, 4
 #: Shares become shorter by this factor towards the worst place, or by a smaller one.
 SHORTER = 0.5
 
@@ -67,18 +69,29 @@ class Bounds(NamedTuple):
         return array("d", (value * factor for value, factor in zip(feed, self.feed[rows], strict=True)))
 
 
+class Corner(NamedTuple):
+    """What a row leaves a corner at its start or its end: an `ease`, and how much of the row it holds for.
+
+    Without limited jerk no more of the row is bent for the corner.
+    """
+
+    ease: float = 1.0
+    reach: float = 1.0
+
+
 class RowShares(NamedTuple):
-    """The shares of one row: end, speed and `ease` of each, and the `ease` of corners at its start and its end."""
+    """The shares of one row: end, speed and `ease` of each, and what holds at its corners."""
 
     shares: list[tuple[float, float, float]]
-    at_start: float
-    at_end: float
+    at_start: Corner
+    at_end: Corner
 
     def write(self, columns: Shares, first: int, top: float = inf) -> None:
         """Write them behind number `first` of the columns, with no speed above `top`."""
         for at, (end, most, ease) in enumerate(self.shares, first):
             columns.end[at], columns.top[at], columns.ease[at] = end, min(most, top), ease
-        columns.ease[first + AT_START], columns.ease[first + AT_END] = self.at_start, self.at_end
+        for at, corner in ((AT_START, self.at_start), (AT_END, self.at_end)):
+            columns.ease[first + at], columns.end[first + at] = corner
 
 
 class Demand(NamedTuple):
@@ -110,6 +123,32 @@ def between(demand: Demand, angle: float) -> Demand:
     nearer = cos(0.5 * min(angle, LOOK))
     bend, pull, jerk, turn = (value / nearer for value in demand[1:5])
     return Demand(demand.top * nearer, bend, pull, jerk, turn, demand.along)
+
+
+def within(demands: list[Demand], length: float) -> tuple[float, float]:
+    """Speed and `ease` that meet all of some demands along a length."""
+    _, bend, pull, jerk, turn, along = (max(values) for values in zip(*demands, strict=True))
+    top = min(each.top for each in demands)
+    return kernels.within(top, bend, pull, jerk, turn, length, along)
+
+
+def even_row(top: float, ease: float) -> RowShares:
+    """A row of one share, with one speed and one factor all along and at both corners."""
+    return RowShares([(1.0, top, ease)], Corner(ease), Corner(ease))
+
+
+def farthest(beside: Callable[[list[float]], tuple[float, float]], near: Corner) -> Corner:
+    """What holds at a corner as far along a row as little changes, up to half of it; `near` is what holds next to it.
+
+    `beside` gives speed and `ease` for places of the row, by how far they are from the corner.
+    """
+    reach = 0.5
+    while reach > near.reach:
+        _, ease = beside([reach * k / FAR_LOOKS for k in range(1, FAR_LOOKS + 1)])
+        if ease >= KEPT * near.ease:
+            return Corner(min(ease, near.ease), reach)
+        reach *= 0.5
+    return near
 
 
 def bound_tip(

@@ -63,7 +63,7 @@ class Travel(NamedTuple):
 
 def pace_of(
     context: Context, way: Travel, weights: Sequence[float], limits: Limits, *, rapid: bool
-) -> tuple[float, float, float]:
+) -> tuple[float, float, float, float]:
     """What a row's pace makes of it.
 
     Args:
@@ -74,7 +74,8 @@ def pace_of(
         rapid: The row is a rapid.
 
     Returns:
-        Factor on its feed; highest path speed, mm/s; factor on what the axes may accelerate.
+        Factor on its feed; highest path speed, mm/s; factor on what the axes may accelerate, and on that at its
+        corners, where each of them may have to.
     """
     pace, n, made = context.pace, len(way.moved), context.transformation is not None
     assert pace is not None
@@ -83,7 +84,7 @@ def pace_of(
     if turns:
         length = way.length([1.0] * n)
     if length == 0.0:
-        return 1.0, inf, 1.0
+        return 1.0, inf, 1.0, 1.0
     moving = [i for i in range(n) if way.share(i, length) > 0.0]
     feed = pace.feed * edge_factor(pace, context, way)
     if context.feed_mode is not FeedMode.INVERSE_TIME:
@@ -95,6 +96,10 @@ def pace_of(
         feed,
         _top(pace, way, length, moving, limits, rapid=rapid, made=made),
         _ease(pace, way, length, moving, limits, made=made),
+        min(
+            (factors[i] for factors in (_pulls(pace, made=made), pace.jerk) if factors for i in moving),
+            default=1.0,
+        ),
     )
 
 

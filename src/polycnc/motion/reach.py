@@ -12,11 +12,12 @@ fastest. Where a row may be entered at speed, or left, it is not known how fast,
 from __future__ import annotations
 
 from itertools import pairwise
-from math import cos, inf, sqrt
+from math import cos, inf, pi, sqrt
 from typing import TYPE_CHECKING
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.motion.demand import PATH_STEP
+from polycnc.motion.kernels.columns import PIECES_PER_TURN
 from polycnc.motion.kernels.demands import NOTHING
 from polycnc.motion.pace import left_of
 from polycnc.toolpath.kinds import RAPID_KINDS
@@ -32,8 +33,10 @@ if TYPE_CHECKING:
 PARTS = 28
 #: Part of the largest x that a row has where it may be entered or left at speed.
 AT_JOINT = 0.6
-#: No share has less than this of the acceleration, so that the path comes along it.
-LEAST_EASE = 0.02
+#: Part of the largest x that no share has, so that something of the acceleration is left to come along it.
+LEAST_LEFT = 0.01
+#: The turn of a piece of an arc at most, radians.
+PIECE = 2.0 * pi / PIECES_PER_TURN
 
 
 class Place(NamedTuple):
@@ -107,21 +110,25 @@ def shares_of(
         angle: By how much the path turns, radians.
         stops: Whether it begins and ends at rest.
     """
-    count, most = len(places) - 1, 1.0 if stops else AT_JOINT
+    count, most = len(places) - 1, 1.0 - LEAST_LEFT if stops else AT_JOINT
     parts = [between(a, b, angle / count) for a, b in pairwise(places)]
     forth = _reached(parts, length / count, most, stops)
     back = _reached(parts[::-1], length / count, most, stops)[::-1]
     shares = []
     for k, part in enumerate(parts):
         x = max(min(forth[k], back[k]), NOTHING)
-        shares.append(((k + 1) / count, sqrt(x), max(ease_at(part, x), LEAST_EASE)))
+        shares.append(((k + 1) / count, sqrt(x), ease_at(part, x)))
     return shares
 
 
 def between(a: Place, b: Place, angle: float) -> Place:
-    """The least that is allowed between two places, along which the path turns by an angle, radians."""
-    nearer = cos(0.5 * angle)
-    asks = [(max(p[0], q[0]) / nearer, max(p[1], q[1]) / nearer) for p, q in zip(a.asks, b.asks, strict=True)]
+    """The least that is allowed between two places, along which the path turns by an angle, radians.
+
+    At its ends the cubic of a piece bends more than its arc, by `d²/12` of that for a turn d.
+    """
+    nearer, turn = cos(0.5 * angle), min(angle, PIECE)
+    bent = nearer / (1.0 + turn * turn / 12.0)
+    asks = [(max(p[0], q[0]) / bent, max(p[1], q[1]) / nearer) for p, q in zip(a.asks, b.asks, strict=True)]
     return Place(min(a.top2, b.top2) * nearer * nearer, min(a.along, b.along), asks)
 
 

@@ -19,31 +19,33 @@ point next to the centre of polar interpolation.
 from __future__ import annotations
 
 from array import array
-from math import hypot, inf, radians, sqrt
+from math import hypot, inf, radians
 from operator import sub
 from typing import TYPE_CHECKING
 
 from polycnc.motion.demand import (
-    BEND,
     FULL,
     LOOKS,
     NOTHING,
     PATH_STEP,
-    TURN,
     TWIST,
     UNEVEN,
     Bounds,
+    Corner,
     Demand,
     RowShares,
     Shares,
     asked_of,
     between,
     bound_tip,
+    even_row,
+    farthest,
     looks_along,
     share_ends,
+    within,
 )  # fmt: skip
 from polycnc.motion.frames import carried, machine_of, path_of, real_of, real_rows, work_of
-from polycnc.motion.kernels.columns import SHARES, Limits, Rows
+from polycnc.motion.kernels.columns import AT_END, AT_START, SHARES, Limits, Rows
 from polycnc.motion.limits import NO_LINKAGE, averages, axis_limits, channel_axes, is_led, rotary_weight
 from polycnc.motion.pace import Travel, following_top, left_of, pace_of
 from polycnc.motion.pole import (
@@ -257,12 +259,14 @@ class RealAxes:
         weight = rotary_weight(context, self._settings)
         weights = [weight if self._rotary(i) else 1.0 for i in range(len(goal))]
         way, limits = self._way_of(chunk, row, goal, context), self.limits(context.transformation)
-        bounds.feed[row], top, ease = pace_of(
+        bounds.feed[row], top, ease, at_corners = pace_of(
             context, way, weights, limits, rapid=chunk.kind[row] in RAPID_KINDS
         )
+        if chunk.kind[row] == Kind.SPLINE or context.chords:  # a curve moves its axes as its chord does not
+            ease = min(ease, at_corners)
         for k in range(row * SHARES, (row + 1) * SHARES):
             bounds.shares.top[k] = min(bounds.shares.top[k], top)
-            bounds.shares.ease[k] *= ease
+            bounds.shares.ease[k] *= at_corners if k - row * SHARES in (AT_START, AT_END) else ease
 
     def _way_of(self, chunk: Chunk, row: int, goal: list[float], context: Context) -> Travel:
         """The way of a row in the columns' machine coordinates."""
@@ -382,7 +386,7 @@ class RealAxes:
     ) -> RowShares:
         """The shares of a row; `angle`: by how much it turns, `rests`: the path begins or ends at the pole."""
         if length == 0.0:
-            return RowShares([], 1.0, 1.0)
+            return RowShares([], Corner(), Corner())
         count = looks_along(angle)
 
         def look(place: float, *, lateral: bool) -> Demand:
@@ -399,13 +403,13 @@ class RealAxes:
             return self._corners(context, length, look, shares, rests)
         if kind in ARC_KINDS and not uneven:
             inside = [look(k / count, lateral=False) for k in range(count + 1)]
-            found = self._corners(context, length, look, [(1.0, *self._within(inside, length))], rests)
+            found = self._corners(context, length, look, [(1.0, *within(inside, length))], rests)
             # What holds at corners all along the row lets their averages reach as far as they like.
-            top, ease = self._within(looks, length)
-            return RowShares([(1.0, top, ease)], ease, ease) if top > found.shares[0][1] else found
+            top, ease = within(looks, length)
+            return even_row(top, ease) if top > found.shares[0][1] else found
         if kind in (Kind.SPLINE, Kind.THREAD, Kind.TAP) or context.chords or not uneven:
-            top, ease = self._within(looks, length)
-            return RowShares([(1.0, top, ease)], ease, ease)
+            top, ease = within(looks, length)
+            return even_row(top, ease)
         worst = self._worst(context, path, sizes.index(max(sizes)) / count)
         extent = self._extent(context, path, worst)
         if any(rests):
@@ -427,7 +431,7 @@ class RealAxes:
             places += [begin + (f - begin) * k / parts for k in range(1, parts)]
             part = angle * (f - begin) / parts
             inside = [between(demand(place, lateral=False), part) for place in places]
-            shares.append((f, *self._within(inside, (f - begin) * length)))
+            shares.append((f, *within(inside, (f - begin) * length)))
             begin = f
         return self._corners(context, length, demand, shares, rests)
 
@@ -445,22 +449,27 @@ class RealAxes:
     ) -> RowShares:
         """Where a row meets others its columns may accelerate in any direction, as far as a corner's average reaches.
 
-        `hold.py`: a corner passed at c reaches c·window/2.
+        `hold.py`: a corner passed at c reaches c·window/2. Without averages a corner is bent (`rounding.py`).
         """
-        window, eases = sum(averages(context, self._machine, self._settings)), [1.0, 1.0]
+        window, corners = sum(averages(context, self._machine, self._settings)), [Corner(), Corner()]
         for end, rest in enumerate(rests):
             if not rest:
                 k = -end
                 begin = shares[-2][0] if end and len(shares) > 1 else 0.0
                 reach = CORNER_REACH * (shares[k][0] - begin)
-                places = [abs(end - reach * part) for part in (0.0, 0.5, 1.0)]
-                top, eases[end] = self._within(
-                    [demand(place, lateral=True) for place in places], reach * length
-                )
+
+                def beside(places: list[float], *, end: int = end) -> tuple[float, float]:
+                    demands = [demand(abs(end - place), lateral=True) for place in places]
+                    return within(demands, places[-1] * length)
+
+                top, ease = beside([0.0, 0.5 * reach, reach])
+                corners[end] = Corner(ease, reach)
                 if window > 0.0:
                     top = min(top, 2.0 * reach * length / window)
+                else:
+                    corners[end] = farthest(beside, corners[end])
                 shares[k] = (shares[k][0], min(top, shares[k][1]), shares[k][2])
-        return RowShares(shares, *eases)
+        return RowShares(shares, *corners)
 
     def _worst(self, context: Context, path: Path, around: float) -> float:
         """Where between two looks the columns ask most of the real axes."""
@@ -555,27 +564,6 @@ class RealAxes:
                     change = asked_of(changes, pulls, columns)
                 turn = max(turn, change / axis.jerk)
         return Demand(top, bend, pull, jerk, turn, along[0])
-
-    def _within(self, demands: list[Demand], length: float) -> tuple[float, float]:
-        """Speed and `ease` that meet all of some demands along a length.
-
-        Where bend and acceleration together need much of the jerk, the acceleration is no more than serves to get up to
-        the speed that it leaves.
-        """
-        worst = Demand(
-            min(d.top for d in demands), *(max(values) for values in list(zip(*demands, strict=True))[1:])
-        )
-        top = worst.top
-        if worst.bend > NOTHING:
-            top = min(top, sqrt(BEND / worst.bend))
-        ease = min(1.0, (1.0 - (worst.bend * top * top if top < inf else 0.0)) / worst.pull)
-        if worst.jerk > 0.0:
-            ease = min(ease, (1.0 - TWIST - TURN if worst.turn > NOTHING else 1.0) / worst.jerk)
-        if worst.turn > NOTHING:
-            turning = TURN / (3.0 * worst.turn)
-            top = min(top, max(turning / ease, (turning * length * worst.along) ** (1.0 / 3.0)))
-            ease = min(ease, turning / top)
-        return top, ease
 
     def _slopes(self, context: Context, point: list[float], columns: list[int]) -> list[list[float]]:
         """Derivatives of every real axis by some columns."""

@@ -8,7 +8,7 @@ blocks costs little more than its list of lines.
 from __future__ import annotations
 
 import re
-from itertools import compress, count, pairwise
+from itertools import compress, count, pairwise, takewhile
 from operator import itemgetter
 from typing import TYPE_CHECKING
 
@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
 _FIRST_SIGN = itemgetter(slice(1))
-_TAPE_MARK = regex(r"\s*%")
-_NUMBER = regex(r"\s*(?:%\s*)?(?:[oO]|:)[ \t]*(\d{1,9})(?![\d.])")
+#: Digits that the number of a program may have.
+_MOST_DIGITS = 9
 _NAME = regex(r"\s*(?:%\s*)?<([A-Za-z0-9+\-_.]{1,32})>")
 _BLOCK = regex(r"\s*(?:/\d?\s*)?(?:[A-Za-z]\s*[-+.\d#\[]|[#@]|[A-Za-z]+\s*[\[=])")
 """A line with a word, an assignment or a macro statement; the label in front of a tape has none."""
@@ -132,7 +132,7 @@ def _program(source: Source, form: Form, lines: Sequence[str], first: int, end: 
 def _macro_program(lines: Sequence[str], headings: Iterable[int], source: Source) -> Program:
     start = macro_header(lines)
     first = 0 if start is None else start + 1
-    marks = (index for index in headings if index >= first and _TAPE_MARK.match(lines[index]))
+    marks = (index for index in headings if index >= first and _is_marked(lines[index]))
     return _program(source, Form.MACRO, lines, first, next(marks, len(lines)))
 
 
@@ -151,12 +151,32 @@ class _Heading:
 def _tape_headings(lines: Sequence[str], possible: Iterable[int]) -> Iterator[_Heading]:
     for index in possible:
         line = lines[index]
-        if number := _NUMBER.match(line):
-            yield _Heading(index, program_name(int(number[1])), int(number[1]))
-        elif name := _NAME.match(line):
+        if (number := _number(line)) is not None:
+            yield _Heading(index, program_name(number), number)
+        elif "<" in line and (name := _NAME.match(line)):
             yield _Heading(index, name[1])
-        elif _TAPE_MARK.match(line):
+        elif _is_marked(line):
             yield _Heading(index)
+
+
+def _is_marked(line: str) -> bool:
+    """Whether a line begins with a tape mark."""
+    return line.lstrip().startswith("%")
+
+
+def _number(line: str) -> int | None:
+    """The number of a program that a line begins with, behind a tape mark perhaps: `O100`, `:100`.
+
+    It is read sign by sign: to compile a pattern takes longer than the few lines that it would be asked for.
+    """
+    heading = line.lstrip().removeprefix("%").lstrip()
+    if heading[:1] not in {"O", "o", ":"}:
+        return None
+    written = heading[1:].lstrip(" \t")
+    digits = "".join(takewhile(str.isdecimal, written))
+    if not 0 < len(digits) <= _MOST_DIGITS or written[len(digits) :].startswith("."):
+        return None
+    return int(digits)
 
 
 def _tape_programs(lines: Sequence[str], possible: Iterable[int], source: Source) -> list[Program]:
@@ -178,7 +198,7 @@ def _tape_programs(lines: Sequence[str], possible: Iterable[int], source: Source
 def _named_program(lines: Sequence[str], source: Source, heading: _Heading, end: int) -> Program:
     program = _program(source, Form.WORD_ADDRESS, lines, heading.index, end)
     first = program.lines[0]
-    if _TAPE_MARK.match(first):
+    if _is_marked(first):
         # `%O0001`: the mark becomes a blank, so that columns stay.
         program = replace(program, lines=_with_first(program.lines, first.replace("%", " ", 1)))
     return replace(program, name=heading.name, number=heading.number)
@@ -203,7 +223,7 @@ def _longest_section(lines: Sequence[str], source: Source, bounds: list[_Heading
 
 
 def _archive_programs(lines: Sequence[str], possible: Iterable[int], source: Source) -> list[Program]:
-    marks = [index for index in possible if _TAPE_MARK.match(lines[index])]
+    marks = [index for index in possible if _is_marked(lines[index])]
     heads = [(index, m[1]) for index in marks if (m := _ARCHIVE_HEADER.match(lines[index]))]
     ends = [index for index in marks if lines[index].strip() == "%"]
     programs: list[Program] = []

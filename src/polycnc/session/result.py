@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from polycnc.control.alarm_text import catalogue_of
 from polycnc.deferred.modules import import_module, is_installed
 from polycnc.deferred.records import dataclass, field
 from polycnc.machine.layout import axis_layout
@@ -331,6 +330,8 @@ class Result:
     @cached_property
     def catalogue(self) -> Catalogue:
         """The texts of all alarms of this control and this machine."""
+        from polycnc.control.alarm_text import catalogue_of
+
         return catalogue_of(self.control, self.machine)
 
     @property

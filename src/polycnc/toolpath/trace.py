@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, cast
 
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.modules import is_installed
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass
@@ -17,7 +18,9 @@ from polycnc.toolpath.digits import STEPS
 from polycnc.toolpath.events import Raised
 from polycnc.toolpath.kinds import ARC_KINDS, TYPE_NAMES, Kind
 from polycnc.toolpath.modes import FeedMode
-from polycnc.transformation.rows import machine_rows, mapped_rows, work_rows
+
+with loaded_when_called():
+    from polycnc.transformation import rows as of_columns
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -240,7 +243,9 @@ class Display:
             rows: NDArray[np.bool_] | slice = columns.context == number if len(numbers) > 1 else slice(None)
             context = self.toolpath.contexts[number]
             scale = self.scale(context)
-            seen = end[rows] if context.shown_by is None else work_rows(context.shown_by, end[rows])
+            seen = (
+                end[rows] if context.shown_by is None else of_columns.work_rows(context.shown_by, end[rows])
+            )
             work[rows] = seen * scale.work
             turning.extend((rows, i) for i in self.modulo(context))
             machine[rows] = _machine_columns(end[rows], context, self.layout.geometry) * scale.machine
@@ -387,7 +392,7 @@ class Display:
             if context.shown_by is not None:
                 points = columns.end[rows]
                 points[:, geometry] = center
-                center = work_rows(context.shown_by, points)[:, geometry]
+                center = of_columns.work_rows(context.shown_by, points)[:, geometry]
             along = np.abs(curves[:, 3:6]) > 1e-9
             tilted = along.sum(axis=1) > 1
             for k, i in enumerate(geometry):
@@ -429,7 +434,7 @@ def _machine_columns(
     """`Toolpath.to_machine` for whole columns (n, axes), in the same order of operations."""
     machine = end
     if context.transformation is not None:
-        machine = machine_rows(context.transformation, machine)
+        machine = of_columns.machine_rows(context.transformation, machine)
     if not context.frame.is_identity:
-        machine = mapped_rows(context.frame, machine, geometry)
+        machine = of_columns.mapped_rows(context.frame, machine, geometry)
     return machine + context.offsets if context.offsets else machine

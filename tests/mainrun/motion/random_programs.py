@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from math import cos, hypot, sin
+from math import cos, degrees, hypot, sin
 from random import Random
 from typing import TYPE_CHECKING, ClassVar
 
@@ -26,6 +26,8 @@ class Writer:
     lines: list[str] = field(default_factory=list)
     place: tuple[float, float, float] = (0.0, 0.0, 0.0)
     feed: str = ""
+    #: Part of its acceleration that the program leaves an axis, by name.
+    left: dict[str, float] = field(default_factory=dict)
 
     @property
     def siemens(self) -> bool:
@@ -213,6 +215,84 @@ class Vectors(Writer):
         return "\n".join([*self.lines, "TRAFOOF", "M30", ""])
 
 
+class Paced(Writer):
+    """Programs of a mill that leave the axes parts of their accelerations."""
+
+    def modes(self) -> str:
+        words = super().modes()
+        for axis in self.random.sample("XYZ", self.random.randint(1, 2)):
+            per_cent = self.random.choice((10, 20, 50, 80))
+            self.left[axis] = 0.01 * per_cent
+            words += f"\nACC[{axis}]={per_cent}"
+        return words
+
+
+class Plane(Writer):
+    """Lines and arcs in a plane that a transformation makes."""
+
+    def between(self, begin: tuple[float, float], reach: float) -> list[tuple[tuple[float, float], str, str]]:
+        """Points with the code that leads to each and the radius of an arc, which is an arc of half a round at most."""
+        draw, found = self.random, []
+        here = begin
+        for _ in range(draw.randint(2, 7)):
+            span = reach * draw.choice((0.05, 0.3, 1.0))
+            x, y = (round(v + draw.uniform(-span, span), 3) for v in here)
+            before, here = here, (x, y)
+            code, radius = "G1", ""
+            if draw.random() < 0.4:
+                code = draw.choice(("G2", "G3"))
+                half = 0.5 * hypot(here[0] - before[0], here[1] - before[1])
+                radius = f"{half * draw.uniform(1.05, 3.0) + 0.002:.4f}"
+            found.append((here, code, radius))
+        return found
+
+    def feed_word(self, *, first: bool) -> str:
+        return f" F{self.random.choice(FEEDS)}." if first or self.random.random() < 0.3 else ""
+
+
+class Cylinder(Plane):
+    """Grooves on the surface of a cylinder."""
+
+    machine = "lathe-c-transmit"
+
+    def program(self) -> str:
+        draw, siemens = self.random, self.siemens
+        radius = draw.choice((5.0, 20.0, 60.0))
+        if siemens:
+            begins = [
+                f"G90 G94 {self.modes()}",
+                "G19 T1 D1",
+                f"G0 X{2.0 * radius} Z5",
+                f"TRACYL({2.0 * radius})",
+            ]
+        else:
+            begins = [f"G98 G18 G1 X{2.0 * radius:.3f} Z5. C0 F3000.", f"G7.1 C{radius:.3f}"]
+        self.lines = begins
+        start = (0.0, 5.0)
+        if siemens:
+            self.lines.append("G1 Y0 Z5 F3000")
+        for k, ((y, z), code, bow) in enumerate(self.between(start, 30.0)):
+            second = f"Y{y:.3f}" if siemens else f"C{degrees(y / radius):.4f}"
+            more = f" {'CR=' if siemens else 'R'}{bow}" if bow else ""
+            self.lines.append(f"{code} {second} Z{z:.3f}{more}{self.feed_word(first=k == 0)}")
+        self.lines += ["TRAFOOF", "G0 X160"] if siemens else ["G7.1 C0", "G0 X160."]
+        return "\n".join([*self.lines, "M30", ""])
+
+
+class Inclined(Plane):
+    """Contours of a grinding machine whose infeed axis is inclined."""
+
+    machine = "grinder-mu-mz"
+
+    def program(self) -> str:
+        angle = self.random.choice((30, 45, 60, -20))
+        self.lines = [f"G90 G94 G18 {self.modes()}", f"TRAANG({angle})", "G0 X10 Z0"]
+        for k, ((x, z), code, bow) in enumerate(self.between((10.0, 0.0), 20.0)):
+            more = f" CR={bow}" if bow else ""
+            self.lines.append(f"{code} X{x:.3f} Z{z:.3f}{more}{self.feed_word(first=k == 0)}")
+        return "\n".join([*self.lines, "TRAFOOF", "M30", ""])
+
+
 class TurningWork(Writer):
     """Splines and lines along which a rotary axis turns the work."""
 
@@ -237,17 +317,19 @@ class TurningWork(Writer):
 
 
 def writer(seed: int) -> Writer:
-    """The writer of a program: of every ten, five write for mills without a transformation."""
+    """The writer of a program: of every ten, three write for mills without a transformation."""
     random = Random(seed)
     control, kind = random.choice(CONTROLS), seed % 10
     if kind in (3, 6):
         return Threads(random, random.choice(("sinumerik-840d", "fanuc-0i-tf")))
     if kind == 7:
         return Polar(random, random.choice(("sinumerik-840d", "fanuc-0i-tf")))
+    if kind == 4:
+        return Cylinder(random, random.choice(("sinumerik-840d", "sinumerik-840d", "fanuc-0i-tf")))
     if kind in OF_SINUMERIK:
         return random.choice(OF_SINUMERIK[kind])(random, "sinumerik-840d")
     return Writer(random, control)
 
 
 #: Writers for SINUMERIK alone, by the last digit of the seed.
-OF_SINUMERIK = {8: (TurningWork,), 9: (FiveAxes, Vectors)}
+OF_SINUMERIK = {5: (Paced, Inclined), 8: (TurningWork,), 9: (FiveAxes, Vectors)}

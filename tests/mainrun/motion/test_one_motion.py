@@ -1,8 +1,8 @@
 """Plan, samples and main run are one motion, on random programs of the controls.
 
 The times agree, and by the differences of the sampled positions themselves no axis exceeds its velocity, acceleration
-or, but under BRISK, its jerk. The main run passes the same places at the same times. Programs have lines, facets, arcs,
-helices, splines, rounded corners, rapids, threads, and lines and arcs under transformations.
+(what `ACC` leaves it) or, but under BRISK, its jerk. The main run passes the same places at the same times. Programs
+have lines, facets, arcs, helices, splines, rounded corners, rapids, threads, and lines and arcs under transformations.
 `pytest --hypothesis-profile=explore` draws 2,000 others.
 """
 
@@ -33,8 +33,9 @@ SLACK = 1.001
 #: Programs of a run in CI, and of one that explores.
 CI, EXPLORE = 60, 2000
 #: Programs that exploring has found: the main run took the averages of the real axes where a transformation ends; a
-#: rotary axis was too quick beside the centre under BRISK.
-FOUND = (341917, 487807, 535447, 975837, 998267)
+#: rotary axis was too quick beside the centre under BRISK; on bends, arcs and splines axes exceeded what TRACYL, TRAANG
+#: and ACC leave them.
+FOUND = (341917, 487807, 535447, 975837, 998267, 294, 674, 705, 1895, 3265)
 #: Samples of a program whose places are looked up in the main run, from its first on.
 PLACES = 1500
 #: Largest distance of both, mm or degrees: an arc is a circle in the main run, cubics of 7.5° in the samples.
@@ -91,7 +92,7 @@ def check(written: Writer) -> None:
         assert axis is not None
         if axis.rotary:
             steps[:, i] = (steps[:, i] + 180.0) % 360.0 - 180.0
-        slope = axis.acceleration * PERIOD**2
+        slope = written.left.get(axis.name, 1.0) * axis.acceleration * PERIOD**2
         assert np.abs(steps[:, i]).max() <= axis.rapid * PERIOD * SLACK, text
         assert np.abs(np.diff(steps[:, i])).max(initial=0.0) <= slope * SLACK, text
         if "BRISK" in text or "DRIVE" in text:  # the acceleration steps between two samples

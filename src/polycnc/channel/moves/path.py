@@ -11,8 +11,7 @@ out; `Path.divert` lays the whole path aside while a control reads a contour wit
 from __future__ import annotations
 
 from array import array
-from enum import IntEnum, auto
-from itertools import pairwise
+from itertools import count, pairwise
 from math import nan
 from typing import TYPE_CHECKING, ClassVar, TypeVar
 
@@ -30,65 +29,69 @@ if TYPE_CHECKING:
     from polycnc.transformation.orientation.turning import Turning
 
 
-class Rank(IntEnum):
+#: Gives the numbers of ranks, one behind the other: as an enumeration so many would take as long as ten modules.
+_place = count(1).__next__
+
+
+class Rank:
     """The place of a stage in the path, first to last; the path holds at most one stage of a rank."""
 
     #: States of the program that are told to the main run, in order with the moves.
-    STATES = auto()
+    STATES = _place()
     #: What is noted of moves as the program means them (contour tables).
-    NOTES = auto()
+    NOTES = _place()
     #: Inputs that interrupt a block: they see moves as the program means them.
-    INTERRUPTS = auto()
+    INTERRUPTS = _place()
     #: Points become the chords of a curve that goes through them.
-    POINTS = auto()
+    POINTS = _place()
     #: Control points become the chords of a curve.
-    SPLINE = auto()
+    SPLINE = _place()
     #: A smooth approach waits for the contour.
-    APPROACH = auto()
+    APPROACH = _place()
     #: Chamfers and roundings belong to the contour, so they come before the tool leaves it.
-    CORNERS = auto()
+    CORNERS = _place()
     #: The contour as the tool sees it, where frames distort or tilt it.
-    INTO_TOOL_PLANE = auto()
+    INTO_TOOL_PLANE = _place()
     #: Edges of a contour tool: they see the contour.
-    EDGES = auto()
+    EDGES = _place()
     #: Cutter and nose radius.
-    COMPENSATION = auto()
+    COMPENSATION = _place()
     #: Back to programmed lengths and directions.
-    OUT_OF_TOOL_PLANE = auto()
+    OUT_OF_TOOL_PLANE = _place()
     #: Tool radius in space, across a tool that tilts.
-    SPATIAL_COMPENSATION = auto()
+    SPATIAL_COMPENSATION = _place()
     #: A rotary axis follows the direction of the way that the tool really takes.
-    NORMAL = auto()
+    NORMAL = _place()
     #: A way with punching or nibbling becomes segments, with a stroke behind each.
-    SEGMENTS = auto()
+    SEGMENTS = _place()
     #: Rotary axes turn along the way so that the tool keeps to the way of its direction.
-    TURNING = auto()
+    TURNING = _place()
     #: The history of the tool's direction is smoothed over several moves.
-    HISTORY = auto()
+    HISTORY = _place()
     #: The feed takes its course along the way.
-    FEED = auto()
+    FEED = _place()
     #: Moves that a fit of the path leaves as they are.
-    FITTING = auto()
+    FITTING = _place()
     #: The side of a pole on which an axis is.
-    POLE = auto()
+    POLE = _place()
     #: Positions of the work become those of the axes.
-    AXES = auto()
+    AXES = _place()
     #: Slave axes, which only their master moves.
-    SLAVES = auto()
+    SLAVES = _place()
     #: Following axes of a gantry, which no program moves.
-    GANTRY = auto()
+    GANTRY = _place()
     #: Axes that wait for their leading axes: they see where those are.
-    COUPLINGS = auto()
+    COUPLINGS = _place()
     #: Protection zones: they see where the machine would go.
-    ZONES = auto()
+    ZONES = _place()
     #: Limits of travel: they see where the machine would go, too.
-    LIMITS = auto()
+    LIMITS = _place()
     #: Touch probes end moves, so they know how far one was allowed to go.
-    PROBES = auto()
+    PROBES = _place()
     #: Keeps or drops moves: nothing reaches the rows, and all stages in front work as if it did.
-    SINK = auto()
+    SINK = _place()
     #: Writes rows; always there.
-    TABLE = auto()
+    TABLE = _place()
 
 
 @dataclass(slots=True)
@@ -223,7 +226,7 @@ class Stage:
         after: The next stage; the path sets it.
     """
 
-    rank: ClassVar[Rank]
+    rank: ClassVar[int]
     lasts: ClassVar[bool] = False
     keeps_ends: ClassVar[bool] = False
     takes_runs: ClassVar[bool] = False
@@ -400,7 +403,7 @@ class Path:
     @property
     def leads_axes(self) -> bool:
         """Whether rows hold positions of the axes, because a stage has turned those of the work into them."""
-        return any(stage.rank is Rank.AXES for stage in self._stages)
+        return any(stage.rank == Rank.AXES for stage in self._stages)
 
     def find(self, kind: type[S]) -> S | None:
         """The stage of a kind; None where the path has none."""

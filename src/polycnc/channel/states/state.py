@@ -98,7 +98,7 @@ class State:
     def __init_subclass__(cls, *, lifetime: Lifetime | None = None) -> None:
         if lifetime is not None:
             cls.lifetime = lifetime
-        # A dataclass with slots is made twice: the second class counts, and has the lifetime of the first.
+        # Where a dataclass with slots is made twice, the second class counts, and has the lifetime of the first.
         State.CLASSES[f"{cls.__module__}.{cls.__qualname__}"] = cls
 
     @classmethod

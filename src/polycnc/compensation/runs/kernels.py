@@ -7,10 +7,10 @@ vectors or none, or runs against another one. What is left is a matter of the st
 
 from __future__ import annotations
 
-from ctypes import Structure
 from math import atan2, cos, pi, sqrt
 
 from polycnc.geometry.tolerances import NO_WAY, SMOOTH_MM
+from polycnc.kernels.c_types import Structure
 from polycnc.kernels.layout import Bytes, Floats, record
 from polycnc.toolpath.kinds import Kind
 

@@ -82,6 +82,14 @@ class Stroke(NamedTuple):
 
 
 Cycle = Callable[[Hole], Iterator[Stroke]]
+#: Cycles that tap: overrides do not act in their strokes.
+TAPS: set[Cycle] = set()
+
+
+def taps(cycle: Cycle) -> Cycle:
+    """A cycle that taps; who looks for one among `TAPS` has loaded its module."""
+    TAPS.add(cycle)
+    return cycle
 
 
 def depths(hole: Hole) -> Iterator[float]:
@@ -147,6 +155,7 @@ def peck_clearing_chips(hole: Hole) -> Iterator[Stroke]:
     yield from leave(hole)
 
 
+@taps
 def tap(hole: Hole) -> Iterator[Stroke]:
     """In with the spindle in step, reverse, out (G84; G74 with a left-hand tap); peck by peck where asked."""
     yield Stroke(Action.RAPID, hole.r)

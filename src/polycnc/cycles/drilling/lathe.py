@@ -7,7 +7,7 @@ from itertools import pairwise
 from math import inf
 from typing import TYPE_CHECKING
 
-from polycnc.cycles.drilling.holes import Action, Hole, Stroke, peck_by_peck
+from polycnc.cycles.drilling.holes import Action, Hole, Stroke, peck_by_peck, taps
 
 if TYPE_CHECKING:
     from collections.abc import Container, Iterator
@@ -105,12 +105,14 @@ def with_extraction(strokes: Iterator[Stroke], hole: Hole, factor: float) -> Ite
         deepest = max(deepest, depth)
 
 
+@taps
 def tap_clearing_chips(hole: Hole) -> Iterator[Stroke]:
     """As `tap`; after each peck out to R and back to `relief` above the depth reached (5200#5)."""
     yield from peck_by_peck(hole, Action.TAP, Action.TAP, clears=True)
     yield from _tap_out(hole)
 
 
+@taps
 def tap(hole: Hole) -> Iterator[Stroke]:
     """In with the spindle in step, dwell, reverse, out; pecks retract by `relief` (II.4.5)."""
     yield from peck_by_peck(hole, Action.TAP, Action.TAP, clears=False)

@@ -6,10 +6,10 @@ Python's side (`shapes`, `scanner`) and the kernels share it.
 from __future__ import annotations
 
 from array import array
-from ctypes import Structure
 from math import inf
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.kernels.c_types import Structure
 from polycnc.kernels.layout import Bytes, Floats, Ints, Ints32, Places, Words16, Words32, place, record
 from polycnc.language.bulk.routines.layout import Frame
 from polycnc.transformation.orientation.standing import StandRecord

@@ -15,12 +15,16 @@ from polycnc.language.expressions.code import (
     Code,
     Lifted,
     assigned,
+    attribute,
     bound,
     call,
+    constant,
+    dotted,
+    given,
     guarded,
     is_simple,
+    item,
     name,
-    quoted,
     run,
     when,
 )
@@ -41,14 +45,15 @@ if TYPE_CHECKING:
 CHANNEL = name("channel")
 #: What a block may run into, and what becomes of it.
 CAUGHT = ("AlarmError", "ZeroDivisionError", "OverflowError")
-FAIL = (run(quoted("fail(error, channel)")),)
+FAIL = (run(call("fail", name("error"), CHANNEL)),)
 _LOCALS, _MAIN = name("L"), name("M")
-_STOP = quoted("if channel.control.preprocessing_stop(channel): return")
-_ON_CLOCK = run(quoted("channel.on_clock()"))
-_FETCH_LOCALS, _FETCH_MAIN = quoted("L = channel.level.locals"), quoted("M = channel.stack[0].locals")
-_INDEX = quoted("channel.level.index")
+_STOP = when(call("channel.control.preprocessing_stop", CHANNEL), (given(),))
+_ON_CLOCK = run(call("channel.on_clock"))
+_FETCH_LOCALS = assigned(_LOCALS, dotted("channel.level.locals"))
+_FETCH_MAIN = assigned(_MAIN, attribute(item(dotted("channel.stack"), constant(0)), "locals"))
+_INDEX = dotted("channel.level.index")
 #: A block that only calculates or goes elsewhere is none for stages that look ahead; asked for where there are any.
-OFF_PATH = quoted("channel.off_path = channel.attention")
+OFF_PATH = assigned(dotted("channel.off_path"), dotted("channel.attention"))
 
 
 class Number(NamedTuple):

@@ -26,6 +26,7 @@ from polycnc.language.expressions.code import (
     call,
     compared,
     constant,
+    dotted,
     either,
     given,
     guarded,
@@ -71,7 +72,7 @@ _COUNT = added(_BLOCKS, 1)
 _PASSES = call("range", constant(BURST))
 _LEAVE = given()
 #: What is said to stages that look ahead when such a block, or one that only calculates, hands over.
-_ON_PATH = {True: (quoted("channel.off_path = False"),), False: ()}
+_ON_PATH = {True: (assigned(dotted("channel.off_path"), constant(False)),), False: ()}
 
 
 class _Stretch(NamedTuple):
@@ -125,7 +126,7 @@ class Joiner:
             assigned(LEVEL, attribute(CHANNEL, "level")),
             assigned(name("L"), attribute(LEVEL, "locals")),
             assigned(_BLOCKS, constant(-1)),  # the channel counts the step itself
-            guarded(tuple(body), CAUGHT, FAIL, (_CHANNEL_COUNTS,)),
+            guarded(tuple(body), CAUGHT, FAIL, (quoted("channel.blocks += blocks"),)),
         )
         function = Function(("channel",), len(self._numbers), len(self._objects), statements)
         try:
@@ -274,6 +275,3 @@ def _repeated(passes: Code, again: int, body: list[Code], over: tuple[Code, ...]
 def _left(index: int) -> tuple[Code, ...]:
     """Go back to the channel, which goes on at a step."""
     return assigned(INDEX, constant(index)), _LEAVE
-
-
-_CHANNEL_COUNTS = quoted("channel.blocks += blocks")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from polycnc.language.expressions import nodes
-from polycnc.language.expressions.code import Code, Lifted, assigned, constant, quoted, sequence
+from polycnc.language.expressions.code import Code, Lifted, assigned, constant, dotted, item, quoted, sequence
 from polycnc.language.expressions.operators import TIGHTEST
 from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.emitter import Execution, provide
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 #: Addresses whose numbers stay INT where they are written so; all others become REAL.
 _NONE = constant(None)
-_SINGLE_BLOCK = quoted("channel.level.data['single_block']")
+_SINGLE_BLOCK = item(dotted("channel.level.data"), constant("single_block"))
 #: What polynomials of the orientation stand for (6.3, 6.5.2).
 _OF_ORIENTATION = frozenset({"PHI", "PSI", "THT", "XH", "YH", "ZH"})
 _WHOLE_NUMBERS = frozenset({"M", "H", "T", "D", "DL"})

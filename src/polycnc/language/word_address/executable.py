@@ -45,7 +45,6 @@ _NUMBERS = regex(
 _PLAIN_BEGIN = regex(r"(?:N\d+[ \t]*)?[A-MO-Z][-+\d.]")
 _SEQUENCE_WORD = regex(r"N[ \t]*\d+\.?\d*")
 _LOOP = regex(r"(?<![A-Z])(DO|END)[ \t]*(\d+)")
-_HEAD = regex(r"[ \t]*(?:[O:][ \t]*\d+|<[^>]*>)?")
 _SKIP = regex(r"[ \t]*/[ \t]*(\d?)")
 _NUMBER_TEXT = regex(r"[ \t]*([-+]?)[ \t]*(\d+\.?\d*|\.\d+)")
 _VALUE = regex(r"[ \t]*[-+]?[ \t]*[#\[]")
@@ -84,6 +83,19 @@ class Grammar:
     shapes: Shapes = field(default_factory=macro_shapes, compare=False, repr=False)
     patterns: Patterns = field(default_factory=Patterns, compare=False, repr=False)
     plain: dict[str, WordBlock] = field(default_factory=dict, compare=False, repr=False)
+
+
+def _behind_head(text: str) -> int:
+    """Where a block begins behind the number or the name of a program that may stand at the begin of its line."""
+    rest = text.lstrip(" \t")
+    start = len(text) - len(rest)
+    if rest.startswith("<"):
+        return text.find(">", start) + 1 or start
+    if not rest.startswith(("O", ":")):
+        return start
+    digits = rest[1:].lstrip(" \t")
+    end = next((at for at, sign in enumerate(digits) if not sign.isdecimal()), len(digits))
+    return len(text) - len(digits) + end if end else start
 
 
 def empty_block(_channel: Channel) -> None:
@@ -340,8 +352,7 @@ class WordAddressProgram:
     def _block(self, text: str, line: str, index: int) -> Step:
         """One block: program number, skip marks, sequence number, then a statement or words."""
         reader = BlockReader(text, self.grammar, line)
-        head = _HEAD.match(text)
-        reader.pos = head.end() if head else 0
+        begin = reader.pos = _behind_head(text)
         levels = reader.skip_levels()
         number = reader.match(_SEQUENCE_WORD) if reader.peek() == "N" else ""
         digits_at = reader.pos - len(number.lstrip("N \t"))
@@ -353,11 +364,8 @@ class WordAddressProgram:
             step = parse_statement(reader, keyword, self, index)
         elif not reader.peek():
             # A line that only names the program is none of its blocks.
-            step = (
-                empty_block
-                if text.strip() and head and text.strip() == head.group().strip()
-                else WordBlock((), [])
-            )
+            is_head = text.strip() and not text[begin:].strip()
+            step = empty_block if is_head else WordBlock((), [])
         else:
             step = self._words(reader)
         if isinstance(step, REPEATABLE) and not levels:

@@ -80,13 +80,11 @@ class ByPieces:
         follower.enter(piece, record[PieceRecord.LENGTH], self._behind)
         motion: Motion
         if piece.by_axis:
-            motion = AxesMotion(
-                piece, preprocessing.rapid_limits, time, self._rates, record[PieceRecord.RAMP]
-            )
+            motion = AxesMotion(piece, time, self._rates, record[PieceRecord.RAMP])
         else:
             motion = PathMotion(
-                piece, record, preprocessing.limits, time, x2, preprocessing.reach2, cap2,
-                follower.window, *self._steadiness(record, x2),
+                piece, record, time, x2, preprocessing.reach2, cap2, follower.window,
+                *self._steadiness(record, x2),
             )  # fmt: skip
         self.lead(motion)
         return motion
@@ -158,8 +156,7 @@ class ByPieces:
         if self.window > 0.0:
             self._follower.exchange(piece, record[PieceRecord.LENGTH], done - here)
         other = PathMotion(
-            piece, record, preprocessing.limits, time, speed * speed, preprocessing.reach2, cap2,
-            self.window, done=here,
-        )  # fmt: skip
+            piece, record, time, speed * speed, preprocessing.reach2, cap2, self.window, done=here
+        )
         self.lead(other)
         return other

@@ -17,7 +17,7 @@ from polycnc.mainrun.motion.speed import (
     profile_of,
     straight_profile,
 )
-from polycnc.motion.kernels.columns import Limits, PieceRecord
+from polycnc.motion.kernels.columns import PieceRecord
 from polycnc.motion.limits import axis_rapids
 
 if TYPE_CHECKING:
@@ -72,7 +72,6 @@ class PathMotion:
     Args:
         piece: The piece.
         record: The planner's numbers of it.
-        limits: The machine, as the planner's kernels take it.
         since: When it begins.
         start2: Squared speed then.
         aim2: Largest squared speed at its end.
@@ -87,7 +86,6 @@ class PathMotion:
         self,
         piece: Piece,
         record: array[Any],
-        limits: Limits,
         since: float,
         start2: float,
         aim2: float,
@@ -101,7 +99,6 @@ class PathMotion:
         self._window = window
         self._calm, self.ahead = calm, ahead
         self._record = record
-        self._limits = limits
         self._axes = len(piece.way.start)
         self._run(since, done, start2, aim2, cap2)
 
@@ -114,7 +111,9 @@ class PathMotion:
             way = left + (stop if left + stop >= brakes else rest)
             profile = first_part(straight_profile(way, start2, 0.0, cap2, pull, self._calm), left)
         else:
-            profile = profile_of(self._record, done, start2, aim2, cap2, self._axes, self._limits, self._calm)
+            profile = profile_of(
+                self._record, done, start2, aim2, cap2, self._axes, self.piece.limits, self._calm
+            )
         self._profile, self._since, self._done = profile, since, done
         over = since + profile.seconds
         self.end, self.rest = (over, inf) if profile.arrives else (inf, over)
@@ -193,7 +192,7 @@ class PathMotion:
         record = self._record[:]
         record[PieceRecord.LENGTH] = brakes
         speed2 = speed * speed
-        return PathMotion(rest, record, self._limits, time, speed2, 0.0, speed2, self._window, calm)
+        return PathMotion(rest, record, time, speed2, 0.0, speed2, self._window, calm)
 
     def revise(self, time: float, aim2: float, cap2: float, rates: ChannelRates) -> None:  # noqa: ARG002 - are in cap2
         """The limits of the speed have changed."""
@@ -211,16 +210,13 @@ class AxesMotion:
 
     Args:
         piece: The piece.
-        limits: The machine, as the planner's kernels take it.
         since: When it begins.
         rates: What the operator has set.
         ramp: Seconds over which the motion of the slowest axis is averaged (`motion/kernels/alone.py`).
     """
 
-    def __init__(
-        self, piece: Piece, limits: Limits, since: float, rates: ChannelRates, ramp: float = 0.0
-    ) -> None:
-        self.piece = piece
+    def __init__(self, piece: Piece, since: float, rates: ChannelRates, ramp: float = 0.0) -> None:
+        self.piece, limits = piece, piece.limits
         self.end2 = 0.0
         ways = [b - a for a, b in zip(piece.way.start, piece.way.end, strict=True)]
         alone = axis_rapids(ways, piece.context, limits, soft=ramp > 0.0)

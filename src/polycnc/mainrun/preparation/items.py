@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from polycnc.channel.intervention import TakesBack
     from polycnc.mainrun.motion.geometry import Cubic, Segment
     from polycnc.mainrun.preparation.layout import PreparedRow
+    from polycnc.motion.kernels.columns import Limits
     from polycnc.motion.standing.beside import Work
     from polycnc.toolpath import Context, Event
     from polycnc.toolpath.motion_settings import DryRun
@@ -152,6 +153,7 @@ class Row:
         overridden: A tap on which the feed override acts all the same; `held` one that feed hold stops.
         faster: How much faster than programmed a tap comes out where no override acts on it.
         largest_override: The largest feed override of a tap.
+        limits: The machine in it, as the planner's kernels take it: those by which its pieces are laid and planned.
     """
 
     way: Segment
@@ -169,6 +171,7 @@ class Row:
     held: bool
     faster: float
     largest_override: float
+    limits: Limits
 
 
 @dataclass(slots=True, eq=False)

@@ -6,6 +6,7 @@ Records in front that have been taken stay in the buffer until it is full, so th
 from __future__ import annotations
 
 from array import array
+from itertools import pairwise
 from math import sqrt
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -38,8 +39,7 @@ class PieceBuffer:
     Attributes:
         state: What the kernels carry from row to row.
         tables: Tables of contexts.
-        led: What the last row has been laid out for; None before the first. `use` is what it runs by.
-        limits: The machine, as the kernels take it.
+        limits: The machine in the last row, as the kernels take it; `use` is what that runs by.
     """
 
     UNFOLLOWED: ClassVar[frozenset[str]] = frozenset({"_kernels"})
@@ -50,7 +50,6 @@ class PieceBuffer:
         self._rested = False  # before the next row, for what is none
         self.tables = ContextTables(0.0)
         self.limits: Limits
-        self.led: Limits | None = None
         self.use = Use.CUT
         self._axes = axes
         self._width = piece_width(axes)
@@ -91,7 +90,7 @@ class PieceBuffer:
     def end_in_rest(self) -> None:
         """The axes come to rest behind the last row."""
         self.state.run.stop, self._rested = 1.0, True
-        self._kernels.settle(self._records, self._axes, self.led or self.limits, self.state)
+        self._kernels.settle(self._records, self._axes, self.limits, self.state)
 
     def least_seconds(self, behind: int) -> float:
         """The least time of the pieces ahead, but for so many of them in front."""
@@ -111,7 +110,7 @@ class PieceBuffer:
         if prepared.led is not None:  # the axes rest where the use changes
             self._kernels.settle(self._records, self._axes, prepared.led, state)
             state.run.stop = 1.0
-        self.led, self.use = prepared.limits, prepared.use
+        self.limits, self.use = prepared.limits, prepared.use
         contexts = self.tables.of(prepared.use)
         state.run.override = prepared.factor(layout)
         # What a tap may do at an override, others decide (`Rates`).
@@ -302,20 +301,31 @@ class PieceBuffer:
 
     # ---- speeds --------------------------------------------------------------------------------------------
 
-    def plan(self, entries: Callable[[array[float], int], Iterator[tuple[int, float]]]) -> None:
+    def plan(self, entries: Callable[[array[float], int], Iterator[tuple[int, float, Limits]]]) -> None:
         """Work out how fast each piece may be entered.
 
-        `entries` is given the records and their width, and yields where a record begins and the largest squared
-        speed there. The records themselves stay: what the axes allow is asked again when the overrides change.
+        `entries` is given the records and their width, and yields where a record begins, the largest squared speed
+        there and the limits by which it is laid. The records themselves stay: what the axes allow is asked again when
+        the overrides change.
         """
         first, end = self._taken * self._width, self.state.run.pieces * self._width
         planned = self._planned = self._records[first:end]
         self._next = 0
         if not planned:
             return
-        for at, entry2 in entries(planned, self._width):
+        runs: list[tuple[int, Limits]] = []
+        for at, entry2, limits in entries(planned, self._width):
             planned[at + PieceRecord.ENTRY2] = entry2
-        self._kernels.backward(planned, len(self), self._axes, self.limits)
+            if not runs or limits is not runs[-1][1]:
+                runs.append((at, limits))
+        if len(runs) == 1:
+            self._kernels.backward(planned, len(self), self._axes, runs[0][1])
+            return
+        runs.append((len(planned), runs[-1][1]))
+        for (begin, limits), (behind, _) in pairwise(runs):  # the axes rest in between
+            run = planned[begin:behind]
+            self._kernels.backward(run, len(run) // self._width, self._axes, limits)
+            planned[begin:behind] = run
 
     @property
     def reach2(self) -> float:

@@ -42,7 +42,6 @@ from polycnc.mainrun.preparation.run_blocks import (
 from polycnc.motion.frames import real_of
 from polycnc.motion.kernels.columns import (
     ContextRecord,
-    Limits,
     PieceRecord,
 )
 from polycnc.motion.limits import ContextTables
@@ -61,6 +60,7 @@ if TYPE_CHECKING:
     from polycnc.machine.model import Machine
     from polycnc.mainrun.axes.machine_axes import MachineAxes
     from polycnc.messages import AlarmError
+    from polycnc.motion.kernels.columns import Limits
     from polycnc.motion.standing.beside import Work
     from polycnc.program import Program
     from polycnc.toolpath import Event
@@ -512,8 +512,8 @@ class Preprocessing:
     def _entries(
         self, rates: ChannelRates, cap2: float, gated: bool, single_block: bool, stops: Callable[[Item], bool] | None,
         records: array[float], width: int,
-    ) -> Iterator[tuple[int, float]]:  # fmt: skip
-        """The largest squared speed at the start of each piece, by what the operator has set."""
+    ) -> Iterator[tuple[int, float, Limits]]:  # fmt: skip
+        """Of each piece the largest squared speed at its start, by what the operator has set, and its limits."""
         at, closed, end = 0, False, len(records)
         for item in self.items:
             closed = closed or (stops is not None and stops(item))
@@ -526,7 +526,8 @@ class Preprocessing:
                 while at < end and records[at + PieceRecord.ROW] == row:
                     share = records[at + PieceRecord.LENGTH] / item.total
                     own = rates.cap2(item, records[at + PieceRecord.CAP2], item.asked(done + 0.5 * share))
-                    yield at, 0.0 if closed else min(records[at + PieceRecord.ENTRY2], cap2, own)
+                    entry2 = 0.0 if closed else min(records[at + PieceRecord.ENTRY2], cap2, own)
+                    yield at, entry2, item.limits
                     cap2, closed = own, False
                     done += share
                     at += width
@@ -547,19 +548,9 @@ class Preprocessing:
         return self._buffer.early
 
     @property
-    def limits(self) -> Limits:
-        """The machine, as the planner's kernels take it."""
-        return self._buffer.limits
-
-    @property
     def contexts(self) -> array[float]:
         """What the kernels know of the contexts of cuts and rapids."""
         return self._buffer.contexts
-
-    @property
-    def rapid_limits(self) -> Limits:
-        """The same on rapids on which every axis runs alone."""
-        return self._rows.real.limits(None, self._rows.use_of_rapids)
 
     def front_cap2(self, rates: ChannelRates) -> float:
         """Largest squared speed on the piece in front."""

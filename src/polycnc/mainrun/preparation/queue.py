@@ -62,7 +62,7 @@ class Queue:
         return Piece(
             move.way, move.row, move.kind, move.context, move.program, move.line, move.rapid, move.fixed,
             move.per_revolution, 0.0, move.by_axis, move.overridden, move.held, move.faster, move.largest_override,
-            move.total, 0.0, 1.0, inf, move.asked(0.5),
+            move.limits, move.total, 0.0, 1.0, inf, move.asked(0.5),
         )  # fmt: skip
 
     def drop_moves(self) -> None:
@@ -82,8 +82,8 @@ class Queue:
         piece = Piece(
             move.way, move.row, move.kind, move.context, move.program, move.line, move.rapid, move.fixed,
             move.per_revolution, move.left if is_last else 0.0, move.by_axis, move.overridden, move.held,
-            move.faster, move.largest_override, record[PieceRecord.LENGTH], move.done, share, record[PieceRecord.CAP2],
-            move.asked(move.done + 0.5 * share), curve=self._curve(move, record),
+            move.faster, move.largest_override, move.limits, record[PieceRecord.LENGTH], move.done, share,
+            record[PieceRecord.CAP2], move.asked(move.done + 0.5 * share), curve=self._curve(move, record),
         )  # fmt: skip
         move.done += share
         return piece

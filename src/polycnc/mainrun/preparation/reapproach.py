@@ -67,7 +67,7 @@ def line_from(
     move_from_here = Move(
         Line(tuple(start), tuple(end)), move.row, move.kind, move.context, move.program, move.line,
         move.rapid, move.fixed, move.per_revolution, 0.0, records[PieceRecord.FORM] == Form.TIMED,
-        move.overridden, move.held, move.faster, move.largest_override, ((1.0, asked),),
+        move.overridden, move.held, move.faster, move.largest_override, limits, ((1.0, asked),),
         sum(records[PieceRecord.LENGTH::width]),
     )  # fmt: skip
     return records, [move_from_here]

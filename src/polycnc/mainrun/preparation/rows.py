@@ -73,11 +73,6 @@ class RowLayer:
         """What a row of a kind runs by."""
         return use_of(kind, context, self._uses)
 
-    @property
-    def use_of_rapids(self) -> Use:
-        """What rapids run by."""
-        return Use.RAPID if self._uses.rapid else Use.CUT
-
     def lay(self, chunk: Chunk, row: int, bounds: Bounds) -> None:
         """Lay a move out; one through the pole of a transformation in legs, the rotary axis turning between them."""
         n, number = self._axes, chunk.first + row
@@ -122,7 +117,7 @@ class RowLayer:
         self._queue.items.append(
             Move(
                 way, called, kind, context, program, line, rapid, False, False, 0.0, False, False, False, 1.0,
-                inf, ((1.0, inf),), total, prepared,
+                inf, limits, ((1.0, inf),), total, prepared,
             )
         )  # fmt: skip
 
@@ -151,7 +146,7 @@ class RowLayer:
             rests,
             before,
             use=use,
-            led=buffer.led if use is not buffer.use else None,
+            led=buffer.limits if use is not buffer.use else None,
         )
         found = buffer.lay(prepared, self._queue.layout)
         if not found:
@@ -179,6 +174,7 @@ class RowLayer:
                 kind == Kind.TAP and self._settings.taps_held,
                 faster(chunk.curves, buffer.state),
                 largest_override(chunk, row),
+                limits,
                 self._asks(curves, record, found, prepared.factor(self._queue.layout), is_arc=is_arc),
                 sum(buffer.field(at, PieceRecord.LENGTH) for at in found),
                 prepared,

@@ -160,7 +160,7 @@ def point_cap2(n: int, limits: Limits, state: State, margin: float) -> float:
             speed = limits.top_feed[i] / share
             cap2 = min(cap2, speed * speed)
         if curvature > 0.0:
-            cap2 = min(cap2, limits.acceleration[i] / curvature)
+            cap2 = min(cap2, state.arc.ease * limits.acceleration[i] / curvature)
     return cap2
 
 
@@ -203,6 +203,7 @@ def lay_arc(
     end_chord(pieces, n, limits, state)
     step = sweep / parts
     margin, weight = 1.0 + 0.625 * square(turning / parts), contexts[record + ContextRecord.ROTARY_WEIGHT]
+    state.arc.ease = shared_ease(gentle, state)
     end_way = arc_point(sweep, n, limits, weight, state)
     way = arc_point(0.0, n, limits, weight, state)
     length = 0.5 * (way + end_way) * sweep
@@ -237,7 +238,7 @@ def lay_arc(
         at = next_piece(pieces, state, Form.BENT if gentle else Form.CURVED, 0.0, n)
         if is_first:
             open_joint(pieces, at, state, entry2)
-        pieces[at + PieceRecord.MARGIN] = margin
+        pieces[at + PieceRecord.MARGIN] = margin / state.arc.ease
         place_arc(pieces, at, first, last, n, limits, state)
         bend = curvature(n, limits, weight, state)
         store_point(pieces, at + PieceRecord.VECTORS, n, state, margin)
@@ -273,6 +274,19 @@ def lay_arc(
     state.run.exit_pull, state.run.rate = pull, 1.0 / end_way
     state.run.exit2, state.run.length, state.run.metric, state.run.smooth = entry2, length, weight, 0.0
     return True
+
+
+def shared_ease(gentle: bool, state: State) -> float:
+    """Part of their accelerations that the axes have for the bend of the arc at hand and for changes of speed together.
+
+    It is stored as a larger MARGIN. Under a transformation every share has its own speed, which leaves enough for the
+    bend, and `row.ease` is for changes of speed alone; so it is with limited jerk.
+    """
+    ease = state.row.ease
+    if gentle or state.row.shares > 1.0 or ease >= 1.0:
+        return 1.0
+    state.row.ease = 1.0
+    return ease
 
 
 def arc_top(contexts: Floats, record: int, way: float, end_way: float, limits: Limits, state: State) -> float:
@@ -349,7 +363,7 @@ def slow_down(
     contexts: Floats, record: int, pieces: Floats, at: int, n: int, limits: Limits, state: State
 ) -> None:
     """Set PATH_PULL of a curved piece: under DRIVE, and where real axes behind the path need it."""
-    fastest, factor = sqrt(pieces[at + PieceRecord.CAP2]), state.row.ease
+    fastest, factor = state.arc.ease * sqrt(pieces[at + PieceRecord.CAP2]), state.row.ease
     for end in range(2):
         first = at + PieceRecord.VECTORS + end * n
         factor = min(
@@ -425,6 +439,7 @@ def facing_radius(angle: float, limits: Limits, state: State) -> float:
 
 def store_point(pieces: Floats, at: int, n: int, state: State, margin: float) -> None:
     """Store q' and q'' of a point, the curvature two blocks behind the tangent."""
+    margin /= state.arc.ease
     for i in range(n):
         pieces[at + i] = state.unit[i] * margin
         pieces[at + 2 * n + i] = state.bend[i] * margin
@@ -436,7 +451,7 @@ def bound_curve(pieces: Floats, at: int, n: int, limits: Limits, state: State, s
     for i in range(n):
         share = max(abs(pieces[at + PieceRecord.VECTORS + i]), abs(pieces[at + PieceRecord.VECTORS + n + i]))
         if share > 0.0:
-            top = inf if leads else limits.top_feed[i] / share
+            top = inf if leads else limits.top_feed[i] / (state.arc.ease * share)
             cap2 = min(cap2, top * top)
             pull = min(pull, limits.acceleration[i] / share)
     pieces[at + PieceRecord.CAP2], pieces[at + PieceRecord.PULL] = cap2, pull

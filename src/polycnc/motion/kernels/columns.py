@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from array import array
 from collections.abc import Sequence
-from ctypes import Structure
 from math import inf
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.kernels.c_types import Structure
 from polycnc.kernels.layout import Bytes, Floats, Ints, Ints32, Places, Words32, place, record
 from polycnc.transformation.orientation.linkage import room_for
 
@@ -42,7 +42,8 @@ class Rows(NamedTuple):
     Under a transformation every row has SHARES shares: `share` says where each of them ends (0 to 1 of the row's way; a
     first one that ends at 1 is alone), `top` bounds the path speed, and `ease` says by which factor the acceleration
     along the path must shrink for the real axes to keep their limits; at AT_START and AT_END stand the factors for the
-    columns' limits at corners (`motion/transformed.py`). All empty where none acts.
+    columns' limits at corners, and in `share` how much of the row a bend for them may take (`motion/transformed.py`).
+    All empty where none acts.
     """
 
     kind: Bytes
@@ -276,7 +277,8 @@ class RunState(Structure):
             threads too. `kernels/feeds.py` says what 1 and 2 mean, `kernels/alone.py` what MAIN_RUN does.
         override: Factor of overrides on the feed of the row at hand, which that has in it already.
         straight_pieces: Of the straight run from rest that the row at hand goes on with.
-        ease: Factor on the limits at the end of the row before; `corner_ease` for its corner.
+        ease: Factor on the limits at the end of the row before; `corner_ease` for its corner, which may bend no more of
+            it than `corner_reach`, mm.
         overlap: OVERLAP of the row before; `rapid_overlap` likewise, 0 behind a cut.
         is_bent: The row before is bent already for the corner to the row at hand (1): the latter is laid out again.
         unseen: Nobody asks where the axes are within a piece (1).
@@ -318,6 +320,7 @@ class RunState(Structure):
     straight_pieces: int
     ease: float
     corner_ease: float
+    corner_reach: float
     overlap: float
     rapid_overlap: float
     is_bent: float
@@ -379,12 +382,16 @@ class RowState(Structure):
 
 @record
 class ArcState(Structure):
-    """The arc at hand: angle, radius, growth of the radius, rise along its axis."""
+    """The arc at hand: angle, radius, growth of the radius, rise along its axis.
+
+    `ease` is the factor on what its axes accelerate, for its bend and for changes of speed together (`arcs.py`).
+    """
 
     sweep: float
     radius: float
     growth: float
     rise: float
+    ease: float
 
 
 class State(NamedTuple):
@@ -397,7 +404,7 @@ class State(NamedTuple):
         arc: Its arc.
         basis: Of the arc: unit vectors to the start, along the way there, and of the axis.
         share_end: Of the row's shares, where they end; `share_top` and `share_ease` likewise. Behind the factors of
-            the shares stand those for corners at its ends.
+            the shares stand those for corners at its ends, in `share_end` how much of the row they may bend.
         position: Machine position before the row; from here on n numbers each.
         tangent: q' at the end of the last piece.
         target: Machine position at the end of the row.

@@ -7,6 +7,7 @@ from math import inf, sqrt
 from polycnc.kernels.layout import Floats
 from polycnc.motion.kernels.alone import pays_to_rest
 from polycnc.motion.kernels.columns import (
+    AT_START,
     SMOOTH_COS,
     SPLINE,
     SURELY,
@@ -70,7 +71,8 @@ def join(
     )
     turns = not (angle > 0.0 or distance > 0.0)
     if ramp == 0.0 and turns:
-        own2 = bend_corner(contexts, record, n, limits, state, shorter)
+        reach = min(0.5 * shorter, state.share_end[AT_START] * length, state.run.corner_reach)
+        own2 = bend_corner(contexts, record, n, limits, state, reach)
     elif tolerance > 0.0:
         rounding = contexts[record + ContextRecord.ROUNDING]
         own2 = rounded2(tolerance, rounding, turns, n, limits, state, shorter, cap2)

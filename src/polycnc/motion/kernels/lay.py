@@ -112,15 +112,17 @@ def lay_row(
         rest(state)
         return True
     n, record = axes_of(state), take_row(rows, row, number, contexts, limits, state)
-    state.joint.top2, led = inf, is_led(contexts, record, limits, state)
+    state.joint.top2, led, before = inf, is_led(contexts, record, limits, state), state.run.pieces
     if not led and state.run.corner_top2 > 0.0:
         state.joint.top2 = state.run.corner_top2
         state.run.exit2 = min(state.run.exit2, state.run.corner_top2)
     if not lay_move(curves, contexts, record, n, limits, pieces, state):
         return False
-    state.run.ease = state.share_ease[max(state.row.shares - 1, 0)]
-    state.run.corner_ease = state.share_ease[AT_END]
-    state.run.corner_top2 = state.run.corner_top2 if led else 0.0
+    if state.run.pieces > before:
+        state.run.ease = state.share_ease[max(state.row.shares - 1, 0)]
+        state.run.corner_ease = state.share_ease[AT_END]
+        state.run.corner_reach = state.share_end[AT_END] * state.run.length
+        state.run.corner_top2 = state.run.corner_top2 if led else 0.0
     return True
 
 
@@ -149,6 +151,7 @@ def take_shares(rows: Rows, row: int, state: State) -> None:
     """Set speed, factors and shares of the row at hand."""
     state.row.shares, state.row.top, state.share_ease[0] = 0, inf, 1.0
     state.share_ease[AT_START] = state.share_ease[AT_END] = 1.0
+    state.share_end[AT_START] = state.share_end[AT_END] = 1.0
     if len(rows.share) > 0:
         first, count = row * SHARES, 1
         while rows.share[first + count - 1] < 1.0:
@@ -158,8 +161,8 @@ def take_shares(rows: Rows, row: int, state: State) -> None:
             state.share_top[k] = rows.top[first + k]
             state.share_ease[k] = rows.ease[first + k]
         state.row.shares = count
-        state.share_ease[AT_START] = rows.ease[first + AT_START]
-        state.share_ease[AT_END] = rows.ease[first + AT_END]
+        for k in range(AT_START, AT_END + 1):
+            state.share_ease[k], state.share_end[k] = rows.ease[first + k], rows.share[first + k]
         state.row.top = state.share_top[0] if count == 1 else inf
         eased = min(state.share_ease[0], state.share_ease[AT_START], state.share_ease[AT_END]) < 1.0
         if count == 1 and state.row.top == inf and not eased:

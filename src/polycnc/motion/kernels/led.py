@@ -65,7 +65,6 @@ def lay_led(
     delta, unit, room = state.delta, state.unit, state.room
     length, weight = counted_length(contexts, record, n, limits, state)
     if length == 0.0:
-        state.share_ease[AT_END] = state.run.corner_ease
         return True
     turned = turned_by(limits.linkage, delta)
     parts = min(max(ceil(turned / PIECE_DEG), 1), MOST_PIECES)

@@ -33,16 +33,16 @@ BENDS = 0.7
 CHORD_MARGIN = 1.005
 
 
-def bend_corner(contexts: Floats, record: int, n: int, limits: Limits, state: State, shorter: float) -> float:
+def bend_corner(contexts: Floats, record: int, n: int, limits: Limits, state: State, reach: float) -> float:
     """Largest x at the corner before the row at hand; sets `joint.bend_way` and `turn`.
 
-    Half of the shorter row is bent at most. Within a tolerance the path leaves the corner by no more than that, a
-    rotary axis by as many degrees, and the bend reaches no farther than ROUNDING. Without one it takes as long as
-    an axis needs for the step of velocity that is allowed at a corner.
+    No more of both rows is bent than `reach`, half of the shorter one at most. Within a tolerance the path leaves the
+    corner by no more than that, a rotary axis by as many degrees, and the bend reaches no farther than ROUNDING.
+    Without one it takes as long as an axis needs for the step of velocity that is allowed at a corner.
     """
     unit, tangent, turn = state.unit, state.tangent, state.turn
     tolerance, turned, swung, most = contexts[record + ContextRecord.TOLERANCE], 0.0, 0.0, 0.0
-    way, x2 = 0.5 * shorter, inf
+    way, x2 = reach, inf
     for i in range(n):
         turn[i] = unit[i] - tangent[i]
         most = max(most, abs(turn[i]))
@@ -107,8 +107,10 @@ def add_bend(
     here, sense = at + PieceRecord.VECTORS, 1.0 if end > start else -1.0
     if int(pieces[at + PieceRecord.SLOT]) % 2 == 0:
         tops = limits.top_rapid
+    ease = min(state.joint.ease, 1.0)
     if pieces[at + PieceRecord.FORM] == Form.LED:
         lead_bend(pieces, at, n, limits, state)
+        ease = 1.0  # it has a part of its own for the bend
     if pieces[at + PieceRecord.FORM] == Form.STRAIGHT:
         pieces[at + PieceRecord.FORM], pieces[at + PieceRecord.PATH_PULL] = (
             Form.CURVED,
@@ -118,7 +120,7 @@ def add_bend(
             place = here + PLACES * n + i
             pieces[here + i] = pieces[here + n + i] = (pieces[place + n] - pieces[place]) / length
             pieces[here + 2 * n + i] = pieces[here + 3 * n + i] = 0.0
-    spare(pieces, at, n)
+    spare(pieces, at, n, ease)
     cap2, margin = pieces[at + PieceRecord.CAP2], pieces[at + PieceRecord.MARGIN]
     for k in range(2):
         far = end if k == 1 else start
@@ -128,12 +130,12 @@ def add_bend(
             pieces[q + PLACES * n] += 0.5 * bend * far * far
             pieces[q] += margin * sense * bend * far
             pieces[q + 2 * n] += margin * bend
-            share, curvature = abs(pieces[q]), abs(pieces[q + 2 * n])
+            share, curvature = ease * abs(pieces[q]), ease * abs(pieces[q + 2 * n])
             if share > SAME_DIRECTION:
                 cap2 = min(cap2, square(tops[i] / share))
             if curvature > SAME_DIRECTION:
                 cap2 = min(cap2, state.joint.ease * limits.acceleration[i] / curvature)
-    keep_between(pieces, at, n, limits)
+    keep_between(pieces, at, n, limits, ease)
     pieces[at + PieceRecord.CAP2], pieces[at + PieceRecord.ZONE] = (
         cap2,
         TO_CORNER if sense > 0.0 else FROM_CORNER,
@@ -170,28 +172,34 @@ def keep_at_cut(pieces: Floats, p: int, n: int, limits: Limits, state: State) ->
     at = p * piece_width(n)
     if pieces[at + PieceRecord.FORM] == Form.STRAIGHT or pieces[at + PieceRecord.FORM] == Form.LED:
         return
+    ease = min(state.joint.ease * pieces[at + PieceRecord.MARGIN], 1.0)  # which may have it in it
     for i in range(n):
         curvature = abs(pieces[at + PieceRecord.VECTORS + 2 * n + i])
         if curvature > SAME_DIRECTION:
-            cap2 = state.joint.ease * limits.acceleration[i] / curvature
+            cap2 = ease * limits.acceleration[i] / curvature
             pieces[at + PieceRecord.ENTRY2] = min(pieces[at + PieceRecord.ENTRY2], cap2)
 
 
-def spare(pieces: Floats, at: int, n: int) -> None:
-    """Give a chord of a spline that is to be bent a MARGIN: its q'' changes like that of an arc's part."""
-    here = at + PieceRecord.VECTORS
+def spare(pieces: Floats, at: int, n: int, ease: float) -> None:
+    """Give a piece that is to be bent the MARGIN that leaves its axes `ease` of their acceleration, for bend and speed.
+
+    A chord of a spline has some more of it, for its q'' changes like that of an arc's part.
+    """
+    here, length = at + PieceRecord.VECTORS, pieces[at + PieceRecord.LENGTH]
+    margin = pieces[at + PieceRecord.MARGIN]
     uneven = False
     for i in range(n):
         change = abs(pieces[here + 3 * n + i] - pieces[here + 2 * n + i])
-        uneven = uneven or change * pieces[at + PieceRecord.LENGTH] > SAME_DIRECTION
-    if uneven and pieces[at + PieceRecord.MARGIN] < CHORD_MARGIN:
-        factor = CHORD_MARGIN / pieces[at + PieceRecord.MARGIN]
+        uneven = uneven or change * length > SAME_DIRECTION
+    wanted = (CHORD_MARGIN if uneven else 1.0) / ease
+    if wanted > margin:
+        factor = wanted / margin
         for k in range(here, here + PLACES * n):
             pieces[k] *= factor
-        pieces[at + PieceRecord.MARGIN] = CHORD_MARGIN
+        pieces[at + PieceRecord.MARGIN] = wanted
 
 
-def keep_between(pieces: Floats, at: int, n: int, limits: Limits) -> None:
+def keep_between(pieces: Floats, at: int, n: int, limits: Limits, ease: float) -> None:
     """Bound the acceleration u along a piece of an arc that is bent, so that its axes keep theirs between its ends too.
 
     Over the piece q'' changes by c, x and q' with it: between the ends an axis has up to `5/8·u·length·c` more than at
@@ -203,6 +211,6 @@ def keep_between(pieces: Floats, at: int, n: int, limits: Limits) -> None:
     for i in range(n):
         change = abs(pieces[here + 3 * n + i] - pieces[here + 2 * n + i]) / margin
         if change * length > SAME_DIRECTION:
-            left = (1.0 - 1.0 / margin) * limits.acceleration[i]
+            left = (ease - 1.0 / margin) * limits.acceleration[i]
             pull = min(pull, left / (0.625 * length * change))
     pieces[at + PieceRecord.PATH_PULL] = pull

@@ -10,7 +10,7 @@ from polycnc.language.bulk.layout import LOOPS, Operation
 from polycnc.language.bulk.routines.layout import LineKind
 from polycnc.language.bulk.routines.statements import NOTHING, REFUSED, UNREAD, Statement
 from polycnc.language.expressions import nodes
-from polycnc.language.expressions.code import Code, Lifted, constant, name, quoted
+from polycnc.language.expressions.code import Code, Lifted, call, constant, name
 from polycnc.language.sinumerik.executable import SinumerikProgram
 from polycnc.language.sinumerik.lexer import prefix_of
 from polycnc.language.sinumerik.statements.calls import push_program
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 #: Longer programs are no routines.
 _MOST_LINES = 100_000
 _JUMP, _CALL, _DEFINE, _ALWAYS = name("jump"), name("call_program"), name("define"), constant(True)
-_RETURN_CALL = quoted("channel.control.end_of_program(channel)")
+_RETURN_CALL = call("channel.control.end_of_program", name("channel"))
 #: M17 alone.
 _END_WORD, _SUBPROGRAM_END = (WordShape("M"),), 17
 _RETURN, _END = Statement(LineKind.RETURN), Statement(LineKind.END)

@@ -25,8 +25,7 @@ from polycnc.control.word_address.cycles.plunge import STROKES_OF_A_BLOCK, plung
 from polycnc.control.word_address.cycles.shift import shift_by_center_words, shift_off_axis
 from polycnc.control.word_address.motion.path import FEED_MODES, reach
 from polycnc.control.word_address.tools.radius import suspended
-from polycnc.cycles.drilling import lathe
-from polycnc.cycles.drilling.holes import Action, Cycle, Hole, Stroke, tap
+from polycnc.cycles.drilling.holes import TAPS, Action, Cycle, Hole, Stroke
 from polycnc.deferred.records import dataclass, field, replace
 from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.planes import PLANES
@@ -50,8 +49,6 @@ if TYPE_CHECKING:
 #: A value of the cycle data: in internal units (P as typed), and whether it is an increment.
 Datum = tuple[float, bool]
 BOTTOM = "bottom"
-#: Strokes of taps: overrides do not act in them.
-TAPS = frozenset({tap, lathe.tap, lathe.tap_clearing_chips})
 _M_OF_DIRECTION = {1: 3, -1: 4, 0: 5}
 #: The spindle that drilling cycles turn.
 _SPINDLE = 1

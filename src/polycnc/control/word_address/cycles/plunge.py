@@ -11,7 +11,6 @@ from __future__ import annotations
 from array import array
 from functools import lru_cache
 from math import nan
-from struct import pack
 from typing import TYPE_CHECKING
 
 from polycnc.channel.moves.travel import check_point
@@ -101,7 +100,8 @@ def plunge_of(cycle: Cycle, hole: Hole, level: float, feed: float) -> Plunge | N
         feed: Feed in force.
     """
     # The levels as they are stored, too: zero and minus zero are equal, and two rows.
-    return _plunge(cycle, hole, level, feed, pack("5d", hole.initial, hole.r, hole.bottom, hole.back, level))
+    stored = array("d", (hole.initial, hole.r, hole.bottom, hole.back, level)).tobytes()
+    return _plunge(cycle, hole, level, feed, stored)
 
 
 @lru_cache(maxsize=64)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.records import dataclass
 from polycnc.language.expressions.code import Code, assigned, quoted, sequence
+from polycnc.language.expressions.code import constant as literal
 from polycnc.language.sinumerik import keywords
 from polycnc.language.sinumerik.emitter import Emitter
 from polycnc.language.sinumerik.errors import NcSyntaxError
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
     from polycnc.language.sinumerik.names.scope import Scope
 
 MAX_DIMENSION = 65535
-_NOWHERE = quoted("None")
+_NOWHERE = literal(None)
 MAX_ELEMENTS = 4_000_000
 MAX_NAME = 31
 MAX_PARAMETERS = 127

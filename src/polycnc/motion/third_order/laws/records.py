@@ -7,10 +7,10 @@ on: records come in batches, and the phases of a long run window by window.
 
 from __future__ import annotations
 
-from ctypes import Structure
 from math import inf
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.kernels.c_types import Structure
 from polycnc.kernels.layout import Floats, Ints, record
 from polycnc.motion.kernels.columns import PIECE_BLOCKS, PLACES, Form, PieceRecord
 from polycnc.motion.third_order.laws.courses import Phase

@@ -6,9 +6,9 @@ for such a row has averages of its own (`kernels/alone.py`): so the first row of
 
 from __future__ import annotations
 
-from ctypes import Structure
 from math import ceil, cos, inf, pi, sin, sqrt
 
+from polycnc.kernels.c_types import Structure
 from polycnc.kernels.layout import Floats, Ints, record
 from polycnc.motion.kernels.arcs import (
     arc_point,
