@@ -164,7 +164,7 @@ class Queue:
         return self._piece(front, record, is_last=is_last), record, on_piece
 
     def rest_before(self, move: Move, rates: ChannelRates) -> bool:
-        """Lay what is prepared out so that the axes, which stand, rest before a move of it; false where they do anyway."""
+        """Lay what is prepared out so that the axes, which stand, rest before a move; false where they do anyway."""
         if move.prepared is None or move.row in self._buffer.rows_from_rest():
             return False
         move.prepared = replace(move.prepared, rests=True)
