@@ -16,12 +16,9 @@ SPIRALS = [
     "G21 G90 G64\nG1 X5. F1000\nG3.1 X0 Y50. Z8. I-5. J0\nG1 Y60.\nM30\n",
 ]
 #: The rotary axis turns fast on a way of half a millimetre: no law leads from one into the next row.
-TURNS = """G71 G90 SOFT {corners}
-G1 X1.723 Y-7.118 Z6.415 A=DC(63.933) F6000
-G1 X2.037 Y-7.276 Z6.123 A=IC(52)
-G2 X10.6218 Y-35.4401 I4.54472 J-14.00514 F500
-M30
-"""
+TURNS = "G1 X1.723 Y-7.118 Z6.415 A=DC(63.933) F6000\nG1 X2.037 Y-7.276 Z6.123 A=IC(52)\n"
+ARC = "G2 X10.6218 Y-35.4401 I4.54472 J-14.00514 F500\n"
+LEFT = "G1 X10.6 Y-35.6 A=IC(200)\n"
 
 
 def sampled(text: str, control: str, machine: str) -> Samples:
@@ -44,8 +41,9 @@ def test_a_spiral_is_run_as_its_way_grows(text: str) -> None:
 
 
 @pytest.mark.parametrize("corners", ["G64", "G642", "G641 ADIS=0.05"])
-def test_the_axes_rest_where_no_law_leads_on_behind_one_line(corners: str) -> None:
-    text = TURNS.format(corners=corners)
+@pytest.mark.parametrize("blocks", [TURNS + ARC, ARC + LEFT, TURNS + ARC + LEFT + ARC])
+def test_the_axes_rest_where_no_law_leads_on_around_one_line(corners: str, blocks: str) -> None:
+    text = f"G71 G90 SOFT {corners}\n{blocks.replace('I4.54472 J-14.00514', 'CR=40')}M30\n"
     virtual = power_on(text, "sinumerik-840d", machine="mill4")
     records, planned = recorded(virtual), sampled(text, "sinumerik-840d", "mill4").time[-1]
     virtual.cycle_start()

@@ -110,8 +110,7 @@ def test_what_parameters_bound_ahead_is_one_motion_too(monkeypatch: pytest.Monke
     written = Writer(Random(seed), control)
     head, _, rest = written.program().partition("\n")
     text = f"{head}\nG05 P10000\n{rest}" if control == "fanuc-m" else f"{head}\n{rest}"
-    setup = {**test_one_motion.TOOL, "parameters": AHEAD[control]}
-    monkeypatch.setattr(test_one_motion, "TOOL", setup)
+    monkeypatch.setattr(Writer, "setup", {**Writer.setup, "parameters": AHEAD[control]})
     total, end, samples, machine = planned(text, written)
     assert end == pytest.approx(total, abs=1e-6)
     rotary = [machine.axis[name].rotary for name in machine.channels[0].axes]

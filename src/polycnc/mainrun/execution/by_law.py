@@ -151,9 +151,9 @@ class ByLaw:
         while not closed and len(rows.rows) < 2:
             closed = self._feed() or (len(rows.rows) < 2 and not self._fill_on())
         if not rows.rows or rows.is_one_line:
-            if rows.apart is not None:  # pieces would go round a corner that no law can
-                rested = self._preprocessing.queue.rest_before(rows.apart, self._rates)
-                self._preprocessing.revised = self._preprocessing.revised or rested
+            # Pieces would go round corners that no law can.
+            rests = self._preprocessing.queue.rest_around(move, rows.apart, self._rates)
+            self._preprocessing.revised = self._preprocessing.revised or rests
             return None
         assert move.prepared is not None
         self._set = False, inf, *self._asked_speeds()

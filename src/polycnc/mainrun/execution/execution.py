@@ -413,6 +413,7 @@ class Execution:
             self.preprocessing.end_in_rest()
             self.preprocessing.revised = True
         if self.preprocessing.revised:
+            cap2 = self.preprocessing.front_cap2(self.rates)
             self._look_ahead()
         piece, record = self.preprocessing.queue.pop_piece()
         self._take_up(piece, cap2)

@@ -213,6 +213,12 @@ class PieceBuffer:
                 found.add(self._row_of(piece))
         return found
 
+    def begins_in_rest(self, row: float) -> bool:
+        """Whether the axes rest before a row ahead."""
+        ahead = range(self._taken, self.state.run.pieces)
+        piece = next((piece for piece in ahead if self._row_of(piece) == row), None)
+        return piece is not None and self._records[piece * self._width + PieceRecord.PAUSE] > 0.0
+
     def _row_of(self, piece: int) -> float:
         return self._records[piece * self._width + PieceRecord.ROW]
 

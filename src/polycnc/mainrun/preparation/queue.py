@@ -163,11 +163,18 @@ class Queue:
         front.done = max(done - on_piece, 0.0) / front.total
         return self._piece(front, record, is_last=is_last), record, on_piece
 
-    def rest_before(self, move: Move, rates: ChannelRates) -> bool:
-        """Lay what is prepared out so that the axes, which stand, rest before a move; false where they do anyway."""
-        if move.prepared is None or move.row in self._buffer.rows_from_rest():
+    def rest_around(self, line: Move, behind: Move | None, rates: ChannelRates) -> bool:
+        """Lay what is prepared out so that the axes rest before a line in front and, if told, behind it.
+
+        Returns:
+            False where what is prepared is laid out so already.
+        """
+        rests = [move for move in (line, behind) if move is not None and move.prepared is not None]
+        if line.done > 0.0 or all(self._buffer.begins_in_rest(move.row) for move in rests):
             return False
-        move.prepared = replace(move.prepared, rests=True)
+        for move in rests:
+            assert move.prepared is not None
+            move.prepared = replace(move.prepared, rests=True)
         self.lay_again(rates, at_rest=True)
         return True
 

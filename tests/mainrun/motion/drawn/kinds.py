@@ -23,6 +23,7 @@ KINDS: tuple[tuple[type[Writer], tuple[str, ...]], ...] = (
     (milling.Spirals, ("meldas-m",)),
     (milling.Turned, MILLS),
     (milling.Tip, ("fanuc-m", "syntec-mill")),
+    (milling.TipOfHead, ("fanuc-m", "syntec-mill")),
     (milling.Plane, ("fanuc-m",)),
     (milling.Groove, ("fanuc-m", "meldas-m")),
     (sinumerik.Reduced, ("sinumerik-840d",)),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from math import cos, hypot, sin
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from tests.mainrun.motion.drawn.mixed import Blocks
 from tests.mainrun.motion.random_programs import FEEDS, HEADS
@@ -116,12 +116,11 @@ class Turned(Blocks):
 class Tip(Blocks):
     """The tip of the tool on its path while the tool or the work turns (G43.4)."""
 
-    MACHINES = ("mill5-ac-table", "mill5-bc-head", "mill5-ca-head")
+    machine = "mill5-ac-table"
+    tilt: ClassVar[str] = "A"
 
     def program(self) -> str:
-        draw = self.random
-        self.machine = draw.choice(self.MACHINES)
-        tilt = "B" if "b" in self.machine.split("-")[1] else "A"
+        draw, tilt = self.random, self.tilt
         self.lines = [f"{self.head()} G43.4 H1", f"G1 X0 Y0 Z0 {tilt}10. C0 F{draw.choice(FEEDS)}."]
         a, c, reach = 10.0, 0.0, draw.choice((1.0, 10.0))
         for _ in range(draw.randint(2, 6)):
@@ -132,6 +131,13 @@ class Tip(Blocks):
             feed = f" F{draw.choice(FEEDS)}." if draw.random() < 0.4 else ""
             self.lines.append(f"G1 X{x} Y{y} Z{z} {tilt}{a} C{c}{feed}")
         return "\n".join([*self.lines, "G49", "M30", ""])
+
+
+class TipOfHead(Tip):
+    """The same where both axes turn the tool."""
+
+    machine = "mill5-bc-head"
+    tilt = "B"
 
 
 class Plane(Blocks):
