@@ -10,7 +10,6 @@ import pytest
 
 from polycnc.machine.setup.file import parse_setup
 from polycnc.mainrun import State
-from tests.mainrun.motion import test_one_motion
 from tests.mainrun.motion.random_programs import Threads, Writer, writer
 from tests.mainrun.motion.test_disturbed import disturb, joints_of, play
 from tests.mainrun.motion.test_one_motion import PLACES, executed, planned
