@@ -7,6 +7,7 @@ import sys
 
 from benchmarks import (
     bulk,
+    explaining,
     five_axes,
     installation,
     interpreter,
@@ -41,6 +42,7 @@ BENCHMARKS = (
     turning.cycles,
     planner.speed,
     planner.optimum,
+    explaining.explained,
     mainrun.real_time,
     mainrun.actions,
     mainrun.couplings,

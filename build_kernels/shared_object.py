@@ -15,6 +15,7 @@ MODULES = (
     "polycnc.compensation.runs.compiled",
     "polycnc.language.bulk.compiled",
     "polycnc.motion.compiled",
+    "polycnc.motion.explain.compiled",
     "polycnc.motion.third_order.compiled",
     "polycnc.motion.third_order.laws.compiled",
     "polycnc.parquet.compiled",

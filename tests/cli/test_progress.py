@@ -267,7 +267,10 @@ def run_of(lines: int) -> tuple[WaitingForRun, Any]:
     """What is told of a run of a program with so many lines, and its session: at line `at`, after `blocks`."""
     main = SimpleNamespace(code=SimpleNamespace(line=lambda index: index + 1), current=0)
     session: Any = SimpleNamespace(
-        result=SimpleNamespace(program=SimpleNamespace(name="O1", first_line=1, lines=[""] * lines)),
+        result=SimpleNamespace(
+            program=SimpleNamespace(name="O1", first_line=1, lines=[""] * lines),
+            planner=SimpleNamespace(unlaid=0),
+        ),
         channel=SimpleNamespace(stack=[main], blocks=0),
         main_run=None,
     )
@@ -284,6 +287,15 @@ def test_a_run_is_as_far_as_its_main_program() -> None:
     waiting, session = run_of(1000)
     for second in range(1, 9):
         session.channel.stack[0].current = session.channel.blocks = 100 * second
+        assert waiting.reached(float(second)) == Reached("blocks", 100 * second, second / 10)
+
+
+@pytest.mark.usefixtures("_at_zero")
+def test_rows_that_the_planner_has_not_laid_out_are_not_done() -> None:
+    waiting, session = run_of(1000)
+    session.channel.stack[0].current = session.channel.blocks = 800
+    for second in range(1, 9):
+        session.result.planner.unlaid = 800 - 100 * second
         assert waiting.reached(float(second)) == Reached("blocks", 100 * second, second / 10)
 
 

@@ -32,9 +32,10 @@ def told(path: Path, form: Form) -> list[Any]:
     st.lists(st.sampled_from(PIECES), max_size=25).map(b"".join),
     st.integers(2, 60),
     st.sampled_from((Form.WORD_ADDRESS, Form.SINUMERIK)),
+    st.sampled_from((0, 1024)),
 )
 def test_pages_give_the_programs_that_the_whole_file_gives(
-    tmp_path: Path, content: bytes, page: int, form: Form
+    tmp_path: Path, content: bytes, page: int, form: Form, kept: int
 ) -> None:
     path = tmp_path / "part.nc"
     path.write_bytes(content)
@@ -42,6 +43,7 @@ def test_pages_give_the_programs_that_the_whole_file_gives(
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(long_text, "LONG_FILE_BYTES", 0)
         patch.setattr(long_text, "PAGE_BYTES", page)
+        patch.setattr(long_text, "KEPT_FILE_BYTES", kept)
         patch.setattr(long_text, "MAX_LINE", min(page - 1, 40))
         try:
             assert told(path, form) == whole
@@ -50,8 +52,9 @@ def test_pages_give_the_programs_that_the_whole_file_gives(
             assert max(map(len, content.split(b"\n"))) > min(page - 1, 40)
 
 
-def long(path: Path, lines: list[str], monkeypatch: pytest.MonkeyPatch) -> LongText:
+def long(path: Path, lines: list[str], monkeypatch: pytest.MonkeyPatch, *, kept: int = 0) -> LongText:
     monkeypatch.setattr(long_text, "LONG_FILE_BYTES", 0)
+    monkeypatch.setattr(long_text, "KEPT_FILE_BYTES", kept)
     monkeypatch.setattr(long_text, "PAGE_BYTES", 64)
     path.write_text("\n".join(lines) + "\n", encoding="utf-8")
     found = read_long(str(path))
@@ -89,6 +92,22 @@ def test_a_file_that_shrinks_is_no_traceback(tmp_path: Path, monkeypatch: pytest
     path.write_text("G1", encoding="ascii")
     with pytest.raises(ProgramFileError):
         text[99]
+
+
+def test_a_file_that_is_kept_stays_as_it_was_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    lines = [f"N{i} G1 X{i}." for i in range(100)]
+    text = long(tmp_path / "part.nc", lines, monkeypatch, kept=1 << 20)
+    (tmp_path / "part.nc").write_text("G1", encoding="ascii")
+    assert list(text) == lines
+    assert len(text.file.places) == 2  # one page
+
+
+def test_characters_of_a_line_count_not_bytes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(long_text, "LONG_FILE_BYTES", 0)
+    path = tmp_path / "part.nc"
+    path.write_text("G1\n(" + "程" * 40_000 + ")\nM30\n", encoding="utf-8")
+    (program,) = load_programs(str(path))
+    assert len(program.lines) == 3
 
 
 def test_the_first_line_that_is_too_long_is_told() -> None:

@@ -322,8 +322,14 @@ class WaitingForRun(Waiting):
             return self._sampler.line - self._first
         for main in self._session.channel.stack[:1]:
             line: int = main.code.line(main.current)
-            return line - self._first
+            return max(line - self._first - self._unplanned, 0)
         return self._farthest
+
+    @property
+    def _unplanned(self) -> int:
+        """Rows that the planner has got and not laid out yet: about as many lines, and blocks."""
+        planner = self._session.result.planner
+        return 0 if planner is None else planner.unlaid
 
     def _counted(self) -> tuple[str, float]:
         if self._sampler is not None:
@@ -331,4 +337,4 @@ class WaitingForRun(Waiting):
         main_run = self._session.main_run
         if main_run is not None:
             return "seconds", main_run.seconds
-        return "blocks", self._session.channel.blocks
+        return "blocks", max(self._session.channel.blocks - self._unplanned, 0)

@@ -19,7 +19,7 @@ with loaded_when_called():
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Iterator, Sequence
 
-    from polycnc.motion.explain import Cause, Part
+    from polycnc.motion.explain import Cause, TimeAccount
     from polycnc.motion.times import Times
     from polycnc.session import Result
     from polycnc.toolpath.table import Chunk
@@ -32,6 +32,19 @@ MOST_HAPPENINGS = 50
 MOST_SPEEDS = 6
 _SHOWN = frozenset((Message.type, Stop.type, Print.type))
 _SHARES = ("cutting_s", "rapid_s", "dwell_s", "tool_change_s", "spindle_s", "auxiliary_s")
+
+#: What took a smaller part of the time, in percent, is not told.
+LEAST_SHARE = 0.05
+#: Causes that name an axis where they know it.
+_OF_AXES = ("curvature", "acceleration", "jerk", "corner-jerk", "rapid")
+#: By the cause and the family of the control, the parameter that says it.
+_SET_BY: Mapping[str, Mapping[str, str]] = {
+    "path-feed": {"fanuc": "1422", "syntec": "Pr405"},
+    "axis-feed": {"fanuc": "1430", "syntec": "Pr621–", "meldas": "#2002"},
+    "corner-step": {"fanuc": "1783", "syntec": "Pr406"},
+    "line-pull": {"fanuc": "1737"},
+    "arc-pull": {"fanuc": "1735", "syntec": "Pr408"},
+}
 
 
 class Happenings:
@@ -94,25 +107,34 @@ def _lines(result: Result, happenings: Happenings, file: str, usage: Usage | Non
         yield from _used(result, usage)
 
 
-def explained(parts: Mapping[Cause, Part], times: Times, hidden_s: Mapping[str, float]) -> str:
+def explained(account: TimeAccount, times: Times, control: str) -> str:
     """Where the cycle time goes: by the limit that held, by what the axes waited for; what went on beside them."""
-    total, whole = times.total_s or 1.0, sum(part.way for part in parts.values()) or 1.0
-    lines = [text("run.explained")]
-    for cause, part in parts.items():
-        if part.seconds > 0.0:
-            share, way = f"{100.0 * part.seconds / total:5.1f} %", f"{100.0 * part.way / whole:.1f}"
-            lines.append(text(f"run.explained.{cause}", time=clock(part.seconds), share=share, way=way))
+    whole = sum(part.way for part in account.parts.values()) or 1.0
+    held = [
+        (part.seconds, 100.0 * part.way / whole, _named_cause(cause, axis, control))
+        for cause, parts in account.by_axis.items()
+        for axis, part in parts.items()
+    ]
     waits = ((name, getattr(times, name)) for name in _SHARES if name not in ("cutting_s", "rapid_s"))
-    for name, seconds in waits:
-        if seconds > 0.0:
-            share = f"{100.0 * seconds / total:5.1f} %"
-            lines.append(
-                text("run.explained.wait", time=clock(seconds), share=share, what=text(f"run.{name}"))
-            )
-    for name, seconds in hidden_s.items():
+    held += [(seconds, 0.0, text(f"run.{name}")) for name, seconds in waits]
+    lines = [text("run.explained")]
+    for seconds, way, what in sorted(held, reverse=True):
+        share = 100.0 * seconds / (times.total_s or 1.0)
+        if share >= LEAST_SHARE:
+            key = "run.explained.held" if way > 0.0 else "run.explained.wait"
+            told = {"share": f"{share:5.1f} %", "time": clock(seconds), "what": what, "way": f"{way:.1f}"}
+            lines.append(text(key, **told))
+    for name, seconds in account.hidden_s.items():
         if seconds > 0.0:
             lines.append(text(f"run.explained.beside.{name}", time=clock(seconds)))
     return "".join(f"{line}\n" for line in lines)
+
+
+def _named_cause(cause: Cause, axis: str, control: str) -> str:
+    """A cause in words, with the parameter that sets it; some causes are of an axis at times, and at times of none."""
+    what = text(f"run.explained.{cause}{'' if axis or cause not in _OF_AXES else '.any'}", axis=axis)
+    set_by = _SET_BY.get(cause, {}).get(control.partition("-")[0])
+    return what if set_by is None else f"{what} ({set_by})"
 
 
 def _shares(times: Times) -> str:

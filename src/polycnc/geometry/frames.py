@@ -52,6 +52,8 @@ class Frame:
         )
 
     def __matmul__(self, inner: Frame) -> Frame:
+        if self.is_identity and inner.is_identity:
+            return IDENTITY
         columns = list(zip(*inner.m, strict=True))
         rows = [tuple(sum(r[k] * c[k] for k in range(3)) for c in columns) for r in self.m]
         m: Matrix = (_v(rows[0]), _v(rows[1]), _v(rows[2]))

@@ -246,11 +246,6 @@ class Law:
             low, high = (middle, high) if self.mean(middle, window) < place else (low, middle)
         return high
 
-    def lag(self, speed: float) -> float:
-        """Seconds that getting up to a speed from rest costs against having had it."""
-        k = next((k for k, had in enumerate(self._speed) if had >= speed * (1.0 - 1e-9)), 0)
-        return self._start[k] - self._place[k] / speed if k and speed > 0.0 else 0.0
-
     @property
     def _columns(self) -> tuple[array[float], ...]:
         return self._start, self._place, self._speed, self._pull, self._jerk, self._area, self._fine

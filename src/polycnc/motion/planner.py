@@ -15,11 +15,12 @@ from typing import TYPE_CHECKING
 
 from polycnc.motion.compiled import kernels, plain
 from polycnc.motion.kernels.columns import PLACES, Form, PieceRecord, Rows, new_state, piece_width
-from polycnc.motion.limits import ContextTables, averages, axis_rapids, is_bent_by_way, rotary_weight
+from polycnc.motion.limits import ContextTables, averages, axis_rapids, is_bent_by_way
 from polycnc.motion.settings import DEFAULT, Settings
 from polycnc.motion.standing.beside import Awaits, Beside
 from polycnc.motion.standing.waits import Waits, least_seconds
-from polycnc.motion.time_constants import Use, behind_s, is_ahead, use_of, uses_of
+from polycnc.motion.standing.zero_mark import lag_s
+from polycnc.motion.time_constants import Use, use_of, uses_of
 from polycnc.motion.times import Plan, Times, ToolTimes
 from polycnc.motion.transformed import RealAxes
 from polycnc.toolpath import Kind
@@ -28,16 +29,19 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
     from polycnc.machine import Machine
-    from polycnc.motion.kernels.columns import Limits
+    from polycnc.motion.kernels.columns import Limits, State
     from polycnc.motion.limits import AxisRapid
     from polycnc.motion.pole import PathLeg, Turn
-    from polycnc.motion.standing.beside import Begins
+    from polycnc.motion.standing.beside import Step
     from polycnc.motion.third_order.laying.leading import LawRuns
     from polycnc.toolpath import Context, Toolpath
     from polycnc.toolpath.table import Chunk
 
-#: Pieces that the buffer takes at first, and pieces that it takes before it is looked at.
-FIRST_ROOM, FULL_ROOM = 256, 16_384
+    _TakesRows = Callable[[Rows, int, array[float], int, array[float], Limits, State, bool], None]
+
+#: Pieces that the buffer takes at first, and pieces that it takes before it is looked at: twice as many each time that
+#: it has been looked at so often, for memory costs a short path more than looking; but no more than the last number.
+FIRST_ROOM, FULL_ROOM, LOOKS, MOST_ROOM = 256, 2048, 4, 16_384
 
 
 class Planner:
@@ -59,6 +63,8 @@ class Planner:
 
     Attributes:
         on_pieces: See above; can be set as long as nothing is planned.
+        on_rows: Called with rows as they are laid out, from one on, with their curve parameters and number, contexts,
+            limits, the state before them, and whether they are accelerated after the interpolation.
         on_wait: Called when a row must wait, with row number, share (a field of `Times`), context number and seconds;
             before its pieces become final, but for what runs beside motion and outlasts it.
     """
@@ -85,13 +91,15 @@ class Planner:
         self._keep_rows = keep_rows
         self.on_pieces = on_pieces
         self.on_wait: Callable[[int, str, int, float], None] | None = None
+        self.on_rows: _TakesRows | None = None
+        self._laid = 0
         self._feed_profile = feed_profile
         self._kernels = kernels() if compiled else plain()
         self._state = new_state(self._axes, start)
         self._real = RealAxes(machine, channel, toolpath.axes, settings, start)
         self._limits = self._real.limits(None)
         self._pieces = array("d", bytes(8 * self._width * FIRST_ROOM))
-        self._room = FULL_ROOM
+        self._room, self._looks = FULL_ROOM, 0
         self._uses, self._use = uses_of(machine, channel, settings), Use.CUT
         self._tables = ContextTables(self._uses.after_s)
         self._slots = array("d")
@@ -103,13 +111,20 @@ class Planner:
         self._next_row = 0
         self._waits = Waits(machine, toolpath.contexts, tool, self._wait)
         self._waits.rapid_stops, self._waits.spindle_wait = settings.rapid_stops, settings.spindle_wait
-        self._waits.step, self._beside = self._step, Beside()
+        self._waits.step, self._beside = self._step, Beside(self._lag_of)
+        self._final_row = 0  # rows before it are planned
         self._rests: set[int] = set()
         self._come_to_rest: dict[int, float] = {}  # by row: averages of a run that a function outlasts
         self._runs: LawRuns | None = None  # until a context asks for it
         self._rapid_context: Context | None = None  # whose rapids were looked at last
         self._rapids_are_soft = False
         self._compiled = compiled
+
+    @property
+    def unlaid(self) -> int:
+        """Rows of the chunk at hand that are not laid out yet; another thread may ask."""
+        laid = self._laid if self._runs is None else max(self._laid, self._runs.reached)
+        return max(self._next_row - laid, 0)
 
     @property
     def facing(self) -> int:
@@ -136,21 +151,9 @@ class Planner:
         return self._limits.top_feed, self._limits.top_rapid
 
     @property
-    def cut_limits(self) -> Limits:
-        """What bounds cuts without a transformation."""
-        return self._real.limits(None)
-
-    def rotary_weight(self, context: Context) -> float:
-        """Millimetres that a degree counts in the length that the feed refers to."""
-        return rotary_weight(context, self._settings)
-
-    def is_ahead(self, context: Context) -> bool:
-        """Whether parameters for corners and arcs of cuts that are planned ahead hold."""
-        return is_ahead(context, self._settings)
-
-    def behind_s(self, context: Context) -> float:
-        """The time constant behind the interpolation of cuts that are planned ahead, seconds."""
-        return 2.0 * behind_s(context, self._settings)
+    def settings(self) -> Settings:
+        """How the control leads the axes."""
+        return self._settings
 
     def rapids(self, ways: Sequence[float], context: Context) -> list[AxisRapid]:
         """How each axis runs a rapid by itself: none does under a transformation."""
@@ -210,6 +213,7 @@ class Planner:
             if edge in bounds.legs:
                 self._through_pole(bounds.legs[edge], chunk, edge, feed[edge])
                 row = edge + 1
+        self._laid = self._next_row
         return True
 
     def _is_outlasted(self, row: int) -> bool:
@@ -230,6 +234,15 @@ class Planner:
                 return pause if piece < first else 0.0
         return 0.0
 
+    def _lag_of(self, row: int) -> float | None:
+        """Seconds by which the axes of a thread are behind its spindle, up to speed; None before the row is planned."""
+        if row >= self._final_row:
+            return None
+        self._settle_parallel(row)
+        at = self._piece_of(row) * self._width
+        laid = at < self._state.run.pieces * self._width and self._pieces[at + PieceRecord.ROW] == row
+        return lag_s(self._pieces, at) if laid else 0.0
+
     def _piece_of(self, row: int) -> int:
         """The first piece in the buffer that belongs to a row or to one behind it."""
         piece = self._state.run.pieces
@@ -237,7 +250,7 @@ class Planner:
             piece -= 1
         return piece
 
-    def _step(self, step: Begins | Awaits) -> None:
+    def _step(self, step: Step) -> None:
         """Something begins beside the axes, or a row waits for it."""
         self._beside.note(step)
         if isinstance(step, Awaits) and step.rests:
@@ -271,6 +284,10 @@ class Planner:
     def _lay(self, rows: Rows, row: int, curves: array[float], number: int) -> None:
         """Lay rows out from one on."""
         contexts = self._tables.of(self._use)
+        if self.on_rows is not None:
+            runs, after = self._runs, self._use is Use.AFTER
+            state = self._state if runs is None or not runs.is_open else runs.room.lead
+            self.on_rows(rows, row, curves, number, contexts, self._limits, state, after)
         if self._runs is not None:
             self._lay_runs(self._runs, rows, row, curves, number, contexts)
             return
@@ -278,6 +295,7 @@ class Planner:
             row = self._kernels.lay(
                 rows, row, curves, number, contexts, self._limits, self._pieces, self._state
             )
+            self._laid = number + row
             if row < len(rows.kind):
                 self._make_room()
 
@@ -289,6 +307,7 @@ class Planner:
 
         while row < len(rows.kind):
             row, why = runs.lay(rows, row, curves, number, contexts, self._limits, self._pieces, self._state)
+            self._laid = number + row
             self._take_windows(runs)
             if why == NO_PIECE:
                 self._make_room()
@@ -378,6 +397,7 @@ class Planner:
         self._waits.settle(self._next_row)
         self._rest()
         self._look_ahead(self._next_row)
+        self._final_row = self._next_row
         self._beside.settle(self._next_row, self._seconds, self._wait)
         self._settle_parallel(self._next_row)
         return self._plan()
@@ -390,7 +410,9 @@ class Planner:
         if room >= self._room:
             before = self._state.run.pieces
             self._look_ahead()
-            if self._state.run.pieces < before and 2 * self._state.run.pieces <= room:
+            self._looks += 1
+            is_enough = self._looks % LOOKS or room >= MOST_ROOM
+            if is_enough and self._state.run.pieces < before and 2 * self._state.run.pieces <= room:
                 return
             self._room = 2 * room
         self._pieces *= 2  # whatever is in the new half: a piece is written before it is read
@@ -404,6 +426,7 @@ class Planner:
         reach back; the joint before them is taken as a stop.
         """
         count, width = self._state.run.pieces, self._width
+        self._final_row = self._final_row if end is None else end
         last = self._settled(count) if end is None else count
         if last <= 0:
             return
@@ -425,6 +448,7 @@ class Planner:
             self._first_row,
         )
         last_row = int(pieces[(final - 1) * width + PieceRecord.ROW]) if end is None else end
+        self._final_row = last_row + 1 if end is None else end
         self._beside.settle(last_row, self._seconds, self._wait)
         planned_rows = int(rest[PieceRecord.ROW]) if end is None else end
         self._settle_parallel(planned_rows)
@@ -439,6 +463,7 @@ class Planner:
     def _forget_rows(self, planned_rows: int) -> None:
         """All rows before one are planned: where rows are not kept, they are forgotten."""
         if not self._keep_rows:
+            self._final_row = planned_rows
             self._beside.settle(planned_rows, self._seconds, self._wait)
             needed = min([planned_rows, *(entry.row for entry in self._waits.parallel)])
             del self._rows[: 2 * (needed - self._first_row)]

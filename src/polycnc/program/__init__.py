@@ -1,9 +1,10 @@
 """Part programs as text: encodings, tape and archive formats, directories, search paths.
 
-A file goes through `encoding` (bytes to characters), `text` (characters to lines; `long_text` for gigabytes) and
-`split` (lines to programs: `program`, with its `names`; `line_runs` has numbers of many lines); `archive` makes a text
-of programs again, `store` keeps what a run can call (`folders` reads the host's), `detect` guesses the control,
-`heads` reads sequence numbers, `errors` has what cannot be read. Nothing here knows what a block means.
+A file goes through `encoding` (bytes to characters), `text` (characters to lines; `long_text` makes lines when they are
+asked for, of `pages`) and `split` (lines to programs: `program`, with its `names`; `line_runs` has numbers of many
+lines); `archive` makes a text of programs again, `store` keeps what a run can call (`folders` reads the host's),
+`detect` guesses the control, `heads` reads sequence numbers, `errors` has what cannot be read. Nothing here knows
+what a block means.
 """
 
 from typing import TYPE_CHECKING, Any

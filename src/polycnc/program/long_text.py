@@ -1,8 +1,9 @@
-"""The lines of a large file, read from it when they are asked for: a program of a gigabyte needs no gigabyte.
+"""The lines of a file that is not small, made when they are asked for.
 
-The file is looked through once. What is kept is where its *pages* begin, each some thousand whole lines, and which
-lines begin with a character that may begin a heading. A page that is asked for is read again, and the last few are at
-hand.
+Most of them never are: plain blocks are scanned from the bytes of the file. The file is looked through once. What is
+kept is where its *pages* begin, each some thousand whole lines, and which lines begin with a character that may begin a
+heading. A large file is not kept, for a program of a gigabyte needs none: a page that is asked for is read again, and
+the last few are at hand.
 """
 
 from __future__ import annotations
@@ -18,16 +19,18 @@ from stat import S_ISREG
 from typing import TYPE_CHECKING, overload
 
 from polycnc.deferred.records import dataclass, field
+from polycnc.deferred.regexes import regex
 from polycnc.messages.files import reason_of
 from polycnc.program.encoding import codec_of, has_byte_order_mark
 from polycnc.program.errors import ProgramFileError
-from polycnc.program.text import MAX_LINE, TAPE_CONTROLS, refuse_long_line
+from polycnc.program.pages import CONTROLS, Page, ended
+from polycnc.program.text import MAX_LINE, refuse_long_line
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-#: Smaller files are read as a whole.
-LONG_FILE_BYTES = 1024 * 1024
+#: Smaller files are split into their lines, for what is done here takes as long; larger ones are not kept.
+LONG_FILE_BYTES, KEPT_FILE_BYTES = 16 * 1024, 1024 * 1024
 #: Bytes of a page, and what is left of its last line: so much the processor has at hand while it is looked through.
 PAGE_BYTES = 256 * 1024
 #: Pages of a file that are kept at hand.
@@ -39,10 +42,9 @@ HEADING_STARTS = frozenset("%oO:< \t")
 HEADING_SIGNS = b"%oO:<"
 #: Where one line in so many is looked for, all are looked at.
 _MANY = 4
-_CONTROLS = TAPE_CONTROLS.encode("ascii")
-_HEADING, _NEWLINE = b"%", 10
-#: Maps every character that may begin a heading to one.
-_HEADINGS_ALIKE = bytes.maketrans("".join(sorted(HEADING_STARTS)).encode(), _HEADING * len(HEADING_STARTS))
+#: What a line with a heading may begin with in the file, control codes of tapes included.
+_STARTS = "".join(sorted(HEADING_STARTS)).encode() + CONTROLS
+_HEADING = regex(b"\n[" + re.escape(_STARTS) + b"]")
 
 
 @dataclass(eq=False)
@@ -51,15 +53,17 @@ class TextFile:
 
     Attributes:
         path: The file.
+        handle: That of the open file, which is closed with this object.
         codec: Python codec by which it is read.
         has_returns: Lines end with CR LF.
         replaced: Characters that the codec could not read.
         places: First byte of each page, and behind the last one the size of the file.
         numbers: Index of the first line of each page, and behind the last one how many lines there are.
-        headings: Lines that begin with one of `HEADING_STARTS`, but for some without `HEADING_SIGNS`.
+        headings: Lines that begin with one of `HEADING_STARTS`, but for some without `HEADING_SIGNS`, and some others.
     """
 
     path: str
+    handle: int
     codec: str = "ascii"
     has_returns: bool = False
     replaced: int = 0
@@ -68,36 +72,53 @@ class TextFile:
     headings: array[int] = field(default_factory=lambda: array("I"))
 
     def __post_init__(self) -> None:
-        self._handle = os.open(self.path, os.O_RDONLY | getattr(os, "O_BINARY", 0))
         self.page = lru_cache(PAGES_AT_HAND)(self._page)
-        self.text = lru_cache(PAGES_AT_HAND)(self._text)
+        size = os.fstat(self.handle).st_size
+        self._kept = self._read(0, size) if size < KEPT_FILE_BYTES else None
 
     def __del__(self) -> None:
-        os.close(self._handle)
+        os.close(self.handle)
+
+    @property
+    def is_kept(self) -> bool:
+        """Whether all of it is at hand; it is one page then."""
+        return self._kept is not None
+
+    def pages(self) -> Iterator[bytes]:
+        """All of it, for the first time."""
+        if self._kept is not None:
+            yield from (self._kept,) if self._kept else ()
+            return
+        with open(self.path, "rb") as stream:  # noqa: PTH123 - a path is a text here
+            while page := stream.read(PAGE_BYTES):
+                yield page + stream.readline(MAX_LINE + 1)
 
     def raw(self, page: int) -> bytes:
         """The bytes of a page as they stand in the file."""
         place, end = self.places[page], self.places[page + 1]
-        os.lseek(self._handle, place, os.SEEK_SET)
-        data = os.read(self._handle, end - place)
-        if len(data) != end - place:
-            raise ProgramFileError(
-                "program.unreadable", self.path, reason=reason_of(OSError(errno.EIO, os.strerror(errno.EIO)))
-            )
+        if self._kept is not None:
+            return self._kept[place:end]
+        try:
+            return self._read(place, end - place)
+        except OSError as error:
+            raise ProgramFileError("program.unreadable", self.path, reason=reason_of(error)) from error
+
+    def _read(self, place: int, size: int) -> bytes:
+        """So many bytes of the file from one on."""
+        os.lseek(self.handle, place, os.SEEK_SET)
+        data = os.read(self.handle, size)
+        if len(data) != size:
+            raise OSError(errno.EIO, os.strerror(errno.EIO))
         return data
 
-    def _text(self, page: int) -> bytes:
-        """A page in UTF-8; every line ends with a line feed. Control codes of tapes are still in it."""
+    def _page(self, page: int) -> Page:
+        """A page, read."""
         data = self.raw(page)
         if self.has_returns:
             data = data.replace(b"\r\n", b"\n")
         if not data.isascii():
-            data = data.translate(None, _CONTROLS).decode(self.codec, "replace").encode("utf-8", "replace")
-        return data if data.endswith(b"\n") else _ended(data)
-
-    def _page(self, page: int) -> list[str]:
-        """The lines of a page."""
-        return self.text(page).translate(None, _CONTROLS).decode("utf-8").split("\n")[:-1]
+            data = data.translate(None, CONTROLS).decode(self.codec, "replace").encode("utf-8", "replace")
+        return Page(ended(data), self.numbers[page + 1] - self.numbers[page])
 
     def page_of(self, line: int) -> int:
         """The page in which a line stands."""
@@ -137,24 +158,18 @@ class LongText(Sequence[str]):
             return self._first_line
         file = self.file
         page = file.page_of(line)
-        found: str = file.page(page)[line - file.numbers[page]]
+        found: str = file.page(page).line(line - file.numbers[page])
         return found
 
     def __iter__(self) -> Iterator[str]:
-        at = 0
-        while at < len(self._lines):
-            stretch = self._stretch(at)
-            yield from stretch
-            at += len(stretch)
-
-    def _stretch(self, at: int) -> list[str]:
-        """The lines from one on that stand in its page."""
-        if at == 0 and self._first_line is not None:
-            return [self._first_line]
-        file, line = self.file, self._lines[at]
-        page = file.page_of(line)
-        start = line - file.numbers[page]
-        return file.page(page)[start : start + len(self._lines) - at]
+        if self._lines and self._first_line is not None:
+            yield self._first_line
+        file, at = self.file, self._lines.start + (self._first_line is not None)
+        while at < self._lines.stop:
+            page = file.page_of(at)
+            first, end = file.numbers[page], min(file.numbers[page + 1], self._lines.stop)
+            yield from file.page(page).lines(at - first, end - first)
+            at = end
 
     def with_first(self, text: str) -> LongText:
         """The same lines with another first one."""
@@ -178,7 +193,7 @@ class LongText(Sequence[str]):
 
     def not_beginning(self, signs: str, is_meant: Callable[[str], bool]) -> Iterator[range]:
         """Runs of lines that are not empty and begin with none of some signs of ASCII, or that are meant."""
-        ends = re.compile(b"\n(?=[" + re.escape(signs.encode() + _CONTROLS) + b"\n])")
+        ends = re.compile(b"\n(?=[" + re.escape(signs.encode() + CONTROLS) + b"\n])")
         for lines, text in self._pages():
             start = lines.start
             candidates = _lines_behind(ends, text, lines)
@@ -200,23 +215,19 @@ class LongText(Sequence[str]):
             page = self.file.page_of(self._lines[at])
             end = min(self.file.numbers[page + 1] - self._lines.start, len(self._lines))
             own = self._first_line if at == 0 else None
-            yield (
-                range(at, end),
-                self.file.text(page) if own is None else f"{own}\n".encode() + self.file.text(page),
-            )
+            text: bytes = self.file.page(page).text
+            yield range(at, end), text if own is None else f"{own}\n".encode() + text
             at = end
 
-    def bytes_from(self, line: int) -> bytes:
+    def bytes_from(self, line: int) -> bytes | memoryview:
         """The lines from one on to the end of its page, in UTF-8, each with its line feed."""
+        if line == 0 and self._first_line is not None:
+            return f"{self._first_line}\n".encode("utf-8", "replace")
         file, number = self.file, self._lines[line]
         page = file.page_of(number)
-        skipped, count = number - file.numbers[page], len(self._lines) - line
-        whole: bytes = file.text(page)
-        if (line == 0 and self._first_line is not None) or file.numbers[page + 1] - number > count:
-            return "".join(f"{text}\n" for text in self._stretch(line)).encode("utf-8", "replace")
-        if not skipped:
-            return whole
-        return whole.split(b"\n", skipped)[-1]
+        first = file.numbers[page]
+        found: memoryview = file.page(page).bytes_of(number - first, self._lines.stop - first)
+        return found
 
 
 def _lines_behind(ends: re.Pattern[bytes], text: bytes, lines: range) -> Sequence[int]:
@@ -242,8 +253,7 @@ def read_long(path: str) -> LongText | None:
         state = os.stat(path)  # noqa: PTH116 - Path(path) hides what the user typed
         if not S_ISREG(state.st_mode) or state.st_size < LONG_FILE_BYTES:
             return None
-        file = TextFile(path)
-        return _look_through(file)
+        return _look_through(TextFile(path, os.open(path, os.O_RDONLY | getattr(os, "O_BINARY", 0))))
     except (OSError, ValueError):
         return None  # reading it as a whole says what is wrong
 
@@ -252,53 +262,40 @@ def _look_through(file: TextFile) -> LongText | None:
     """Find the pages of a file; None where its line ends or its encoding ask for the whole of it."""
     sample = bytearray()
     beyond_ascii: list[int] = []
-    with open(file.path, "rb") as stream:  # noqa: PTH123 - a path is a text here
-        while page := stream.read(PAGE_BYTES):
-            page += stream.readline(MAX_LINE + 1)
-            if len(file.places) == 1 and has_byte_order_mark(page):
+    for page in file.pages():
+        if len(file.places) == 1 and has_byte_order_mark(page):
+            return None
+        if b"\r" in page:
+            file.has_returns = True
+            if page.count(b"\r") != page.count(b"\r\n"):
                 return None
-            if b"\r" in page:
-                file.has_returns = True
-                if page.count(b"\r") != page.count(b"\r\n"):
-                    return None
-            if any(sign in page for sign in HEADING_SIGNS):
-                _add_headings(file, page)
-            if not page.isascii():
-                beyond_ascii.append(len(file.places) - 1)
-                sample += page[: max(SAMPLE_BYTES - len(sample), 0)]
-            _add_page(file, page)
+        if not page.isascii():
+            beyond_ascii.append(len(file.places) - 1)
+            sample += page[: max(SAMPLE_BYTES - len(sample), 0)]
+        _refuse_long_lines(file, page)
+        number = _lines_to_end(file, page)
+        file.places.append(file.places[-1] + len(page))
+        file.numbers.append(number)
     if beyond_ascii:
         _find_codec(file, beyond_ascii, bytes(sample))
     return LongText(file, range(file.numbers[-1]))
 
 
-def _add_headings(file: TextFile, page: bytes) -> None:
-    """Note the lines that may be headings; `page` begins behind the pages found so far."""
-    alike = page.translate(_HEADINGS_ALIKE, _CONTROLS)
+def _lines_to_end(file: TextFile, page: bytes) -> int:
+    """Note the lines that may be headings; gives how many there are to the end of a page.
+
+    It begins behind those found so far, and is not noted yet.
+    """
     line, last = file.numbers[-1], 0
-    if alike.startswith(_HEADING):
-        file.headings.append(line)
-    mark = b"\n" + _HEADING
-    at = alike.find(mark)
-    while at >= 0:
-        line += alike.count(b"\n", last, at) + 1
-        file.headings.append(line)
-        last = at + 1
-        at = alike.find(mark, last)
-
-
-def _add_page(file: TextFile, page: bytes) -> None:
-    """Note a page of whole lines."""
-    _refuse_long_lines(file, page)
-    lines = page.count(b"\n") if page[-1] == _NEWLINE else _ended(page).count(b"\n")
-    file.places.append(file.places[-1] + len(page))
-    file.numbers.append(file.numbers[-1] + lines)
-
-
-def _ended(page: bytes) -> bytes:
-    """The last page of a file with a line end; nothing behind the last one is no line, nor are codes of tapes."""
-    page = page.translate(None, _CONTROLS)
-    return page if not page or page.endswith(b"\n") else page + b"\n"
+    if any(sign in page for sign in HEADING_SIGNS):
+        if page[0] in _STARTS:
+            file.headings.append(line)
+        for found in _HEADING.finditer(page):
+            line += page.count(b"\n", last, found.start() + 1)
+            last = found.start() + 1
+            file.headings.append(line)
+    behind_last = page[page.rfind(b"\n") + 1 :].translate(None, CONTROLS)
+    return line + page.count(b"\n", last) + bool(behind_last)
 
 
 def _refuse_long_lines(file: TextFile, page: bytes) -> None:
@@ -307,6 +304,8 @@ def _refuse_long_lines(file: TextFile, page: bytes) -> None:
     while place + MAX_LINE < len(page):
         found = page.rfind(b"\n", place, place + MAX_LINE + 1)
         if found < 0:
+            if file.is_kept:
+                raise ValueError("characters count, not bytes")
             line = file.numbers[-1] + page.count(b"\n", 0, place) + 1
             refuse_long_line(file.path, line)
         place = found + 1
@@ -316,12 +315,12 @@ def _find_codec(file: TextFile, pages: Sequence[int], sample: bytes) -> None:
     """How pages beyond ASCII are read: UTF-8 if all of them are, else what the sample looks like."""
 
     def cleaned(page: int) -> bytes:
-        return file.raw(page).translate(None, _CONTROLS)
+        return file.raw(page).translate(None, CONTROLS)
 
     try:
         for page in pages:
             cleaned(page).decode("utf-8")
         file.codec = "utf-8"
     except UnicodeDecodeError:
-        file.codec = codec_of(sample.translate(None, _CONTROLS))
+        file.codec = codec_of(sample.translate(None, CONTROLS))
         file.replaced = sum(cleaned(page).decode(file.codec, "replace").count("\ufffd") for page in pages)

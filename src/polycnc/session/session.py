@@ -153,9 +153,7 @@ class Session:
         result = self.result
         if result.planner is None:
             raise ValueError("only a session that keeps no toolpath is planned while it runs")
-        account = TimeAccount(result.toolpath, result.planner, result.planner.top_speeds)
-        self.consumers.append(account.take)
-        return account
+        return TimeAccount(result.toolpath, result.planner)
 
     def _take(self, chunk: Chunk) -> bool:
         if self._in_time:

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from polycnc.toolpath.context import Context
     from polycnc.toolpath.events import Event
 
-CHUNK_ROWS = 65_536
+CHUNK_ROWS = 16_384
 #: So many rows are looked at one by one rather than halved.
 FEW_ROWS = 32
 NO_FEED = nan

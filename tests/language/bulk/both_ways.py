@@ -56,7 +56,14 @@ def run(
     return channel
 
 
-def scanned(text: str, control_id: str, setup: Mapping[str, Any] | None = None, **limits: Any) -> int:
+def scanned(
+    text: str,
+    control_id: str,
+    setup: Mapping[str, Any] | None = None,
+    *,
+    bulk: Bulk = PLAIN,
+    **limits: Any,
+) -> int:
     """How many blocks of a program the scanner takes."""
     taken = 0
 
@@ -66,7 +73,7 @@ def scanned(text: str, control_id: str, setup: Mapping[str, Any] | None = None, 
         taken += state.scan.blocks
         return outcome
 
-    run(text, control_id, setup, replace(PLAIN, scan=scan), **limits)
+    run(text, control_id, setup, replace(bulk, scan=scan), **limits)
     return taken
 
 

@@ -86,3 +86,21 @@ def test_a_hole_with_more_strokes_than_have_room_is_the_interpreters() -> None:
     holes = "\n".join(f"X{i}." for i in range(5))
     text = f"O1\nG90 G54 G0 X0 Y0 Z10.\nG83 Z-{MOST_STROKES}. R2. Q1. F200.\n{holes}\nG80\nM30\n"
     assert differences(text, "fanuc-m") == []
+
+
+@pytest.mark.parametrize("cycle", ["G98 G81 X0 Y0 Z-10. R2. F200.", "G83 X5. Z-9. R1. Q2. F90"])
+def test_no_hole_is_the_interpreters_where_the_room_ends(cycle: str) -> None:
+    lines = [
+        "O1",
+        "G90 G54 G0 X0 Y0 Z10.",
+        "G1 F200",
+        cycle,
+        *(f"X{i}." for i in range(300)),
+        "G80",
+        "M30",
+        "",
+    ]
+    wide, narrow = (
+        scanned("\n".join(lines), "fanuc-m", bulk=replace(PLAIN, rooms=rooms)) for rooms in (16_384, 50)
+    )
+    assert narrow == wide >= 300

@@ -91,6 +91,7 @@ def test_large_files_give_the_same_whatever_ends_their_lines(
     whole = from_file(path, control_id, None)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(long_text, "LONG_FILE_BYTES", 0)
+        patch.setattr(long_text, "KEPT_FILE_BYTES", data.draw(st.sampled_from((0, 1 << 20))))
         patch.setattr(long_text, "PAGE_BYTES", 300)
         patch.setattr(long_text, "MAX_LINE", 280)
         paged = from_file(path, control_id, PLAIN)

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -10,7 +12,7 @@ from hypothesis import strategies as st
 from polycnc.language.bulk.settings import Bulk
 from polycnc.toolpath import Toolpath
 from tests.examples import examples
-from tests.language.bulk.both_ways import differences, machine, plain_scan, scanned
+from tests.language.bulk.both_ways import PLAIN, differences, machine, plain_scan, scanned
 from tests.language.bulk.programs import CODES, REPEATED, REPEATED_LATHE, any_arc, arc, number, plain, program
 
 FANUC_COMMENTS = (" (PASS 2)", "(a;b", ";", " ; (X)", ";  ", "(1)(2)")
@@ -36,6 +38,8 @@ FANUC_WRONG = st.one_of(
         )
     ),
 )  # fmt: skip
+#: Only loops are scanned, once they have run for long.
+LOOPS = replace(PLAIN, fewest_lines=500)
 SETUP = {
     "work_offsets": {"G54": {"X": 10, "Y": -3.3, "Z": 0.1}, "G55": {"X": 1}, "G54.1 P1": {"Z": 7.7}},
     "tools": {1: {"length": 50.05, "radius": 3}, 2: {"length": 33.3, "radius": 1.5}, 3: {"length": 1}},
@@ -61,6 +65,15 @@ def test_no_block_behind_a_full_chunk_is_the_interpreters(monkeypatch: pytest.Mo
     text = "\n".join(["G90 G54 G1 F1000.", *(f"X{i}." for i in range(1, 301)), "M30"])
     assert scanned(text, "fanuc-m", toolpath=toolpath) >= 300
     assert [len(chunk) for chunk in toolpath.chunks[:6]] == [50] * 6
+
+
+def test_no_pass_of_a_loop_behind_a_full_chunk_is_the_interpreters(monkeypatch: pytest.MonkeyPatch) -> None:
+    text = "O1\nG90 G54 G1 F1000.\n#1=0\nWHILE[#1LT5000]DO1\nX#1\n#1=#1+1\nEND1\nM30\n"
+    whole = scanned(text, "fanuc-m", bulk=LOOPS)
+    for module in ("channel.channel", "language.bulk.scanner", "language.expressions.hot_loop"):
+        monkeypatch.setattr(f"polycnc.{module}.CHUNK_ROWS", 500)
+    toolpath = Toolpath(machine("mill3").channel_axes(1), chunk_rows=500)
+    assert scanned(text, "fanuc-m", bulk=LOOPS, toolpath=toolpath) > whole - 100 > 10_000
 
 
 @settings(max_examples=examples(30), deadline=None)

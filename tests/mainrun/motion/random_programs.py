@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from math import cos, degrees, hypot, sin
+from math import cos, degrees, hypot, radians, sin
 from random import Random
 from typing import TYPE_CHECKING, ClassVar
 
@@ -124,31 +124,133 @@ class Writer:
         self.arc(self.random.uniform(-3.0, 3.0))
 
 
+SPEEDS, LEADS = (200, 333, 600, 1200), (0.5, 1.0, 2.0)
+
+
 class Threads(Writer):
-    """Threads of a lathe one behind the other, with lines and rapids between them."""
+    """Threads of a lathe, chained and with several starts, by blocks and cycles, at several speeds of the spindle."""
 
     machine = "lathe2"
 
+    def turns(self) -> str:
+        return f"S{self.random.choice(SPEEDS)} M{self.random.choice((3, 3, 4))}"
+
     def program(self) -> str:
-        draw = self.random
-        siemens = self.siemens
-        turns = f"S{draw.choice((200, 600, 1200))} M3"
-        self.lines = [f"G90 G95 {turns} F0.2 {self.modes()}" if siemens else f"G99 G97 {turns}"]
-        x, z = 20.0, 5.0
-        for _ in range(draw.randint(1, 4)):
+        draw, siemens = self.random, self.siemens
+        self.lines = [f"G90 G95 {self.turns()} F0.2 {self.modes()}" if siemens else f"G99 G97 {self.turns()}"]
+        self.place = 20.0, 0.0, 5.0
+        parts: list[Callable[[], None]] = [self.chain, self.chain, self.other_speed, self.surface_speed]
+        if not siemens:
+            parts += [self.cycle, self.infeeds]
+        for _ in range(draw.randint(1, 5)):
+            x, _, z = self.place
             self.lines.append(f"G0 X{x:.3f} Z{z:.3f}")
-            lead = draw.choice((0.5, 1.0, 2.0))
-            for _ in range(draw.randint(1, 3)):
-                z -= draw.uniform(5.0, 30.0)
-                x += draw.choice((0.0, 0.0, draw.uniform(0.0, 2.0)))
-                word = f" K{lead}" if siemens else f" F{lead}"
-                self.lines.append(f"{'G33' if siemens else 'G32'} X{x:.3f} Z{z:.3f}{word}")
-            x += 5.0
-            self.lines.append(f"G0 X{x:.3f}")
-            z = round(draw.uniform(-5.0, 10.0), 3)
-            self.lines.append(f"G1 X{x + 3.0:.3f} Z{z:.3f} F0.3")
-            x += 3.0
+            draw.choice(parts)()
+            x, z = self.place[0] + 8.0, round(draw.uniform(-5.0, 10.0), 3)
+            self.lines += [f"G0 X{x - 3.0:.3f}", f"G1 X{x:.3f} Z{z:.3f} F0.3"]
+            self.place = x, 0.0, z
         return "\n".join([*self.lines, "M30", ""])
+
+    def chain(self) -> None:
+        """Threads one behind the other, straight and tapered, some with a lead that changes."""
+        draw, lead = self.random, self.random.choice(LEADS)
+        x, _, z = self.place
+        for _ in range(draw.randint(1, 3)):
+            z -= draw.uniform(5.0, 30.0)
+            x += draw.choice((0.0, 0.0, draw.uniform(0.0, 2.0), draw.uniform(0.0, 30.0)))
+            growth, starts = draw.choice((0.0, 0.0, 0.005, 0.01)), draw.random() < 0.3
+            if self.siemens:
+                start = f" SF={draw.choice((0, 90, 180.5))}" if starts else ""
+                code, more = (draw.choice(("G34", "G35")), f" F{growth}") if growth else ("G33", "")
+                word = f"K{lead}"
+            else:
+                start = f" Q{draw.choice((0, 90000, 180000))}" if starts else ""
+                code, more = ("G34", f" K{growth}") if growth else ("G32", "")
+                word = f"F{lead}"
+            self.lines.append(f"{code} X{x:.3f} Z{z:.3f} {word}{more}{start}")
+        self.place = x, 0.0, z
+
+    def cycle(self) -> None:
+        """Cuts of G92 at one speed."""
+        x, _, z = self.place
+        self.lines.append(f"G92 X{x - 1.0:.3f} Z{z - 20.0:.3f} F{self.random.choice(LEADS)}")
+        self.lines += [f"X{x - 1.5:.3f}", f"X{x - 2.0:.3f} R-0.5"]
+
+    def infeeds(self) -> None:
+        """A multiple thread cycle."""
+        x, _, z = self.place
+        lead = self.random.choice(LEADS)
+        self.lines += [
+            "G76 P020060 Q100 R0.05",
+            f"G76 X{x - 3.0:.3f} Z{z - 20.0:.3f} P1000 Q400 F{lead}",
+        ]
+
+    def other_speed(self) -> None:
+        """The spindle turns otherwise, perhaps from rest."""
+        self.lines += self.random.choice(([], ["M5"], ["M8"]))
+        self.lines.append(self.turns())
+
+    def surface_speed(self) -> None:
+        """A facing cut at constant surface speed."""
+        x, _, z = self.place
+        self.lines += [
+            "G96 S100",
+            f"G1 X{x + 3.0:.3f} Z{z:.3f} F0.3",
+            f"G97 S{self.random.choice(SPEEDS)}",
+        ]
+
+
+class MillThreads(Threads):
+    """Threads and taps on mills of all controls."""
+
+    machine = "mill3"
+
+    def program(self) -> str:
+        draw, siemens = self.random, self.siemens
+        self.lines = [HEADS[self.control], self.modes() if siemens else draw.choice(("G64", "G61"))]
+        self.lines += [self.turns(), "G0 Z5."]
+        self.place = 0.0, 0.0, 5.0
+        parts = (self.chain, self.chain, self.tap, self.other_speed, self.pause)
+        for _ in range(draw.randint(2, 6)):
+            draw.choice(parts)()
+            self.place = self.place[0] + 5.0, 0.0, round(draw.uniform(0.0, 10.0), 3)
+            self.lines += [f"G0 X{self.place[0]:.3f}", f"G0 Z{self.place[2]:.3f}"]
+        return "\n".join([*self.lines, "M30", ""])
+
+    def chain(self) -> None:
+        if self.siemens:
+            super().chain()
+            return
+        draw, lead = self.random, self.random.choice(LEADS)
+        x, _, z = self.place
+        for _ in range(draw.randint(1, 3)):
+            z -= draw.uniform(1.0, 15.0)
+            x += draw.choice((0.0, 0.0, draw.uniform(0.0, 2.0)))
+            starts = draw.random() < 0.3 and self.control != "syntec-mill"
+            start = f" Q{draw.choice((0, 90, 180))}." if starts else ""
+            self.lines.append(f"G95 G33 X{x:.3f} Z{z:.3f} F{lead}{start}")
+        self.lines.append("G94")
+        self.place = x, 0.0, z
+
+    def tap(self) -> None:
+        """A tap, rigid or floating; the spindle turns by itself again behind it."""
+        draw, lead, x = self.random, self.random.choice(LEADS), self.place[0]
+        self.lines.append("G0 Z5.")
+        if self.siemens:
+            self.lines += [f"G331 Z-12 K{lead} S500", f"G332 Z5 K{lead}"]
+        elif self.control == "meldas-m":
+            self.lines += [f"G98 G84 X{x:.3f} Y0 Z-12. R2. F{lead} ,R{draw.choice((0, 1))}", "G80"]
+        else:
+            self.lines += draw.choice(([], ["M29 S500"]))
+            self.lines += [f"G98 G84 X{x:.3f} Y0 Z-12. R2. F{500.0 * lead}", "G80"]
+        self.lines.append(self.turns())
+
+    def pause(self) -> None:
+        """A dwell, a function, a cut."""
+        x, feed = self.place[0] + 2.0, self.random.choice((300, 1000))
+        self.lines += self.random.choice(
+            (["G4 F0.37" if self.siemens else "G04 P370"], ["M8"], [f"G1 X{x:.3f} F{feed}."])
+        )
 
 
 class Polar(Writer):
@@ -225,6 +327,46 @@ class Paced(Writer):
             self.left[axis] = 0.01 * per_cent
             words += f"\nACC[{axis}]={per_cent}"
         return words
+
+
+class Back(Writer):
+    """Lines, arcs and splines in a plane; many turn back on the one before, not quite in its direction."""
+
+    heading: float = 0.0
+
+    def program(self) -> str:
+        draw = self.random
+        self.lines = [f"G71 G90 {self.modes()}"]
+        for k in range(draw.randint(2, 7)):
+            self.feed = f" F{draw.choice(FEEDS)}." if k == 0 or draw.random() < 0.3 else ""
+            turn = draw.uniform(-14.0, 14.0) + 180.0 if draw.random() < 0.6 else draw.uniform(-180.0, 180.0)
+            self.heading += turn
+            draw.choice((self.ahead, self.ahead, self.bow, self.curve))()
+        return "\n".join([*self.lines, "M30", ""])
+
+    def go(self, way: float, turn: float = 0.0) -> None:
+        x, y, z = self.place
+        angle = radians(self.heading + turn)
+        self.place = round(x + way * cos(angle), 4), round(y + way * sin(angle), 4), z
+
+    def ahead(self) -> None:
+        self.go(self.random.choice((0.3, 3.0, 25.0)))
+        self.write("G1")
+
+    def bow(self) -> None:
+        draw = self.random
+        radius, sweep = draw.uniform(0.5, 15.0), draw.choice((1.0, -1.0)) * draw.uniform(10.0, 170.0)
+        self.go(2.0 * radius * sin(radians(0.5 * abs(sweep))), 0.5 * sweep)
+        self.heading += sweep
+        self.write("G3" if sweep > 0.0 else "G2", rest=f" CR={radius:.4f}")
+
+    def curve(self) -> None:
+        for k in range(self.random.randint(3, 5)):
+            self.go(self.random.uniform(0.5, 4.0))
+            self.write("ASPLINE" if k == 0 else "")
+            self.heading += self.random.uniform(-40.0, 40.0)
+        self.go(2.0)
+        self.write("G1")
 
 
 class Plane(Writer):
@@ -320,8 +462,10 @@ def writer(seed: int) -> Writer:
     """The writer of a program: of every ten, three write for mills without a transformation."""
     random = Random(seed)
     control, kind = random.choice(CONTROLS), seed % 10
-    if kind in (3, 6):
+    if kind == 3:
         return Threads(random, random.choice(("sinumerik-840d", "fanuc-0i-tf")))
+    if kind == 6:
+        return MillThreads(random, control)
     if kind == 7:
         return Polar(random, random.choice(("sinumerik-840d", "fanuc-0i-tf")))
     if kind == 4:

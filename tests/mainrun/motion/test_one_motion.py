@@ -8,6 +8,7 @@ The times agree, and by the differences of the sampled positions themselves no a
 
 from __future__ import annotations
 
+from random import Random
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -21,7 +22,7 @@ from polycnc.motion.limits import channel_axes
 from polycnc.motion.sampling.samples import Samples
 from polycnc.session import open_session
 from tests.mainrun.motion.drawn.kinds import drawn
-from tests.mainrun.motion.random_programs import Threads, Writer, writer
+from tests.mainrun.motion.random_programs import Back, Writer, writer
 from tests.mainrun.support import power_on, recorded
 
 if TYPE_CHECKING:
@@ -31,12 +32,13 @@ if TYPE_CHECKING:
 PERIOD = 0.001
 #: Sums of many terms, and positions of many digits behind third differences.
 SLACK = 1.001
-#: Programs that are drawn in every run, and in one test, and those of a run that explores.
-DRAWN, IN_A_TEST, EXPLORE = 2000, 50, 20_000
+#: Programs that are drawn in every run, and in one test, and those of a run that explores; rows that turn back.
+DRAWN, IN_A_TEST, EXPLORE, BACK = 2000, 50, 20_000, 30
 #: Programs of `random_programs` that exploring has found: the main run took the averages of the real axes where a
 #: transformation ends; a rotary axis was too quick beside the centre under BRISK; on bends, arcs and splines axes
-#: exceeded what TRACYL, TRAANG and ACC leave them.
-FOUND = (341917, 487807, 535447, 975837, 998267, 294, 674, 705, 1895, 3265)
+#: exceeded what TRACYL, TRAANG and ACC leave them; the main run went on by averages where a spline turns back on a line
+#: under SOFT.
+FOUND = (341917, 487807, 535447, 975837, 998267, 294, 674, 705, 1895, 3265, 1310, 203865)
 #: Samples of a program whose places are looked up in the main run, from its first on.
 PLACES = 1500
 #: Largest distance of both, mm or degrees: an arc is a circle in the main run, cubics of 7.5° in the samples.
@@ -79,13 +81,8 @@ def check(written: Writer) -> None:
     total, end, samples, machine = planned(text, written)
     axes = channel_axes(machine, 1, machine.channels[0].names)
     rotary = [axis is not None and axis.rotary for axis in axes]
-    # In the samples a thread waits for the spindle's mark, for which plan and main run count half a turn.
-    threads = isinstance(written, Threads)
-    assert threads or end == pytest.approx(total, abs=1e-6), text
-    compared = 0 if threads else min(len(samples.time), PLACES)
-    assert executed(text, written, samples.position[:compared], rotary) == pytest.approx(total, abs=0.001), (
-        text
-    )
+    assert end == pytest.approx(total, abs=1e-6), text
+    assert executed(text, written, samples.position[:PLACES], rotary) == pytest.approx(total, abs=0.001), text
     steps = np.diff(samples.position, axis=0)
     middle = 0.5 * PERIOD * (samples.velocity[1:] + samples.velocity[:-1])
     change = np.diff(samples.acceleration, axis=0) * PERIOD**2 / 12.0
@@ -116,6 +113,11 @@ def test_plan_samples_and_main_run_are_one_motion(first: int) -> None:
 @pytest.mark.parametrize("seed", FOUND)
 def test_so_they_are_on_programs_that_were_found(seed: int) -> None:
     check(writer(seed))
+
+
+@pytest.mark.parametrize("seed", range(BACK))
+def test_so_they_are_where_rows_turn_back(seed: int) -> None:
+    check(Back(Random(seed), "sinumerik-840d"))
 
 
 @settings(max_examples=EXPLORE if settings.get_current_profile_name() == "explore" else 1, deadline=None)

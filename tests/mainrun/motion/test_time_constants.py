@@ -10,7 +10,7 @@ import pytest
 
 from polycnc.machine.setup.file import parse_setup
 from polycnc.mainrun import State
-from tests.mainrun.motion.random_programs import Threads, Writer, writer
+from tests.mainrun.motion.random_programs import Writer, writer
 from tests.mainrun.motion.test_disturbed import disturb, joints_of, play
 from tests.mainrun.motion.test_one_motion import PLACES, executed, planned
 from tests.mainrun.support import power_on
@@ -46,11 +46,9 @@ def test_plan_samples_and_main_run_are_one_motion(
     monkeypatch.setattr(type(written), "machine", str(file))
     text = written.program()
     total, end, samples, machine = planned(text, written)
-    threads = isinstance(written, Threads)
-    assert threads or end == pytest.approx(total, abs=1e-6)
-    compared = 0 if threads else min(len(samples.time), PLACES)
+    assert end == pytest.approx(total, abs=1e-6)
     rotary = [machine.axis[name].rotary for name in machine.channels[0].axes]
-    time = executed(text, written, samples.position[:compared], rotary)
+    time = executed(text, written, samples.position[:PLACES], rotary)
     assert time == pytest.approx(total, abs=0.001)
     assert np.isfinite(samples.position).all()
 

@@ -95,6 +95,23 @@ def test_a_program_takes_the_planned_time_on_every_control(control: str, mode: s
     assert planned > 0.1
 
 
+#: A run that leads to a row that turns back on the one before by more than 170° ends there: the row stands alone.
+TURN_BACK = {
+    "arc behind a line": "G1 X10 F3000\nG2 X5 Y0.5 CR=20\n",
+    "spline behind a line": "G1 X10 F3000\nASPLINE X4 Y0.5\nX3 Y4\nX8 Y9\nG1 X20\n",
+    "line behind an arc": "G3 X10 Y10 J10 F3000\nG1 X10.8 Y0\n",
+    "line between arcs": "G3 X10 Y10 J10 F3000\nG1 X10.8 Y0\nG2 X10.5 Y10 CR=30\nG1 X30\n",
+    "line between lines": "G1 X10 F3000\nX2 Y1\nX10 Y1.5\nY20\n",
+}
+
+
+@pytest.mark.parametrize("corners", ["G64", "G641 ADIS=0.5", "G642"])
+@pytest.mark.parametrize("body", TURN_BACK.values(), ids=TURN_BACK)
+def test_a_line_that_a_law_leaves_alone_runs_from_rest_to_rest(corners: str, body: str) -> None:
+    planned, run = times("sinumerik-840d", f"SOFT\n{corners}", body + "M30\n")
+    assert run == pytest.approx(planned, rel=1e-6)
+
+
 def after_reference(virtual: VirtualControl) -> list[tuple[float, str, object]]:
     """Run the program from the reference point; what it prints may count the runs."""
     virtual.select_mode("reference")

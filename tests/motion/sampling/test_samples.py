@@ -111,21 +111,6 @@ def thread(z: float, lead: float, start_angle: float, rpm: float = 800.0) -> Bui
     return rows
 
 
-@pytest.mark.parametrize("start_angle", [0.0, 120.0])
-def test_a_thread_is_locked_to_the_spindle_in_every_cut(start_angle: float) -> None:
-    lead = 2.0
-    _, samples = sampled(thread(-40.0, lead, start_angle), LATHE)
-    speed = lead * 800.0 / 60.0
-    z, angle = samples.position[:, 1], samples.spindle_angle
-    level = (np.abs(samples.velocity[:, 1] + speed) < 1e-6) & np.isin(samples.line, (2, 6))
-    # On the way at full speed the axis is where the spindle's angle asks it to be, the same in both cuts.
-    phase = (angle - 360.0 * (5.0 - z) / lead - start_angle) % 360.0
-    phase = np.where(phase > 180.0, phase - 360.0, phase)
-    for row in (2, 6):
-        assert (level & (samples.line == row)).sum() > 100
-        assert np.abs(phase[level & (samples.line == row)]).max() < 1e-3
-
-
 def test_a_tap_turns_the_spindle_by_its_lead_in_and_out() -> None:
     lead = 1.5
     rows = Build(context=Context(spindle_rpm=500.0, spindle_direction=1))

@@ -10,9 +10,9 @@ from polycnc.machine import MFunction
 from polycnc.machine.text import Text
 from polycnc.motion import Settings
 from polycnc.motion.standing.waits import rpm_at
-from polycnc.toolpath import Context, Kind
+from polycnc.toolpath import Context
 from polycnc.toolpath.events import Auxiliary, Message, ToolSelection
-from polycnc.toolpath.modes import CornerMode, FeedMode, StopWindow
+from polycnc.toolpath.modes import CornerMode, StopWindow
 from tests.motion.paths import LATHE, MILL, Build
 
 CHANGE_S = MILL.magazine.change_time_s
@@ -132,16 +132,6 @@ def test_messages_do_not_stop_the_axes() -> None:
 def test_a_dwell_in_revolutions_follows_the_spindle() -> None:
     rows = Build().set(spindle_rpm=120.0, spindle_direction=1).dwell(revolutions=3.0)
     assert rows.plan().times.dwell_s == pytest.approx(1.5)
-
-
-def test_each_thread_waits_half_a_turn_for_the_zero_mark() -> None:
-    context = Context(feed_mode=FeedMode.PER_REVOLUTION, spindle_rpm=300.0, spindle_direction=1)
-    rows = Build(axes=("X", "Z"), context=context)
-    for _ in range(2):
-        rows.rapid(20.0, 5.0)
-        rows.row(Kind.THREAD, 20.0, -10.0, curve=(1.0, 0.0)).row(Kind.THREAD, 21.0, -15.0, curve=(1.0, 0.0))
-    ramp = 300.0 / LATHE.spindles[0].acceleration_rpm_s
-    assert rows.plan(LATHE).times.spindle_s == pytest.approx(ramp + 2.0 * 0.1)
 
 
 SETTLING = replace(MILL, settle_fine_s=0.05, settle_coarse_s=0.02)

@@ -177,15 +177,6 @@ def test_times_and_places_of_a_run_are_those_of_the_law() -> None:
     assert (run.start.tolist(), run.end.tolist()) == (path.place[0].tolist(), path.place[-1].tolist())
 
 
-def test_the_lag_of_a_line_is_what_getting_up_to_speed_costs() -> None:
-    path, law = driven(1)
-    speed = float(law.speed.max())
-    k = int(np.argmax(law.speed))
-    share = path.first[0, 0]
-    lag = Run(recorded(path, law), 3).lag(speed * share)
-    assert lag == pytest.approx(law.start[k] - law.way[k] / speed, abs=1e-9)
-
-
 @pytest.mark.skipif(compiled.LIBRARY.lack is not None, reason="no machine code")
 @pytest.mark.parametrize("number", PATHS)
 def test_both_ways_to_run_the_kernels_write_the_same_bits(number: int) -> None:

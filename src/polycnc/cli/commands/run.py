@@ -107,7 +107,7 @@ def _say_more(account: TimeAccount | None, result: Result, session: Session) -> 
     from polycnc.cli.told import tell_unheeded
 
     if account is not None:
-        show(explained(account.parts, result.plan.times, account.hidden_s))
+        show(explained(account, result.plan.times, result.control.id))
     tell_unheeded(session.channel.control, session.channel.setup.parameters)
 
 

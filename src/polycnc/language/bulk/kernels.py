@@ -41,6 +41,7 @@ from polycnc.language.bulk.layout import (
     Outcome,
     Rule,
     State,
+    Strokes,
     Tables,
 )
 from polycnc.language.bulk.moves import act, note
@@ -74,10 +75,7 @@ NO_BLOCK = -1
 def scan(tables: Tables, state: State, columns: Columns) -> int:
     """Work off plain blocks from `scan.place` on, or in a routine; rows go into `columns`. Gives how it ended."""
     while state.scan.routine != NO_ROUTINE or state.scan.place < state.scan.end:
-        if (
-            state.scan.blocks >= state.scan.most_blocks
-            or state.scan.rows + state.scan.notes >= state.scan.most_rows
-        ):
+        if is_full(state):
             return Outcome.FULL
         in_text, place, step = state.scan.routine == NO_ROUTINE, 0, 0
         if in_text:
@@ -111,6 +109,18 @@ def scan(tables: Tables, state: State, columns: Columns) -> int:
             if tables.rules[leaf * Rule.SIZE + Rule.FLOW]:
                 flow(tables, state, leaf * Rule.SIZE, leaf * Factor.SIZE)
     return Outcome.AT_END
+
+
+def is_full(state: State) -> bool:
+    """Whether there may be no room for what the next block gives. A hole that does not fit at all is no matter."""
+    rows = state.scan.rows + state.scan.notes
+    if rows and state.strokes[Strokes.COUNT] > 0.0:
+        rows += int(state.strokes[Strokes.COUNT])
+    return (
+        state.scan.blocks >= state.scan.most_blocks
+        or rows >= state.scan.most_rows
+        or state.scan.curves >= state.scan.most_curves
+    )
 
 
 def work_off(tables: Tables, state: State, columns: Columns, node: int) -> int:

@@ -12,7 +12,7 @@ from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.kernels.c_types import Structure
 from polycnc.kernels.layout import Bytes, Floats, Ints, Ints32, Places, Words16, Words32, place, record
 from polycnc.language.bulk.routines.layout import Frame
-from polycnc.transformation.orientation.standing import StandRecord
+from polycnc.transformation.orientation.records import StandRecord
 
 #: Words that a block may have; numbers in their formulas, which stand behind the words' values; keys of both.
 MOST_WORDS, MOST_LITERALS, MOST_KEYS = 24, 72, 128
@@ -67,7 +67,8 @@ class Scan(Structure):
         frames: Routines that have been called and not left; `most_frames` how many may be.
         called: The number of a program that is called and not known yet.
         blocks: Blocks taken so far; `most_blocks` how many may be. `rows` and `notes` likewise.
-        curves: Moves with curve parameters among the rows; `first_curve` is the number of the first.
+        curves: Moves with curve parameters among the rows; `most_curves` how many may be, `first_curve` the number that
+            the first one gets.
         root: Root of the shape tree for the modal state that holds.
         axes: Axes of the channel.
         has_programming: Whether the programming frame changes anything; `has_zero` likewise.
@@ -105,6 +106,7 @@ class Scan(Structure):
     notes: int
     most_notes: int
     curves: int
+    most_curves: int
     first_curve: int
     root: int
     axes: int

@@ -22,7 +22,8 @@ from polycnc.language.bulk.layout import (
     Strokes,
 )  # fmt: skip
 from polycnc.toolpath.kinds import CURVE_WIDTH, NO_CURVE, Kind
-from polycnc.transformation.orientation.standing import StandRecord, stand
+from polycnc.transformation.orientation.records import StandRecord
+from polycnc.transformation.orientation.standing import stand
 
 RAPID, STRAIGHT = int(Kind.RAPID), int(Kind.FEED)
 CIRCLE_CW, CIRCLE_CCW = int(Kind.CW), int(Kind.CCW)

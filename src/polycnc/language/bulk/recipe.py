@@ -229,17 +229,22 @@ class Conditions:
     """Makes recipes of steps, and keeps the conditions on which those given so far rest."""
 
     def __init__(self) -> None:
-        self._all: list[Condition] = []
+        self._held: dict[Condition, bool] = {}
+        self._changes = 0
 
-    def hold(self, channel: Channel) -> tuple[bool, ...]:
-        """Which of them hold now: while that stays, the recipes do."""
-        return tuple([condition(channel) for condition in self._all])
+    def changes(self, channel: Channel) -> int:
+        """How often any of them has changed, as far as this has been asked: while that stays, the recipes hold."""
+        now = {condition: condition(channel) for condition in self._held}
+        if now != self._held:
+            self._held = now
+            self._changes += 1
+        return self._changes
 
     def _holds(self, channel: Channel, condition: Condition | None) -> bool:
         if condition is None:
             return True
-        if condition not in self._all:
-            self._all.append(condition)
+        if condition not in self._held:
+            self._held[condition] = condition(channel)
         return condition(channel)
 
     def recipe(self, channel: Channel, steps: Iterable[Step], state: Hashable) -> Recipe | None:

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any, Protocol
 from polycnc.channel.states.unchanging import unchanging
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.language.bulk import layout
+from polycnc.language.bulk.buffers import Room, Window
 from polycnc.language.bulk.layout import Columns, State, Tables, new_state
 from polycnc.language.bulk.routines.layout import NO_ROUTINE
 from polycnc.language.bulk.shapes import Shapes
-from polycnc.language.bulk.text import Window
 from polycnc.messages import AlarmError
 from polycnc.toolpath.kinds import CURVE_WIDTH
 from polycnc.toolpath.table import CHUNK_ROWS
@@ -34,10 +34,6 @@ WORTHWHILE = 16
 #: Blocks that one call of the kernel runs at the most where it may loop: between two calls it can be interrupted, and
 #: a loop that waits for ever is found.
 MOST_BLOCKS = 1 << 18
-#: Rows that the first calls of the kernel may give; a call that gives as many leaves room for more to the next one.
-FIRST_ROOMS, MORE_ROOMS = 1024, 4
-#: There is room for a note in so many rows.
-ROWS_PER_NOTE = 4
 #: Blocks that are scanned for stages at a time, twice as many behind each run that had no end among them: what is
 #: scanned behind the end of a run is scanned again.
 FEWEST_AHEAD = 128
@@ -158,21 +154,7 @@ class Scanner:
         self._ahead = FEWEST_AHEAD
         self._state = new_state(axes)
         self._routines: RunningRoutines | None = None  # until a program has one
-        self._make_room(min(FIRST_ROOMS, rooms))
-
-    def _make_room(self, rooms: int) -> None:
-        """Columns for so many rows, and for their notes."""
-        axes = self._axes
-        self._room, self._most_notes = rooms, max(rooms // ROWS_PER_NOTE, 1)
-        self._columns = (
-            array("B", (0,)) * rooms, array("H", (0,)) * rooms, array("I", (0,)) * rooms,
-            array("d", (0.0,)) * rooms,
-            array("d", (0.0,)) * (rooms * axes), array("i", (0,)) * rooms,
-            array("d", (0.0,)) * (rooms * CURVE_WIDTH),
-        )  # fmt: skip
-        self._views = tuple([memoryview(column).cast("B") for column in self._columns])
-        self._notes = array("q", bytes(8 * layout.NoteRecord.SIZE * self._most_notes))
-        self._said = array("d", bytes(8 * (axes + 1) * self._most_notes))
+        self._room = Room(axes, rooms)
 
     @cached_property
     def _guard(self) -> Guard:
@@ -233,7 +215,7 @@ class Scanner:
             return False
         outcome = self._scanned(channel) if channel.path.is_idle else self._staged(channel)
         if outcome == layout.Outcome.UNKNOWN:
-            return self._learn(channel, lines[window.line]) and channel.level is level
+            return self._learn(channel, window.next_line()) and channel.level is level
         if channel.level is not level:
             return False
         if self._routines is not None:
@@ -263,10 +245,10 @@ class Scanner:
         from polycnc.language.bulk.guard import notes_before
 
         at = self._state.scan
-        rows = self._guard.rows(channel, self._columns[0], self._columns[4], at.rows)
+        rows = self._guard.rows(channel, self._room.table[0], self._room.table[4], at.rows)
         if rows == at.rows:
             return outcome
-        most = rows + notes_before(rows, self._notes, at.notes)
+        most = rows + notes_before(rows, self._room.columns.notes, at.notes)
         self._put_state(channel)
         if rows:
             self._call(channel, most_rows=most)
@@ -282,14 +264,14 @@ class Scanner:
         at = self._state.scan
         outcome = self._call(channel, self._ahead)
         first_line = channel.level.code.program.first_line + self._window.line
-        moves = leading_moves(first_line, at, self._columns, self._notes)
+        moves = leading_moves(first_line, at, self._room.columns)
         is_all = moves == at.blocks and at.line == first_line + moves
         self._ahead = min(2 * self._ahead, self._rooms) if is_all else FEWEST_AHEAD
         if not moves:
             return outcome if is_all else layout.Outcome.NOT_PLAIN
         if not is_all:
             self._call(channel, moves)
-        run = StagedRun(channel, self._columns)
+        run = StagedRun(channel, self._room.table)
         try:
             run.lead(moves, at.first_curve)
         except (AlarmError, ArithmeticError):
@@ -331,7 +313,7 @@ class Scanner:
             self._window.text, shapes.nexts, shapes.leaves, shapes.rules, shapes.factors, shapes.formulas,
             *(_NO_ROUTINES if routines is None else routines.known.tables),
         )  # fmt: skip
-        return self._scan(tables, self._state, Columns(*self._columns, self._notes, self._said))
+        return self._scan(tables, self._state, self._room.columns)
 
     def _go_on(self, channel: ScannedChannel, lines: int) -> None:
         """The channel stands behind the blocks of so many lines."""
@@ -422,20 +404,18 @@ class Scanner:
             self._generation, self._shapes = generation, Shapes()
             if self._routines is not None:
                 self._routines.forget(self._shapes)
-        if at.rows >= self._room or at.notes >= self._most_notes:
-            self._make_room(min(MORE_ROOMS * self._room, self._rooms))
+        room = self._room
+        room.make_fit(at)
         chunk, c = channel.toolpath.chunk, channel.coordinates
-        # A new context is that of the first row: it must be known before the modal state goes on.
-        rows = 1 if channel.context_is_new else min(self._room, max(CHUNK_ROWS - len(chunk), 0))
         window, spelling = self._window, dialect.spelling
         at.place, at.end = window.place, len(window.text)
         at.line = channel.level.code.program.first_line + window.line
         at.routine, at.frames, at.most_frames = NO_ROUTINE, 0, 0
         at.program = at.text_program = channel.level.program_number
         at.blocks, at.most_blocks = 0, channel.block_limit - channel.blocks
-        at.rows, at.most_rows = 0, rows
-        at.notes, at.most_notes = 0, self._most_notes
-        at.curves, at.first_curve = 0, len(chunk.curves) // CURVE_WIDTH
+        at.notes, at.most_notes = 0, room.notes
+        at.curves, at.most_curves = 0, room.curves
+        at.first_curve = len(chunk.curves) // CURVE_WIDTH
         at.root = self._shapes.root(dialect.state(channel))
         for i, axis in enumerate(c.geometry):
             state.geometry[i] = axis
@@ -457,6 +437,7 @@ class Scanner:
         at.turned, state.tool[0] = 0, -1.0
         _put(state.tool, dialect.tool(channel))
         _put_strokes(state.strokes, at.root, dialect.drilled(channel))
+        at.rows, at.most_rows = 0, self._most_rows(channel)
         _put(state.position, c.position)
         _put(state.programmed, c.programmed)
         _put(state.pending, c.pending)
@@ -465,15 +446,26 @@ class Scanner:
         _put(state.low, [low for low, _ in limits])
         _put(state.high, [high for _, high in limits])
 
+    def _most_rows(self, channel: Channel) -> int:
+        """Rows that the next call of the kernel may give; a hole may go beyond the end of a chunk, as elsewhere."""
+        if channel.context_is_new:
+            return 1  # it is that of the first row, and must be known before the modal state goes on
+        left = CHUNK_ROWS - len(channel.toolpath.chunk)
+        if left > 0:
+            left = max(left, int(self._state.strokes[layout.Strokes.COUNT]) + 2)
+        return min(self._room.rows, max(left, 0))
+
     def _take_rows(self, channel: ScannedChannel) -> None:
         """Rows into the chunk; where a block has left a note, its steps act between them, as they would have there."""
-        state, axes = self._state, self._axes
-        channel.toolpath.chunk.add_curves(state.scan.curves, self._views[-1])
+        state, axes, room = self._state, self._axes, self._room
+        channel.toolpath.chunk.add_curves(state.scan.curves, room.views[-1])
         code = channel.level.code
         taken = 0
         for i in range(state.scan.notes):
-            rows, line, rule = self._notes[layout.NoteRecord.SIZE * i : layout.NoteRecord.SIZE * (i + 1)]
-            value, *position = self._said[(axes + 1) * i : (axes + 1) * (i + 1)]
+            rows, line, rule = room.columns.notes[
+                layout.NoteRecord.SIZE * i : layout.NoteRecord.SIZE * (i + 1)
+            ]
+            value, *position = room.columns.said[(axes + 1) * i : (axes + 1) * (i + 1)]
             self._add_rows(channel, taken, rows, position)
             taken = rows
             channel.level.current = code.step_of_line(line - code.program.first_line)
@@ -488,7 +480,7 @@ class Scanner:
         if first == end:
             return
         context = channel.context_number()
-        channel.toolpath.chunk.extend(first, end, context, self._views)
+        channel.toolpath.chunk.extend(first, end, context, self._room.views)
         if channel.path.head is not None:
             # The moves have gone past a stage that had nothing to do.
             channel.path.table.end, channel.path.table.context = position, context
@@ -509,13 +501,12 @@ class Scanner:
             self._dialect.moved(channel, self._last_moves(state.scan.rows, state.scan.curves))
 
     def _last_moves(self, rows: int, curves: int) -> LastMoves:
-        kinds, *_, parameters = self._columns
-        x, y, z = self._state.last_center
+        columns, (x, y, z) = self._room.columns, self._state.last_center
         return LastMoves(
-            kinds[rows - 1],
+            columns.kind[rows - 1],
             list(self._state.came_from),
             (x, y, z) if curves else None,
-            tuple(parameters[(curves - 1) * CURVE_WIDTH : curves * CURVE_WIDTH]) if curves else (),
+            tuple(columns.curves[(curves - 1) * CURVE_WIDTH : curves * CURVE_WIDTH]) if curves else (),
         )
 
 

@@ -17,20 +17,19 @@ if TYPE_CHECKING:
     from array import array
 
     from polycnc.channel.channel import Channel
-    from polycnc.kernels.layout import Ints
     from polycnc.language.bulk.layout import Scan
 
-    Columns = tuple[array[int], array[int], array[int], array[float], array[float], array[int], array[float]]
+    Table = tuple[array[int], array[int], array[int], array[float], array[float], array[int], array[float]]
 
 #: Moves that are handed over one by one at the most between two tries to hand over many.
 MOST_PATIENCE = 64
 _KINDS = tuple(Kind)
 
 
-def leading_moves(first_line: int, at: Scan, columns: Columns, notes: Ints) -> int:
+def leading_moves(first_line: int, at: Scan, columns: layout.Columns) -> int:
     """How many blocks from the first on are a move each, and nothing else."""
-    lines = columns[2]
-    most = min(at.rows, notes[layout.NoteRecord.LINE] - first_line) if at.notes else at.rows
+    lines = columns.line
+    most = min(at.rows, columns.notes[layout.NoteRecord.LINE] - first_line) if at.notes else at.rows
     return next((i for i in range(most) if lines[i] != first_line + i), most)
 
 
@@ -42,7 +41,7 @@ class StagedRun:
         moved: Moves that the stages have taken, or refused.
     """
 
-    def __init__(self, channel: Channel, columns: Columns) -> None:
+    def __init__(self, channel: Channel, columns: Table) -> None:
         self._channel = channel
         self._columns = columns
         self.blocks = self.moved = 0

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from polycnc.toolpath.table import CHUNK_ROWS
+
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
     from polycnc.channel.steps import Step
@@ -39,6 +41,8 @@ class HotLoop:
             self._patience = 1 if taken >= WORTHWHILE else min(2 * self._patience, MOST_PATIENCE)
             self._next_try = self._done + self._patience
             if taken:
+                if len(channel.toolpath.chunk) >= CHUNK_ROWS:  # it is handed on first
+                    self._next_try = self._done
                 channel.blocks -= 1  # whoever runs a step counts it
                 channel.attention = True
                 return

@@ -150,10 +150,9 @@ class ByLaw:
         self._fed, closed = move.row, False
         while not closed and len(rows.rows) < 2:
             closed = self._feed() or (len(rows.rows) < 2 and not self._fill_on())
+        if rows.is_one_line:
+            self._preprocessing.revised |= self._preprocessing.queue.lay_alone(self._rates)
         if not rows.rows or rows.is_one_line:
-            # Pieces would go round corners that no law can.
-            rests = self._preprocessing.queue.rest_around(move, rows.apart, self._rates)
-            self._preprocessing.revised = self._preprocessing.revised or rests
             return None
         assert move.prepared is not None
         self._set = False, inf, *self._asked_speeds()

@@ -91,7 +91,7 @@ class Execution:
         self._gated = self._waiting = self._blocked = self._moved_on = False
         self._by_hand: tuple[float, ...] = ()
         self._skip_after_s, self._skips_at = skip_after_s, inf
-        self._worked_until = -inf
+        self._worked_until, self._has_skipped = -inf, False
         self._pieces = ByPieces(preprocessing, self.rates, clock)
         self._by_law = ByLaw(preprocessing, self.rates, clock, self._rest_before)
 
@@ -313,7 +313,9 @@ class Execution:
             return self._end(waiting.reason)
         if waiting.reason is Why.PREPROCESSING:
             self._machinery.synchronise()
-            self._until = self.clock.time + self.clock.cycle_s
+            if not self._has_skipped:  # behind a skip move a program waits for where it has ended, as planned
+                self._until = self.clock.time + self.clock.cycle_s
+            self._has_skipped = False
         self.preprocessing.proceed()
         return True
 
@@ -361,10 +363,13 @@ class Execution:
                 self.halted_behind = item.code
                 self.stop("single-block")
         elif isinstance(item, Standing):
+            self._turn_spindle(item.context)
             self.context = item.context
             self.rates.enter(item.context)
             self._until = self.clock.time + item.wait_s(self.clock.time)
             self._dwell_signal, self.stands_for = item.context.dwell_signal, item.why
+            if item.is_asked_again and self._until > self.clock.time:
+                self.preprocessing.items.appendleft(item)
         else:
             self.context = item.context
             self._machinery.perform(item)
@@ -373,6 +378,10 @@ class Execution:
             if self._machinery.busy:
                 self._look_ahead()
         return self.running
+
+    def _turn_spindle(self, context: Context) -> None:
+        """The spindle's angle follows what the operator has set."""
+        self.preprocessing.turn_spindle(context, self.rates.spindle, self.clock.time)
 
     def _work(self) -> None:
         """A block costs the control its time: a loop without a way, which has used up what was prepared, lasts."""
@@ -409,11 +418,11 @@ class Execution:
             self.motion = led
             self._take_up(led.piece, cap2)
             return True
+        cap2 = self.preprocessing.front_cap2(self.rates)  # it may have been laid out again
         if self.preprocessing.is_last_piece:
             self.preprocessing.end_in_rest()
             self.preprocessing.revised = True
         if self.preprocessing.revised:
-            cap2 = self.preprocessing.front_cap2(self.rates)
             self._look_ahead()
         piece, record = self.preprocessing.queue.pop_piece()
         self._take_up(piece, cap2)
@@ -426,6 +435,8 @@ class Execution:
 
     def _take_up(self, piece: Piece, cap2: float) -> None:
         """A piece, or a row, is in execution."""
+        self._turn_spindle(piece.context)
+        self._has_skipped = piece.kind == Kind.SKIP
         self._cap2, self.context, self.place = cap2, piece.context, piece.context
         if self.block is not None and (self.block.program, self.block.line) != (piece.program, piece.line):
             self._enter(self.block.followed_by(piece.program, piece.line, self.modal))
@@ -461,6 +472,7 @@ class Execution:
     def revise(self) -> None:
         """Something that bounds the speed has changed: the motion goes on accordingly from where it is."""
         self._blocked = False
+        self._turn_spindle(self.context)
         motion = self.motion
         if motion is None:
             at_rest = self._x2 == 0.0

@@ -4,6 +4,7 @@ preprocessing  the channel's rows become pieces of the path and events, in order
 rows           a row as a move with its pieces
 law_rows       rows as stretches of a run that a law leads
 items          what is prepared and not yet executed
+standing       what the axes stand for, and what begins beside them meanwhile
 piece_buffer   the planner's records of the pieces, and how fast each may be entered
 layout         for which overrides rows are laid out, and from what
 queue          pieces are taken one by one, and laid out again for other overrides

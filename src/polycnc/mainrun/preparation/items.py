@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from math import inf
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, ClassVar, TypeAlias
 
 from polycnc.channel.interpolator import Influence
 from polycnc.channel.intervention import NOTHING_BACK
@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from polycnc.mainrun.motion.geometry import Cubic, Segment
     from polycnc.mainrun.preparation.layout import PreparedRow
     from polycnc.motion.kernels.columns import Limits
-    from polycnc.motion.standing.beside import Work
     from polycnc.toolpath import Context, Event
     from polycnc.toolpath.motion_settings import DryRun
 
@@ -83,8 +82,13 @@ class Happening:
 
 @dataclass(frozen=True, slots=True)
 class Standing:
-    """The axes stand for a time. `why` is a share of `motion.Times` (`dwell_s`, `spindle_s` …)."""
+    """The axes stand for a time. `why` is a share of `motion.Times` (`dwell_s`, `spindle_s` …).
 
+    Attributes:
+        is_asked_again: What it waits for may have gone by when somebody has held the program meanwhile.
+    """
+
+    is_asked_again: ClassVar[bool] = False
     why: str
     seconds: float
     context: Context
@@ -92,48 +96,6 @@ class Standing:
     def wait_s(self, _time: float) -> float:
         """Seconds that they stand from a time on."""
         return self.seconds
-
-
-class WorkClock:
-    """Work beside the axes on the clock of the main run.
-
-    Args:
-        work: The work.
-    """
-
-    def __init__(self, work: Work) -> None:
-        self.work, self._time = work, 0.0
-
-    def at(self, time: float) -> Work:
-        """The work as it is at a time."""
-        self.work.left_s = max(self.work.left_s - max(time - self._time, 0.0), 0.0)
-        self._time = time
-        return self.work
-
-
-@dataclass(frozen=True, slots=True)
-class WorkBegins(Standing):
-    """Some work begins beside the axes, which goes to `aim`, from `since` where that is known."""
-
-    clock: WorkClock
-    aim: float
-    since: float | None
-
-    def wait_s(self, time: float) -> float:
-        """The axes do not stand for it."""
-        self.clock.at(time).begin(self.aim, self.since)
-        return 0.0
-
-
-@dataclass(frozen=True, slots=True)
-class WorkAwaited(Standing):
-    """The axes stand until some work beside them is done."""
-
-    clock: WorkClock
-
-    def wait_s(self, time: float) -> float:
-        """What is left of it."""
-        return self.clock.at(time).left_s
 
 
 @dataclass(slots=True, eq=False)

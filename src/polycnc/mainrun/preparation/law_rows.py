@@ -40,7 +40,6 @@ class LawRows:
     Attributes:
         rows: Those that are known, and do not lie behind.
         bars: One was not to be run when it became known.
-        apart: The move before which the run ends because its path cannot be bent into it; None where it may go on.
     """
 
     def __init__(self, n: int, rates: ChannelRates) -> None:
@@ -49,7 +48,6 @@ class LawRows:
         self._ends: list[float] = []
         self._found: dict[float, RowOfRun] = {}
         self.bars = False
-        self.apart: Move | None = None
 
     def add(self, move: Move, contexts: array[float]) -> bool:
         """Let the run go on along a row; false where that is not of it, or the axes rest before it."""
@@ -81,7 +79,6 @@ class LawRows:
             room.laid,
         ):
             if room.laid.why != NO_STRETCH:
-                self.apart = move
                 return False
             room.laid.why = 0
             room.widen()

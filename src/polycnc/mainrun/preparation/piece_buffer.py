@@ -17,6 +17,7 @@ from polycnc.motion.kernels.columns import MAIN_RUN, TAP, Form, Limits, PieceRec
 from polycnc.motion.kernels.jerk import window_s
 from polycnc.motion.limits import ContextTables
 from polycnc.motion.standing.waits import least_seconds
+from polycnc.motion.standing.zero_mark import lag_s
 from polycnc.motion.time_constants import Use
 
 if TYPE_CHECKING:
@@ -205,6 +206,15 @@ class PieceBuffer:
         """Whether the piece in front belongs to a row."""
         return len(self) > 0 and self._row_of(self._taken) == row
 
+    @property
+    def rests_around(self) -> bool:
+        """Whether the axes rest before the piece in front, and behind its row."""
+        width, at, end = self._width, self._taken * self._width, self.state.run.pieces * self._width
+        row, rests = self._records[at + PieceRecord.ROW], self._records[at + PieceRecord.PAUSE] > 0.0
+        while at < end and self._records[at + PieceRecord.ROW] == row:
+            at += width
+        return rests and (at >= end or self._records[at + PieceRecord.PAUSE] > 0.0)
+
     def rows_from_rest(self) -> set[float]:
         """The rows ahead before which the axes rest."""
         found: set[float] = set()
@@ -212,12 +222,6 @@ class PieceBuffer:
             if self._records[piece * self._width + PieceRecord.PAUSE] > 0.0:
                 found.add(self._row_of(piece))
         return found
-
-    def begins_in_rest(self, row: float) -> bool:
-        """Whether the axes rest before a row ahead."""
-        ahead = range(self._taken, self.state.run.pieces)
-        piece = next((piece for piece in ahead if self._row_of(piece) == row), None)
-        return piece is not None and self._records[piece * self._width + PieceRecord.PAUSE] > 0.0
 
     def _row_of(self, piece: int) -> float:
         return self._records[piece * self._width + PieceRecord.ROW]
@@ -258,6 +262,11 @@ class PieceBuffer:
     def front(self, name: int) -> float:
         """A field of the piece in front."""
         return self._records[self._taken * self._width + name]
+
+    @property
+    def lag(self) -> float:
+        """Seconds by which the axes are behind a spindle that the piece in front follows, up to speed."""
+        return lag_s(self._records, self._taken * self._width) if len(self) else 0.0
 
     @property
     def is_last_of_row(self) -> bool:

@@ -23,10 +23,6 @@ from polycnc.mainrun.preparation.items import (
     Item,
     Move,
     Piece,
-    Standing,
-    WorkAwaited,
-    WorkBegins,
-    WorkClock,
 )
 from polycnc.mainrun.preparation.piece_buffer import PieceBuffer
 from polycnc.mainrun.preparation.queue import Queue
@@ -39,13 +35,13 @@ from polycnc.mainrun.preparation.run_blocks import (
     is_silent,
     without_function,
 )
+from polycnc.mainrun.preparation.standing import Delays
 from polycnc.motion.frames import real_of
 from polycnc.motion.kernels.columns import (
     ContextRecord,
     PieceRecord,
 )
 from polycnc.motion.limits import ContextTables
-from polycnc.motion.standing.beside import Awaits, Begins
 from polycnc.motion.standing.waits import Parallel, Waits
 from polycnc.motion.time_constants import uses_of
 from polycnc.motion.transformed import RealAxes
@@ -61,7 +57,7 @@ if TYPE_CHECKING:
     from polycnc.mainrun.axes.machine_axes import MachineAxes
     from polycnc.messages import AlarmError
     from polycnc.motion.kernels.columns import Limits
-    from polycnc.motion.standing.beside import Work
+    from polycnc.motion.standing.beside import Step
     from polycnc.program import Program
     from polycnc.toolpath import Event
     from polycnc.toolpath.motion_settings import MotionSettings
@@ -128,7 +124,7 @@ class Preprocessing:
         self._stations: dict[tuple[object, ...], int] = {}
         self._known_contexts = 0
         self._delays: dict[int, list[Delay]] = {}
-        self._works: dict[Work, WorkClock] = {}
+        self._delayed = Delays(self.end_in_rest, self._lag)
         self._waits = Waits(machine, self.toolpath.contexts, 0, self._delay)
         self._waits.step = self._note_step
         self._blocks = RunBlocks(self.items, self.toolpath.programs)
@@ -176,6 +172,7 @@ class Preprocessing:
         self.items.clear()
         self._buffer.clear()
         self._waits.settle(0)
+        self._waits.angles.clear()
         self._blocks.clear()
         self._rows.context = Context()
         self._rows.real.stand(position)
@@ -419,7 +416,7 @@ class Preprocessing:
             self._blocks.enter((chunk.program[row], chunk.line[row]), is_silent=is_silent(event))
             if isinstance(event, Auxiliary | BuilderCode):
                 delays = without_function(delays, event)
-            self.items.extend(self._standing(delay, context) for delay in delays)
+            self.items.extend(self._delayed.item(delay, context) for delay in delays)
             if event is not None:
                 stands = self._waits.stands_at(chunk, row)
                 self.items.append(Happening(event, context, stands))
@@ -456,25 +453,26 @@ class Preprocessing:
         self._delays.clear()
         self._waits.settle(0)
         context = self._rows.context
-        self.items.extend(self._standing(delay, context) for delay in self._delays.get(0, []))
+        self.items.extend(self._delayed.item(delay, context) for delay in self._delays.get(0, []))
 
     def _delay(self, row: int, why: str, _context: int, seconds: float) -> None:
         if seconds > 0.0:
             self._delays.setdefault(row, []).append((why, seconds))
 
-    def _note_step(self, step: Begins | Awaits) -> None:
+    def _note_step(self, step: Step) -> None:
         self._delays.setdefault(step.row, []).append(step)
 
-    def _standing(self, delay: Delay, context: Context) -> Standing:
-        """What the axes stand for, or what begins beside them."""
-        if not isinstance(delay, Begins | Awaits):
-            return Standing(*delay, context)
-        clock = self._works.setdefault(delay.work, WorkClock(delay.work))
-        if isinstance(delay, Begins):
-            return WorkBegins(delay.work.share, 0.0, context, clock, delay.aim, delay.since)
-        if delay.rests:
+    def _lag(self) -> float:
+        """Seconds by which the axes of the thread in front are behind its spindle, up to speed."""
+        if self.is_last_piece:
             self.end_in_rest()
-        return WorkAwaited(delay.work.share, 0.0, context, clock)
+            self.revised = True
+        return self._buffer.lag
+
+    def turn_spindle(self, context: Context, override: float, time: float) -> None:
+        """From a time on an override acts on the spindle of a context, whose angle counts for threads."""
+        for angle in self._waits.angles.values():
+            angle.turn_with(context.spindle_factor(override), time)
 
     def _add_contexts(self) -> None:
         for context in self.toolpath.contexts[self._known_contexts :]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import islice
 from math import inf
 from typing import TYPE_CHECKING, Any
 
@@ -163,18 +164,17 @@ class Queue:
         front.done = max(done - on_piece, 0.0) / front.total
         return self._piece(front, record, is_last=is_last), record, on_piece
 
-    def rest_around(self, line: Move, behind: Move | None, rates: ChannelRates) -> bool:
-        """Lay what is prepared out so that the axes rest before a line in front and, if told, behind it.
+    def lay_alone(self, rates: ChannelRates) -> bool:
+        """The straight row in front is a run of its own, from rest to rest: lay it out so; whether it was not.
 
-        Returns:
-            False where what is prepared is laid out so already.
+        Where a law rests, as at a turn back, is known only when it is found; averages may pass such a corner.
         """
-        rests = [move for move in (line, behind) if move is not None and move.prepared is not None]
-        if line.done > 0.0 or all(self._buffer.begins_in_rest(move.row) for move in rests):
+        if self._buffer.rests_around:
             return False
-        for move in rests:
-            assert move.prepared is not None
-            move.prepared = replace(move.prepared, rests=True)
+        moves = (item for item in self.items if isinstance(item, Move))
+        for move in islice(moves, 2):  # and what comes behind it
+            if move.prepared is not None:
+                move.prepared = replace(move.prepared, rests=True)
         self.lay_again(rates, at_rest=True)
         return True
 

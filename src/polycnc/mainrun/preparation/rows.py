@@ -153,7 +153,8 @@ class RowLayer:
             return
         self.skips = self.skips or kind == Kind.SKIP
         form = buffer.field(found[0], PieceRecord.FORM)
-        is_arc = kind in ARC_WAYS and form != Form.STRAIGHT
+        # The first piece may be bent by the corner before it, also that of a straight thread.
+        is_arc = kind in ARC_WAYS and buffer.field(found[-1], PieceRecord.FORM) != Form.STRAIGHT
         way = row_arc(start, buffer.state, limits) if is_arc else row_line(start, buffer.state)
         self._queue.items.append(
             Move(

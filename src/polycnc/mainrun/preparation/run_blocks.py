@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from polycnc.channel.intervention import TakesBack
     from polycnc.mainrun.preparation.items import Item
-    from polycnc.motion.standing.beside import Awaits, Begins
+    from polycnc.motion.standing.beside import Step
     from polycnc.toolpath import Event
     from polycnc.toolpath.events import Auxiliary, BuilderCode
     from polycnc.toolpath.table import Chunk
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 #: Program and line.
 Key = tuple[int, int]
 #: What a row waits for, a share of the time and seconds; or what begins beside the axes, and is waited for.
-Delay: TypeAlias = "tuple[str, float] | Begins | Awaits"
+Delay: TypeAlias = "tuple[str, float] | Step"
 
 
 class RunBlocks:

@@ -1,7 +1,7 @@
 """Where cycle time goes: which limit held, over which share of the time and of the path.
 
-`causes` (what bounds a motion, and the speed that is asked for), `account` (what held on every piece), `columns` (the
-same of many pieces at once).
+`causes` (what bounds a motion, and which causes every bound of the planner can be), `account` (listens to a planner),
+`kernels/` (bounds of rows and pieces, and which held), `compiled` (them as machine code).
 """
 
 from polycnc.motion.explain.account import TimeAccount

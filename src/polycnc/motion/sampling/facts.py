@@ -24,7 +24,6 @@ class RowFacts(NamedTuple):
     context: Context
     rpm: float
     lead: float
-    start_angle: float
 
 
 class Facts:
@@ -43,7 +42,7 @@ class Facts:
         nothing: Places = np.zeros(0, np.int64)
         self._kind = self._program = self._line = self._context = nothing
         self._rpm: Numbers = np.zeros(0)
-        self._threads: dict[int, tuple[float, float]] = {}
+        self._leads: dict[int, float] = {}
 
     @property
     def end(self) -> int:
@@ -64,8 +63,7 @@ class Facts:
         self._rpm = np.concatenate((self._rpm, self._speeds(chunk)))
         threads = np.isin(columns.kind, (Kind.THREAD, Kind.TAP)) & (columns.curve >= 0)
         for row in np.flatnonzero(threads).tolist():
-            at = chunk.curve[row] * CURVE_WIDTH
-            self._threads[chunk.first + row] = chunk.curves[at], chunk.curves[at + 1]
+            self._leads[chunk.first + row] = chunk.curves[chunk.curve[row] * CURVE_WIDTH]
 
     def _speeds(self, chunk: Chunk) -> Numbers:
         """Speed of the spindle in every row, (n,)."""
@@ -90,7 +88,7 @@ class Facts:
             return None
         context = self._toolpath.contexts[int(self._context[k])]
         numbers = int(self._kind[k]), int(self._program[k]), int(self._line[k])
-        return RowFacts(*numbers, context, float(self._rpm[k]), *self._threads.get(row, (0.0, 0.0)))
+        return RowFacts(*numbers, context, float(self._rpm[k]), self._leads.get(row, 0.0))
 
     def places(self, rows: Places) -> tuple[Places, Places]:
         """Program and line of rows, (k,) each."""
@@ -109,4 +107,5 @@ class Facts:
         self._line, self._context = self._line[k:].copy(), self._context[k:].copy()
         self._rpm = self._rpm[k:].copy()
         self._first = before
-        self._threads = {row: told for row, told in self._threads.items() if row >= before}
+        for row in [row for row in self._leads if row < before]:
+            del self._leads[row]

@@ -155,16 +155,6 @@ class Run:
         """When a share of the way is done; the averages count by their middle."""
         return self.law.when(share * self.law.end) + 0.5 * self._ramp + self._blend
 
-    def lag(self, axis_speed: float) -> float:
-        """Seconds by which the axes are behind one that has had its speed from the start of the run.
-
-        Args:
-            axis_speed: Speed of the main axis that is reached, mm/s.
-        """
-        axis = self.main_axis
-        share = abs(float(self._end[0, axis]) - float(self._start[0, axis])) / float(self._length[0])
-        return 0.5 * self._ramp + self._blend + self.law.lag(axis_speed / max(share, 1e-12))
-
     def piece_at(self, time: Numbers) -> Places:
         """Index of the piece at times from the start of the run."""
         if len(self.rows) == 1:

@@ -91,7 +91,7 @@ class Sampler:
         self._time, self._count, self._angle, self._rpm = 0.0, 0, 0.0, 0.0
         self._tap_way: Numbers | None = None
         self._tails: list[tuple[Run, float]] = []
-        self._row = RowFacts(Kind.EVENT, 0, 0, Context(), 0.0, 0.0, 0.0)
+        self._row = RowFacts(Kind.EVENT, 0, 0, Context(), 0.0, 0.0)
         self._position: Sequence[float] | Numbers = planner.position
         self._rest: Sequence[float] | Numbers = self._position
         self.line = 0
@@ -199,24 +199,9 @@ class Sampler:
         for row in sorted(row for row in self._waits if row <= until):
             self._row = self._facts.of(row) or self._row
             for share, seconds in self._waits.pop(row):
-                thread = share == "spindle_s" and self._row.kind == Kind.THREAD
-                if thread and run is not None and self._row.rpm != 0.0:
-                    self._spin(self._until_mark(run), self._row.rpm)
-                else:
-                    self._spin(seconds, self._row.rpm if share == "spindle_s" else self._rpm)
+                self._spin(seconds, self._row.rpm if share == "spindle_s" else self._rpm)
         if run is not None:
             self._row = self._facts.of(until) or self._row
-
-    def _until_mark(self, run: Run) -> float:
-        """Seconds until the axes may start, so that the thread begins at its start angle.
-
-        The axes lag behind the spindle by what they need to get up to speed; that is allowed for, as if they had
-        been in step from the start of the thread.
-        """
-        degrees_s = abs(self._row.rpm) * 6.0
-        ahead = self._row.start_angle - degrees_s * run.lag(abs(self._row.rpm) / 60.0 * self._row.lead)
-        sense = 1.0 if self._row.rpm > 0.0 else -1.0
-        return ((ahead - sense * self._angle) % 360.0) / degrees_s
 
     def _times(self, seconds: float, *, is_whole: bool = True) -> Numbers:
         """Sample times within the next seconds, from now; surely within them where these are not the whole."""

@@ -6,14 +6,16 @@ those of its clock.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 from polycnc.deferred.named_tuples import NamedTuple
+from polycnc.motion.standing.zero_mark import Mark, Turns
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from polycnc.machine import Magazine
+    from polycnc.motion.standing.zero_mark import SpindleAngle
 
 
 class Work(Protocol):
@@ -104,22 +106,37 @@ class Awaits(NamedTuple):
     rests: bool = False
 
 
+#: What begins, changes or is waited for at a row.
+Step: TypeAlias = "Begins | Awaits | Turns | Mark"
+
+
 class Beside:
-    """Follows work beside the axes through the rows of a plan, in order.
+    """Follows work beside the axes and the spindles' angles through the rows of a plan, in order.
+
+    Args:
+        lag_of: Gives for a row of a thread the seconds by which its axes are behind its spindle up to speed; None where
+            the row is not planned yet.
 
     Attributes:
         hidden_s: Seconds of such work that nothing had to wait for, by the field of `Times`.
     """
 
-    def __init__(self) -> None:
-        self._coming: list[Begins | Awaits] = []
+    def __init__(self, lag_of: Callable[[int], float | None]) -> None:
+        self._coming: list[Step] = []
         self._works: dict[Work, float] = {}
+        self._angles: set[SpindleAngle] = set()
+        self._lag_of, self._time = lag_of, 0.0
         self._row, self._waited = 0, 0.0
         self.hidden_s: dict[str, float] = {}
 
-    def note(self, step: Begins | Awaits) -> None:
-        """A step of a row; steps come in the order of their rows."""
+    def note(self, step: Step) -> None:
+        """A step of a row."""
         self._coming.append(step)
+        place = len(self._coming) - 1
+        while place and self._coming[place - 1].row > step.row:  # threads of a chunk come behind all else
+            self._coming[place] = self._coming[place - 1]
+            place -= 1
+        self._coming[place] = step
 
     def settle(
         self,
@@ -136,28 +153,58 @@ class Beside:
         """
         done = 0
         for step in self._coming:
-            if step.row > row:
+            lag = self._lag_of(step.row) if isinstance(step, Mark) and step.row <= row else 0.0
+            if step.row > row or lag is None:
                 break
             done += 1
             self._let_pass(step.row, seconds)
             if isinstance(step, Begins):
                 step.work.begin(step.aim, step.since)
                 self._works[step.work] = self._waited + step.after_s
+            elif isinstance(step, Turns):
+                self._turn(step)
+            elif isinstance(step, Mark):
+                waits = self._until_start(step, lag)
+                if waits > 0.0:
+                    self._stand(step, "spindle_s", waits, wait)
             elif step.work.left_s > 0.0:
-                waits = step.work.left_s
-                wait(step.row, step.work.share, step.context, waits)
-                for work in self._works:
-                    self._hide(work, min(waits, work.left_s) if work is not step.work else 0.0)
-                    work.left_s = max(work.left_s - waits, 0.0)
-                    self._works[work] += waits
-                self._waited += waits
+                self._stand(step, step.work.share, step.work.left_s, wait)
         del self._coming[:done]
         self._let_pass(row, seconds)
+
+    def _stand(
+        self, step: Awaits | Mark, share: str, waits: float, wait: Callable[[int, str, int, float], None]
+    ) -> None:
+        """A row waits; other work goes on meanwhile."""
+        wait(step.row, share, step.context, waits)
+        awaited = step.work if isinstance(step, Awaits) else None
+        for work in self._works:
+            self._hide(work, min(waits, work.left_s) if work is not awaited else 0.0)
+            work.left_s = max(work.left_s - waits, 0.0)
+            self._works[work] += waits
+        self._waited += waits
+
+    def _turn(self, step: Turns) -> None:
+        """A spindle goes to another speed, or its angle is lost."""
+        if step.rpm is None:
+            step.angle.lose()
+            self._angles.discard(step.angle)
+        elif step.angle in self._angles:
+            step.angle.go_to(step.rpm, step.ramp_s, self._time + self._waited + step.after_s)
+
+    def _until_start(self, step: Mark, lag: float) -> float:
+        """Seconds that a thread waits."""
+        if not self._angles:
+            self._time = 0.0  # from here on it counts
+        self._angles.add(step.angle)
+        return step.angle.until_start(step.rpm, step.start_deg, lag, self._time + self._waited + step.after_s)
 
     def _let_pass(self, row: int, seconds: Callable[[int, int], float]) -> None:
         """Let the rows before one pass; what has gone on in the first of them already does not count again."""
         if row <= self._row:
             return
+        if self._angles:
+            self._time += seconds(self._row, row)
         if any(work.left_s > 0.0 for work in self._works):
             passed = seconds(self._row, row)
             for work, before in self._works.items():

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Literal
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.motion.kernels.columns import Form, PieceRecord
 from polycnc.motion.standing.beside import Awaits, Begins, Search, Turning
+from polycnc.motion.standing.zero_mark import Mark, SpindleAngle, Turns
 from polycnc.toolpath import Kind
 from polycnc.toolpath.events import (
     Auxiliary,
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
     from polycnc.machine import Machine, Spindle
-    from polycnc.motion.standing.beside import Work
+    from polycnc.motion.standing.beside import Step, Work
     from polycnc.toolpath import Context, Event
     from polycnc.toolpath.motion_settings import SpindleWaitFor
     from polycnc.toolpath.table import Chunk
@@ -36,8 +37,8 @@ if TYPE_CHECKING:
 #: Events that the control puts out between two blocks and waits for: the axes stand still.
 STANDING = (Auxiliary, BuilderCode, SpindleSpeed, SpindleWait, ToolSelection, HFunction, Stop, Stroke, Raised)
 ORIENT = 19
-#: In the order of the steps of a chunk: an event, not the number of a context.
-EVENT = -1
+#: In the order of the steps of a chunk: an event, or a thread that begins, not the number of a context.
+EVENT, THREAD = -1, -2
 #: Moves that lead nowhere where they end at their start.
 STRAIGHT = frozenset((Kind.RAPID, Kind.FEED, Kind.REF))
 
@@ -92,7 +93,9 @@ class Waits:
     Attributes:
         rapid_stops: Rapids end with an exact stop.
         spindle_wait: What waits for a spindle, where parameters of the control say it; empty for the machine file.
-        step: Called with what begins beside the axes, and what waits for it, in the order of the rows.
+        step: Called with what begins beside the axes, what waits for it, and what spindles and threads do; in the order
+            of the rows, but for threads and taps, which come behind all else of a chunk.
+        angles: Of the spindles that have cut a thread, by their number.
     """
 
     def __init__(
@@ -106,9 +109,11 @@ class Waits:
         self.contexts = contexts
         self._say, self._waited = wait, (-1, 0.0)
         self.parallel: list[Parallel] = []
-        self.step: Callable[[Begins | Awaits], None] = _nobody
+        self.step: Callable[[Step], None] = _nobody
         self.spindle_wait: SpindleWaitFor | Literal[""] = ""
         self._turning: dict[int, Turning] = {}
+        self.angles: dict[int, SpindleAngle] = {}
+        self._before_thread: dict[int, float] = {}  # what rows that begin a thread wait for besides
         self._open: Turning | None = None  # the next cut waits for it
         self._looked = 0
         self._search, self._pockets = Search(machine.magazine), dict[int, int]()
@@ -116,7 +121,7 @@ class Waits:
         self._rpm: dict[int, float] = {}
         self._context = -1
         self._radius: float | None = None
-        self._last_kind: int = Kind.EVENT
+        self._leads_on = False  # the last row is of a thread, which the next one may go on with
         self.rapid_stops = False
         self._windows = {"fine": machine.settle_fine_s, "coarse": machine.settle_coarse_s}
         self._settling: tuple[str, int, float] | None = None
@@ -125,6 +130,8 @@ class Waits:
     def wait(self, row: int, share: str, number: int, seconds: float) -> None:
         """A row waits; how long it has so far is kept."""
         self._waited = row, seconds + (self._waited[1] if row == self._waited[0] else 0.0)
+        if row in self._before_thread:
+            self._before_thread[row] += seconds
         self._say(row, share, number, seconds)
 
     def stand_in(self, tool: int | str) -> None:
@@ -171,10 +178,15 @@ class Waits:
             return abs(chunk.end[row * chunk.axes + facing]) if facing >= 0 else 0.0
 
         kinds, self._looked = chunk.kind.tobytes(), 0
+        self._before_thread = dict.fromkeys(self._thread_starts(chunk, kinds), 0.0)
         runs = chunk.context_runs()
         changes = [(row, number) for number, row, _ in runs if number != self._context or row]
         events = [(row, EVENT) for row in _places(kinds, Kind.EVENT)]
-        for row, number in sorted([*changes, *events], key=lambda step: (step[0], step[1] == EVENT)):
+        threads = [(row - chunk.first, THREAD) for row in self._before_thread]
+        for row, number in sorted([*changes, *events, *threads], key=lambda step: (step[0], step[1] < 0)):
+            if number == THREAD:
+                self._angle_of(self.contexts[chunk.context[row]])
+                continue
             self._cuts(chunk, kinds, row)
             if number == EVENT:
                 self._event(chunk, row)
@@ -189,9 +201,9 @@ class Waits:
             self._radius = radius(len(chunk) - 1)
         for row in _places(kinds, Kind.DWELL):
             self._dwell(chunk, row, radius(row))
-        self._threads(chunk, kinds, radius)
         if any(self._windows.values()):
             self._exact_stops(chunk, kinds)
+        self._threads(chunk, kinds, radius)
 
     def settle(self, row: int) -> None:
         """What the exact stop before a row waits for; at the end of the toolpath, that before a row still to come."""
@@ -219,14 +231,40 @@ class Waits:
                 self._rpm[spindle.number] = last.spindle_direction * self.rpm(last, here)
             target = context.spindle_direction * self.rpm(context, ahead)
             change = abs(target - self._rpm.get(spindle.number, 0.0))
+            stands = (self.spindle_wait or spindle.speed_wait) == "block"
+            self._turn(row, spindle, target, change, is_even=stands and not context.surface_speed)
             if change > 0.0 and spindle.acceleration_rpm_s > 0.0:
-                if (self.spindle_wait or spindle.speed_wait) == "block":
+                if stands:
                     self.wait(row, "spindle_s", number, change / spindle.acceleration_rpm_s)
                 else:
                     follows = last is not None and last.surface_speed
                     since = self._rpm.get(spindle.number, 0.0) if follows else None
                     self._run_up(row, spindle, target, since)
             self._rpm[spindle.number] = target
+
+    def _turn(self, row: int, spindle: Spindle, target: float, change: float, *, is_even: bool) -> None:
+        """A spindle with a known angle goes to a speed; it is lost unless it goes there evenly, while the axes wait."""
+        if spindle.number in self.angles and (change > 0.0 or not is_even):
+            pull = spindle.acceleration_rpm_s
+            ramp_s, after_s = change / pull if pull > 0.0 else 0.0, self._waits_of(row)
+            angle = self.angles[spindle.number]
+            self.step(Turns(row, angle, target if is_even else None, ramp_s, after_s))
+
+    def _angle_of(self, context: Context) -> SpindleAngle:
+        """The angle of the spindle that a thread follows; from now on it counts."""
+        spindle = self.spindle(context)
+        number = spindle.number if spindle is not None else context.spindle
+        return self.angles.setdefault(number, SpindleAngle())
+
+    def _lose(self, row: int, number: int) -> None:
+        """The spindle of a context follows something else: nobody knows its angle any more."""
+        spindle = self.spindle(self.contexts[number])
+        if spindle is not None and spindle.number in self.angles:
+            self.step(Turns(row, self.angles[spindle.number], None))
+
+    def _waits_of(self, row: int) -> float:
+        """How long a row has waited so far, of which it is the last."""
+        return self._waited[1] if row == self._waited[0] else 0.0
 
     def _run_up(self, row: int, spindle: Spindle, target: float, since: float | None) -> None:
         """A spindle goes to a speed beside the axes; the next cut waits for it, unless nothing does."""
@@ -239,7 +277,7 @@ class Waits:
 
     def _begin(self, row: int, work: Work, aim: float, since: float | None = None) -> None:
         """Some work begins, behind what the row has waited for already."""
-        self.step(Begins(row, work, aim, self._waited[1] if row == self._waited[0] else 0.0, since))
+        self.step(Begins(row, work, aim, self._waits_of(row), since))
 
     def _cuts(self, chunk: Chunk, kinds: bytes, before: int) -> None:
         """Rows up to one: the first cut waits for the spindle."""
@@ -309,6 +347,7 @@ class Waits:
             if g_function is not None and g_function.seconds > 0.0:
                 self.wait(chunk.first + row, "auxiliary_s", chunk.context[row], g_function.seconds)
         if isinstance(event, SpindleWait):
+            self._lose(chunk.first + row, chunk.context[row])
             self.wait(chunk.first + row, "spindle_s", chunk.context[row], event.seconds)
         if isinstance(event, Stroke) and event.delay:
             self.wait(chunk.first + row, "auxiliary_s", chunk.context[row], event.delay)
@@ -325,6 +364,7 @@ class Waits:
             else:
                 self.wait(chunk.first + row, "auxiliary_s", context, function.seconds)
         if code == ORIENT:
+            self._lose(chunk.first + row, context)
             spindle = self.spindle(self.contexts[context])
             if spindle is not None and spindle.number in self._turning:
                 self.step(Awaits(chunk.first + row, self._turning[spindle.number], context))
@@ -338,16 +378,51 @@ class Waits:
             seconds += turns * 60.0 / rpm if rpm > 0.0 else 0.0
         self.wait(chunk.first + row, "dwell_s", number, seconds)
 
-    def _threads(self, chunk: Chunk, kinds: bytes, radius: Callable[[int], float]) -> None:
-        """A thread starts at the spindle's zero mark: on average it waits for half a turn."""
+    def _thread_starts(self, chunk: Chunk, kinds: bytes) -> Iterator[int]:
+        """Rows that begin a thread: no thread leads into them, and their spindle turns."""
+        before = -1
         for row in _places(kinds, Kind.THREAD):
-            if (kinds[row - 1] if row else self._last_kind) != Kind.THREAD:
-                number = chunk.context[row]
-                rpm = self.rpm(self.contexts[number], radius(row))
-                if rpm > 0.0:
-                    self.wait(chunk.first + row, "spindle_s", number, 30.0 / rpm)
-        if kinds:
-            self._last_kind = kinds[-1]
+            leads_on = self._leads_on if before < 0 else True
+            between = range(before + 1, row)
+            if any(kinds[k] != Kind.EVENT or self.stands_at(chunk, k) for k in between):
+                leads_on = False
+            if not leads_on or (before >= 0 and self._differ(chunk.context[before], chunk.context[row])):
+                yield chunk.first + row
+            before = row
+        behind = range(before + 1, len(kinds)) if before >= 0 or self._leads_on else ()
+        if before >= 0:
+            self._leads_on = True
+        if any(kinds[k] != Kind.EVENT or self.stands_at(chunk, k) for k in behind):
+            self._leads_on = False
+
+    def _differ(self, one: int, other: int) -> bool:
+        """Whether the spindle turns otherwise in another context: the axes rest in between."""
+        if one == other:
+            return False
+        a, b = self.contexts[one], self.contexts[other]
+        return (a.spindle, a.spindle_rpm, a.spindle_direction) != (
+            b.spindle,
+            b.spindle_rpm,
+            b.spindle_direction,
+        )
+
+    def _threads(self, chunk: Chunk, kinds: bytes, radius: Callable[[int], float]) -> None:
+        """A thread starts at the spindle's zero mark. A tap leads its spindle, whose angle is lost."""
+        for row in _places(kinds, Kind.TAP) if self.angles else ():
+            self._lose(chunk.first + row, chunk.context[row])
+        for row, waits in self._before_thread.items():
+            here = row - chunk.first
+            number, at = chunk.context[here], chunk.curve[here] * CURVE_WIDTH
+            context = self.contexts[number]
+            rpm = self.rpm(context, radius(here))
+            if rpm <= 0.0:
+                continue
+            angle = self._angle_of(context)
+            start_deg = chunk.curves[at + 1] if at >= 0 else 0.0
+            if context.surface_speed:
+                self.step(Turns(row, angle, None))
+            self.step(Mark(row, angle, (context.spindle_direction or 1) * rpm, start_deg, number, waits))
+        self._before_thread.clear()
 
     def _exact_stops(self, chunk: Chunk, kinds: bytes) -> None:
         """The row behind an exact stop waits until the axes are within the window."""
@@ -376,7 +451,7 @@ class Waits:
         return self.contexts[number].stops
 
 
-def _nobody(_step: Begins | Awaits) -> None:
+def _nobody(_step: Step) -> None:
     """Nobody follows what goes on beside the axes."""
 
 

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 from math import atan2, cos, floor, pi, sin, sqrt
 
-from polycnc.kernels.layout import Floats, Places, place
+from polycnc.kernels.layout import Floats
+from polycnc.transformation.orientation.records import StandRecord
 
 RADIAN, DEGREE = pi / 180.0, 180.0 / pi
 #: As `turning` has them: a step (radians), how near to a pole it becomes shorter (degrees), and by how much.
@@ -20,29 +21,6 @@ TOLERANCE = 0.0199 * RADIAN
 SPARE = 1.0 - 1e-6
 #: As `directions`, `solutions` and `choice` have them.
 NO_LENGTH, PARALLEL, SAME, AT_LIMIT, DECIMALS = 1e-9, 1e-9, 1e-6, 1e-9, 1e10
-
-
-class StandRecord(Places):
-    """What `stand` must know; `d = R(outer) R(inner) along` is the tool seen from the work.
-
-    Of each axis: its column (-1: there is no such record), its direction, 1 or -1 as it turns the tool, what is added
-    to its position for the angle of its joint, and the lowest and highest angle. FRAME are nine numbers by rows that
-    turn a programmed direction. CONE is half the opening of the cones about poles, degrees; EVENLY is 1 where the axes
-    go evenly however far they turn.
-    """
-
-    OUTER = place()
-    INNER = place()
-    OUTER_DIRECTION = place(3)
-    INNER_DIRECTION = place(3)
-    SENSE = place(2)
-    ADDED = place(2)
-    LOW = place(2)
-    HIGH = place(2)
-    ALONG = place(3)
-    FRAME = place(9)
-    CONE = place()
-    EVENLY = place()
 
 
 def spun(tool: Floats, at: int, angle: float, x: float, y: float, z: float) -> tuple[float, float, float]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from polycnc.geometry.frames import IDENTITY
 from polycnc.machine.kinematics import unit
-from polycnc.transformation.orientation.standing import StandRecord
+from polycnc.transformation.orientation.records import StandRecord
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -98,7 +98,7 @@ class SinumerikPlainBlocks:
         """Changes when plans are forgotten, with names that a program gives a meaning, and with conditions."""
         language = channel.memory.language
         names = language.programs.generation, len(language.macros), len(language.global_variables)
-        return channel.modes.generation, names, self._conditions.hold(channel)
+        return channel.modes.generation, names, self._conditions.changes(channel)
 
     def state(self, channel: SinumerikChannel) -> tuple[Mode, object]:
         """The modal state in the running program."""

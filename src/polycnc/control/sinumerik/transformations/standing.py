@@ -14,7 +14,8 @@ from polycnc.control.sinumerik.transformations.posture import Orienting, Posture
 from polycnc.control.sinumerik.transformations.words import DIRECTION
 from polycnc.geometry.frames import IDENTITY
 from polycnc.transformation.orientation.directions import great_circle, tangent_at_end
-from polycnc.transformation.orientation.standing import StandRecord, stand
+from polycnc.transformation.orientation.records import StandRecord
+from polycnc.transformation.orientation.standing import stand
 from polycnc.transformation.orientation.stood import stand_record
 
 if TYPE_CHECKING:

@@ -66,7 +66,7 @@ class PlainBlocks:
 
     def generation(self, channel: WordAddressChannel) -> Hashable:
         """Changes when plans are forgotten, and with the conditions on which recipes rest."""
-        return channel.modes.generation, self._conditions.hold(channel)
+        return channel.modes.generation, self._conditions.changes(channel)
 
     def state(self, channel: WordAddressChannel) -> Mode:
         """The modal state."""

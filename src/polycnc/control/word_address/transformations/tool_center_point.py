@@ -31,7 +31,8 @@ from polycnc.geometry.frames import IDENTITY
 from polycnc.geometry.vectors import times
 from polycnc.language.bulk import Straight, declare
 from polycnc.toolpath import Kind
-from polycnc.transformation.orientation.standing import StandRecord, stand
+from polycnc.transformation.orientation.records import StandRecord
+from polycnc.transformation.orientation.standing import stand
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -64,6 +64,7 @@ class LawRuns:
     Attributes:
         windows: Those that are settled, in order; whoever takes one, takes it away.
         room: Stretches that are not in a window yet.
+        reached: The first row that is not laid yet.
     """
 
     def __init__(self, n: int, *, compiled: bool = True) -> None:
@@ -71,6 +72,7 @@ class LawRuns:
         self._lay = run_kernel(compiled=compiled)
         self.windows: deque[LedWindow] = deque()
         self.room = RunRoom(n)
+        self.reached = 0
         self._rows: deque[int] = deque()
         self._planner: RunPlanner | None = None
         #: The first row of a run, for which the next chunk may come before it is known what it is.
@@ -101,6 +103,7 @@ class LawRuns:
                 rows, first, curves, number, contexts, limits, pieces, state,
                 room.lead, room.path, room.slots, laid,
             )  # fmt: skip
+            self.reached = number + first
             if laid.why != NO_STRETCH:
                 break
             if not room.grow():

@@ -1,0 +1,145 @@
+"""What the kernel reads, the lines of a program as bytes, a window at a time; and room for what it writes."""
+
+from __future__ import annotations
+
+from array import array
+from typing import TYPE_CHECKING
+
+from polycnc.channel.states.unchanging import unchanging
+from polycnc.language.bulk.layout import Columns, NoteRecord
+from polycnc.program.long_text import LongText
+from polycnc.program.pages import CONTROLS
+from polycnc.toolpath.kinds import CURVE_WIDTH
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from polycnc.language.bulk.layout import Scan
+
+#: Lines of the first window behind a jump, and of the largest; a window that is used up is followed by a larger one.
+FEWEST_LINES, MORE_LINES, MOST_LINES = 64, 4, 16_384
+#: Room for rows, and for notes and curves, at first; what has been filled becomes so much larger. Room for rows does
+#: when so many times as many have come: its memory is touched whole, and costs a short program more than its blocks.
+FIRST_ROWS, FIRST_OTHERS, MORE_ROOM = 4096, 64, 4
+
+
+class Window:
+    """Some lines of a program, and how far they have been read.
+
+    Attributes:
+        text: Their bytes; every line has its line end.
+        place: Byte at which the next line begins.
+        line: Index of that line in the program.
+        lines: The lines of the program that the window is on.
+    """
+
+    def __init__(self) -> None:
+        self.text = array("B")
+        self.place = 0
+        self.line = 0
+        self.lines: Sequence[str] = ()
+        self._size = FEWEST_LINES
+
+    def stand_at(self, lines: Sequence[str], line: int, end: int) -> bool:
+        """Let a line be the next one; false where it is not in front of `end`, behind which nothing is read."""
+        if lines is not self.lines or not self.line <= line <= self.line + 1 or not self._skip_to(line):
+            self._size = (
+                min(MORE_LINES * self._size, MOST_LINES)
+                if lines is self.lines and line == self.line
+                else FEWEST_LINES
+            )
+            self._read(lines, line, end)
+        return self.place < len(self.text)
+
+    def _skip_to(self, line: int) -> bool:
+        """Step over the line that the interpreter has taken."""
+        if line > self.line:
+            self.place = (
+                self.text.index(_NEWLINE, self.place) + 1 if self.place < len(self.text) else self.place
+            )
+            self.line = line
+        return self.place < len(self.text)
+
+    def next_line(self) -> str:
+        """That line as text; empty behind the last one that has been read."""
+        if self.place == len(self.text):
+            return ""
+        text = self.text[self.place : self.text.index(_NEWLINE, self.place)].tobytes()
+        return text.translate(None, CONTROLS).decode("utf-8")
+
+    def _read(self, lines: Sequence[str], line: int, end: int) -> None:
+        self.lines, self.line, self.place = lines, line, 0
+        self.text = array("B")
+        if isinstance(lines, LongText) and end == len(lines):
+            if line < end:
+                self.text.frombytes(lines.bytes_from(line))
+        elif found := lines[line : min(line + self._size, end)]:
+            self.text.frombytes(("\n".join(found) + "\n").encode("utf-8", "replace"))
+
+
+_NEWLINE = 10
+
+
+@unchanging
+class Room:
+    """Columns that the kernel writes.
+
+    Args:
+        axes: Number of the channel's axes.
+        most: So many rows may come of one call of the kernel.
+
+    Attributes:
+        columns: The columns.
+        table: Those of the toolpath: kind, program, line, feed, end, curve, parameters of curves.
+        views: The same as bytes.
+        rows: There is room for so many; `notes` and `curves` likewise.
+    """
+
+    def __init__(self, axes: int, most: int) -> None:
+        self._axes, self._most, self._came = axes, most, 0
+        self.rows = min(FIRST_ROWS, most)
+        self.notes = self.curves = min(FIRST_OTHERS, most)
+        self._of_rows, self._of_curves, self._of_notes = (
+            self._for_rows(),
+            self._for_curves(),
+            self._for_notes(),
+        )
+        self._join()
+
+    def make_fit(self, at: Scan) -> None:
+        """Let what the last scan has filled become larger."""
+        self._came += at.rows
+        if self._came >= MORE_ROOM * self.rows and self.rows < self._most:
+            self.rows = self._more(self.rows)
+            self._of_rows = self._for_rows()
+            self._join()
+        if at.curves >= self.curves:
+            self.curves = self._more(self.curves)
+            self._of_curves = self._for_curves()
+            self._join()
+        if at.notes >= self.notes:
+            self.notes = self._more(self.notes)
+            self._of_notes = self._for_notes()
+            self._join()
+
+    def _more(self, room: int) -> int:
+        return min(MORE_ROOM * room, self._most)
+
+    def _join(self) -> None:
+        self.table = (*self._of_rows, self._of_curves)
+        self.columns = Columns(*self.table, *self._of_notes)
+        self.views = [memoryview(column).cast("B") for column in self.table]
+
+    def _for_rows(self) -> tuple[array[int], array[int], array[int], array[float], array[float], array[int]]:
+        rows = self.rows
+        return (
+            array("B", (0,)) * rows, array("H", (0,)) * rows, array("I", (0,)) * rows,
+            array("d", (0.0,)) * rows, array("d", (0.0,)) * (rows * self._axes), array("i", (0,)) * rows,
+        )  # fmt: skip
+
+    def _for_curves(self) -> array[float]:
+        return array("d", (0.0,)) * (self.curves * CURVE_WIDTH)
+
+    def _for_notes(self) -> tuple[array[int], array[float]]:
+        said = array("d", (0.0,)) * (self.notes * (self._axes + 1))
+        return array("q", (0,)) * (self.notes * NoteRecord.SIZE), said
