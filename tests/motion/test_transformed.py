@@ -57,6 +57,16 @@ def test_the_real_axes_keep_their_velocity_near_the_centre() -> None:
         assert speed <= max(axis.rapid, axis.max_feed) * 1.02, name
 
 
+@pytest.mark.parametrize(("x", "y"), [(-28.841, 0.848), (-11.137, -24.856), (-29.0, 2.0)])
+def test_the_rotary_axis_keeps_its_velocity_where_a_line_is_nearest_to_the_centre(x: float, y: float) -> None:
+    text = f"G21 G90 G61\nG1 X30. C0 F12000\nG12.1\nG1 X{x} C{y}\nM30\n"
+    result, machine = polycnc.run(text, control="fanuc-m", machine="mill4-xyzc"), load_machine("mill4-xyzc")
+    assert not result.alarms
+    for run, context in runs_of(result, machine):
+        _, velocity, _ = real_motion(run, context, np.arange(0.0, run.seconds, 0.001), machine)
+        assert np.abs(velocity[:, 3]).max() <= machine.axis["C"].rapid * 1.0001
+
+
 def test_a_plan_is_slow_where_the_rotary_axis_has_to_be_fast() -> None:
     result = polycnc.run(POLAR, control="fanuc-0i-tf", machine="lathe-c-transmit")
     near = next(i for i, row in enumerate(result.rows) if row.get("line") == 5)

@@ -496,9 +496,8 @@ class RealAxes:
         columns = [j for j in context.transformation.geometry if j >= 0]  # type: ignore[union-attr]
         slopes = self._slopes(context, point, columns)
         shares = zip(slopes, self._axes, strict=True)
-        return max(
-            sum(map(abs, own)) / (axis.acceleration or inf) for own, axis in shares if axis is not None
-        )
+        # Counted alike in all directions, it is most where the path is nearest to the centre of polar interpolation.
+        return max(hypot(*own) / (axis.acceleration or inf) for own, axis in shares if axis is not None)
 
     def _length(self, context: Context, start: Sequence[float], end: Sequence[float]) -> float:
         """Length of a way, as the feed counts it."""

@@ -22,6 +22,7 @@ class Writer:
     random: Random
     control: str
     machine: ClassVar[str] = "mill3"
+    setup: ClassVar[dict[str, object]] = {"tools": {1: {"length": 50.0}}}
     lines: list[str] = field(default_factory=list)
     place: tuple[float, float, float] = (0.0, 0.0, 0.0)
     feed: str = ""

@@ -1,10 +1,9 @@
 """Plan, samples and main run are one motion, on random programs of the controls.
 
 The times agree, and by the differences of the sampled positions themselves no axis exceeds its velocity, acceleration
-(what `ACC` leaves it) or, but under BRISK, its jerk. The main run passes the same places at the same times. Programs
-have lines, facets, arcs, helices, splines, rounded corners, rapids, threads and taps at several speeds of the spindle,
-and lines and arcs under transformations.
-`pytest --hypothesis-profile=explore` draws 2,000 others.
+(what `ACC` leaves it) or, but under BRISK and DRIVE, its jerk. The main run passes the same places at the same times.
+2,000 programs are drawn; what is in them, `random_programs` and `drawn` say.
+`pytest --hypothesis-profile=explore` draws 20,000 others.
 """
 
 from __future__ import annotations
@@ -22,6 +21,7 @@ from polycnc.mainrun import State
 from polycnc.motion.limits import channel_axes
 from polycnc.motion.sampling.samples import Samples
 from polycnc.session import open_session
+from tests.mainrun.motion.drawn.kinds import drawn
 from tests.mainrun.motion.random_programs import Back, Writer, writer
 from tests.mainrun.support import power_on, recorded
 
@@ -32,24 +32,24 @@ if TYPE_CHECKING:
 PERIOD = 0.001
 #: Sums of many terms, and positions of many digits behind third differences.
 SLACK = 1.001
-#: Programs of a run in CI, and of one that explores.
-CI, EXPLORE = 60, 2000
-#: Programs that exploring has found: the main run took the averages of the real axes where a transformation ends; a
-#: rotary axis was too quick beside the centre under BRISK; on bends, arcs and splines axes exceeded what TRACYL, TRAANG
-#: and ACC leave them; the main run went on by averages where a spline turns back on a line under SOFT.
+#: Programs that are drawn in every run, and in one test, and those of a run that explores; rows that turn back.
+DRAWN, IN_A_TEST, EXPLORE, BACK = 2000, 50, 20_000, 30
+#: Programs of `random_programs` that exploring has found: the main run took the averages of the real axes where a
+#: transformation ends; a rotary axis was too quick beside the centre under BRISK; on bends, arcs and splines axes
+#: exceeded what TRACYL, TRAANG and ACC leave them; the main run went on by averages where a spline turns back on a line
+#: under SOFT.
 FOUND = (341917, 487807, 535447, 975837, 998267, 294, 674, 705, 1895, 3265, 1310, 203865)
 #: Samples of a program whose places are looked up in the main run, from its first on.
 PLACES = 1500
 #: Largest distance of both, mm or degrees: an arc is a circle in the main run, cubics of 7.5° in the samples.
 APART = 0.002
-TOOL = {"tools": {1: {"length": 50.0}}}
 
 
 def planned(text: str, written: Writer) -> tuple[float, float, Samples, Machine]:
     """Planned time, the end of the samples, all of them, and the machine."""
     given: list[Samples] = []
     session = open_session(
-        text.encode(), control=written.control, machine=written.machine, setup=TOOL, keep=False
+        text.encode(), control=written.control, machine=written.machine, setup=written.setup, keep=False
     )
     sampler = session.sample(PERIOD, given.append)
     result = session.run()
@@ -62,7 +62,7 @@ def planned(text: str, written: Writer) -> tuple[float, float, Samples, Machine]
 
 def executed(text: str, written: Writer, places: Numbers, rotary: list[bool]) -> float:
     """Seconds that the main run takes; in each of its cycles the axes are where the samples say."""
-    virtual = power_on(text, written.control, machine=written.machine, setup=parse_setup(TOOL))
+    virtual = power_on(text, written.control, machine=written.machine, setup=parse_setup(written.setup))
     records = recorded(virtual)
     start = virtual.time
     virtual.cycle_start()
@@ -97,24 +97,34 @@ def compare(text: str, written: Writer) -> None:
         slope = written.left.get(axis.name, 1.0) * axis.acceleration * PERIOD**2
         assert np.abs(steps[:, i]).max() <= axis.rapid * PERIOD * SLACK, text
         assert np.abs(np.diff(steps[:, i])).max(initial=0.0) <= slope * SLACK, text
-        if "BRISK" in text:  # the acceleration steps between two samples
+        if "BRISK" in text or "DRIVE" in text:  # the acceleration steps between two samples
             assert np.abs(steps - middle)[:, i].max() <= 0.26 * slope, text
             continue
         assert np.abs(steps - middle + change)[:, i].max() < 2e-6, text
         assert np.abs(np.diff(steps[:, i], 2)).max(initial=0.0) <= axis.jerk * PERIOD**3 * SLACK, text
 
 
-@pytest.mark.parametrize("seed", [*range(CI), *FOUND])
-def test_plan_samples_and_main_run_are_one_motion(seed: int) -> None:
+@pytest.mark.parametrize("first", range(0, DRAWN, IN_A_TEST))
+def test_plan_samples_and_main_run_are_one_motion(first: int) -> None:
+    for seed in range(first, first + IN_A_TEST):
+        try:
+            check(drawn(seed))
+        except Exception as error:
+            error.add_note(f"seed {seed}:\n{drawn(seed).program()}")
+            raise
+
+
+@pytest.mark.parametrize("seed", FOUND)
+def test_so_they_are_on_programs_that_were_found(seed: int) -> None:
     check(writer(seed))
 
 
-@pytest.mark.parametrize("seed", range(CI // 2))
+@pytest.mark.parametrize("seed", range(BACK))
 def test_so_they_are_where_rows_turn_back(seed: int) -> None:
     check(Back(Random(seed), "sinumerik-840d"))
 
 
 @settings(max_examples=EXPLORE if settings.get_current_profile_name() == "explore" else 1, deadline=None)
-@given(st.integers(CI, 1_000_000))
+@given(st.integers(DRAWN, 10_000_000))
 def test_so_they_are_on_programs_that_nobody_has_seen(seed: int) -> None:
-    check(writer(seed))
+    check(drawn(seed))

@@ -10,7 +10,6 @@ import pytest
 
 from polycnc.machine.setup.file import parse_setup
 from polycnc.mainrun import State
-from tests.mainrun.motion import test_one_motion
 from tests.mainrun.motion.random_programs import Writer, writer
 from tests.mainrun.motion.test_disturbed import disturb, joints_of, play
 from tests.mainrun.motion.test_one_motion import PLACES, executed, planned
@@ -108,8 +107,7 @@ def test_what_parameters_bound_ahead_is_one_motion_too(monkeypatch: pytest.Monke
     written = Writer(Random(seed), control)
     head, _, rest = written.program().partition("\n")
     text = f"{head}\nG05 P10000\n{rest}" if control == "fanuc-m" else f"{head}\n{rest}"
-    setup = {**test_one_motion.TOOL, "parameters": AHEAD[control]}
-    monkeypatch.setattr(test_one_motion, "TOOL", setup)
+    monkeypatch.setattr(Writer, "setup", {**Writer.setup, "parameters": AHEAD[control]})
     total, end, samples, machine = planned(text, written)
     assert end == pytest.approx(total, abs=1e-6)
     rotary = [machine.axis[name].rotary for name in machine.channels[0].axes]

@@ -6,6 +6,7 @@ from math import cos, hypot, sin
 
 from polycnc.deferred.records import dataclass
 from polycnc.deferred.typing import TYPE_CHECKING
+from polycnc.motion.kernels.arcs import SAME_RADIUS
 from polycnc.motion.kernels.columns import PLACES, Form, Limits, PieceRecord, State
 from polycnc.motion.pole import RING_MM
 
@@ -72,6 +73,11 @@ class Arc:
 
 
 Segment = Line | Arc
+
+
+def is_spiral(way: Segment) -> bool:
+    """Whether the angle of a way does not grow as its length does, by what the planner takes for a spiral."""
+    return isinstance(way, Arc) and abs(way.growth) > SAME_RADIUS * way.radius
 
 
 @dataclass(frozen=True, slots=True)

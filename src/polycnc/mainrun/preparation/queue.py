@@ -7,7 +7,7 @@ from math import inf
 
 from polycnc.deferred.records import replace
 from polycnc.deferred.typing import TYPE_CHECKING, Any
-from polycnc.mainrun.motion.geometry import piece_cubic
+from polycnc.mainrun.motion.geometry import is_spiral, piece_cubic
 from polycnc.mainrun.preparation.items import Block, BlockEnd, Move, Piece
 from polycnc.mainrun.preparation.layout import Layout
 from polycnc.motion.kernels.columns import SPLINE, TO_CORNER, PieceRecord
@@ -100,8 +100,8 @@ class Queue:
         elif zone == 0.0:
             self._rounds = False
         self._nears_corner = zone == TO_CORNER
-        is_chord = move.kind == SPLINE or move.context.chords
-        if self._rounds or (is_chord and zone == 0.0):
+        is_curve = is_spiral(move.way) or move.kind == SPLINE or move.context.chords
+        if self._rounds or (is_curve and zone == 0.0):
             return piece_cubic(record, len(move.way.start))
         return None
 

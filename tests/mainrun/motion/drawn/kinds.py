@@ -1,0 +1,42 @@
+"""Which seed draws which program."""
+
+from __future__ import annotations
+
+from random import Random
+
+from tests.mainrun.motion.drawn import milling, mixed, sinumerik
+from tests.mainrun.motion.random_programs import Writer, writer
+
+MILLS = ("fanuc-m", "syntec-mill", "meldas-m")
+ALL = ("sinumerik-840d", *MILLS)
+#: Writers with the controls that they write for.
+KINDS: tuple[tuple[type[Writer], tuple[str, ...]], ...] = (
+    (mixed.Pauses, ALL),
+    (mixed.Revolutions, ALL),
+    (mixed.InverseTimes, ALL),
+    (mixed.Oblique, ALL),
+    (mixed.Inches, ALL),
+    (mixed.Rotary, ALL),
+    (mixed.Contour, ALL),
+    (milling.Holes, MILLS),
+    (milling.Taps, MILLS),
+    (milling.Spirals, ("meldas-m",)),
+    (milling.Turned, MILLS),
+    (milling.Tip, ("fanuc-m", "syntec-mill")),
+    (milling.TipOfHead, ("fanuc-m", "syntec-mill")),
+    (milling.Plane, ("fanuc-m",)),
+    (milling.Groove, ("fanuc-m", "meldas-m")),
+    (sinumerik.Reduced, ("sinumerik-840d",)),
+    (sinumerik.Frames, ("sinumerik-840d",)),
+    (sinumerik.Calls, ("sinumerik-840d",)),
+    (sinumerik.Taps, ("sinumerik-840d",)),
+)
+
+
+def drawn(seed: int) -> Writer:
+    """The writer of a seed: every other one is that of `random_programs`."""
+    if seed % 2 == 0:
+        return writer(seed // 2)
+    random = Random(seed)
+    kind, controls = KINDS[seed // 2 % len(KINDS)]
+    return kind(random, random.choice(controls))
