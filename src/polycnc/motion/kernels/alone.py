@@ -105,7 +105,7 @@ def settle_alone(pieces: Floats, n: int, limits: Limits, state: State) -> None:
 def overridden_top(pieces: Floats, at: int, n: int, limits: Limits, state: State) -> float:
     """Highest speed of a line at the largest override: that of its axes; a rapid has no override above 100 %."""
     own = sqrt(pieces[at + PieceRecord.CAP2])
-    if int(pieces[at + PieceRecord.SLOT]) % 2 == 0 or state.row.top < inf:
+    if int(pieces[at + PieceRecord.SLOT]) % 2 == 0 or state.run.line_top < inf:
         return own
     here, top = at + PieceRecord.VECTORS + PLACES * n, limits.path.path_feed
     if limits.path.block_s > 0.0:

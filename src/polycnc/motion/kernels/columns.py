@@ -272,6 +272,7 @@ class RunState(Structure):
         window: Seconds that a change of speed is spread over.
         alone: The last row is a line (1), and one from rest (2).
         wanted: Speed that it asks for.
+        line_top: What its transformation leaves of its speed; inf where there is none.
         behind: BEHIND_S of it, seconds; 0 of a rapid.
         free: Who says how fast feeds are (0: the plan): MAIN_RUN with overrides, 1 a dry run, 2 one that acts on
             threads too. `kernels/feeds.py` says what 1 and 2 mean, `kernels/alone.py` what MAIN_RUN does.
@@ -315,6 +316,7 @@ class RunState(Structure):
     window: float
     alone: float
     wanted: float
+    line_top: float
     behind: float
     free: float
     override: float

@@ -376,7 +376,7 @@ def lay_straight(
             goes_on = goes_on and state.joint.rest == 0.0
             state.run.straight_pieces = state.run.straight_pieces + 1 if goes_on else 1
             state.run.alone = (2.0 if goes_on or state.joint.rest > 0.0 else 1.0) if is_line else 0.0
-            state.run.wanted = wanted
+            state.run.wanted, state.run.line_top = wanted, state.row.top
             state.run.behind = 0.0 if is_rapid(state) else contexts[record + ContextRecord.BEHIND_S]
         else:
             speed = min(top, own, bound(asked, state))

@@ -146,7 +146,7 @@ class Plane(Blocks):
     machine = "mill4-xyzc"
 
     def head(self) -> str:
-        return f"{HEADS[self.control]} G64"
+        return f"{HEADS[self.control]} {self.random.choice(("G64", "G64", "G61"))}"
 
     def program(self) -> str:
         draw = self.random
