@@ -146,7 +146,8 @@ class Plane(Blocks):
     machine = "mill4-xyzc"
 
     def head(self) -> str:
-        return f"{HEADS[self.control]} {self.random.choice(("G64", "G64", "G61"))}"
+        passed = self.random.choice(("G64", "G64", "G61"))
+        return f"{HEADS[self.control]} {passed}"
 
     def program(self) -> str:
         draw = self.random
