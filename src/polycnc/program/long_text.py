@@ -42,6 +42,8 @@ HEADING_STARTS = frozenset("%oO:< \t")
 HEADING_SIGNS = b"%oO:<"
 #: Where one line in so many is looked for, all are looked at.
 _MANY = 4
+#: Signs are few where no more than one byte in so many is one.
+_FEW_SIGNS = 200
 #: What a line with a heading may begin with in the file, control codes of tapes included.
 _STARTS = "".join(sorted(HEADING_STARTS)).encode() + CONTROLS
 _HEADING = regex(b"\n[" + re.escape(_STARTS) + b"]")
@@ -287,15 +289,29 @@ def _lines_to_end(file: TextFile, page: bytes) -> int:
     It begins behind those found so far, and is not noted yet.
     """
     line, last = file.numbers[-1], 0
-    if any(sign in page for sign in HEADING_SIGNS):
-        if page[0] in _STARTS:
-            file.headings.append(line)
-        for found in _HEADING.finditer(page):
-            line += page.count(b"\n", last, found.start() + 1)
-            last = found.start() + 1
-            file.headings.append(line)
+    for start in _headings(page):
+        line += page.count(b"\n", last, start)
+        last = start
+        file.headings.append(line)
     behind_last = page[page.rfind(b"\n") + 1 :].translate(None, CONTROLS)
     return line + page.count(b"\n", last) + bool(behind_last)
+
+
+def _headings(page: bytes) -> Sequence[int]:
+    """Where lines begin that may be headings: from signs to their lines, or by line ends where signs are many."""
+    starts, left = set(), len(page) // _FEW_SIGNS
+    for sign in HEADING_SIGNS:
+        place = page.find(sign)
+        while place >= 0:
+            if not left:
+                first = (0,) if page[0] in _STARTS else ()
+                return [*first, *(found.start() + 1 for found in _HEADING.finditer(page))]
+            left -= 1
+            start = page.rfind(b"\n", 0, place) + 1
+            if page[start] in _STARTS:
+                starts.add(start)
+            place = page.find(sign, place + 1)
+    return sorted(starts)
 
 
 def _refuse_long_lines(file: TextFile, page: bytes) -> None:
