@@ -9,7 +9,7 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from benchmarks.measure import Figure, process_time, rate, skipped
+from benchmarks.measure import Figure, polycnc, process_time, rate, skipped
 from benchmarks.programs import FOOT, HEAD, cut
 
 if TYPE_CHECKING:
@@ -104,7 +104,7 @@ def gigabyte() -> Iterator[Figure]:
     with tempfile.TemporaryDirectory() as name:
         ours = write_program(Path(name), repeats=GIGABYTE_REPEATS)
         size = ours.stat().st_size / 1e6
-        run = [sys.executable, "-m", "polycnc", "run", str(ours), "--control", "fanuc-m"]
+        run = polycnc("run", ours)
         took, used = process_time(run, 1), _memory(ours)
     said = f"{took:.0f} s for {size:.0f} MB, limit {GIGABYTE_LIMIT_S:g}"
     yield Figure("a gigabyte of G1 with cycle time", said, GIGABYTE_LIMIT_S / took)

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import sys
 import tempfile
 from collections.abc import Iterator
 from math import cos, sin
 from pathlib import Path
 
 from benchmarks.interpreter import program
-from benchmarks.measure import Figure, process_time
+from benchmarks.measure import Figure, polycnc, process_time
 
 #: Blocks of the programs; how many times as long as the run itself the account may take.
 BLOCKS, BLOCKS_OF_LAW, MOST_TIMES = 1_000_000, 20_000, 2.5
@@ -24,7 +23,7 @@ def explained() -> Iterator[Figure]:
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder, "part.nc")
             file.write_text(text, encoding="ascii")
-            run = [sys.executable, "-m", "polycnc", "run", str(file), "--control", control]
+            run = polycnc("run", file, control=control)
             alone, with_account = process_time(run), process_time([*run, "--explain-time"])
         times = with_account / alone
         said = f"{with_account:.2f} s, without it {alone:.2f} s: {times:.2f} times, limit {MOST_TIMES:g}"

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import sys
 import tempfile
 from collections.abc import Iterator
 from math import cos, radians, sin
 from pathlib import Path
 
-from benchmarks.measure import Figure, process_time, rate
+from benchmarks.measure import Figure, polycnc, process_time, rate
 
 #: Blocks of a program.
 BLOCKS = 1_000_000
@@ -31,7 +30,7 @@ def tip_control() -> Iterator[Figure]:
             lines = (f"N{i} G1 {_place(i)} {tool(i)}" for i in range(1, BLOCKS + 1))
             program.write_text("\n".join([*start, *lines, end, "M5", "M30", ""]), encoding="ascii")
             setup.write_text(_SETUP, encoding="ascii")
-            run = [sys.executable, "-m", "polycnc", "run", str(program), "--control", control]
+            run = polycnc("run", program, control=control)
             seconds = process_time([*run, "--setup", str(setup)], 1)
         yield rate(f"{name}, with cycle time", BLOCKS / seconds, BLOCKS_PER_SECOND, "blocks/s")
 

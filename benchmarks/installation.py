@@ -5,14 +5,13 @@ from __future__ import annotations
 import compileall
 import os
 import shutil
-import sys
 import tempfile
 from collections.abc import Iterable, Iterator
 from importlib.metadata import Distribution, distribution
 from pathlib import Path
 
 from benchmarks.bulk import write_program
-from benchmarks.measure import Figure, process_time
+from benchmarks.measure import Figure, polycnc, process_time
 
 SIZE_LIMIT_MB = 40.0
 FIRST_RUN_LIMIT = 1.3
@@ -24,7 +23,7 @@ def first_run() -> Iterator[Figure]:
         folder = Path(name)
         ours = write_program(folder)
         compileall.compile_dir(_installed(folder / "installed"), quiet=2)  # as pip does, and `make demo`
-        command = [sys.executable, "-m", "polycnc", "run", str(ours), "--control", "fanuc-m"]
+        command = polycnc("run", ours)
         before = os.environ.get("PYTHONPATH")
         os.environ["PYTHONPATH"] = str(folder / "installed")
         try:

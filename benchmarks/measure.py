@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import resource
 import subprocess
+import sys
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 
 @dataclass(frozen=True)
@@ -34,6 +36,11 @@ def best_of(action: Callable[[], object], runs: int = 3) -> float:
         action()
         times.append(time.process_time() - begin)
     return min(times)
+
+
+def polycnc(*words: str | Path, control: str = "fanuc-m") -> list[str]:
+    """A command line as a user types it: of the command that the installation has put beside its Python."""
+    return [str(Path(sys.executable).with_name("polycnc")), *map(str, words), "--control", control]
 
 
 def process_time(command: Sequence[str], runs: int = 3) -> float:

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import shutil
-import sys
 import tempfile
 import time
 from collections.abc import Iterator
 from itertools import pairwise
 from pathlib import Path
 
-from benchmarks.measure import Figure, process_time, skipped
+from benchmarks.measure import Figure, polycnc, process_time, skipped
 from benchmarks.programs import HEAD, NO_TIME, TIMED, Work, all_work, lines
 
 TURNS = 3
@@ -20,10 +19,6 @@ FEW, SHORT, LONG = 1_000, 10_000, 100_000
 GROWTH_TURNS = 15
 #: Part of the speed of few calls that many keep: the cost is linear.
 LINEAR = 0.8
-
-
-def _command(*arguments: str | Path, control: str = "fanuc-m") -> list[str]:
-    return [sys.executable, "-m", "polycnc", *map(str, arguments), "--control", control]
 
 
 def _write(path: Path, blocks: list[str]) -> Path:
@@ -51,12 +46,12 @@ def _figures(work: Work, folder: Path, rs274: str | None) -> Iterator[Figure]:
     for options, goal in work.goals.items():
         given = (str(folder / o) if "." in o else o for o in options)
         name = f"{work.name}, {_said(options)}"
-        runs[name], goals[name] = _command("run", ours, *with_setup, *given), goal
+        runs[name], goals[name] = polycnc("run", ours, *with_setup, *given), goal
     for control, blocks in work.others.items():
         ending = ".mpf" if control.startswith("sinumerik") else ".nc"
         program = _write(folder / f"{control}{ending}", blocks)
         name = f"{work.name} on {control}, {_said(NO_TIME)}"
-        runs[name], goals[name] = _command("run", program, *NO_TIME, control=control), first_goal
+        runs[name], goals[name] = polycnc("run", program, *NO_TIME, control=control), first_goal
     used = dict.fromkeys(runs, float("inf"))
     theirs = float("inf")
     for _ in range(TURNS):
@@ -108,7 +103,7 @@ def _growth(programs: dict[int, list[str]]) -> list[float]:
     used = dict.fromkeys(programs, float("inf"))
     with tempfile.TemporaryDirectory() as name:
         runs = {
-            count: _command("run", _write(Path(name, f"{count}.nc"), blocks))
+            count: polycnc("run", _write(Path(name, f"{count}.nc"), blocks))
             for count, blocks in programs.items()
         }
         for _ in range(GROWTH_TURNS):
@@ -128,7 +123,7 @@ def many_files() -> Iterator[Figure]:
             (folder / f"{i:04d}.nc").write_text(
                 f"O1\nG90 G54 G0 Z5.\nG1 F500.\n{text}M30\n", encoding="ascii"
             )
-        run = _command("check", *sorted(folder.iterdir()))
+        run = polycnc("check", *sorted(folder.iterdir()))
         took = []
         for _ in range(TURNS):
             begin = time.perf_counter()

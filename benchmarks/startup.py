@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import sys
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
 from benchmarks.interpreter import program
-from benchmarks.measure import Figure, process_time
+from benchmarks.measure import Figure, polycnc, process_time
 
 LIMIT_S = 0.15
 
@@ -18,6 +17,6 @@ def small_run() -> Iterator[Figure]:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "small.nc")
         path.write_text(program(16), encoding="ascii")
-        command = [sys.executable, "-m", "polycnc", "run", str(path), "--control", "fanuc-m"]
+        command = polycnc("run", path)
         used = process_time(command, 5)
     yield Figure("polycnc run of 20 lines", f"{used:.2f} s of process time, limit {LIMIT_S}", LIMIT_S / used)
