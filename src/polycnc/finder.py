@@ -18,8 +18,7 @@ from _frozen_importlib import BuiltinImporter, ModuleSpec
 from _frozen_importlib_external import MAGIC_NUMBER, SourceFileLoader  # `importlib` itself would load more
 from types import ModuleType
 
-from polycnc.deferred.typing import TYPE_CHECKING
-
+TYPE_CHECKING = False  # for type checkers true
 if TYPE_CHECKING:
     from collections.abc import Sequence
     from types import CodeType

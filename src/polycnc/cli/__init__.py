@@ -16,10 +16,12 @@ import os
 import sys
 
 from polycnc import finder
-from polycnc.deferred.typing import TYPE_CHECKING, NoReturn
 
+TYPE_CHECKING = False  # for type checkers true; what is loaded before the finder takes longer
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+    from polycnc.deferred.typing import NoReturn
 
 __all__ = ["main"]
 #: Behind so many new objects Python looks for circles of them. What is loaded and compiled stays to the end, so that
