@@ -45,6 +45,11 @@ def loaded(folder: Path) -> object:
     return module.SAID
 
 
+@pytest.fixture(autouse=True)
+def _byte_code_is_written(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "dont_write_bytecode", False)
+
+
 def test_every_module_is_described_as_the_library_does() -> None:
     for name in NAMES:
         own, other = found(name, folder_of(name)[0]), PathFinder.find_spec(name, folder_of(name))
