@@ -27,7 +27,7 @@ $(VENV)/.installed-%: pyproject.toml $(KERNELS)
 	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
 	@echo "polycnc is installed into $(VENV); its kernels are compiled, which takes some minutes"
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.$(if $(filter-out plain,$*),[$*])'
-	$(BIN)/python -m compileall -q src/polycnc  # an editable installation leaves that to the first run
+	$(BIN)/python -m compileall -q "$(CURDIR)/src/polycnc"  # an editable installation leaves that to the first run
 	touch $@
 
 panel: $(VENV)/.installed-panel
