@@ -15,23 +15,27 @@ if TYPE_CHECKING:
     from polycnc.motion.kernels.columns import Limits, Rows, State
 
 _KERNELS, _THIRD_ORDER = "polycnc.motion.kernels", "polycnc.motion.third_order"
+#: What rows are laid out by, with all that it rests on.
+PLANNING = (
+    "polycnc.transformation.orientation.linkage",
+    f"{_KERNELS}.alone",
+    f"{_KERNELS}.arcs",
+    f"{_KERNELS}.chords",
+    f"{_KERNELS}.columns",
+    f"{_KERNELS}.corners",
+    f"{_KERNELS}.demands",
+    f"{_KERNELS}.feeds",
+    f"{_KERNELS}.hold",
+    f"{_KERNELS}.jerk",
+    f"{_KERNELS}.lay",
+    f"{_KERNELS}.led",
+    f"{_KERNELS}.rounding",
+    f"{_KERNELS}.speeds",
+)
 LIBRARY = Library(
     "motion",
     (
-        "polycnc.transformation.orientation.linkage",
-        f"{_KERNELS}.alone",
-        f"{_KERNELS}.arcs",
-        f"{_KERNELS}.chords",
-        f"{_KERNELS}.columns",
-        f"{_KERNELS}.corners",
-        f"{_KERNELS}.demands",
-        f"{_KERNELS}.feeds",
-        f"{_KERNELS}.hold",
-        f"{_KERNELS}.jerk",
-        f"{_KERNELS}.lay",
-        f"{_KERNELS}.led",
-        f"{_KERNELS}.rounding",
-        f"{_KERNELS}.speeds",
+        *PLANNING,
         f"{_THIRD_ORDER}.bends.rests",
         f"{_THIRD_ORDER}.laying.rows",
     ),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.kernels.library import Library
+from polycnc.motion.compiled import PLANNING
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -13,24 +14,11 @@ if TYPE_CHECKING:
     from polycnc.motion.explain.kernels.held import Ledger, Tables
     from polycnc.motion.kernels.columns import Limits, Rows, State
 
-_KERNELS, _OWN = "polycnc.motion.kernels", "polycnc.motion.explain.kernels"
+_OWN = "polycnc.motion.explain.kernels"
 LIBRARY = Library(
     "explain",
     (
-        "polycnc.transformation.orientation.linkage",
-        f"{_KERNELS}.alone",
-        f"{_KERNELS}.arcs",
-        f"{_KERNELS}.chords",
-        f"{_KERNELS}.columns",
-        f"{_KERNELS}.corners",
-        f"{_KERNELS}.demands",
-        f"{_KERNELS}.feeds",
-        f"{_KERNELS}.hold",
-        f"{_KERNELS}.jerk",
-        f"{_KERNELS}.lay",
-        f"{_KERNELS}.led",
-        f"{_KERNELS}.rounding",
-        f"{_KERNELS}.speeds",
+        *PLANNING,
         f"{_OWN}.held",
         f"{_OWN}.bounds",
         f"{_OWN}.law",
