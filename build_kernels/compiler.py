@@ -18,7 +18,7 @@ from build_kernels.arguments import Argument, Kind, arguments, flat, signature
 from build_kernels.axes import give_usual_axes
 from build_kernels.sources import contents
 from polycnc.deferred.named_tuples import written
-from polycnc.kernels.description import description
+from polycnc.kernels.description import TEXT, description
 from polycnc.kernels.layout import Places
 
 if TYPE_CHECKING:
@@ -171,7 +171,7 @@ def _signature(kernel: Callable[..., object]) -> Signature:
 
     items = {
         "B": types.uint8, "H": types.uint16, "i": types.int32, "I": types.uint32, "q": types.int64,
-        "d": types.float64,
+        "d": types.float64, TEXT: types.uint8,
     }  # fmt: skip
     taken: list[Type] = []
     for argument in flat(arguments(kernel)):

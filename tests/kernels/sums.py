@@ -5,7 +5,7 @@ from __future__ import annotations
 from ctypes import Structure
 from typing import Annotated, NamedTuple
 
-from polycnc.kernels.layout import Floats, Ints32, Places, place, record
+from polycnc.kernels.layout import Floats, Ints32, Places, Text, place, record
 from tests.kernels.halves import HALF
 
 
@@ -59,6 +59,16 @@ def go(position: Floats, way: Floats, times: int) -> int:
     for i in range(n):
         position[i] += times * way[i] / n
     return n
+
+
+def count(text: Text, sign: int, found: Floats) -> int:
+    """How often a sign stands in a text; notes the last place."""
+    times = 0
+    for i in range(len(text)):
+        if text[i] == sign:
+            times += 1
+            found[0] = i
+    return times
 
 
 def refuse(values: Floats) -> int:

@@ -40,3 +40,4 @@ def test_what_machine_code_cannot_have_is_refused() -> None:
 def test_arguments_are_told_by_a_sign_each() -> None:
     assert signature(arguments(sums.add)) == "(di)*."
     assert signature(arguments(sums.put)) == "d#"
+    assert signature(arguments(sums.count)) == "$#d"

@@ -16,6 +16,7 @@ from polycnc.kernels.native import Lack
 from tests.kernels import sums
 
 ROOT = Path(__file__).resolve().parents[2]
+KERNELS = "add", "put", "go", "count"
 #: What the machine code of `sums` is made of.
 SOURCES = (
     "src/polycnc/kernels/c_types.py", "src/polycnc/kernels/layout.py", "tests/kernels/halves.py",
@@ -54,7 +55,7 @@ def wanted(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def library(file: Path, root: Path = ROOT) -> Library:
-    kernels = ("tests.kernels.sums.add", "tests.kernels.sums.put", "tests.kernels.sums.go")
+    kernels = tuple(f"tests.kernels.sums.{name}" for name in KERNELS)
     return Library("sums", ("tests.kernels.sums",), kernels, file=str(file), root=str(root))
 
 
@@ -70,6 +71,21 @@ def test_a_kernel_gives_the_same_compiled_and_plain(file: Path) -> None:
     assert columns == others
     assert bytes(total) == bytes(other) != bytes(given()[1])
     assert total.parts[1] == 4.0
+
+
+def test_bytes_that_are_only_read_are_handed_over_as_they_are(
+    file: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    text, found = b"G1 X1.1\nM1\n", array("d", [0.0])
+    assert sums.count(text, ord("1"), found) == 4
+    for few in (1, 0):  # handed one by one, and by a call written out
+        monkeypatch.setattr(call, "_FEW", few)
+        compiled, place = library(file).compiled("count"), array("d", [0.0])
+        assert compiled is not None
+        assert compiled(text, ord("1"), place) == 4
+        assert place == found
+        with pytest.raises(TypeError, match="arrays of B, not of d"):
+            compiled(text, ord("1"), array("B", [0]))
 
 
 def test_a_kernel_that_gives_nothing_can_be_called(file: Path) -> None:
@@ -147,7 +163,7 @@ def test_machine_code_holds_its_sources(file: Path) -> None:
     described = library(file)._described
     assert described is not None
     assert [name for name, _ in described._sources] == list(SOURCES)
-    assert described.signatures == {"add": "(di)*.", "put": "d#", "go": "dd#"}
+    assert described.signatures == {"add": "(di)*.", "put": "d#", "go": "dd#", "count": "$#d"}
 
 
 def test_machine_code_of_the_same_sources_is_run(file: Path, copied: Path) -> None:
@@ -184,9 +200,8 @@ def test_a_library_that_is_newer_than_the_machine_code_has_none(file: Path) -> N
 
 def test_where_there_is_machine_code_the_sources_are_not_imported(file: Path, tmp_path: Path) -> None:
     described = library(file)
-    unknown = Library(
-        "sums", ("no.such",), ("no.such.add", "no.such.put", "no.such.go"), file=str(file), root=str(ROOT)
-    )
+    kernels = tuple(f"no.such.{name}" for name in KERNELS)
+    unknown = Library("sums", ("no.such",), kernels, file=str(file), root=str(ROOT))
     assert described.compiled("put") is not None
     assert unknown.compiled("put") is not None
 

@@ -30,7 +30,8 @@ def test_stretches_are_those_of_the_text(lines: list[str], data: st.DataObject) 
         first = data.draw(st.integers(0, len(lines) - 1))
         end = data.draw(st.integers(first + 1, len(lines)))
         assert list(looked_up.lines(first, end)) == read[first:end]
-        found = bytes(looked_up.bytes_of(first, end))
+        start, behind = looked_up.places_of(first, end)
+        found = looked_up.text[start:behind]
         assert found == "".join(f"{line}\n" for line in lines[first:end]).encode()
 
 

@@ -52,6 +52,8 @@ def _first_new(made: Callable[[], Any]) -> Callable[..., Any]:
         nonlocal left
         own = made()
         left -= 1
+        if left >= 0 and not named and len(args) == len(own._fields):  # as most are made
+            return tuple.__new__(cls, args)
         given = dict(zip(own._fields, args, strict=False))
         values = {**own._field_defaults, **given, **named}
         is_right = len(given) == len(args) and not given.keys() & named.keys()

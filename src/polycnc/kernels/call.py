@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
+from array import array
+from itertools import accumulate, chain
+from operator import attrgetter
+
 from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.kernels.c_types import Integer, Number, Pointer, addressof
-from polycnc.kernels.description import INTEGER, NUMBER, RECORD
+from polycnc.kernels.description import INTEGER, NUMBER, RECORD, TEXT
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
+    from collections.abc import Callable, Iterable, Sequence
 
-#: So many calls take their arguments apart one by one before that is written out for a kernel: it makes each faster
-#: by a third, and takes as long as some hundred calls.
+#: So many calls hand their arguments on one by one before that is written out for a kernel: it makes each faster by a
+#: third, and takes as long as some hundred calls.
 _FEW = 512
-_TYPES = {RECORD: (Pointer,), INTEGER: (Integer,), NUMBER: (Number,)}
+_TYPES = {TEXT: (Pointer, Integer), RECORD: (Pointer,), INTEGER: (Integer,), NUMBER: (Number,)}
 _ARRAY = Pointer, Integer
 _BRACKETS = str.maketrans("", "", "()")
+#: Expressions for arguments that are no arrays, by their signs.
+_HANDED = {TEXT: "{0}, len({0})", RECORD: "addressof({0})", INTEGER: "{0}", NUMBER: "{0}"}
+_typecode = attrgetter("typecode")
 
 
 def caller(entry: Any, signature: str) -> Callable[..., Any]:
@@ -26,6 +33,7 @@ def caller(entry: Any, signature: str) -> Callable[..., Any]:
     """
     codes = signature.translate(_BRACKETS)
     entry.argtypes = [each for code in codes for each in _TYPES.get(code, _ARRAY)]
+    hand = _hander(codes)
     left = _FEW
     written: Callable[..., Any] | None = None
 
@@ -33,7 +41,7 @@ def caller(entry: Any, signature: str) -> Callable[..., Any]:
         nonlocal left, written
         if left:
             left -= 1
-            return entry(*_handed(given, codes))
+            return entry(*hand(given))
         if written is None:
             written = _written(entry, signature)
         return written(*given)
@@ -41,26 +49,33 @@ def caller(entry: Any, signature: str) -> Callable[..., Any]:
     return call
 
 
-def _handed(given: Iterable[Any], codes: str) -> list[Any]:
-    """Arguments of a kernel as its machine code takes them."""
-    handed: list[Any] = []
-    for each, code in zip(_apart(given), codes, strict=True):
-        if code in _TYPES:
-            handed.append(addressof(each) if code == RECORD else each)
-        elif each.typecode == code:
-            handed += each.buffer_info()
-        else:
-            _refuse(code, each.typecode)
-    return handed
+def _hander(codes: str) -> Callable[[Iterable[Any]], list[Any]]:
+    """What makes of the arguments of a kernel those of its machine code."""
+    wanted = "".join(code for code in codes if code not in _TYPES)
+    arrays = [i for i, code in enumerate(codes) if code not in _TYPES]
+    others = [(i, code) for i, code in enumerate(codes) if code in _TYPES]
+    places = [0, *accumulate(len(_TYPES.get(code, _ARRAY)) for code in codes)]
+
+    def hand(given: Iterable[Any]) -> list[Any]:
+        flat: list[Any] = []
+        for each in given:
+            flat += each if isinstance(each, tuple) else (each,)
+        found = [flat[i] for i in arrays]
+        if "".join(map(_typecode, found)) != wanted:
+            _refuse(wanted, found)
+        handed = [*chain.from_iterable(map(array.buffer_info, found))]
+        for i, code in others:
+            handed[places[i] : places[i]] = _handed(flat[i], code)
+        return handed
+
+    return hand
 
 
-def _apart(given: Iterable[Any]) -> Iterator[Any]:
-    """Arguments with groups taken apart."""
-    for each in given:
-        if isinstance(each, tuple):
-            yield from _apart(each)
-        else:
-            yield each
+def _handed(value: Any, code: str) -> Sequence[Any]:
+    """An argument that is no array."""
+    if code == RECORD:
+        return (addressof(value),)
+    return (value, len(value)) if code == TEXT else (value,)
 
 
 def _written(entry: Any, signature: str) -> Callable[..., Any]:
@@ -69,14 +84,13 @@ def _written(entry: Any, signature: str) -> Callable[..., Any]:
     arrays = [(name, code) for name, code in zip(names, codes, strict=True) if code not in _TYPES]
     wanted = "".join(code for _, code in arrays)
     given = (
-        f"addressof({name})" if code == RECORD else name if code in _TYPES else f"*{name}.buffer_info()"
-        for name, code in zip(names, codes, strict=True)
+        _HANDED.get(code, "*{0}.buffer_info()").format(name) for name, code in zip(names, codes, strict=True)
     )
     count = len({name.partition("[")[0] for name in names})
     source = (
         f"def call({', '.join(f'a{i}' for i in range(count))}):\n"
         f"    found = ({''.join(f'{name}.typecode, ' for name, _ in arrays)})\n"
-        "    if found != codes: refuse(wanted, ''.join(found))\n"
+        f"    if found != codes: refuse(wanted, ({''.join(f'{name}, ' for name, _ in arrays)}))\n"
         f"    return entry({', '.join(given)})\n"
     )
     scope = {
@@ -105,6 +119,6 @@ def _names(signature: str) -> list[str]:
     return names
 
 
-def _refuse(wanted: str, found: str) -> None:
-    msg = f"a kernel was given arrays of {found}, not of {wanted}"
+def _refuse(wanted: str, found: Iterable[array[Any]]) -> None:
+    msg = f"a kernel was given arrays of {''.join(map(_typecode, found))}, not of {wanted}"
     raise TypeError(msg)

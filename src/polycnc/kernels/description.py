@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
     from polycnc.kernels.c_types import SharedObject
 
-#: Signs of a record, a whole number and another one.
-RECORD, INTEGER, NUMBER = "*", "#", "."
+#: Signs of bytes that are only read, a record, a whole number and another one.
+TEXT, RECORD, INTEGER, NUMBER = "$", "*", "#", "."
 
 
 class Description:

@@ -6,7 +6,7 @@ A kernel's annotations are its declaration. The build reads them (`meaning`), an
 from __future__ import annotations
 
 import sys
-from collections.abc import MutableSequence
+from collections.abc import MutableSequence, Sequence
 from functools import partial
 
 from polycnc.deferred.typing import TYPE_CHECKING, Annotated, Any, TypeVar, cast
@@ -22,6 +22,8 @@ Words16 = Annotated[MutableSequence[int], "H"]
 Words32 = Annotated[MutableSequence[int], "I"]
 Ints = Annotated[MutableSequence[int], "q"]
 Floats = Annotated[MutableSequence[float], "d"]
+#: What a kernel only reads: `bytes`, for which nothing is copied.
+Text = Annotated[Sequence[int], "$"]
 
 _SIMPLE = {each.__name__: each for each in (int, float, bool)}
 _R = TypeVar("_R", bound=Structure)

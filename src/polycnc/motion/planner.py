@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 
 #: Pieces that the buffer takes at first, and pieces that it takes before it is looked at: twice as many each time that
 #: it has been looked at so often, for memory costs a short path more than looking; but no more than the last number.
-FIRST_ROOM, FULL_ROOM, LOOKS, MOST_ROOM = 256, 2048, 4, 16_384
+FIRST_ROOM, FULL_ROOM, LOOKS, MOST_ROOM = 256, 2048, 8, 4096
 
 
 class Planner:
@@ -184,7 +184,6 @@ class Planner:
             return True
         self._add_contexts()
         self._state.run.unseen = 1.0 if self.on_pieces is None else 0.0
-        self._rows.frombytes(bytes(16 * len(chunk)))
         self._next_row = chunk.first + len(chunk)
         self._waits.take(chunk, self.facing)
         stops = self._waits.stops(chunk)
@@ -427,6 +426,7 @@ class Planner:
         """
         count, width = self._state.run.pieces, self._width
         self._final_row = self._final_row if end is None else end
+        self._reach(min(max(self._laid, end or 0) + 1, self._next_row))
         last = self._settled(count) if end is None else count
         if last <= 0:
             return
@@ -460,14 +460,22 @@ class Planner:
         self._state.run.pieces = count - final
         self._forget_rows(planned_rows)
 
+    def _reach(self, row: int) -> None:
+        """Have room for seconds and length of all rows before one."""
+        missing = 2 * (row - self._first_row) - len(self._rows)
+        if missing > 0:
+            self._rows.frombytes(bytes(8 * missing))
+
     def _forget_rows(self, planned_rows: int) -> None:
         """All rows before one are planned: where rows are not kept, they are forgotten."""
         if not self._keep_rows:
             self._final_row = planned_rows
             self._beside.settle(planned_rows, self._seconds, self._wait)
             needed = min([planned_rows, *(entry.row for entry in self._waits.parallel)])
-            del self._rows[: 2 * (needed - self._first_row)]
-            self._first_row = needed
+            forgotten = 2 * (needed - self._first_row)
+            if 2 * forgotten >= len(self._rows):  # those behind them move up
+                del self._rows[:forgotten]
+                self._first_row = needed
 
     def _settled(self, count: int) -> int:
         """The number of pieces in the buffer that no row to come can change."""
@@ -503,6 +511,7 @@ class Planner:
         if self.on_wait is not None:
             self.on_wait(row, share, context, seconds)
         row = min(row, self._next_row - 1)
+        self._reach(row + 1)
         self._rows[2 * (row - self._first_row)] += seconds
         if self._keep_rows and share != "dwell_s":  # a dwell is what its row is for
             self._row_waits[row] = self._row_waits.get(row, 0.0) + seconds

@@ -221,15 +221,20 @@ class LongText(Sequence[str]):
             yield range(at, end), text if own is None else f"{own}\n".encode() + text
             at = end
 
-    def bytes_from(self, line: int) -> bytes | memoryview:
-        """The lines from one on to the end of its page, in UTF-8, each with its line feed."""
+    def text_from(self, line: int) -> tuple[bytes, int, int]:
+        """The lines from one on to the end of its page, in UTF-8, each with its line feed.
+
+        Returns:
+            A text, where in it they begin, and where they end.
+        """
         if line == 0 and self._first_line is not None:
-            return f"{self._first_line}\n".encode("utf-8", "replace")
+            own = f"{self._first_line}\n".encode("utf-8", "replace")
+            return own, 0, len(own)
         file, number = self.file, self._lines[line]
         page = file.page_of(number)
         first = file.numbers[page]
-        found: memoryview = file.page(page).bytes_of(number - first, self._lines.stop - first)
-        return found
+        found: Page = file.page(page)
+        return found.text, *found.places_of(number - first, self._lines.stop - first)
 
 
 def _lines_behind(ends: re.Pattern[bytes], text: bytes, lines: range) -> Sequence[int]:

@@ -46,10 +46,9 @@ class Page:
         if first < end:
             yield from self._all()[first:end]
 
-    def bytes_of(self, first: int, end: int) -> memoryview:
-        """The same lines in UTF-8, each with its line feed; all behind the first one where there are fewer."""
-        start = self._place(first)
-        return memoryview(self.text)[start : self._place(min(end, self._count))]
+    def places_of(self, first: int, end: int) -> tuple[int, int]:
+        """Where the same lines begin and end in the text; all behind the first one where there are fewer."""
+        return self._place(first), self._place(min(end, self._count))
 
     def _all(self) -> list[str]:
         if self._lines is None:

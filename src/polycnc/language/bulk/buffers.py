@@ -27,15 +27,15 @@ class Window:
     """Some lines of a program, and how far they have been read.
 
     Attributes:
-        text: Their bytes; every line has its line end.
-        place: Byte at which the next line begins.
+        text: Their bytes among others; every line has its line end.
+        place: Byte at which the next line begins; `end` is the byte behind the last one.
         line: Index of that line in the program.
         lines: The lines of the program that the window is on.
     """
 
     def __init__(self) -> None:
-        self.text = array("B")
-        self.place = 0
+        self.text = b""
+        self.place = self.end = 0
         self.line = 0
         self.lines: Sequence[str] = ()
         self._size = FEWEST_LINES
@@ -49,35 +49,32 @@ class Window:
                 else FEWEST_LINES
             )
             self._read(lines, line, end)
-        return self.place < len(self.text)
+        return self.place < self.end
 
     def _skip_to(self, line: int) -> bool:
         """Step over the line that the interpreter has taken."""
         if line > self.line:
-            self.place = (
-                self.text.index(_NEWLINE, self.place) + 1 if self.place < len(self.text) else self.place
-            )
+            if self.place < self.end:
+                self.place = self.text.index(b"\n", self.place) + 1
             self.line = line
-        return self.place < len(self.text)
+        return self.place < self.end
 
     def next_line(self) -> str:
         """That line as text; empty behind the last one that has been read."""
-        if self.place == len(self.text):
+        if self.place == self.end:
             return ""
-        text = self.text[self.place : self.text.index(_NEWLINE, self.place)].tobytes()
+        text = self.text[self.place : self.text.index(b"\n", self.place)]
         return text.translate(None, CONTROLS).decode("utf-8")
 
     def _read(self, lines: Sequence[str], line: int, end: int) -> None:
-        self.lines, self.line, self.place = lines, line, 0
-        self.text = array("B")
+        self.lines, self.line = lines, line
+        self.text, self.place, self.end = b"", 0, 0
         if isinstance(lines, LongText) and end == len(lines):
             if line < end:
-                self.text.frombytes(lines.bytes_from(line))
+                self.text, self.place, self.end = lines.text_from(line)
         elif found := lines[line : min(line + self._size, end)]:
-            self.text.frombytes(("\n".join(found) + "\n").encode("utf-8", "replace"))
-
-
-_NEWLINE = 10
+            self.text = ("\n".join(found) + "\n").encode("utf-8", "replace")
+            self.end = len(self.text)
 
 
 @unchanging

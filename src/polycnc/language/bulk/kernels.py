@@ -10,7 +10,7 @@ of the block, and the interpreter decides.
 
 from __future__ import annotations
 
-from polycnc.kernels.layout import Bytes, Ints32
+from polycnc.kernels.layout import Ints32, Text
 from polycnc.language.bulk.formulas.calculating import calculate
 from polycnc.language.bulk.formulas.reading import (
     begins_expression,
@@ -197,7 +197,7 @@ def read_block(tables: Tables, state: State) -> tuple[int, int]:
     return place, node if is_block else NO_BLOCK
 
 
-def has_formula(text: Bytes, place: int, grammar: int) -> bool:
+def has_formula(text: Text, place: int, grammar: int) -> bool:
     """Whether a word with a formula begins here; one that names a code is the interpreter's."""
     letter = int(text[place])
     if letter < LETTER_A or letter > LETTER_Z:
@@ -210,7 +210,7 @@ def has_formula(text: Bytes, place: int, grammar: int) -> bool:
 
 
 def read_calculated(
-    text: Bytes, nexts: Ints32, state: State, place: int, node: int, keys: int, literals: int
+    text: Text, nexts: Ints32, state: State, place: int, node: int, keys: int, literals: int
 ) -> tuple[int, int, int, int]:
     """Follow a word with a formula down the shape tree; as `read_formula`. Its key is that at `scan.keys`."""
     expressions = state.scan.grammar & Grammar.EXPRESSIONS
@@ -228,7 +228,7 @@ def read_calculated(
     return read_formula(text, nexts, state, place, node, keys + 1, literals)
 
 
-def begins_word(text: Bytes, place: int) -> bool:
+def begins_word(text: Text, place: int) -> bool:
     """Whether a word with an expression begins here: `X=R1`, `CR=R1`, or an assignment `R1=…`."""
     letter, behind = int(text[place]), int(text[place + 1])
     if letter == LETTER_R and ZERO <= behind <= NINE:
@@ -238,7 +238,7 @@ def begins_word(text: Bytes, place: int) -> bool:
     return behind == EQUALS_SIGN and begins_expression(text, place + 2)
 
 
-def read_address(text: Bytes, state: State, place: int, literals: int) -> tuple[int, int, int]:
+def read_address(text: Text, state: State, place: int, literals: int) -> tuple[int, int, int]:
     """Place behind the `=` of a word with an expression, -1 for none; its key, and how many numbers there are then."""
     letter = int(text[place])
     if letter == LETTER_R and text[place + 1] != EQUALS_SIGN:
@@ -257,7 +257,7 @@ def read_address(text: Bytes, state: State, place: int, literals: int) -> tuple[
     )
 
 
-def read_word(text: Bytes, place: int, grammar: int, most_digits: int) -> tuple[int, int, float]:
+def read_word(text: Text, place: int, grammar: int, most_digits: int) -> tuple[int, int, float]:
     """Place behind the word that begins here, its key, and its value; `NO_KEY` where it is not plain."""
     letter = int(text[place])
     place += 1
@@ -302,7 +302,7 @@ def read_word(text: Bytes, place: int, grammar: int, most_digits: int) -> tuple[
     return place, (letter - LETTER_A) * FORMS + form, value
 
 
-def read_rest(text: Bytes, place: int, grammar: int) -> int:
+def read_rest(text: Text, place: int, grammar: int) -> int:
     """What is no word: a comment, or `;` with nothing but comments behind it. Place behind it, -1 for others."""
     if text[place] != SEMICOLON or grammar & Grammar.SEMICOLON_COMMENTS:
         return read_comment(text, place, grammar)
@@ -316,7 +316,7 @@ def read_rest(text: Bytes, place: int, grammar: int) -> int:
     return place if place >= 0 and text[place] == NEWLINE else -1
 
 
-def read_comment(text: Bytes, place: int, grammar: int) -> int:
+def read_comment(text: Text, place: int, grammar: int) -> int:
     """Place behind the comment that begins here, -1 for none."""
     char = int(text[place])
     if char == OPEN and grammar & Grammar.ROUND_COMMENTS:

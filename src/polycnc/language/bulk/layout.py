@@ -10,7 +10,7 @@ from math import inf
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.kernels.c_types import Structure
-from polycnc.kernels.layout import Bytes, Floats, Ints, Ints32, Places, Words16, Words32, place, record
+from polycnc.kernels.layout import Bytes, Floats, Ints, Ints32, Places, Text, Words16, Words32, place, record
 from polycnc.language.bulk.routines.layout import Frame
 from polycnc.transformation.orientation.records import StandRecord
 
@@ -193,7 +193,7 @@ class Tables(NamedTuple):
     """What a scan reads; the rules of blocks, and routines.
 
     Attributes:
-        text: Bytes, whole lines.
+        text: Text, whole lines.
         nexts: The shape tree, `(nodes, KEY_COUNT)`.
         leaves: For each node the number of its rule.
         rules: `(rules, Rule.SIZE)`.
@@ -205,7 +205,7 @@ class Tables(NamedTuple):
         callees: Pairs of a program's number and that of its routine, or `NOT_SCANNED`.
     """
 
-    text: Bytes
+    text: Text
     nexts: Ints32
     leaves: Ints32
     rules: Ints32

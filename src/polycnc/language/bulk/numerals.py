@@ -6,7 +6,7 @@ Numbers have up to 15 digits, so that mantissa and power of ten are exact and on
 
 from __future__ import annotations
 
-from polycnc.kernels.layout import Bytes
+from polycnc.kernels.layout import Text
 
 TAB, BLANK, PLUS, MINUS, POINT, ZERO, NINE = 9, 32, 43, 45, 46, 48, 57
 #: So many digits are exact.
@@ -14,7 +14,7 @@ EXACT_DIGITS = 15
 POWERS = (1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15)
 
 
-def read_number(text: Bytes, place: int, most_digits: int) -> tuple[int, float, int]:
+def read_number(text: Text, place: int, most_digits: int) -> tuple[int, float, int]:
     """Place behind the number that begins here, -1 for none; its value, and its decimals, -1 without a point."""
     negative = text[place] == MINUS
     if negative or text[place] == PLUS:

@@ -408,7 +408,7 @@ class Scanner:
         room.make_fit(at)
         chunk, c = channel.toolpath.chunk, channel.coordinates
         window, spelling = self._window, dialect.spelling
-        at.place, at.end = window.place, len(window.text)
+        at.place, at.end = window.place, window.end
         at.line = channel.level.code.program.first_line + window.line
         at.routine, at.frames, at.most_frames = NO_ROUTINE, 0, 0
         at.program = at.text_program = channel.level.program_number

@@ -24,7 +24,7 @@ from polycnc.messages import AlarmError
 from polycnc.toolpath.events import Auxiliary
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Iterable, Mapping
+    from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 
     from polycnc.channel.channel import Channel
     from polycnc.channel.mode import Mode
@@ -58,12 +58,13 @@ class Footing:
         g_codes: The G table as programs write it now.
         diameters: Whether words of each axis are diameters.
         in_force: The control's rules that do not rest.
+        steady: Those that may concern a block that leaves the modes as they are, and whether they do in any case.
         planners: What plans the axis words of each motion code.
         rules: How numbers are read.
         cycles: How the control drills.
     """
 
-    __slots__ = ("cycles", "diameters", "g_codes", "in_force", "planners", "rules")
+    __slots__ = ("cycles", "diameters", "g_codes", "in_force", "planners", "rules", "steady")
 
     def __init__(self, channel: Channel, control: WordAddressControl) -> None:
         self.g_codes: Mapping[str, GCode] = control.g_table(channel)
@@ -75,6 +76,9 @@ class Footing:
         self.cycles: Drilling = control.drilling_rules(channel)
         self.diameters = tuple(control.is_diameter(channel, axis) for axis in range(len(channel.axes)))
         self.in_force = tuple(rule for rule in control.rules if rule.rests is None or not rule.rests(channel))
+        codes = channel.mode.codes
+        asked = ((rule, rule.concerns_by_mode(codes, codes)) for rule in self.in_force)
+        self.steady = tuple((rule, bool(concerns)) for rule, concerns in asked if concerns is not False)
 
     @classmethod
     def of(cls, channel: Channel, control: WordAddressControl) -> Footing:
@@ -180,7 +184,14 @@ class Builder:
         self.mode = self.before.with_codes(control.modal_changes(self.codes))
         self._drop_idle_codes()
         self.inch = control.is_inch(self.mode)
-        self.acting: tuple[Rule, ...] = tuple(rule for rule in self.footing.in_force if rule.concerns(self))
+        self.acting: tuple[Rule, ...] = tuple(self._concerned())
+
+    def _concerned(self) -> Iterator[Rule]:
+        if self.mode.codes is self.before.codes:
+            return (
+                rule for rule, concerns in self.footing.steady if concerns or rule.concerns_by_words(self)
+            )
+        return (rule for rule in self.footing.in_force if rule.concerns(self))
 
     def _read_signature(self) -> None:
         position = 0

@@ -98,28 +98,28 @@ class Rule:
     last: Callable[[Builder, Plan], Step | None] | None = None
 
     _asks_modes: bool = field(init=False, repr=False, compare=False)
-    _asks_all: bool = field(init=False, repr=False, compare=False)
+    _asks_words: bool = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        asks_modes = bool(self.modes or self.within or self.unless)
-        asks_words = bool(self.codes or self.groups or self.words or self.m_codes)
-        object.__setattr__(self, "_asks_modes", asks_modes)
-        object.__setattr__(self, "_asks_all", not (asks_modes or asks_words or self.where))
+        asks_words = bool(self.codes or self.groups or self.words or self.m_codes or self.where)
+        object.__setattr__(self, "_asks_modes", bool(self.modes or self.within or self.unless))
+        object.__setattr__(self, "_asks_words", asks_words)
 
     def concerns(self, builder: Builder) -> bool:
         """Whether the rule is asked of a block."""
-        if not self.in_cycles and builder.mode.codes.get(CYCLE, NO_CYCLE) != NO_CYCLE:
-            return False
-        if (
-            self._asks_all
-            or (self._asks_modes and self._concerns_mode(builder))
-            or self._concerns_words(builder)
-        ):
-            return True
-        return self.where is not None and self.where(builder)
-
-    def _concerns_mode(self, builder: Builder) -> bool:
         before, after = builder.before.codes, builder.mode.codes
+        concerns = self.concerns_by_mode(before, after)
+        return concerns or (concerns is None and self.concerns_by_words(builder))
+
+    def concerns_by_mode(self, before: Mapping[str, str], after: Mapping[str, str]) -> bool | None:
+        """Whether the rule is asked of every block between two modal states; None where its words decide."""
+        if not self.in_cycles and after.get(CYCLE, NO_CYCLE) != NO_CYCLE:
+            return False
+        if self._asks_modes and self._holds(before, after):
+            return True
+        return None if self._asks_words else not self._asks_modes
+
+    def _holds(self, before: Mapping[str, str], after: Mapping[str, str]) -> bool:
         if any(after.get(group) in chosen for group, chosen in self.within.items()):
             return True
         for codes in (before,) if after is before else (before, after):
@@ -131,9 +131,12 @@ class Rule:
                     return True
         return False
 
-    def _concerns_words(self, builder: Builder) -> bool:
+    def concerns_by_words(self, builder: Builder) -> bool:
+        """Whether the codes and words of a block make the rule concern it."""
         if self.codes or self.groups:
             for row in builder.codes:
                 if row.code in self.codes or row.group in self.groups:
                     return True
-        return (self.m_codes and bool(builder.m_codes)) or not builder.slots.keys().isdisjoint(self.words)
+        if (self.m_codes and builder.m_codes) or not builder.slots.keys().isdisjoint(self.words):
+            return True
+        return self.where is not None and self.where(builder)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from polycnc.kernels.layout import Bytes, Ints32
+from polycnc.kernels.layout import Ints32, Text
 from polycnc.language.bulk.layout import (
     FIRST_TOKEN,
     KEY_COUNT,
@@ -26,7 +26,7 @@ NO_TOKEN = -1
 VARIABLE_DIGITS, WHOLE_DIGITS = 4, 9
 
 
-def begins_formula(text: Bytes, place: int) -> bool:
+def begins_formula(text: Text, place: int) -> bool:
     """Whether a formula begins here, with a sign or without."""
     if text[place] == PLUS or text[place] == MINUS:
         place += 1
@@ -34,12 +34,12 @@ def begins_formula(text: Bytes, place: int) -> bool:
 
 
 def read_formula(
-    text: Bytes, nexts: Ints32, state: State, place: int, node: int, keys: int, literals: int
+    text: Text, nexts: Ints32, state: State, place: int, node: int, keys: int, literals: int
 ) -> tuple[int, int, int, int]:
     """Follow a formula down the shape tree.
 
     Args:
-        text: Bytes, whole lines.
+        text: Text, whole lines.
         nexts: The shape tree.
         state: Gets keys and numbers.
         place: Where it begins.
@@ -78,7 +78,7 @@ def read_formula(
             return place, node, keys, literals
 
 
-def read_token(text: Bytes, place: int) -> tuple[int, int, float]:
+def read_token(text: Text, place: int) -> tuple[int, int, float]:
     """Place behind a token, -1 for what is none; the token, and its number."""
     char = int(text[place])
     if ZERO <= char <= NINE or char == POINT:
@@ -106,7 +106,7 @@ def read_token(text: Bytes, place: int) -> tuple[int, int, float]:
     return -1, 0, 0.0
 
 
-def read_variable(text: Bytes, place: int) -> tuple[int, int, float]:
+def read_variable(text: Text, place: int) -> tuple[int, int, float]:
     """The number of a variable, behind its sign."""
     number = digits = 0
     while ZERO <= text[place] <= NINE and digits < VARIABLE_DIGITS:
@@ -118,7 +118,7 @@ def read_variable(text: Bytes, place: int) -> tuple[int, int, float]:
     return place, Token.VARIABLE, float(number)
 
 
-def read_name(text: Bytes, place: int) -> int:
+def read_name(text: Text, place: int) -> int:
     """The function whose name stands here in full; its bracket must follow."""
     one = int(text[place])
     two = int(text[place + 1]) if one >= LETTER_A else 0
@@ -143,7 +143,7 @@ def read_name(text: Bytes, place: int) -> int:
 # ---- expressions -----------------------------------------------------------------------------------------------------
 
 
-def begins_expression(text: Bytes, place: int) -> bool:
+def begins_expression(text: Text, place: int) -> bool:
     """Whether what stands behind `=` is more than a number with a sign."""
     while text[place] in (BLANK, TAB):
         place += 1
@@ -160,7 +160,7 @@ def begins_expression(text: Bytes, place: int) -> bool:
 
 
 def read_expression(
-    text: Bytes, nexts: Ints32, state: State, place: int, node: int, keys: int, literals: int
+    text: Text, nexts: Ints32, state: State, place: int, node: int, keys: int, literals: int
 ) -> tuple[int, int, int, int]:
     """Follow an expression down the shape tree: operands and operators in turn; as `read_formula`."""
     depth = 0
@@ -193,7 +193,7 @@ def read_expression(
         place = behind
 
 
-def read_expression_token(text: Bytes, place: int) -> tuple[int, int, float]:
+def read_expression_token(text: Text, place: int) -> tuple[int, int, float]:
     """As `read_token`; a function takes its bracket along."""
     char = int(text[place])
     if ZERO <= char <= NINE or char == POINT:
@@ -238,7 +238,7 @@ FUNCTIONS: tuple[tuple[int, int], ...] = tuple(
 MOST_LETTERS = 5
 
 
-def read_function(text: Bytes, place: int) -> tuple[int, int]:
+def read_function(text: Text, place: int) -> tuple[int, int]:
     """The function whose name stands here in full, with its bracket behind it, and how many letters it has."""
     letters, spelt = 0, 0
     while LETTER_A <= text[place + letters] <= LETTER_Z and letters <= MOST_LETTERS:
