@@ -63,7 +63,8 @@ def least_seconds(pieces: Sequence[float], first: int, last: int, width: int) ->
         if pieces[at + PieceRecord.FORM] == Form.TIMED:
             seconds += pieces[at + PieceRecord.PULL]
         else:
-            seconds += pieces[at + PieceRecord.LENGTH] / sqrt(pieces[at + PieceRecord.CAP2])
+            rises = max(pieces[at + PieceRecord.RISE], 0.0) * pieces[at + PieceRecord.LENGTH]
+            seconds += pieces[at + PieceRecord.LENGTH] / sqrt(pieces[at + PieceRecord.CAP2] + rises)
     return seconds
 
 
