@@ -249,10 +249,11 @@ def test_a_thread_whose_lead_grows_takes_the_revolutions_between_its_leads() -> 
     context = Context(feed_mode=FeedMode.PER_REVOLUTION, spindle_rpm=300.0, spindle_direction=1)
     rows = Build(axes=("X", "Z"), context=context)
     rows.row(Kind.THREAD, 0.0, -48.0, feed=2.0, curve=(2.0, 0.0, 1.0))
-    # The last lead is sqrt(2² + 2·1·48) = 10: 8 revolutions at 5 a second, 30 mm/s on average.
-    assert rows.plan(LATHE).times.cutting_s == pytest.approx(
-        trapezoid(48.0, 30.0, LATHE.axis["Z"].acceleration), rel=1e-12
-    )
+    # The last lead is sqrt(2² + 2·1·48) = 10: 8 revolutions at 5 a second, from 10 to 50 mm/s by 25 mm/s².
+    pull, change, first, last = LATHE.axis["Z"].acceleration, 25.0, 10.0, 50.0
+    met, left = first * sqrt(pull / (pull - change)), last * sqrt(pull / (pull + change))
+    later = met / pull - (met - first) / change + left / pull - (last - left) / change
+    assert rows.plan(LATHE).times.cutting_s == pytest.approx(8.0 / 5.0 + later, rel=1e-9)
 
 
 def test_a_tap_ramps_with_the_spindle() -> None:

@@ -28,6 +28,7 @@ PLANNING = (
     f"{_KERNELS}.hold",
     f"{_KERNELS}.jerk",
     f"{_KERNELS}.lay",
+    f"{_KERNELS}.leads",
     f"{_KERNELS}.led",
     f"{_KERNELS}.rounding",
     f"{_KERNELS}.speeds",

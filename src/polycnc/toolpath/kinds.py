@@ -27,8 +27,8 @@ class Kind(IntEnum):
 NO_CURVE = -1
 #: Numbers a curve row: centre x y z (work coordinates, mm), unit normal x y z of the arc's plane, full turns
 #: beyond the first, spare. A dwell: seconds, revolutions. A thread or tap: lead mm, start angle degrees;
-#: of a straight thread what its lead grows by each revolution, mm, of a circular one its centre and the normal about
-#: which it turns counter-clockwise.
+#: of a straight thread what its lead grows by each revolution and the ways on which it takes up its speed and brakes
+#: (0: what the axes allow), mm; of a circular one its centre and the normal about which it turns counter-clockwise.
 #: A skip move that a signal ends: way that is left to its programmed end, mm. A cut that is led beside its end
 #: (`fairing.py`): how far, x y z of the machine, and the most that its line is off the programmed one, mm.
 CURVE_WIDTH = 8

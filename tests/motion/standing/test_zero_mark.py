@@ -132,9 +132,10 @@ def test_a_chain_waits_once(soft: bool) -> None:
     assert found[1:] == [0.0, 0.0]
 
 
-@pytest.mark.parametrize("rest", ["function", "dwell", "speed", "move"])
+@pytest.mark.parametrize("rest", ["function", "dwell", "speed", "move", "exact stop"])
 def test_a_thread_behind_a_rest_meets_the_mark_again(rest: str) -> None:
     rows = Build(axes=("X", "Z"), context=TURNING).rapid(20.0, TOP)
+    rows.set(corner_mode=CornerMode.EXACT_STOP if rest == "exact stop" else CornerMode.CONTINUOUS)
     rows.row(Kind.THREAD, 20.0, -10.0, curve=(LEAD, 0.0))
     if rest == "function":
         rows.event(Auxiliary(8))
@@ -142,7 +143,7 @@ def test_a_thread_behind_a_rest_meets_the_mark_again(rest: str) -> None:
         rows.dwell(0.0123)
     elif rest == "speed":
         rows.set(spindle_rpm=250.0)
-    else:
+    elif rest == "move":
         rows.feed(20.0, -10.5)
     rows.row(Kind.THREAD, 20.0, -20.0, curve=(LEAD, 0.0))
     assert waits(rows)[1] > 0.0

@@ -86,7 +86,7 @@ class Execution:
         self.motion: Motion | None = None
         self.position = list(position)
         self._machinery = machinery
-        self._x2, self._cap2 = 0.0, inf
+        self._x2, self._cap2, self._rise = 0.0, inf, 1.0
         self._until, self._dwell_signal, self.stands_for = 0.0, "", ""
         self._gated = self._waiting = self._blocked = self._moved_on = False
         self._by_hand: tuple[float, ...] = ()
@@ -437,7 +437,8 @@ class Execution:
         """A piece, or a row, is in execution."""
         self._turn_spindle(piece.context)
         self._has_skipped = piece.kind == Kind.SKIP
-        self._cap2, self.context, self.place = cap2, piece.context, piece.context
+        self._cap2, self._rise = cap2, piece.rise
+        self.context = self.place = piece.context
         if self.block is not None and (self.block.program, self.block.line) != (piece.program, piece.line):
             self._enter(self.block.followed_by(piece.program, piece.line, self.modal))
 
@@ -463,7 +464,7 @@ class Execution:
         """Work out the speeds of what is prepared again."""
         self.preprocessing.revise(
             self.rates,
-            self._cap2,
+            self._cap2 * self._rise,
             gated=self._gated or self._machinery.busy,
             single_block=self.single_block,
             stops=self._stops_beside,
@@ -509,13 +510,13 @@ class Execution:
         found = self.preprocessing.queue.lay_again(self.rates, motion.piece.row if open_row else None, done)
         if found is None or not isinstance(motion, PathMotion):
             return False
-        before, piece = self._cap2, found[0]
-        self._cap2 = self.rates.cap2(piece, piece.cap2, piece.asked)
+        before, piece = (self._cap2, self._rise), found[0]
+        self._cap2, self._rise = self.rates.cap2(piece, piece.cap2, piece.asked), piece.rise
         self._look_ahead()
         other = self._pieces.exchange(motion, found, self._cap2)
         if other is None:
             self.preprocessing.queue.lay_back()
-            self._cap2 = before
+            self._cap2, self._rise = before
             return False
         self.motion = other
         return True

@@ -17,7 +17,7 @@ from polycnc.motion.averaging import way_after
 from polycnc.motion.kernels.alone import level_peak
 from polycnc.motion.kernels.columns import UNEVEN_FORMS, PieceRecord
 from polycnc.motion.kernels.columns import Limits as MachineLimits
-from polycnc.motion.kernels.speeds import bound2, curved_time
+from polycnc.motion.kernels.speeds import bound2, curved_time, ways_to_cap
 from polycnc.motion.law import Phase
 
 if TYPE_CHECKING:
@@ -107,7 +107,13 @@ def ramp(way: float, start2: float, end2: float) -> Phase:
 
 
 def straight_profile(
-    length: float, start2: float, aim2: float, cap2: float, pull: float, calm: Calm = FREE
+    length: float,
+    start2: float,
+    aim2: float,
+    cap2: float,
+    pull: float,
+    calm: Calm = FREE,
+    rise: float = 0.0,
 ) -> Profile:
     """Phases over a straight way.
 
@@ -118,6 +124,7 @@ def straight_profile(
         cap2: Largest squared speed; above it the axes brake first.
         pull: Acceleration along the way.
         calm: How long the speed must stay before the acceleration changes its sign.
+        rise: What `cap2`, then that at the start, rises by in a mm (`motion/kernels/leads.py`).
     """
     phases: list[Phase] = []
     if calm.level > 0.0 and max(start2, cap2) > 0.0:
@@ -128,15 +135,23 @@ def straight_profile(
         elif calm.before_up > 0.0:
             cap2 = min(cap2, start2)
     if start2 > cap2 * (1.0 + SAME):
-        brake = (start2 - cap2) / (2.0 * pull)
+        brake = (start2 - cap2) / (2.0 * pull + rise)
         if brake >= length:
             end2 = max(start2 - 2.0 * pull * length, 0.0)
             return Profile((*phases, ramp(length, start2, end2)), end2, arrives=True)
+        cap2 += rise * brake
         phases.append(ramp(brake, start2, cap2))
         length, start2 = length - brake, cap2
     if cap2 <= 0.0:
         return Profile(tuple(phases), 0.0, arrives=False)
-    end2 = min(max(min(aim2, cap2), start2 - 2.0 * pull * length, 0.0), start2 + 2.0 * pull * length)
+    last2 = cap2 + rise * length
+    end2 = min(max(min(aim2, last2), start2 - 2.0 * pull * length, 0.0), start2 + 2.0 * pull * length)
+    if rise != 0.0:
+        up, down = ways_to_cap(start2, end2, cap2, rise, pull, length)
+        first2, last2 = start2 + 2.0 * pull * up, end2 + 2.0 * pull * down
+        level = max(length - up - down, 0.0)
+        phases += [ramp(up, start2, first2), ramp(level, first2, last2), ramp(down, last2, end2)]
+        return Profile(tuple(phase for phase in phases if phase.seconds > 0.0), end2, arrives=True)
     peak = level_peak(start2, end2, length, pull, calm.level)
     peak2 = max(min(cap2, peak * peak), start2, end2)
     up, down = (peak2 - start2) / (2.0 * pull), (peak2 - end2) / (2.0 * pull)
@@ -269,7 +284,11 @@ def profile_of(
     if length <= NO_WAY_MM:
         return Profile((), start2, arrives=True)
     if record[PieceRecord.FORM] not in UNEVEN_FORMS:
-        return straight_profile(length, start2, aim2, cap2, record[PieceRecord.PULL], calm)
+        own2, rise = record[PieceRecord.CAP2], record[PieceRecord.RISE]
+        if rise != 0.0:  # an override acts on all of it alike
+            rise *= cap2 / own2
+            cap2 += rise * done
+        return straight_profile(length, start2, aim2, cap2, record[PieceRecord.PULL], calm, rise)
     return curved_profile(_rest_of(record, done, axes), start2, aim2, cap2, axes, limits)
 
 

@@ -144,12 +144,14 @@ class Move(Row):
         asks: Speed that the program asks for up to a share of the way, mm/s; infinite where it asks for none.
         total: Length of its pieces, mm, and `done` the share of those that have been taken.
         prepared: What it has been made from; None for one that begins elsewhere than its program has led the axes.
+        grows: A thread whose lead changes: its pieces say what the program asks for.
     """
 
     asks: tuple[tuple[float, float], ...]
     total: float
     prepared: PreparedRow | None = None
     done: float = 0.0
+    grows: bool = False
 
     def asked(self, share: float) -> float:
         """Speed that the program asks for at a share of the way."""
@@ -169,6 +171,7 @@ class Piece(Row):
         asked: Speed that the program asks for, mm/s; infinite where it asks for none.
         is_coasting: What is run behind a skip signal.
         curve: Where it leads, if it is a chord of a spline or a part of a corner that is rounded.
+        rise: By which factor `cap2`, then that at its start, is larger at its end.
     """
 
     length: float
@@ -178,6 +181,7 @@ class Piece(Row):
     asked: float
     is_coasting: bool = False
     curve: Cubic | None = None
+    rise: float = 1.0
 
     def at(self, share: float) -> list[float]:
         """Machine position after a share of the piece."""
@@ -249,6 +253,8 @@ class Rates:
             asked = dry.speed_for(asked) if dry is not None and dry.with_spindle else asked
             overridden = move.overridden and not self.feed_cancelled
             feed = min(self.feed, move.largest_override) / move.faster if overridden else 1.0
+            if move.kind == Kind.THREAD and (dry is None or not dry.with_spindle):
+                feed *= context.spindle_factor(self.spindle)
             if feed == 0.0 or (self.hold and move.held):
                 return 0.0
             return min(cap2, asked * asked * feed * feed)

@@ -45,8 +45,10 @@ class Layout(NamedTuple):
 
     def factor(self, kind: int, context: Context, *, per_revolution: bool) -> float:
         """On the feed of a row."""
-        if self.free > 0.0 or kind in (RAPID, THREAD, TAP):
+        if self.free > 0.0 or kind in (RAPID, TAP):
             return 1.0
+        if kind == THREAD:
+            return context.spindle_factor(self.spindle)
         spindle = context.spindle_factor(self.spindle) if per_revolution else 1.0
         return spindle * (self.feed if context.feed_override else 1.0)
 

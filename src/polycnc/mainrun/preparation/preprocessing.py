@@ -25,7 +25,7 @@ from polycnc.mainrun.preparation.items import (
     Piece,
 )
 from polycnc.mainrun.preparation.piece_buffer import PieceBuffer
-from polycnc.mainrun.preparation.queue import Queue
+from polycnc.mainrun.preparation.queue import Queue, risen
 from polycnc.mainrun.preparation.reapproach import line_from
 from polycnc.mainrun.preparation.rows import RowLayer
 from polycnc.mainrun.preparation.run_blocks import (
@@ -531,10 +531,11 @@ class Preprocessing:
                 row, done = records[at + PieceRecord.ROW], item.done
                 while at < end and records[at + PieceRecord.ROW] == row:
                     share = records[at + PieceRecord.LENGTH] / item.total
-                    own = rates.cap2(item, records[at + PieceRecord.CAP2], item.asked(done + 0.5 * share))
+                    laid2 = records[at + PieceRecord.CAP2]
+                    own = rates.cap2(item, laid2, self.queue.asked(item, laid2, done + 0.5 * share))
                     entry2 = 0.0 if closed else min(records[at + PieceRecord.ENTRY2], cap2, own)
                     yield at, entry2, item.limits
-                    cap2, closed = own, False
+                    cap2, closed = own * risen(records, at), False
                     done += share
                     at += width
 
@@ -563,7 +564,8 @@ class Preprocessing:
         move = self.items[0]
         assert isinstance(move, Move)
         middle = move.done + 0.5 * self._buffer.front(PieceRecord.LENGTH) / move.total
-        return rates.cap2(move, self._buffer.front(PieceRecord.CAP2), move.asked(middle))
+        laid2 = self._buffer.front(PieceRecord.CAP2)
+        return rates.cap2(move, laid2, self.queue.asked(move, laid2, middle))
 
     def begin_elsewhere(self, move: Move | Piece, start: Sequence[float]) -> None:
         """The rest of a row goes to its end from another start; the axes rest at both."""

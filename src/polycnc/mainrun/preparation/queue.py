@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from itertools import islice
-from math import inf
+from math import inf, sqrt
 
 from polycnc.deferred.records import replace
 from polycnc.deferred.typing import TYPE_CHECKING, Any
@@ -15,7 +15,7 @@ from polycnc.motion.kernels.columns import SPLINE, TO_CORNER, PieceRecord
 if TYPE_CHECKING:
     from array import array
     from collections import deque
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from polycnc.mainrun.motion.geometry import Cubic
     from polycnc.mainrun.preparation.items import ChannelRates, Item
@@ -84,10 +84,17 @@ class Queue:
             move.way, move.row, move.kind, move.context, move.program, move.line, move.rapid, move.fixed,
             move.per_revolution, move.left if is_last else 0.0, move.by_axis, move.overridden, move.held,
             move.faster, move.largest_override, move.limits, record[PieceRecord.LENGTH], move.done, share,
-            record[PieceRecord.CAP2], move.asked(move.done + 0.5 * share), curve=self._curve(move, record),
+            record[PieceRecord.CAP2], self.asked(move, record[PieceRecord.CAP2], move.done + 0.5 * share),
+            curve=self._curve(move, record), rise=risen(record, 0),
         )  # fmt: skip
         move.done += share
         return piece
+
+    def asked(self, move: Move, cap2: float, share: float) -> float:
+        """Speed that the program asks for at a share of a move that is laid out, on a piece with that cap."""
+        if move.grows and self.layout.free <= 1.0 and move.prepared is not None:
+            return sqrt(cap2) / move.prepared.factor(self.layout)
+        return move.asked(share)
 
     def _curve(self, move: Move, record: array[Any]) -> Cubic | None:
         """The curve of a piece; None if it is a part of the way of its row.
@@ -191,6 +198,12 @@ class Queue:
         return next(
             (moves[k:] for k, move in enumerate(moves) if move.row in begins and move.done == 0.0), []
         )
+
+
+def risen(records: Sequence[float], at: int) -> float:
+    """By which factor what bounds x in a piece is larger at its end than at its start."""
+    rise = records[at + PieceRecord.RISE]
+    return 1.0 + rise * records[at + PieceRecord.LENGTH] / records[at + PieceRecord.CAP2] if rise else 1.0
 
 
 def layout_for(rates: ChannelRates, before: Layout) -> Layout:

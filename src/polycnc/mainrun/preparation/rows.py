@@ -12,7 +12,7 @@ from polycnc.mainrun.preparation.layout import Before, PreparedRow
 from polycnc.mainrun.preparation.run_blocks import largest_override
 from polycnc.motion.kernels.arcs import asked_on_arc, facing_radius
 from polycnc.motion.kernels.columns import SHARES, ContextRecord, Form, PieceRecord, Rows, piece_width
-from polycnc.motion.kernels.feeds import faster, follows_radius, is_rapid, straight_speed
+from polycnc.motion.kernels.feeds import faster, follows_radius, growth_of, is_rapid, straight_speed
 from polycnc.motion.third_order.laying.rows import goes_by_law
 from polycnc.motion.time_constants import Use, use_of
 from polycnc.toolpath import Context, Kind
@@ -179,6 +179,7 @@ class RowLayer:
                 self._asks(curves, record, found, prepared.factor(self._queue.layout), is_arc=is_arc),
                 sum(buffer.field(at, PieceRecord.LENGTH) for at in found),
                 prepared,
+                grows=growth_of(chunk.curves, buffer.state) != 0.0,
             )
         )
 

@@ -9,6 +9,7 @@ such squares.
     join      the cap on x where two rows meet, and how the path is bent there   (`corners.py`, `rounding.py`)
     led       rows of a tool's tip, by what the axes behind it allow             (`led.py`, `demands.py`)
     feed      what a row asks for: the length that its feed counts, and the speed (`feeds.py`)
+    leads     threads whose lead changes, or that name the ways on which they take up speed and brake (`leads.py`)
     jerk      what limited jerk allows: at one place, as far around it as the average reaches, and on a line from
               rest to rest                                                       (`jerk.py`, `hold.py`, `alone.py`)
     backward  how fast a joint may be passed so that all behind it can be braked for   (`speeds.py`)

@@ -186,7 +186,9 @@ class PieceRecord(Places):
     are. EARLY are the seconds by which the run that begins with the piece may begin before the averages of the one
     before have come to rest; PAUSE bounds them. PATH_PULL bounds the acceleration along a curved piece beside its axes.
     ZONE says that the piece is bent for the corner behind it (TO_CORNER) or before it (FROM_CORNER, `rounding.py`),
-    ALONE (1) that it is of a line from rest to rest with averages of its own.
+    ALONE (1) that it is of a line from rest to rest with averages of its own. RISE is what CAP2, then that at the start
+    of a line, rises by in a mm (`leads.py`); PEAK2 is the highest x then, and RATE the acceleration to the cap and from
+    it.
 
     Of a JERKED piece, which `third_order/laws/records.py` writes, PULL is the acceleration along the path at its start
     and JERK what that changes by in a second, to either side; q' and q'' are what they are, and RATE is nothing.
@@ -217,6 +219,7 @@ class PieceRecord(Places):
     ZONE = place()
     ALONE = place()
     JERK = place()
+    RISE = place()
     VECTORS = place(0)
 
 
@@ -466,10 +469,15 @@ def zeros(count: int) -> array[float]:
 
 #: Of a cut that is led beside its end, in its record in `curves`: how far its line is off the programmed one, mm.
 MOST_OFF = 3
+#: Of a straight thread, in its record in `curves`: what its lead grows by each revolution, mm, and the ways on which it
+#: takes up its speed and brakes, mm along the axis with the longest way (0: what its axes allow).
+GROWTH, WAY_IN, WAY_OUT = 2, 3, 4
 #: Of a tap, in its record in `curves`: how much faster than at its lead it runs, and the largest override (0: none).
 FACTOR, LARGEST_OVERRIDE = 2, 3
 #: With limited jerk lines are cut: room for so many pieces more than a row has, and for each of its pieces.
 SPARE_PIECES, CUTS_PER_PIECE = 64, 3
+#: Pieces that following its lead adds to a thread.
+LEAD_PIECES = 4
 #: Without it: pieces that bending a corner cuts off the rows before and behind it.
 BEND_PIECES = 2
 #: Without it: pieces that a chord of a spline is parted into at most.

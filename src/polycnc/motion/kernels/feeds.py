@@ -10,6 +10,8 @@ from polycnc.motion.kernels.columns import (
     CHORD_PARTS,
     CUTS_PER_PIECE,
     FACTOR,
+    GROWTH,
+    LEAD_PIECES,
     PLACES,
     RAPID,
     REF,
@@ -82,16 +84,23 @@ def lead_of(curves: Floats, state: State) -> float:
     return 0.0
 
 
-def mean_lead(curves: Floats, state: State, lead: float, way: float) -> float:
-    """What a revolution covers on average over a straight thread whose lead grows with every revolution.
-
-    With `g` the growth, `lead² + 2·g·way` is the square of the last lead, and first and last lead have the mean.
-    """
+def is_straight_thread(curves: Floats, state: State) -> bool:
+    """Whether the row at hand is a thread that is no arc."""
     at = state.row.curve
-    is_straight = curves[at + 5] == 0.0 and curves[at + 6] == 0.0 and curves[at + 7] == 0.0
-    if state.row.kind != THREAD or not is_straight:
-        return lead
-    return 0.5 * (lead + sqrt(max(lead * lead + 2.0 * curves[at + 2] * way, 0.0)))
+    if state.row.kind != THREAD or at < 0:
+        return False
+    return curves[at + 5] == 0.0 and curves[at + 6] == 0.0 and curves[at + 7] == 0.0
+
+
+def growth_of(curves: Floats, state: State) -> float:
+    """What the lead of the row at hand grows by each revolution, mm; 0 for all but straight threads."""
+    return curves[state.row.curve + GROWTH] if is_straight_thread(curves, state) else 0.0
+
+
+def turns_s(contexts: Floats, record: int, state: State, radius_mm: float) -> float:
+    """Revolutions a second of the spindle that the row at hand follows, a thread at the operator's override."""
+    turns = revolutions_s(contexts, record, radius_mm)
+    return turns * state.run.override if state.row.kind == THREAD else turns
 
 
 def faster(curves: Floats, state: State) -> float:
@@ -107,7 +116,8 @@ def asked_speed(
 ) -> float:
     """Path speed that the program asks for by its feed mode, mm/s; 0 for none, `SLOWEST` where it asks for less.
 
-    That of a rapid is infinite, unless rapids have a speed of their own.
+    That of a rapid is infinite, unless rapids have a speed of their own; of a thread whose lead changes it is the
+    highest one.
     """
     if is_rapid(state):
         speed = contexts[record + ContextRecord.RAPID_SPEED]
@@ -119,8 +129,9 @@ def asked_speed(
         for i in range(n):
             longest = max(longest, abs(state.delta[i]))
         if longest > 0.0:
-            lead = mean_lead(curves, state, lead, longest) * faster(curves, state)
-            return lead * revolutions_s(contexts, record, radius_mm) * length / longest
+            last2 = lead * lead + 2.0 * growth_of(curves, state) * longest
+            lead = max(lead, sqrt(max(last2, 0.0))) * faster(curves, state)
+            return lead * turns_s(contexts, record, state, radius_mm) * length / longest
     speed = state.row.feed
     if contexts[record + ContextRecord.PER_REVOLUTION] != 0.0:
         speed *= revolutions_s(contexts, record, radius_mm)
@@ -239,6 +250,8 @@ def has_room(pieces: Floats, contexts: Floats, record: int, state: State, parts:
         parts = CUTS_PER_PIECE * parts + SPARE_PIECES
     else:
         parts += BEND_PIECES
+        if state.row.kind == THREAD:
+            parts += LEAD_PIECES
         if state.row.kind == SPLINE or state.run.smooth != 0.0:
             parts += 2 * CHORD_PARTS  # those of the chord before, and of the one at hand
     return (state.run.pieces + parts) * piece_width(n) <= len(pieces)
@@ -261,7 +274,7 @@ def next_piece(pieces: Floats, state: State, form: int, cap2: float, n: int) -> 
         pieces[at + PieceRecord.MARGIN],
     ) = inf, inf, 0.0, 1.0
     pieces[at + PieceRecord.PATH_PULL], pieces[at + PieceRecord.ZONE] = inf, 0.0
-    pieces[at + PieceRecord.ALONE] = 0.0
+    pieces[at + PieceRecord.ALONE], pieces[at + PieceRecord.RISE] = 0.0, 0.0
     pieces[at + PieceRecord.RAMP], pieces[at + PieceRecord.BLEND], pieces[at + PieceRecord.EARLY] = (
         state.joint.ramp,
         state.joint.blend,

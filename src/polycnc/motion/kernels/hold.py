@@ -48,15 +48,13 @@ def hold(pieces: Floats, first: int, n: int, state: State) -> None:
         if pieces[at + PieceRecord.FORM] == Form.TIMED:
             p += 1
             continue
-        state.run.top2 = max(state.run.top2, pieces[at + PieceRecord.CAP2])
+        high2 = top_cap2(pieces, at)
+        state.run.top2 = max(state.run.top2, high2)
         state.run.top_pull = max(state.run.top_pull, pieces[at + PieceRecord.PULL])
         if pieces[at + PieceRecord.PAUSE] == 0.0 and pieces[at + PieceRecord.HOLD_WAY] > SLIVER_MM:
             meet_hold(pieces, at, state)
         if state.run.ahead > 0.0:
-            if (
-                pieces[at + PieceRecord.CAP2] > state.run.low2
-                or pieces[at + PieceRecord.PULL] > state.run.low_pull
-            ):
+            if high2 > state.run.low2 or pieces[at + PieceRecord.PULL] > state.run.low_pull:
                 hold_ahead(pieces, p, n, state)
             length = pieces[at + PieceRecord.LENGTH]
             state.run.ahead -= length
@@ -65,7 +63,7 @@ def hold(pieces: Floats, first: int, n: int, state: State) -> None:
         pieces[at + PieceRecord.ENTRY2] = min(pieces[at + PieceRecord.ENTRY2], pieces[at + PieceRecord.CAP2])
         if p > 0 and pieces[at - width + PieceRecord.FORM] != Form.TIMED:
             pieces[at + PieceRecord.ENTRY2] = min(
-                pieces[at + PieceRecord.ENTRY2], pieces[at - width + PieceRecord.CAP2]
+                pieces[at + PieceRecord.ENTRY2], end_cap2(pieces, at - width)
             )
         p += 1
     if state.run.chord == CLOSED:
@@ -88,18 +86,19 @@ def hold_behind(pieces: Floats, p: int, n: int, state: State) -> int:
     q, pace2 = p - 1, cap2
     while q >= 0 and left > SLIVER_MM and pieces[q * width + PieceRecord.FORM] != Form.TIMED:
         at = q * width
-        length, own2 = pieces[at + PieceRecord.LENGTH], min(cap2, pieces[at + PieceRecord.CAP2])
+        length, high2 = pieces[at + PieceRecord.LENGTH], top_cap2(pieces, at)
+        own2 = min(cap2, high2)
         if own2 != pace2:
             left *= sqrt(own2 / pace2)
             pace2 = own2
             if left <= SLIVER_MM:
                 break
-        bounds = cap2 < ALIKE * pieces[at + PieceRecord.CAP2] or pull < ALIKE * pieces[at + PieceRecord.PULL]
+        bounds = cap2 < ALIKE * high2 or pull < ALIKE * pieces[at + PieceRecord.PULL]
         if bounds and worth_cutting(pieces, at, left) and cut(pieces, q, n, state, length - left):
             cuts += 1
             q += 1
             continue
-        pieces[at + PieceRecord.CAP2] = min(pieces[at + PieceRecord.CAP2], cap2)
+        lower_cap(pieces, at, cap2)
         pieces[at + PieceRecord.PULL] = min(pieces[at + PieceRecord.PULL], pull)
         pieces[at + PieceRecord.ENTRY2] = min(pieces[at + PieceRecord.ENTRY2], cap2)
         if pieces[at + PieceRecord.PAUSE] > 0.0:
@@ -135,17 +134,15 @@ def hold_ahead(pieces: Floats, p: int, n: int, state: State) -> None:
     run, at = state.run, p * piece_width(n)
     if min(run.low2_way, run.low_pull_way) <= SLIVER_MM:
         look_back(pieces, p, n, state)
-    cap2, pull = pieces[at + PieceRecord.CAP2], pieces[at + PieceRecord.PULL]
+    cap2, pull = top_cap2(pieces, at), pieces[at + PieceRecord.PULL]
     edge = min(
         run.low2_way if run.low2 < ALIKE * cap2 else inf,
         run.low_pull_way if run.low_pull < ALIKE * pull else inf,
     )
     if worth_cutting(pieces, at, edge):
         cut(pieces, p, n, state, edge)
-    pieces[at + PieceRecord.CAP2], pieces[at + PieceRecord.PULL] = (
-        min(cap2, run.low2),
-        min(pull, run.low_pull),
-    )
+    lower_cap(pieces, at, run.low2)
+    pieces[at + PieceRecord.PULL] = min(pull, run.low_pull)
 
 
 def look_back(pieces: Floats, p: int, n: int, state: State) -> None:
@@ -170,6 +167,30 @@ def look_back(pieces: Floats, p: int, n: int, state: State) -> None:
             way += pieces[joint - width + PieceRecord.LENGTH]
     state.run.low2, state.run.low2_way = low2, low2_way
     state.run.low_pull, state.run.low_pull_way = low_pull, low_pull_way
+
+
+def end_cap2(pieces: Floats, at: int) -> float:
+    """What bounds x inside a piece at its end."""
+    cap2: float = pieces[at + PieceRecord.CAP2]
+    if pieces[at + PieceRecord.RISE] != 0.0:
+        cap2 += pieces[at + PieceRecord.RISE] * pieces[at + PieceRecord.LENGTH]
+    return cap2
+
+
+def top_cap2(pieces: Floats, at: int) -> float:
+    """The highest bound of x inside a piece."""
+    cap2: float = pieces[at + PieceRecord.CAP2]
+    return end_cap2(pieces, at) if pieces[at + PieceRecord.RISE] > 0.0 else cap2
+
+
+def lower_cap(pieces: Floats, at: int, cap2: float) -> None:
+    """No more than an x inside a piece; of a cap that rises the lower end is kept then, all along the piece."""
+    if pieces[at + PieceRecord.RISE] != 0.0:
+        if cap2 >= top_cap2(pieces, at):
+            return
+        cap2 = min(cap2, end_cap2(pieces, at))
+        pieces[at + PieceRecord.RISE] = 0.0
+    pieces[at + PieceRecord.CAP2] = min(pieces[at + PieceRecord.CAP2], cap2)
 
 
 def worth_cutting(pieces: Floats, at: int, edge: float) -> bool:
@@ -198,6 +219,7 @@ def cut(pieces: Floats, p: int, n: int, state: State, first: float) -> bool:
     rest = at + width
     pieces[rest + PieceRecord.LENGTH] = pieces[at + PieceRecord.LENGTH] - first
     pieces[at + PieceRecord.LENGTH] = first
+    pieces[rest + PieceRecord.CAP2] = end_cap2(pieces, at)
     led = pieces[at + PieceRecord.FORM] == Form.LED
     bent = pieces[at + PieceRecord.FORM] != Form.STRAIGHT and not led
     scale = (first + pieces[rest + PieceRecord.LENGTH]) / pieces[at + PieceRecord.MARGIN]
@@ -220,5 +242,5 @@ def cut(pieces: Floats, p: int, n: int, state: State, first: float) -> bool:
         pieces[at + i + n] = pieces[rest + i] = there
     pieces[rest + PieceRecord.PAUSE], pieces[rest + PieceRecord.HOLD_WAY] = 0.0, 0.0
     pieces[rest + PieceRecord.HOLD2] = pieces[rest + PieceRecord.HOLD_PULL] = inf
-    pieces[rest + PieceRecord.ENTRY2] = pieces[at + PieceRecord.CAP2]
+    pieces[rest + PieceRecord.ENTRY2] = pieces[rest + PieceRecord.CAP2]
     return True

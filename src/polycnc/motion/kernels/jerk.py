@@ -55,6 +55,14 @@ def window_s(ramp: float, blend: float) -> float:
     return ramp + 2.0 * blend
 
 
+def averaged_s2(ramp: float, blend: float) -> float:
+    """Mean of the squares of the times over which the averages spread a motion, s²: T²/12 of one over T.
+
+    A way under a steady acceleration c is ahead by half of it times c, behind the averages.
+    """
+    return (ramp * ramp + 2.0 * blend * blend) / 12.0
+
+
 def axis_pull(ramp: float, limits: Limits, i: int) -> float:
     """Acceleration of an axis that neither exceeds its own limit nor, averaged over `ramp` seconds, that of jerk."""
     pull = limits.acceleration[i]

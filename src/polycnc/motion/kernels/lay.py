@@ -57,6 +57,7 @@ from polycnc.motion.kernels.feeds import (
 )
 from polycnc.motion.kernels.hold import hold
 from polycnc.motion.kernels.jerk import line_pull, window_s
+from polycnc.motion.kernels.leads import follow_leads
 from polycnc.motion.kernels.led import is_led, lay_led
 from polycnc.motion.kernels.rounding import round_joint
 from polycnc.motion.kernels.speeds import straight_time
@@ -215,6 +216,7 @@ def lay_move(
 ) -> bool:
     """Lay the row at hand out; false when the room ends: it can then be tried again."""
     kind, first, state.joint.bend_way = state.row.kind, state.run.pieces, 0.0
+    exit2 = state.run.exit2
     if first == 0:
         state.run.chord = 0.0
     not_held = first - (1 if state.run.chord != 0.0 else 0)
@@ -235,6 +237,8 @@ def lay_move(
     if not done:
         return False
     if state.run.pieces > first:
+        if kind == THREAD:
+            first += follow_leads(curves, contexts, record, exit2, first, limits.geometry[0], pieces, state)
         overlap(contexts, record, pieces, first, n, limits, state)
     stands = stands or contexts[record + ContextRecord.EXACT_STOP] != 0.0
     if stands and state.run.pieces > first:

@@ -24,7 +24,7 @@ from polycnc.motion.kernels.columns import (
     square,
 )
 from polycnc.motion.kernels.feeds import left_tolerance
-from polycnc.motion.kernels.hold import cut
+from polycnc.motion.kernels.hold import cut, end_cap2, lower_cap
 
 #: Directions that differ by less count as one; ways shorter than this (mm) are not bent.
 SAME_DIRECTION, NO_BEND_MM = 1e-9, 1e-9
@@ -114,6 +114,8 @@ def add_bend(
         lead_bend(pieces, at, n, limits, state)
         ease = 1.0  # it has a part of its own for the bend
     if pieces[at + PieceRecord.FORM] == Form.STRAIGHT:
+        if pieces[at + PieceRecord.RISE] != 0.0:
+            lower_cap(pieces, at, min(pieces[at + PieceRecord.CAP2], end_cap2(pieces, at)))
         pieces[at + PieceRecord.FORM], pieces[at + PieceRecord.PATH_PULL] = (
             Form.CURVED,
             pieces[at + PieceRecord.PULL],

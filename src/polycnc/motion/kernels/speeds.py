@@ -72,8 +72,12 @@ def forward(
         peak2, rate = 0.0, pieces[at + PieceRecord.PULL]
         if pieces[at + PieceRecord.FORM] <= Form.BENT:
             next2 = min(next2, x2 + 2.0 * rate * length)
-            peak2 = straight_peak2(x2, next2, pieces[at + PieceRecord.CAP2], rate, length)
-            seconds = straight_time(x2, next2, pieces[at + PieceRecord.CAP2], rate, length)
+            cap2, rise = pieces[at + PieceRecord.CAP2], pieces[at + PieceRecord.RISE]
+            if rise == 0.0:
+                peak2 = straight_peak2(x2, next2, cap2, rate, length)
+                seconds = straight_time(x2, next2, cap2, rate, length)
+            else:
+                seconds, peak2 = rising_time(x2, next2, cap2, rise, rate, length)
         elif pieces[at + PieceRecord.FORM] != Form.TIMED:
             next2 = min(next2, max(bound2(pieces, at, n, limits, x2, False)[0], 0.0))
             seconds, peak2, rate = curved_time(pieces, at, n, limits, x2, next2)
@@ -110,6 +114,38 @@ def straight_time(start2: float, end2: float, cap2: float, pull: float, length: 
 def straight_peak2(start2: float, end2: float, cap2: float, pull: float, length: float) -> float:
     """Highest x on a straight piece."""
     return max(min(cap2, 0.5 * (start2 + end2) + pull * length), start2, end2)
+
+
+def ways_to_cap(
+    start2: float, end2: float, cap2: float, rise: float, pull: float, length: float
+) -> tuple[float, float]:
+    """Ways up to a cap on x, CAP2 at the start of a straight piece, that rises evenly along it, and down from it.
+
+    Neither is longer than the piece; together they are as long where the cap is not reached. One that changes faster
+    than the acceleration `pull` lets x change is not.
+    """
+    up = down = length
+    if 2.0 * pull > abs(rise):
+        up = (cap2 - start2) / (2.0 * pull - rise)
+        down = (cap2 + rise * length - end2) / (2.0 * pull + rise)
+    if up + down >= length:
+        up = 0.5 * length + 0.25 * (end2 - start2) / pull
+        down = length - up
+    return min(max(up, 0.0), length), min(max(down, 0.0), length)
+
+
+def rising_time(
+    start2: float, end2: float, cap2: float, rise: float, pull: float, length: float
+) -> tuple[float, float]:
+    """Seconds of a straight piece under a cap that rises evenly along it, and highest x on it."""
+    up, down = ways_to_cap(start2, end2, cap2, rise, pull, length)
+    first2, last2 = start2 + 2.0 * pull * up, end2 + 2.0 * pull * down
+    first, last = sqrt(first2), sqrt(last2)
+    if first + last <= 0.0:
+        return 0.0, 0.0
+    level = 2.0 * max(length - up - down, 0.0) / (first + last)
+    seconds = (first - sqrt(start2) + last - sqrt(end2)) / pull + level
+    return seconds, max(first2, last2, start2, end2)
 
 
 def bound2(

@@ -15,6 +15,7 @@ import numpy as np
 from polycnc.deferred.typing import TYPE_CHECKING, TypeAlias, TypeVar
 from polycnc.motion.kernels.columns import PLACES, Form, PieceRecord
 from polycnc.motion.kernels.jerk import window_s
+from polycnc.motion.kernels.speeds import ways_to_cap
 from polycnc.motion.law import STEPS, Law, Phase
 from polycnc.motion.sampling.tents import CURVE, LINE, under_tents
 
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
 
     from polycnc.motion.limits import AxisRapid
 
+#: Of a piece whose cap on x rises: that cap, what it rises by in a mm, and the acceleration to it and from it.
+RISING = PieceRecord.CAP2, PieceRecord.RISE, PieceRecord.PULL
 _Kind = TypeVar("_Kind", bound=np.generic)
 Numbers: TypeAlias = "NDArray[np.float64]"
 #: Indices: of rows, axes, pieces.
@@ -252,8 +255,14 @@ def _phases(pieces: Numbers) -> Moved:
     rate = np.where(rate > 0.0, rate, np.inf)
     up = np.minimum(0.5 * (peak2 - start2) / rate, length)
     down = np.minimum(0.5 * (peak2 - end2) / rate, length - up)
+    squares = np.stack([start2, peak2, peak2, end2], axis=1)
+    for k in np.flatnonzero(pieces[:, PieceRecord.RISE]).tolist():
+        cap2, rise, pull = (float(pieces[k, at]) for at in RISING)
+        ends = float(start2[k]), float(end2[k])
+        up[k], down[k] = ways_to_cap(*ends, cap2, rise, pull, float(length[k]))
+        squares[k, 1:3] = ends[0] + 2.0 * pull * up[k], ends[1] + 2.0 * pull * down[k]
     ways = np.stack([up, length - up - down, down], axis=1).ravel()
-    speeds = np.sqrt(np.stack([start2, peak2, peak2, end2], axis=1))
+    speeds = np.sqrt(squares)
     sums = (speeds[:, :-1] + speeds[:, 1:]).ravel()
     return 2.0 * ways / np.where(sums > 0.0, sums, np.inf), ways, speeds[:, :-1].ravel()
 

@@ -63,7 +63,8 @@ def least_seconds(pieces: Sequence[float], first: int, last: int, width: int) ->
         if pieces[at + PieceRecord.FORM] == Form.TIMED:
             seconds += pieces[at + PieceRecord.PULL]
         else:
-            seconds += pieces[at + PieceRecord.LENGTH] / sqrt(pieces[at + PieceRecord.CAP2])
+            rises = max(pieces[at + PieceRecord.RISE], 0.0) * pieces[at + PieceRecord.LENGTH]
+            seconds += pieces[at + PieceRecord.LENGTH] / sqrt(pieces[at + PieceRecord.CAP2] + rises)
     return seconds
 
 
@@ -382,7 +383,7 @@ class Waits:
         """Rows that begin a thread: no thread leads into them, and their spindle turns."""
         before = -1
         for row in _places(kinds, Kind.THREAD):
-            leads_on = self._leads_on if before < 0 else True
+            leads_on = self._leads_on if before < 0 else not self._exact(chunk.context[before])
             between = range(before + 1, row)
             if any(kinds[k] != Kind.EVENT or self.stands_at(chunk, k) for k in between):
                 leads_on = False
@@ -391,7 +392,7 @@ class Waits:
             before = row
         behind = range(before + 1, len(kinds)) if before >= 0 or self._leads_on else ()
         if before >= 0:
-            self._leads_on = True
+            self._leads_on = not self._exact(chunk.context[before])
         if any(kinds[k] != Kind.EVENT or self.stands_at(chunk, k) for k in behind):
             self._leads_on = False
 

@@ -13,6 +13,7 @@ from math import sqrt
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.motion.kernels.columns import PieceRecord
+from polycnc.motion.kernels.jerk import averaged_s2
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -26,11 +27,22 @@ THERE_DEG = 1e-6
 def lag_s(pieces: Sequence[float], at: int) -> float:
     """Seconds by which an axis that takes up its speed in a piece is behind one that has had it from the start.
 
-    With an acceleration u up to v it is v/2u, besides half the averages.
+    With an acceleration u up to v it is v/2u, besides half the averages. Where the lead changes so that it accelerates
+    by c, the axis meets it behind the way s at the speed w, both as `kernels/leads.py` has them: it has taken w/u to
+    where a lead from the start on would have come in (w - v)/c.
     """
-    speed, pull = sqrt(pieces[at + PieceRecord.CAP2]), pieces[at + PieceRecord.PULL]
-    late = 0.5 * pieces[at + PieceRecord.RAMP] + pieces[at + PieceRecord.BLEND]
-    return late + (0.5 * speed / pull if pull > 0.0 else 0.0)
+    cap2, pull = pieces[at + PieceRecord.CAP2], pieces[at + PieceRecord.PULL]
+    ramp, blend = pieces[at + PieceRecord.RAMP], pieces[at + PieceRecord.BLEND]
+    late = 0.5 * ramp + blend
+    if pull <= 0.0:
+        return late
+    change = 0.5 * pieces[at + PieceRecord.RISE]
+    if change >= pull:  # it never meets it
+        change = 0.0
+    way = 0.5 * cap2 / (pull - change)
+    raised = change * averaged_s2(ramp, blend)
+    speed, met = sqrt(max(cap2 - change * raised, 0.0)), sqrt(2.0 * pull * way)
+    return late + met / pull - (2.0 * way + raised) / (met + speed) if met > 0.0 else late
 
 
 class SpindleAngle:

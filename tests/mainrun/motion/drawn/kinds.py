@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from random import Random
 
-from tests.mainrun.motion.drawn import milling, mixed, sinumerik
+from tests.mainrun.motion.drawn import milling, mixed, sinumerik, threads
 from tests.mainrun.motion.random_programs import Writer, writer
 
 MILLS = ("fanuc-m", "syntec-mill", "meldas-m")
@@ -31,6 +31,8 @@ KINDS: tuple[tuple[type[Writer], tuple[str, ...]], ...] = (
     (sinumerik.Calls, ("sinumerik-840d",)),
     (sinumerik.Taps, ("sinumerik-840d",)),
 )
+#: One seed out of so many draws threads of a lathe.
+THREADS = 20
 
 
 def drawn(seed: int) -> Writer:
@@ -38,5 +40,7 @@ def drawn(seed: int) -> Writer:
     if seed % 2 == 0:
         return writer(seed // 2)
     random = Random(seed)
+    if seed % THREADS == THREADS - 1:
+        return threads.Threads(random, random.choice(("sinumerik-840d", "fanuc-0i-tf")))
     kind, controls = KINDS[seed // 2 % len(KINDS)]
     return kind(random, random.choice(controls))

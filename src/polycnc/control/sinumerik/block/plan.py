@@ -42,7 +42,7 @@ with loaded_when_called():
     from polycnc.control.sinumerik.feed import feed_words
     from polycnc.control.sinumerik.frames import codes as frame_codes
     from polycnc.control.sinumerik.frames import tool_frames
-    from polycnc.control.sinumerik.motion import involutes, repositioning, splines
+    from polycnc.control.sinumerik.motion import involutes, repositioning, splines, threads
     from polycnc.control.sinumerik.oscillation import words as oscillation
     from polycnc.control.sinumerik.tangential import definitions as tangential
     from polycnc.control.sinumerik.tools import online, smooth_approach, stages
@@ -72,16 +72,16 @@ MOTIONS: dict[str, Callable[[Draft], Step | None]] = {
     "CT": circles.tangential,
     "INVCW": involutes.wind,
     "INVCCW": involutes.wind,
-    "G33": moves.thread,
-    "G34": moves.thread,
-    "G35": moves.thread,
-    "G331": moves.tap,
-    "G332": moves.tap,
+    "G33": threads.thread,
+    "G34": threads.thread,
+    "G35": threads.thread,
+    "G331": threads.tap,
+    "G332": threads.tap,
 }
 #: Functions of group 2.
 BLOCK_MOTIONS: dict[str, Callable[[Draft], Step | None]] = {
     "G4": moves.dwell,
-    "G63": moves.tap_with_chuck,
+    "G63": threads.tap_with_chuck,
     "G74": moves.reference_point,
     "G75": moves.fixed_point,
     "G751": moves.fixed_point,

@@ -15,11 +15,15 @@ from math import nan
 from polycnc.control.sinumerik.axes import spindles as spindle_axes
 from polycnc.control.sinumerik.motion import circles
 from polycnc.control.sinumerik.motion import moves as motion
+from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.typing import TYPE_CHECKING, ParamSpec, TypeAlias
 from polycnc.geometry.planes import PLANES
 from polycnc.messages import AlarmError
 from polycnc.toolpath import Kind
 from polycnc.toolpath.events import Auxiliary, Message, SpindleSpeed
+
+with loaded_when_called():
+    from polycnc.control.sinumerik.motion import threads
 
 if TYPE_CHECKING:
     from polycnc.control.sinumerik.family import SinumerikChannel
@@ -166,7 +170,11 @@ class Moves:
         circles.arc(self.channel, self.columns, self.axes, end, center, motion.checked_feed(feed), ccw)
 
     def _special(self, kind: Kind, target: Target, feed: float, parameters: list[float]) -> None:
-        motion.special(self.channel, kind, self._end(target), feed, parameters)
+        end = self._end(target)
+        if kind is Kind.THREAD:
+            threads.cut(self.channel, end, *parameters)
+        else:
+            motion.special(self.channel, kind, end, feed, parameters)
 
     # ---- the machine
 

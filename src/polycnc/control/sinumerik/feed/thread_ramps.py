@@ -1,7 +1,6 @@
 """SF, DITS, DITE: where a thread begins on the circumference, and its paths to take up speed and to brake.
 
 They are setting data that words write (job planning 1.1.7), so they hold for the threads behind (16.1: SF is modal).
-The planner lets the axes take up speed as they can.
 """
 
 from __future__ import annotations
@@ -23,6 +22,8 @@ DATUM = "$SC_THREAD_RAMP_DISP"
 START_ANGLE = "$SC_THREAD_START_ANGLE"
 #: As fast as the axis can.
 BY_DYNAMICS = -1.0
+#: A way that counts as none.
+AT_ONCE_MM = 1e-6
 
 
 def ramp(draft: Draft, position: int, shape: WordShape) -> Step:
@@ -35,6 +36,18 @@ def ramp(draft: Draft, position: int, shape: WordShape) -> Step:
         channel.memory.data.write(DATUM, (RAMPS[shape.address],), wanted)
 
     return run
+
+
+def ways(channel: SinumerikChannel) -> tuple[float, float]:
+    """Ways on which a thread takes up its speed and brakes, mm along its axis; 0 for those that the axes allow.
+
+    SD42010 (its description in the list manual is general knowledge here): below 0 by the acceleration of the axis, 0
+    at once, above 0 evenly over that way, whatever acceleration it asks for.
+    """
+    data = channel.memory.data
+    values = (data.number(DATUM, element) for element in RAMPS.values())
+    at_start, at_end = (0.0 if value < 0.0 else max(value, AT_ONCE_MM) for value in values)
+    return at_start, at_end
 
 
 def start_angle(_draft: Draft, position: int, _shape: WordShape) -> Step:

@@ -13,8 +13,6 @@ from polycnc.control.sinumerik import tables
 from polycnc.control.sinumerik.block import plain
 from polycnc.control.sinumerik.block.outside_feeds import take_block_feed
 from polycnc.control.sinumerik.block.positions import AxisTerm, Dimension, axis_term, number, target
-from polycnc.control.sinumerik.feed import thread_ramps
-from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.limits import working_area
 from polycnc.control.sinumerik.motion.last_move import LastMove
 from polycnc.control.sinumerik.motion.polar import Polar
@@ -372,88 +370,7 @@ def _meeting_lines(draft: Draft, terms: list[AxisTerm], position: int, columns: 
     return lambda channel, values: target(channel, terms, values)
 
 
-# ---- threads and tapping
-
-
-def lead_of(draft: Draft) -> Any:
-    """The thread lead that I, J, K give: of the axis with the longest way; 16720 for none or zero."""
-    factor = length_factor(draft.mode)
-    leads = [(i, draft.take(letter)) for i, letter in enumerate("IJK")]
-    given = [(i, position) for i, position in leads if position is not None]
-
-    def lead(channel: SinumerikChannel, values: Values, end: list[float]) -> float:
-        coordinates = channel.coordinates
-        ways = [
-            (
-                abs(end[column] - coordinates.position[column])
-                if (column := coordinates.geometry[i]) >= 0
-                else 0.0,
-                p,
-            )
-            for i, p in given
-        ]
-        value = number(values, max(ways)[1]) * factor if ways else 0.0
-        if value == 0.0:
-            raise AlarmError("16720")
-        return value
-
-    return lead
-
-
-def thread(draft: Draft) -> Step | None:
-    """G33: thread with constant lead; SD42000 (SF) is the start angle. G34, G35: F changes the lead per revolution."""
-    lead = lead_of(draft)
-    change = draft.take("F") if draft.mode["motion"] in ("G34", "G35") else None
-    sign, factor = -1.0 if draft.mode["motion"] == "G35" else 1.0, length_factor(draft.mode)
-    goal = goal_of(draft)
-    if goal is None:
-        return None
-
-    def run(channel: SinumerikChannel, values: Values) -> None:
-        end = goal(channel, values)
-        angle = channel.memory.data.number(thread_ramps.START_ANGLE)
-        parameters = [lead(channel, values, end), angle]
-        if change is not None:
-            parameters.append(sign * number(values, change) * factor)
-        special(channel, Kind.THREAD, end, nan, parameters)
-
-    return run
-
-
-def tap(draft: Draft) -> Step | None:
-    """G331 in and G332 out: rigid tapping; a negative lead is a left-hand thread."""
-    lead = lead_of(draft)
-    goal = goal_of(draft)
-    if goal is None:
-        return None
-
-    def run(channel: SinumerikChannel, values: Values) -> None:
-        end = goal(channel, values)
-        special(channel, Kind.TAP, end, nan, [lead(channel, values, end)])
-
-    return run
-
-
-def tap_with_chuck(draft: Draft) -> Step | None:
-    """G63: one tapping block with compensating chuck; the lead is the feed per revolution."""
-    goal = goal_of(draft)
-    if goal is None:
-        return None
-
-    def run(channel: SinumerikChannel, values: Values) -> None:
-        feed = checked_feed(channel.feed)
-        memory = channel.memory
-        speed = memory.spindles.get().speed
-        lead = (
-            feed
-            if PathFeed.of(channel).mode is FeedMode.PER_REVOLUTION
-            else feed * tables.MINUTE / speed
-            if speed
-            else 0.0
-        )
-        special(channel, Kind.TAP, goal(channel, values), feed, [lead])
-
-    return run
+# ---- moves with curve parameters
 
 
 def special(

@@ -40,12 +40,14 @@ from polycnc.motion.explain.kernels.law import share_law
 from polycnc.motion.explain.kernels.rapids import share_timed
 from polycnc.motion.kernels.columns import (
     SPLINE,
+    THREAD,
     ContextRecord,
     Form,
     PieceRecord,
     piece_width,
     square,
 )
+from polycnc.motion.kernels.speeds import ways_to_cap
 
 
 def share_out(
@@ -152,6 +154,8 @@ def phases(records: Floats, at: int) -> tuple[float, float, float, float, float]
         records[at + PieceRecord.TIME],
     )
     form = records[at + PieceRecord.FORM]
+    if records[at + PieceRecord.RISE] != 0.0:
+        return rising_phases(records, at)
     # Along a curve the speed that it allows changes from piece to piece.
     even = (form == Form.CURVED or form == Form.LED) and min(start2, end2) >= (1.0 - EVEN) * peak2
     if rate <= 0.0 or even:
@@ -168,6 +172,27 @@ def phases(records: Floats, at: int) -> tuple[float, float, float, float, float]
     up_s = 2.0 * up / (sqrt(start2) + peak) if up > 0.0 else 0.0
     up_s = seconds - along if down == 0.0 else min(up_s, seconds - along)
     return up, level, up_s, along, seconds - along - up_s
+
+
+def rising_phases(records: Floats, at: int) -> tuple[float, float, float, float, float]:
+    """The same where what bounds the speed rises or falls along the piece."""
+    start2, end2, cap2, rise, pull, length, seconds = (
+        records[at + PieceRecord.SPEED2],
+        records[at + PieceRecord.END2],
+        records[at + PieceRecord.CAP2],
+        records[at + PieceRecord.RISE],
+        records[at + PieceRecord.RATE],
+        records[at + PieceRecord.LENGTH],
+        records[at + PieceRecord.TIME],
+    )
+    up, down = ways_to_cap(start2, end2, cap2, rise, pull, length)
+    up, down = up if up > SAME * length else 0.0, down if down > SAME * length else 0.0
+    level = max(length - up - down, 0.0)
+    up_s = (sqrt(start2 + 2.0 * pull * up) - sqrt(start2)) / pull
+    down_s = (sqrt(end2 + 2.0 * pull * down) - sqrt(end2)) / pull
+    if level <= SAME * length:
+        return length - down, 0.0, seconds - down_s, 0.0, down_s
+    return up, level, up_s, seconds - up_s - down_s, down_s
 
 
 def look_at_joint(
@@ -187,6 +212,11 @@ def look_at_joint(
     inside = row == ledger.row and is_transformed(tables, note, n)  # what bounds a share of the row
     if inside or bound2 >= (1.0 - SAME_JOINT) * known2:
         return
+    if (
+        tables.notes[note + Note.KIND] == THREAD
+        and bound2 >= (1.0 - SAME_JOINT) * records[at + PieceRecord.CAP2]
+    ):
+        return  # it is the lead of the thread behind it
     ledger.joint2 = bound2
     if row != ledger.row and tables.notes[note + Note.STEP2] <= (1.0 + SAME_JOINT) * bound2:
         ledger.joint_cause = int(tables.notes[note + Note.JOINT])
@@ -266,6 +296,12 @@ def steady(
     if peak_speed(peak2) >= top:
         return
     ledger.axis = WHOLE
+    is_thread = tables.notes[note + Note.KIND] == THREAD and records[at + PieceRecord.FORM] == Form.STRAIGHT
+    if is_thread and (
+        records[at + PieceRecord.RISE] != 0.0 or peak2 >= (1.0 - SAME) * records[at + PieceRecord.CAP2]
+    ):
+        ledger.cause = Held.FEED  # its lead changes
+        return
     if records[at + PieceRecord.ZONE] != 0.0:
         ledger.cause = Held.CORNERS
         return
