@@ -159,6 +159,25 @@ class Compressed(Writer):
             self.write("G1")
 
 
+class Smoothed(Compressed):
+    """The same under what SYNTEC leaves points by: the filter of G05.1, the curve of G05."""
+
+    setup: ClassVar[dict[str, object]] = {"parameters": {"407": 10}}
+
+    def program(self) -> str:
+        draw = self.random
+        tolerance = draw.choice((0.005, 0.01, 0.05))
+        on, self.tolerance = draw.choice(
+            ((f"G05.1 Q1 E{tolerance}", tolerance), (f"G05 E{tolerance}", tolerance), ("G05 P10000", 0.01))
+        )
+        self.lines = ["G71 G90 G94", on]
+        blocks = (self.contour, self.contour, self.contour, self.line, self.facets, self.arc, self.rapid)
+        for _ in range(draw.randint(1, 4)):
+            self.feed = f" F{draw.choice(FEEDS)}." if len(self.lines) == 2 or draw.random() < 0.4 else ""
+            draw.choice(blocks)()
+        return "\n".join([*self.lines, "G05.1 Q0" if ".1" in on else "G05 P0", "M30", ""])
+
+
 SPEEDS, LEADS = (200, 333, 600, 1200), (0.5, 1.0, 2.0)
 
 

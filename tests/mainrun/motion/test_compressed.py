@@ -1,4 +1,6 @@
-"""Cuts that a compressor leads beside their ends: one motion in plan, samples and main run, within the tolerance.
+"""Cuts that are led beside their ends: one motion in plan, samples and main run, within the tolerance.
+
+Compressors of SINUMERIK lead them there, G05 and G05.1 Q1 of SYNTEC.
 
 `pytest --hypothesis-profile=explore` draws 2,000 others.
 """
@@ -13,11 +15,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import polycnc
+from polycnc.machine import parse_setup
 from polycnc.mainrun import State
 from polycnc.motion.sampling.samples import Samples
 from polycnc.session import open_session
 from polycnc.toolpath import Kind
-from tests.mainrun.motion.random_programs import Compressed
+from tests.mainrun.motion.random_programs import Compressed, Smoothed
 from tests.mainrun.motion.test_disturbed import JERK, disturb
 from tests.mainrun.motion.test_one_motion import compare
 from tests.mainrun.support import power_on
@@ -27,8 +30,8 @@ CI, EXPLORE = 24, 2000
 SLACK = 3e-5
 
 
-def written(seed: int) -> tuple[str, Compressed]:
-    writer = Compressed(Random(seed), "sinumerik-840d")
+def written(seed: int, control: str = "sinumerik-840d") -> tuple[str, Compressed]:
+    writer = (Compressed if control == "sinumerik-840d" else Smoothed)(Random(seed), control)
     return writer.program(), writer
 
 
@@ -43,14 +46,15 @@ def distances(points: np.ndarray, line: np.ndarray) -> np.ndarray:
     return found
 
 
-def check_tolerance(text: str, tolerance: float) -> None:
+def check_tolerance(text: str, writer: Compressed) -> None:
     """Samples of a program without arcs lie within the tolerance of its lines, and its ends within that of them."""
     given: list[Samples] = []
-    session = open_session(text.encode(), control="sinumerik-840d", keep=False)
+    control, tolerance = {"control": writer.control, "setup": writer.setup}, writer.tolerance
+    session = open_session(text.encode(), **control, keep=False)
     sampler = session.sample(0.0002, given.append)
     session.run().plan  # noqa: B018 - plans to the end
     sampler.close()
-    toolpath = polycnc.run(text.encode(), control="sinumerik-840d").toolpath
+    toolpath = polycnc.run(text.encode(), **control).toolpath
     rows = [row for row in toolpath.rows() if row.kind is not Kind.EVENT]
     if any(row.kind not in (Kind.FEED, Kind.RAPID) for row in rows):
         return
@@ -62,21 +66,22 @@ def check_tolerance(text: str, tolerance: float) -> None:
     assert distances(ends, places).max() <= tolerance + SLACK, text
 
 
-def check(seed: int) -> None:
-    text, writer = written(seed)
+def check(seed: int, control: str) -> None:
+    text, writer = written(seed, control)
     compare(text, writer)
-    check_tolerance(text, writer.tolerance)
+    check_tolerance(text, writer)
 
 
+@pytest.mark.parametrize("control", ["sinumerik-840d", "syntec-mill"])
 @pytest.mark.parametrize("seed", range(CI))
-def test_compressed_programs_are_one_motion_within_their_tolerance(seed: int) -> None:
-    check(seed)
+def test_they_are_one_motion_within_their_tolerance(seed: int, control: str) -> None:
+    check(seed, control)
 
 
-@given(st.integers(1000, 10**6))
+@given(st.integers(1000, 10**6), st.sampled_from(("sinumerik-840d", "syntec-mill")))
 @settings(max_examples=EXPLORE if settings.get_current_profile_name() == "explore" else 1, deadline=None)
-def test_random_compressed_programs(seed: int) -> None:
-    check(seed)
+def test_so_they_are_in_random_programs(seed: int, control: str) -> None:
+    check(seed, control)
 
 
 def noisy(code: str, mode: str) -> float:
@@ -93,14 +98,15 @@ def test_noise_within_the_tolerance_costs_no_time(mode: str, least: float, code:
     assert noisy(code, mode) < 1.03 * least < 0.7 * noisy("COMPOF", mode)
 
 
+@pytest.mark.parametrize("control", ["sinumerik-840d", "syntec-mill"])
 @pytest.mark.parametrize("seed", range(12))
-def test_no_script_leads_the_axes_off_the_tolerance_or_beyond_their_limits(seed: int) -> None:
-    """Overrides, holds and single block: the path stays, and under SOFT so does the jerk."""
-    text, writer = written(seed)
-    toolpath = polycnc.run(text.encode(), control="sinumerik-840d").toolpath
+def test_no_script_leads_the_axes_off_the_tolerance_or_beyond_their_limits(seed: int, control: str) -> None:
+    """Overrides, holds and single block: the path stays, and with limited jerk so does the jerk."""
+    text, writer = written(seed, control)
+    toolpath = polycnc.run(text.encode(), control=control, setup=writer.setup).toolpath
     rows = [row for row in toolpath.rows() if row.kind is not Kind.EVENT]
     ends = np.array([(0.0, 0.0, 0.0), *(row.end[:3] for row in rows)])
-    virtual, draw = power_on(text, "sinumerik-840d"), Random(seed)
+    virtual, draw = power_on(text, control, setup=parse_setup(writer.setup)), Random(seed)
     places = [virtual.machine_position[:3]]
     virtual.cycle_start()
     while virtual.state is not State.READY and len(places) < 20_000:
@@ -117,5 +123,5 @@ def test_no_script_leads_the_axes_off_the_tolerance_or_beyond_their_limits(seed:
     path = np.array(places)
     if all(row.kind in (Kind.FEED, Kind.RAPID) for row in rows):
         assert distances(path, ends).max() <= writer.tolerance + SLACK, text
-    if "SOFT" in text:
+    if "BRISK" not in text:
         assert np.abs(np.diff(path, 3, axis=0)).max() / 0.004**3 <= JERK * 1.001, text

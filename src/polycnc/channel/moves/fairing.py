@@ -30,8 +30,6 @@ if TYPE_CHECKING:
     from polycnc.geometry.frames import Matrix
     from polycnc.toolpath.context import Context, Fairing
 
-#: What bounds a run: the travel of the axes, and walls beside that.
-Limits = tuple[tuple[tuple[float, float], ...], tuple["Wall", ...]]
 #: So many points are forgotten at once.
 FORGOTTEN = 256
 #: So many moves of a run are taken at once: room for its points grows with them.
@@ -53,7 +51,7 @@ class FairingStage(Stage):
         self._run = FairedRun()
         self._points = Points(*(array("d") for _ in Points._fields))
         self._columns = _columns(channel)
-        self._limits: Limits = ((), ())
+        self._terms: tuple[object, ...] = ()
         self._walls = array("d")
         self._passed = 0  # points whose rows are passed on; the first is the start
 
@@ -130,14 +128,14 @@ class FairingStage(Stage):
         """Take cuts into the run, and pass on what is settled; gives how many."""
         toolpath, known = self._channel.toolpath, self._rows
         context = toolpath.contexts[cuts.context]
-        rule, limits = _fairing(context), self._limits_of(context)
+        rule, terms = _fairing(context), self._terms_of(context)
         assert rule is not None
         if known is not None and (
-            (known.program, known.context) != (cuts.program, cuts.context) or self._limits != limits
+            (known.program, known.context) != (cuts.program, cuts.context) or self._terms != terms
         ):
             self._end_run()
         if self._rows is None:
-            self._limits = limits
+            self._terms = terms
             self._begin(cuts, rule, context)
         taken = self._add(cuts, rule, context)
         self._pass_settled()
@@ -146,10 +144,9 @@ class FairingStage(Stage):
             taken += self._pass_run(cuts.part(1, taken))
         return taken
 
-    def _limits_of(self, context: Context) -> Limits:
-        """What bounds a run: it ends where that changes."""
-        channel = self._channel
-        boundary = channel.boundary
+    def _terms_of(self, context: Context) -> tuple[object, ...]:
+        """What holds for a run beside its context, such as limits: it ends where that changes."""
+        channel, boundary = self._channel, self._channel.boundary
         return channel.limits, () if boundary is None else tuple(boundary.walls(channel, context))
 
     def _begin(self, cuts: Run, rule: Fairing, context: Context) -> None:

@@ -375,8 +375,8 @@ class RowState(Structure):
         top: Its largest speed.
         ease: Factor on the limits at its start (1 without transformation).
         shares: How many it has.
-        off: How far it is led beside the programmed one at most, mm (`toolpath/fairing.py`); `swung` its rotary axes, as
-            a part of what each may be.
+        off: How far it is led beside the programmed one at most, mm (`toolpath/fairing.py`); `swung` its rotary
+            axes, as a part of what each may be.
     """
 
     kind: int
