@@ -159,6 +159,32 @@ class Compressed(Writer):
             self.write("G1")
 
 
+class CompressedTurns(Compressed):
+    """The same with a rotary axis that turns along, with noise and a tolerance of its own."""
+
+    machine = "mill4"
+    turn_tolerance = 0.0
+    #: Where the axis stands, how far it turns in a block, and how far beside that.
+    angle, pace, beside = 1.0, 0.0, 0.0
+
+    def program(self) -> str:
+        self.turn_tolerance = self.random.choice((0.002, 0.01, 0.1))
+        return super().program().replace(" CTOL", f" ATOL[A]={self.turn_tolerance} CTOL", 1)
+
+    def contour(self) -> None:
+        draw = self.random
+        self.pace, self.beside = draw.uniform(0.01, 0.5), self.turn_tolerance * draw.choice((0.02, 0.3, 0.9))
+        super().contour()
+        self.pace = 0.0
+
+    def write(self, code: str, *, rest: str = "") -> None:
+        if self.pace:
+            self.pace = max(self.pace + self.random.uniform(-0.002, 0.002), 0.01)
+            self.angle += self.pace
+            rest += f" A{self.angle + self.random.uniform(-self.beside, self.beside):.4f}"
+        super().write(code, rest=rest)
+
+
 class Smoothed(Compressed):
     """The same under what SYNTEC leaves points by: the filter of G05.1, the curve of G05."""
 
