@@ -21,7 +21,13 @@ from polycnc.mainrun import State
 from polycnc.motion.sampling.samples import Samples
 from polycnc.session import open_session
 from polycnc.toolpath import Kind
-from tests.mainrun.motion.random_programs import Compressed, CompressedTurns, Smoothed
+from tests.mainrun.motion.random_programs import (
+    Compressed,
+    CompressedTurns,
+    Smoothed,
+    SmoothedTurns,
+    Turning,
+)
 from tests.mainrun.motion.test_disturbed import JERK, disturb
 from tests.mainrun.motion.test_one_motion import compare
 from tests.mainrun.support import power_on
@@ -38,6 +44,7 @@ DRAWN = {
     "compressors": (Compressed, "sinumerik-840d"),
     "rotary axes": (CompressedTurns, "sinumerik-840d"),
     "syntec": (Smoothed, "syntec-mill"),
+    "rotary axes of syntec": (SmoothedTurns, "syntec-mill"),
 }
 
 
@@ -53,7 +60,7 @@ def start_of(writer: Compressed) -> dict[str, Any]:
 
 def bounds_of(writer: Compressed) -> np.ndarray:
     """What X, Y and Z together, and each rotary axis, may leave the lines by."""
-    turns = [writer.turn_tolerance] if isinstance(writer, CompressedTurns) else []
+    turns = [writer.turn_tolerance] if isinstance(writer, Turning) else []
     return np.array([writer.tolerance + SLACK, *(each + TURN_SLACK for each in turns)])
 
 

@@ -166,3 +166,29 @@ def test_beside_a_range_that_is_forbidden_ends_stay() -> None:
     assert moves([row for row in rows if row.end[0] > 7.6])
     rows = rows_of(text.replace("Y-0.004", "Y-0.02"), parameters=parameters)
     assert moves(rows)
+
+
+# ---- rotary axes
+
+
+def turning(angle: float = 0.006, length: float = 0.003) -> str:
+    """Blocks along a bow that turn A to and fro, beside both."""
+    draw = Random(1)
+    return "".join(
+        f"X{k * 0.1:.4f} Y{0.0001 * k * k + draw.uniform(-length, length):.4f} "
+        f"A{5.0 + 0.05 * k + draw.uniform(-angle, angle):.4f}\n"
+        for k in range(1, 200)
+    )
+
+
+def test_g05_moves_rotary_axes_that_it_names_within_their_words() -> None:
+    head = HEAD + "G00 A5.\nG05 P10000 X0 Y0 Z0 A0.02\nG01\n"
+    setup = {**SETUP, "machine": "mill4"}
+    noisy = polycnc.run(f"{head}{turning()}M30\n".encode(), control="syntec-mill", setup=setup)
+    turned = [abs(row.curve[4]) for row in noisy.toolpath.rows() if row.kind is Kind.FEED and row.curve]
+    assert sum(by > 1e-4 for by in turned) > 150
+    assert 0.002 < max(turned) <= 0.8 * 0.02
+    without = f"{head.replace(' A0.02', '')}{turning()}M30\n"
+    plain = polycnc.run(without.encode(), control="syntec-mill", setup=setup)
+    assert not any(row.curve for row in plain.toolpath.rows() if row.kind is Kind.FEED)
+    assert noisy.time < 0.4 * plain.time

@@ -60,13 +60,13 @@ class SmoothingState(State, lifetime=Lifetime.RESET):
     Attributes:
         tolerance: The distance.
         fits: By G05, under which G09 has no effect (2.10.3).
-        turn: How far rotary axes that G05 names may leave their way, degrees; 0 where it names none.
+        turns: How far rotary axes that G05 names may leave their way, degrees, with their columns.
         leaves_points: Cuts are led beside their ends within the tolerance.
     """
 
     tolerance: float = 0.0
     fits: bool = False
-    turn: float = 0.0
+    turns: tuple[tuple[int, float], ...] = ()
     leaves_points: bool = False
 
     @classmethod
@@ -99,8 +99,9 @@ def smoothed(channel: SyntecChannel, context: Context) -> Context:
         context,
         corner_mode=CornerMode.ROUNDED,
         tolerance_mm=tolerance,
-        turn_tolerance_deg=state.turn,
-        fairing=Fairing(tolerance, REACH, LONGEST_MM) if state.leaves_points else None,
+        # At corners two rotary axes have one tolerance here, the smaller one: it keeps both.
+        turn_tolerance_deg=min((degrees for _, degrees in state.turns), default=0.0),
+        fairing=Fairing(tolerance, REACH, LONGEST_MM, state.turns) if state.leaves_points else None,
     )
 
 
@@ -169,14 +170,14 @@ def _switch(
     code: str,
     *,
     fits: bool = False,
-    turn: float = 0.0,
+    turns: tuple[tuple[int, float], ...] = (),
     leaves_points: bool,
 ) -> None:
     """Another tolerance holds from here on; the axes come to rest in between."""
     state = SmoothingState.of(channel)
     channel.flush()
     leave(channel)
-    state.tolerance, state.fits, state.turn = tolerance, fits, turn
+    state.tolerance, state.fits, state.turns = tolerance, fits, turns
     state.leaves_points = leaves_points and tolerance > 0.0
     PathModeState.of(channel).contour_control = tolerance > 0.0
     channel.event(Deed(code, None, _nothing, is_silent=False))
@@ -211,9 +212,7 @@ def high_precision(channel: SyntecChannel, words: Words) -> None:
     if _cannot_fit(channel):
         tolerance = 0.0
     given = error is not None or channel.memory.parameters.fit_tolerance > 0.0
-    # Two rotary axes have one tolerance here, the smaller one: it keeps both.
-    turn = min(rotary.values(), default=0.0)
-    _switch(channel, tolerance, "G5", fits=True, turn=turn, leaves_points=given)
+    _switch(channel, tolerance, "G5", fits=True, turns=tuple(rotary.items()), leaves_points=given)
     _put_stages(channel, geometry, tuple(rotary))
 
 
