@@ -49,7 +49,8 @@ class FairingStage(Stage):
         self._mixed = -1  # the block that has had more than a cut, as the channel counts them
         self._rows: Run | None = None
         self._run = FairedRun()
-        self._points = Points(*(array("d") for _ in Points._fields))
+        self._arrays = {name: array("d") for name in Points._fields}
+        self._points = Points(**self._arrays)
         self._columns = _columns(channel)
         self._terms: tuple[object, ...] = ()
         self._walls = array("d")
@@ -177,7 +178,7 @@ class FairingStage(Stage):
         run, count, rows, points = self._run, len(cuts.kinds), self._rows, self._points
         assert rows is not None
         first = run.points
-        points.place.frombytes(bytes(8 * POINT * count))
+        self._arrays["place"].frombytes(bytes(8 * POINT * count))
         frame = array("d", [number for row in context.frame.m for number in row])
         taken = fairing().add_points(
             cuts.ends, len(cuts.start), array("q", self._columns), frame, rule.longest_mm, run, points.place
@@ -221,9 +222,7 @@ class FairingStage(Stage):
     def _room(self) -> tuple[tuple[array[float], int], ...]:
         """What is noted of every point, and how many numbers that is."""
         widths = {"place": POINT, "fit": POINT, "shift": POINT, "left": BOUNDS}
-        return tuple(
-            (room, widths.get(name, 1)) for name, room in zip(Points._fields, self._points, strict=True)
-        )
+        return tuple((room, widths.get(name, 1)) for name, room in self._arrays.items())
 
     def _end_run(self) -> None:
         """No more cuts come: the last one ends as programmed."""
