@@ -5,8 +5,10 @@ from __future__ import annotations
 from polycnc.deferred.typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from polycnc.channel.channel import Channel
-    from polycnc.channel.moves.travel import Travel
+    from polycnc.channel.moves.travel import Travel, Wall
     from polycnc.channel.stack import Executable, Level
     from polycnc.channel.steps import Step
     from polycnc.messages import AlarmError
@@ -89,3 +91,12 @@ class Boundary(Protocol):
 
     def check(self, channel: Channel, travel: Travel) -> None:
         """Raise the control's alarm where the way of a move is forbidden."""
+
+    def walls(self, channel: Channel, context: Context) -> Iterable[Wall]:
+        """What of it straight moves of a context keep to at every point, if they do at their ends."""
+
+    def comes_near(self, channel: Channel, start: list[float], end: list[float], distance: float) -> bool:
+        """Whether a straight way comes nearer than a distance, mm, to anything else that is forbidden.
+
+        The way is one of machine positions.
+        """

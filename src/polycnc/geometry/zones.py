@@ -39,6 +39,25 @@ def moved(outline: Sequence[Point], by: Point) -> list[Point]:
     return [(u + by[0], v + by[1]) for u, v in outline]
 
 
+def grown(outline: Sequence[Point], by: float) -> list[Point]:
+    """The smallest convex outline around squares at all points of a convex one, which reach so far to either side."""
+    if by == 0.0:
+        return list(outline)
+    corners = sorted({(u + a, v + b) for u, v in outline for a in (-by, by) for b in (-by, by)})
+    lower, upper = _chain(corners), _chain(corners[::-1])
+    return [*lower[:-1], *upper]
+
+
+def _chain(points: Sequence[Point]) -> list[Point]:
+    """Of points in the order of one coordinate those at which their convex hull turns left (A. M. Andrew, 1979)."""
+    hull: list[Point] = []
+    for point in points:
+        while len(hull) > 1 and _cross(hull[-2], hull[-1], point) <= 0.0:
+            hull.pop()
+        hull.append(point)
+    return hull
+
+
 def overlaps(moving: Sequence[Point], region: Sequence[Point]) -> bool:
     """Whether a convex outline (or a single point) and the protected side of a region share more than a border."""
     inner = _shrunk(moving)

@@ -70,7 +70,7 @@ def _meant(hint: Any, scope: dict[str, Any]) -> Any:
 
 
 def _numbers(hint: Any) -> type[Any]:
-    count: int = hint.__metadata__[0]
+    count: int = hint.__metadata__[-1]
     return Number * count
 
 

@@ -175,6 +175,7 @@ def context_fields(
         _rounding(context),
         context.turn_tolerance_deg,
         context.turn_distance_mm,
+        context.swing_deg,
         is_led(context, settings),
         is_ahead(context, settings),
         behind_s(context, settings),

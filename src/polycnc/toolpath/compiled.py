@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from polycnc.kernels.layout import Bytes, Floats, Ints, Ints32
     from polycnc.toolpath.digits import Forms
-    from polycnc.toolpath.fairing import FairedRun
+    from polycnc.toolpath.fairing import FairedRun, Points
     from polycnc.toolpath.survey import Boxes, Contexts, Moves
 
 #: Writes rows as text; see `digits.fill`.
@@ -37,8 +37,8 @@ class Fairing(NamedTuple):
     """The kernels that smooth the ends of short cuts; see `fairing.py`."""
 
     add_points: Callable[[Floats, int, Ints, Floats, float, FairedRun, Floats], int]
-    fair: Callable[[FairedRun, Floats, Floats, Floats, Floats, Floats, Floats, Floats], int]
-    note_shifts: Callable[[Floats, int, int, Floats, Ints32], int]
+    fair: Callable[[FairedRun, Points, Floats], int]
+    note_shifts: Callable[[FairedRun, Floats, int, int, Floats, Ints32], int]
 
 
 @cache

@@ -70,11 +70,13 @@ class Fairing:
         tolerance_mm: The path may leave the programmed lines by so much, rounding included.
         reach: So many ends before and behind it tell where the smooth path lies.
         longest_mm: Longer blocks stay as they are.
+        turns: Columns of rotary axes that may leave their way, and by how many degrees; others keep to it.
     """
 
     tolerance_mm: float
     reach: int
     longest_mm: float
+    turns: tuple[tuple[int, float], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,6 +101,7 @@ class Context:
             tolerance; None where they keep to them.
         turn_tolerance_deg: How far rotary axes may leave their way where two blocks meet, where a code names that
             (OST), and `turn_distance_mm` how far from there they may (OSD); 0 for what holds for all axes.
+        swing_deg: How far they may where a corner is rounded within `tolerance_mm`; 0 for as many degrees as that has.
         acceleration: How the axes take up speed; None for the control's own way.
         rapid_by_axis: On a rapid every axis runs alone, whatever the control's parameters say.
         rapid_speed: Speed of rapids along the path, or of each axis that runs alone, mm/s, where they have one of their
@@ -159,6 +162,7 @@ class Context:
     fairing: Fairing | None = None
     turn_tolerance_deg: float = 0.0
     turn_distance_mm: float = 0.0
+    swing_deg: float = 0.0
     acceleration: AccelerationMode | None = None
     rapid_by_axis: bool = False
     rapid_speed: float = 0.0

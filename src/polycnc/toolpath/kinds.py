@@ -30,7 +30,8 @@ NO_CURVE = -1
 #: of a straight thread what its lead grows by each revolution and the ways on which it takes up its speed and brakes
 #: (0: what the axes allow), mm; of a circular one its centre and the normal about which it turns counter-clockwise.
 #: A skip move that a signal ends: way that is left to its programmed end, mm. A cut that is led beside its end
-#: (`fairing.py`): how far, x y z of the machine, and the most that its line is off the programmed one, mm.
+#: (`fairing.py`): how far, x y z of the machine, and the most that its line is off the programmed one, mm; the first
+#: three rotary axes, degrees, and the most as a part of what each may be off.
 CURVE_WIDTH = 8
 
 #: The `type` of each kind in the trace, by its number.

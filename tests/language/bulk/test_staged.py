@@ -14,7 +14,7 @@ from polycnc.compensation.cutter import CutterCompensation
 from tests.examples import examples
 from tests.language.bulk.both_ways import PLAIN, differences, run, scanned
 from tests.language.bulk.programs import arc
-from tests.mainrun.motion.random_programs import Compressed
+from tests.mainrun.motion.random_programs import Compressed, Smoothed
 
 CONTROLS = ("fanuc-m", "meldas-m", "syntec-mill")
 SETUP = {
@@ -225,7 +225,24 @@ def test_a_block_left_out_in_front_of_compensation_changes_nothing(control_id: s
     st.integers(0, 10**6), st.sampled_from(("", "STOPRE", "M8", "R1=1", "G0 Z1\nG1", 'MSG("A")', "X1 Y1 M8"))
 )
 def test_cuts_that_a_compressor_takes_are_the_same_both_ways(seed: int, between: str) -> None:
-    lines = Compressed(Random(seed), "sinumerik-840d").program().split("\n")
+    assert (
+        differences(_with(Compressed(Random(seed), "sinumerik-840d"), between, seed), "sinumerik-840d") == []
+    )
+
+
+@settings(max_examples=examples(30), deadline=None)
+@given(
+    st.integers(0, 10**6),
+    st.sampled_from(("", "G04 P1", "M8", "#1=1", "G0 Z1.\nG1", "G61", "X1. Y1. M8", "Y1. A2.")),
+)
+def test_cuts_that_syntec_smooths_are_the_same_both_ways(seed: int, between: str) -> None:
+    writer = Smoothed(Random(seed), "syntec-mill")
+    setup = {**writer.setup, "machine": "mill4"}
+    assert differences(_with(writer, between, seed), "syntec-mill", setup) == []
+
+
+def _with(writer: Compressed, between: str, seed: int) -> str:
+    """A program with a line in the middle of it, somewhere."""
+    lines = writer.program().split("\n")
     middle = 1 + seed % max(len(lines) - 2, 1)
-    text = "\n".join((*lines[:middle], between, *lines[middle:]))
-    assert differences(text, "sinumerik-840d") == []
+    return "\n".join((*lines[:middle], between, *lines[middle:]))

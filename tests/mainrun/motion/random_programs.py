@@ -159,6 +159,66 @@ class Compressed(Writer):
             self.write("G1")
 
 
+class Turning(Compressed):
+    """Contours along which a rotary axis turns, with noise and a tolerance of its own."""
+
+    machine = "mill4"
+    turn_tolerance = 0.0
+    #: Where the axis stands, how far it turns in a block, and how far beside that.
+    angle, pace, beside = 1.0, 0.0, 0.0
+
+    def contour(self) -> None:
+        draw = self.random
+        self.pace, self.beside = draw.uniform(0.01, 0.5), self.turn_tolerance * draw.choice((0.02, 0.3, 0.9))
+        super().contour()
+        self.pace = 0.0
+
+    def write(self, code: str, *, rest: str = "") -> None:
+        if self.pace:
+            self.pace = max(self.pace + self.random.uniform(-0.002, 0.002), 0.01)
+            self.angle += self.pace
+            rest += f" A{self.angle + self.random.uniform(-self.beside, self.beside):.4f}"
+        super().write(code, rest=rest)
+
+
+class CompressedTurns(Turning):
+    """They are under a compressor."""
+
+    def program(self) -> str:
+        self.turn_tolerance = self.random.choice((0.002, 0.01, 0.1))
+        return super().program().replace(" CTOL", f" ATOL[A]={self.turn_tolerance} CTOL", 1)
+
+
+class Smoothed(Compressed):
+    """The same under what SYNTEC leaves points by: the filter of G05.1, the curve of G05."""
+
+    setup: ClassVar[dict[str, object]] = {"parameters": {"407": 10}}
+
+    def switch(self) -> str:
+        draw, tolerance = self.random, self.random.choice((0.005, 0.01, 0.05))
+        on, self.tolerance = draw.choice(
+            ((f"G05.1 Q1 E{tolerance}", tolerance), (f"G05 E{tolerance}", tolerance), ("G05 P10000", 0.01))
+        )
+        return on
+
+    def program(self) -> str:
+        draw, on = self.random, self.switch()
+        self.lines = ["G71 G90 G94", on]
+        blocks = (self.contour, self.contour, self.contour, self.line, self.facets, self.arc, self.rapid)
+        for _ in range(draw.randint(1, 4)):
+            self.feed = f" F{draw.choice(FEEDS)}." if len(self.lines) == 2 or draw.random() < 0.4 else ""
+            draw.choice(blocks)()
+        return "\n".join([*self.lines, "G05.1 Q0" if ".1" in on else "G05 P0", "M30", ""])
+
+
+class SmoothedTurns(Turning, Smoothed):
+    """Contours along which a rotary axis turns that G05 fits."""
+
+    def switch(self) -> str:
+        self.tolerance, self.turn_tolerance = 0.01, self.random.choice((0.002, 0.01, 0.1))
+        return f"G05 P10000 X0 Y0 Z0 A{self.turn_tolerance}"
+
+
 SPEEDS, LEADS = (200, 333, 600, 1200), (0.5, 1.0, 2.0)
 
 

@@ -4,25 +4,30 @@ A run are straight cuts, a block each and nothing else in it, under one context 
 than that says. Rows, and what displays tell of them, stay as they are programmed: how far an end is moved stands
 in the row's curve parameters, for those who lead the axes. A run begins and ends where it is programmed.
 
+Limits of travel, working areas and forbidden zones are looked at in front of this stage, for the moves as they are
+programmed. No end is moved beyond a limit that these keep to: walls bound how far it may go, and near a zone it stays.
+
 In single block operation every block is to end where it is programmed, and nothing is held back.
 """
 
 from __future__ import annotations
 
 from array import array
+from math import inf
 
 from polycnc.channel.moves.path import Move, Rank, Run, Stage
+from polycnc.channel.moves.travel import walls_of
 from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.toolpath.compiled import fairing
 from polycnc.toolpath.context import PROGRAMMED
-from polycnc.toolpath.fairing import FADE, POINT, FairedRun
+from polycnc.toolpath.fairing import BOUNDS, FADE, PART, POINT, SPACE, TURNS, WIDEST, FairedRun, Points
 from polycnc.toolpath.kinds import CURVE_WIDTH, NO_CURVE, Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from polycnc.channel.channel import Channel
     from polycnc.channel.moves.path import PlacedEvent
+    from polycnc.channel.moves.travel import Wall
+    from polycnc.geometry.frames import Matrix
     from polycnc.toolpath.context import Context, Fairing
 
 #: So many points are forgotten at once.
@@ -44,9 +49,11 @@ class FairingStage(Stage):
         self._mixed = -1  # the block that has had more than a cut, as the channel counts them
         self._rows: Run | None = None
         self._run = FairedRun()
-        self._place, self._way, self._shift = array("d"), array("d"), array("d")
-        self._fit, self._left = array("d"), array("d")
-        self._free, self._least = array("d"), array("d")
+        self._arrays = {name: array("d") for name in Points._fields}
+        self._points = Points(**self._arrays)
+        self._columns = _columns(channel)
+        self._terms: tuple[object, ...] = ()
+        self._walls = array("d")
         self._passed = 0  # points whose rows are passed on; the first is the start
 
     @property
@@ -121,13 +128,15 @@ class FairingStage(Stage):
     def _take(self, cuts: Run) -> int:
         """Take cuts into the run, and pass on what is settled; gives how many."""
         toolpath, known = self._channel.toolpath, self._rows
-        goes_on = known is not None and (known.program, known.context) == (cuts.program, cuts.context)
-        if known is not None and not goes_on:
-            self._end_run()
         context = toolpath.contexts[cuts.context]
-        rule = _fairing(context)
+        rule, terms = _fairing(context), self._terms_of(context)
         assert rule is not None
+        if known is not None and (
+            (known.program, known.context) != (cuts.program, cuts.context) or self._terms != terms
+        ):
+            self._end_run()
         if self._rows is None:
+            self._terms = terms
             self._begin(cuts, rule, context)
         taken = self._add(cuts, rule, context)
         self._pass_settled()
@@ -136,41 +145,84 @@ class FairingStage(Stage):
             taken += self._pass_run(cuts.part(1, taken))
         return taken
 
+    def _terms_of(self, context: Context) -> tuple[object, ...]:
+        """What holds for a run beside its context, such as limits: it ends where that changes."""
+        channel, boundary = self._channel, self._channel.boundary
+        return channel.limits, () if boundary is None else tuple(boundary.walls(channel, context))
+
     def _begin(self, cuts: Run, rule: Fairing, context: Context) -> None:
         """A run begins where the first cut does."""
-        self._run = FairedRun(points=1, reach=rule.reach, tolerance=rule.tolerance_mm)
+        turns = dict(rule.turns)
+        bounds = (rule.tolerance_mm, *(turns.get(column, 0.0) for column in self._columns[SPACE:]))
+        self._run = FairedRun(points=1, reach=min(rule.reach, WIDEST), tolerance=bounds)
+        self._run.turns = max((k for k in range(BOUNDS) if bounds[k] > 0.0), default=0)
         self._rows, self._passed = cuts.part(0), 1
-        self._place[:] = array("d", _seen(cuts.start, self._channel.coordinates.geometry, context))
+        inward = context.frame.inverse().m
+        self._walls = array(
+            "d", [each for wall in walls_of(self._channel, context) for each in self._seen(wall, inward)]
+        )
+        at = [cuts.start[column] if column >= 0 else 0.0 for column in self._columns]
         for room, width in self._room():
             room[:] = array("d", bytes(8 * width))
+        self._points.place[:] = array("d", [*context.frame.direct(*at[:SPACE]), *at[SPACE:]])
+        self._points.room[0] = inf
+
+    def _seen(self, wall: Wall, inward: Matrix) -> list[float]:
+        """A wall as points of the run are counted: X, Y and Z as the axes see them, but for the frame's shift."""
+        counts = [wall.counts[column] if column >= 0 else 0.0 for column in self._columns]
+        space = [sum(counts[k] * inward[k][j] for k in range(SPACE)) for j in range(SPACE)]
+        return [*space, *counts[SPACE:], wall.bound]
 
     def _add(self, cuts: Run, rule: Fairing, context: Context) -> int:
         """Add cuts to the run, up to one that does not belong to it."""
-        run, count, rows = self._run, len(cuts.kinds), self._rows
+        run, count, rows, points = self._run, len(cuts.kinds), self._rows, self._points
         assert rows is not None
-        self._place.frombytes(bytes(8 * POINT * count))
-        geometry = array("q", self._channel.coordinates.geometry)
+        first = run.points
+        self._arrays["place"].frombytes(bytes(8 * POINT * count))
         frame = array("d", [number for row in context.frame.m for number in row])
         taken = fairing().add_points(
-            cuts.ends, len(cuts.start), geometry, frame, rule.longest_mm, run, self._place
+            cuts.ends, len(cuts.start), array("q", self._columns), frame, rule.longest_mm, run, points.place
         )
-        del self._place[POINT * run.points :]
+        del points.place[POINT * run.points :]
         for room, width in self._room():
             room.frombytes(bytes(8 * (width * run.points - len(room))))
+        points.room[first:] = array("d", (inf,)) * taken
         if taken:
             more = cuts.part(taken)
+            self._keep_clear(more, first, context)
             self._rows = Run(
                 rows.kinds + more.kinds, rows.lines + more.lines, rows.feeds + more.feeds, rows.ends + more.ends,
                 rows.curves + more.curves, rows.start, rows.program, rows.context,
             )  # fmt: skip
         return taken
 
+    def _keep_clear(self, cuts: Run, first: int, context: Context) -> None:
+        """Ends of lines that come near something forbidden have no room: the first line ends at point `first`."""
+        if not self._watches():
+            return
+        channel, room, distance = self._channel, self._points.room, PART * self._run.tolerance[0]
+        axes, to_machine = len(cuts.start), channel.toolpath.to_machine
+        start = to_machine(cuts.start, context, channel.coordinates.geometry)
+        for i in range(len(cuts.kinds)):
+            row = cuts.ends[i * axes : (i + 1) * axes].tolist()
+            end = to_machine(row, context, channel.coordinates.geometry)
+            if self._comes_near(start, end, distance):
+                room[first + i - 1] = room[first + i] = 0.0
+            start = end
+
+    def _watches(self) -> bool:
+        """Whether anything is forbidden beside walls."""
+        return self._channel.boundary is not None
+
+    def _comes_near(self, start: list[float], end: list[float], distance: float) -> bool:
+        """Whether a way of machine positions comes nearer than a distance to what is forbidden beside walls."""
+        boundary = self._channel.boundary
+        return boundary is not None and boundary.comes_near(self._channel, start, end, distance)
+
     def _room(self) -> tuple[tuple[array[float], int], ...]:
-        """What is worked out for every point, and how many numbers that is."""
-        return (
-            (self._way, 1), (self._left, 1), (self._free, 1), (self._least, 1),
-            (self._fit, POINT), (self._shift, POINT),
-        )  # fmt: skip
+        """What is noted of every point, and how many numbers that is."""
+        widths = {"place": POINT, "fit": POINT, "shift": POINT, "left": BOUNDS}
+        return tuple((room, widths.get(name, 1)) for name, room in self._arrays.items())
 
     def _end_run(self) -> None:
         """No more cuts come: the last one ends as programmed."""
@@ -183,14 +235,12 @@ class FairingStage(Stage):
         """Pass on the rows whose ends are settled, and forget what no other end asks for."""
         rows, run = self._rows, self._run
         assert rows is not None
-        settled = fairing().fair(
-            run, self._place, self._way, self._fit, self._left, self._free, self._least, self._shift
-        )
+        settled = fairing().fair(run, self._points, self._walls)
         count = settled - self._passed
         if count <= 0:
             return
         parameters, numbers = array("d", bytes(8 * CURVE_WIDTH * count)), array("i", bytes(4 * count))
-        found = fairing().note_shifts(self._shift, self._passed, count, parameters, numbers)
+        found = fairing().note_shifts(run, self._points.shift, self._passed, count, parameters, numbers)
         ready = rows.part(count)
         self._pass_run(
             Run(
@@ -206,7 +256,6 @@ class FairingStage(Stage):
         if count < FORGOTTEN:
             return
         run = self._run
-        del self._place[: POINT * count]
         for room, width in self._room():
             del room[: width * count]
         for name in ("points", "measured", "fitted", "widened", "lessened", "settled"):
@@ -243,6 +292,7 @@ def _fairing(context: Context) -> Fairing | None:
     return context.fairing
 
 
-def _seen(place: Sequence[float], geometry: Sequence[int], context: Context) -> tuple[float, float, float]:
-    """Where X, Y and Z of a position are for the axes, but for the shift of the frame."""
-    return context.frame.direct(*(place[axis] if axis >= 0 else 0.0 for axis in geometry))
+def _columns(channel: Channel) -> tuple[int, ...]:
+    """Columns of X, Y and Z and of the first rotary axes, -1 for one that is missing."""
+    turning = [column for column, axis in enumerate(channel.axis_data) if axis.rotary][:TURNS]
+    return (*channel.coordinates.geometry, *turning, *(-1,) * (TURNS - len(turning)))

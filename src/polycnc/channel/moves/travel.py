@@ -10,13 +10,14 @@ from __future__ import annotations
 from math import inf
 
 from polycnc.channel.moves.path import Move, Rank, Stage
+from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import arcs
 from polycnc.messages import AlarmError
 from polycnc.toolpath.kinds import Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Iterator, Sequence
 
     from polycnc.channel.channel import Channel
     from polycnc.channel.moves.move_path import MovePath
@@ -32,6 +33,27 @@ CHORD_ERROR_MM = 0.01
 MOST_PARTS = 720
 #: Chords of a straight way on which a transformation makes the axes move along curves.
 PARTS_OF_CURVED_LINE = 64
+
+
+class Wall(NamedTuple):
+    """What positions keep to, as rows hold them, mm and degrees: `counts` times their columns is at most `bound`."""
+
+    counts: tuple[float, ...]
+    bound: float
+
+
+class Untold:
+    """What is forbidden, of something that does not tell how near it is: everything counts as near."""
+
+    __slots__ = ()
+
+    def walls(self, _channel: Channel, _context: Context) -> Iterable[Wall]:
+        """It has none."""
+        return ()
+
+    def comes_near(self, _channel: Channel, _start: list[float], _end: list[float], _distance: float) -> bool:
+        """Whether a way comes near it."""
+        return True
 
 
 class Travel:
@@ -141,6 +163,44 @@ def limits_of(axes: Sequence[Axis]) -> tuple[tuple[float, float], ...]:
     """Lowest and highest machine position of every axis; nothing where no axis has a limit."""
     limits = tuple((axis.limit_minus, axis.limit_plus) for axis in axes)
     return limits if any(low > -inf or high < inf for low, high in limits) else ()
+
+
+def walls_between(
+    channel: Channel, frame: Frame, shift: tuple[float, ...], ranges: Iterable[tuple[int, float, float]]
+) -> Iterator[Wall]:
+    """The walls of coordinates that stay between two values each, which are given with their columns.
+
+    They are coordinates of the system that a frame leads to, and a shift behind it.
+    """
+    geometry, width = channel.coordinates.geometry, len(channel.axes)
+    for column, low, high in ranges:
+        counts, by = [0.0] * width, shift[column] if shift else 0.0
+        if column in geometry:
+            axis = geometry.index(column)
+            by += frame.t[axis]
+            for other, count in zip(geometry, frame.m[axis], strict=True):
+                if other >= 0:
+                    counts[other] = count
+        else:
+            counts[column] = 1.0
+        if high < inf:
+            yield Wall(tuple(counts), high - by)
+        if low > -inf:
+            yield Wall(tuple(-count for count in counts), by - low)
+
+
+def machine_walls(
+    channel: Channel, context: Context, ranges: Iterable[tuple[int, float, float]]
+) -> Iterator[Wall]:
+    """Machine positions of a context without a transformation stay between two values each."""
+    return walls_between(channel, context.frame, context.offsets, ranges)
+
+
+def walls_of(channel: Channel, context: Context) -> list[Wall]:
+    """The walls of the machine's travel, of the setup and of the program."""
+    ranges = [(column, low, high) for column, (low, high) in enumerate(channel.limits)]
+    walls = list(machine_walls(channel, context, ranges))
+    return walls if channel.boundary is None else [*walls, *channel.boundary.walls(channel, context)]
 
 
 def check_travel(channel: Channel, move: Move) -> None:

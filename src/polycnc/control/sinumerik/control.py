@@ -423,6 +423,7 @@ class Sinumerik:
             fairing=smoothing.fairing(channel, mode),
             turn_tolerance_deg=turn.tolerance_deg,
             turn_distance_mm=turn.distance_mm,
+            swing_deg=smoothing.swing(channel, mode),
             acceleration=tables.ACCELERATION_MODES[mode["acceleration"]],
             rapid_by_axis=mode["rapid"] == "RTLIOF",
             diameter_axes=diameters,

@@ -234,6 +234,7 @@ class SyntecMill(WordAddressControl):
         if section is not None:
             channel.stack.pop()
             channel.push(section, kind=LevelKind.MAIN, local=local)
+        smoothing.begin(channel)
 
     def start_codes(self, channel: SyntecChannel) -> dict[str, str]:
         """Power-on codes; Pr3836 chooses between G94 and G95."""

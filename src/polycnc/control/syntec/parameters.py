@@ -29,7 +29,7 @@ class SyntecParameters(ControlParameters[SyntecAxisParameters]):
     path_feed = Whole(405, delivered=0)
     #: 406: Reference feed of corners; 0 for what the axes can do [mm/min].
     corner_feed = Whole(406, delivered=0)
-    #: 407: Tolerance of curve fitting under G05, micrometres; 0 for 10.
+    #: 407: Tolerance of curve fitting under G05, micrometres; 0 for 10 at corners alone.
     fit_tolerance = Whole(407, delivered=0)
     #: 408: Reference feed of an arc of 5 mm radius; others by the root of their radius; 0 for what the axes
     #: can do [mm/min].
@@ -104,6 +104,8 @@ class SyntecParameters(ControlParameters[SyntecAxisParameters]):
     m_macros = WholeRun(3601, 10, delivered=0)
     #: 3701: G codes that macros replace: -1 is G00, 1 to 3 G01 to G03, 4 G53, 5 to 7 G40 to G42; 0 for none.
     g_macros = WholeRun(3701, 10, delivered=0)
+    #: 3802: Curves are fitted from the start, as under G05 P10000: on (2).
+    fits_at_start = Whole(3802, delivered=0)
     #: 3807: Arc end tolerance, least units.
     arc_tolerance = Whole(3807, delivered=10)
     #: 3809: U, V, W are axes (0) or increments of X, Y, Z (1).

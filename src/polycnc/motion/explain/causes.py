@@ -120,6 +120,7 @@ BOUNDS: Mapping[str, tuple[Cause, ...]] = {
     "ContextRecord.ROUNDING": (Cause.CORNERS,),
     "ContextRecord.TURN_TOLERANCE": (Cause.CORNERS,),
     "ContextRecord.TURN_DISTANCE": (Cause.CORNERS,),
+    "ContextRecord.SWING": (Cause.CORNERS,),
     "ContextRecord.LED": _NONE,
     "ContextRecord.AHEAD": _NONE,
     "ContextRecord.BEHIND_S": (Cause.TIME_CONSTANT,),

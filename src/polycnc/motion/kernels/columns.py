@@ -155,6 +155,8 @@ class ContextRecord(Places):
     #: both: the corner's own tolerance counts for them; for one of them: it bounds nothing.
     TURN_TOLERANCE = place()
     TURN_DISTANCE = place()
+    #: How far rotary axes may leave their way where a corner is rounded within TOLERANCE, degrees (0: by as many).
+    SWING = place()
     #: Straight rows are laid out under the limits of the axes behind the tip (1; `led.py`).
     LED = place()
     #: Cuts are planned ahead (1): what parameters allow at corners and on arcs holds.
@@ -296,7 +298,8 @@ class RunState(Structure):
         passed: With limited jerk: highest speed at the last joint; `lone` likewise, 0 where it is in a row (`jerk.py`).
         gap: Way from there to the row before.
         rate: Angle that the arc before turns by a mm at its end, 0 of a line; at the joint to an arc the larger one.
-        off: How far the row before is led beside the programmed one, mm.
+        off: How far the row before is led beside the programmed one, mm; `swung` its rotary axes, as a part of what
+            each may be.
     """
 
     stop: float
@@ -342,6 +345,7 @@ class RunState(Structure):
     gap: float
     rate: float
     off: float
+    swung: float
 
 
 @record
@@ -374,7 +378,8 @@ class RowState(Structure):
         top: Its largest speed.
         ease: Factor on the limits at its start (1 without transformation).
         shares: How many it has.
-        off: How far it is led beside the programmed one at most, mm (`toolpath/fairing.py`).
+        off: How far it is led beside the programmed one at most, mm (`toolpath/fairing.py`); `swung` its rotary
+            axes, as a part of what each may be.
     """
 
     kind: int
@@ -387,6 +392,7 @@ class RowState(Structure):
     ease: float
     shares: int
     off: float
+    swung: float
 
 
 @record
@@ -468,7 +474,9 @@ def zeros(count: int) -> array[float]:
 
 
 #: Of a cut that is led beside its end, in its record in `curves`: how far its line is off the programmed one, mm.
-MOST_OFF = 3
+#: Behind that how far its rotary axes are, degrees, those that come first among the columns, and the largest part of
+#: its tolerance by which one of them is.
+MOST_OFF, SWUNG, MOST_SWUNG = 3, 4, 7
 #: Of a straight thread, in its record in `curves`: what its lead grows by each revolution, mm, and the ways on which it
 #: takes up its speed and brakes, mm along the axis with the longest way (0: what its axes allow).
 GROWTH, WAY_IN, WAY_OUT = 2, 3, 4

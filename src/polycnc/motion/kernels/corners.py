@@ -16,8 +16,8 @@ from polycnc.motion.kernels.columns import (
     State,
     square,
 )
-from polycnc.motion.kernels.feeds import is_rapid, left_tolerance
-from polycnc.motion.kernels.jerk import corner_hold2, forget_bow, window_s
+from polycnc.motion.kernels.feeds import LEAST_LEFT, is_rapid, left_tolerance
+from polycnc.motion.kernels.jerk import ARC_DEVIATION, corner_hold2, forget_bow, row_deviation2, window_s
 from polycnc.motion.kernels.rounding import bend_corner
 
 #: Directions that differ by less count as one; a path whose turn has a cosine below this turns back.
@@ -133,18 +133,22 @@ def turned2(angle: float, distance: float, n: int, limits: Limits, state: State,
     """Largest x at a corner at which rotary axes leave their way by an angle, or within a distance of it.
 
     A rotary axis changes its pace evenly as far around the corner as it may; on the way `touch` before and behind
-    it that takes it off by `step·touch/4`. No more than half of the shorter line is used up.
+    it that takes it off by `step·touch/4`. No more than half of the shorter line is used up. Averages are as long as
+    all of the angle allows: where ends are moved by a part of it, they must be passed more slowly.
     """
-    x2 = inf
+    x2, swung, blend = inf, max(state.run.swung, state.row.swung), state.joint.blend
+    left = angle * max(1.0 - swung, LEAST_LEFT)
     for i in range(n):
         step = abs(state.unit[i] - state.tangent[i])
         if limits.rotary[i] != 0.0 and step > SAME_DIRECTION:
             touch = 0.5 * shorter
             if angle > 0.0:
-                touch = min(touch, 4.0 * angle / step)
+                touch = min(touch, 4.0 * left / step)
             if distance > 0.0:
                 touch = min(touch, distance)
             x2 = min(x2, state.joint.ease * limits.acceleration[i] * 2.0 * touch / step)
+            if blend > 0.0 and swung > 0.0:
+                x2 = min(x2, row_deviation2(ARC_DEVIATION * left / step, shorter, blend))
     return x2
 
 

@@ -46,6 +46,14 @@ def left_tolerance(contexts: Floats, record: int, off: float) -> float:
     return max(tolerance - off, LEAST_LEFT * tolerance)
 
 
+def left_swing(contexts: Floats, record: int, off: float, swung: float) -> float:
+    """Likewise of what rotary axes may leave their way by at a corner that is rounded within the tolerance, degrees."""
+    swing: float = contexts[record + ContextRecord.SWING]
+    if swing == 0.0:
+        return left_tolerance(contexts, record, off)
+    return max(1.0 - swung, LEAST_LEFT) * swing
+
+
 def axes_of(state: State) -> int:
     """Number of axes that a state has room for."""
     return len(state.position)

@@ -19,11 +19,13 @@ from polycnc.motion.kernels.columns import (
     FEED,
     HELIX_CCW,
     MOST_OFF,
+    MOST_SWUNG,
     OPEN,
     PLACES,
     SHARES,
     SKIP,
     SPLINE,
+    SWUNG,
     TAP,
     THREAD,
     ContextRecord,
@@ -143,7 +145,7 @@ def take_row(
     take_shares(rows, row, state)
     state.row.slot = 2 * rows.context[row] + (0 if is_rapid(state) else 1)
     aim(rows.end, row * n, contexts, record, n, limits, state)
-    state.row.off = 0.0
+    state.row.off = state.row.swung = 0.0
     if kind == FEED and rows.curve[row] >= 0:
         lead_beside(curves, limits, state)
     return record
@@ -157,7 +159,13 @@ def lead_beside(curves: Floats, limits: Limits, state: State) -> None:
         if axis >= 0:
             state.target[axis] += curves[at + j]
             state.delta[axis] += curves[at + j]
-    state.row.off = curves[at + MOST_OFF]
+    k, end = at + SWUNG, at + MOST_SWUNG
+    for i in range(axes_of(state)):
+        if limits.rotary[i] != 0.0 and k < end:
+            state.target[i] += curves[k]
+            state.delta[i] += curves[k]
+            k += 1
+    state.row.off, state.row.swung = curves[at + MOST_OFF], curves[end]
 
 
 def rest(state: State) -> None:
@@ -253,7 +261,7 @@ def lay_move(
     for i in range(n):
         state.position[i] = state.target[i]
     state.run.station = contexts[record + ContextRecord.STATION]
-    state.run.off = state.row.off
+    state.run.off, state.run.swung = state.row.off, state.row.swung
     if stands:
         state.run.stop = 1.0
     return True

@@ -23,7 +23,7 @@ from polycnc.motion.kernels.columns import (
     piece_width,
     square,
 )
-from polycnc.motion.kernels.feeds import left_tolerance
+from polycnc.motion.kernels.feeds import left_swing, left_tolerance
 from polycnc.motion.kernels.hold import cut, end_cap2, lower_cap
 
 #: Directions that differ by less count as one; ways shorter than this (mm) are not bent.
@@ -42,7 +42,9 @@ def bend_corner(contexts: Floats, record: int, n: int, limits: Limits, state: St
     Without one it takes as long as an axis needs for the step of velocity that is allowed at a corner.
     """
     unit, tangent, turn = state.unit, state.tangent, state.turn
-    tolerance = left_tolerance(contexts, record, max(state.run.off, state.row.off))
+    off = max(state.run.off, state.row.off)
+    tolerance = left_tolerance(contexts, record, off)
+    swing = left_swing(contexts, record, off, max(state.run.swung, state.row.swung))
     turned, swung, most = 0.0, 0.0, 0.0
     way, x2 = reach, inf
     for i in range(n):
@@ -59,7 +61,7 @@ def bend_corner(contexts: Floats, record: int, n: int, limits: Limits, state: St
         if turned > SAME_DIRECTION * SAME_DIRECTION:
             way = min(way, 4.0 * tolerance / sqrt(turned))
         if swung > SAME_DIRECTION:
-            way = min(way, 4.0 * tolerance / swung)
+            way = min(way, 4.0 * swing / swung)
     else:
         for i in range(n):
             step = abs(turn[i])

@@ -27,7 +27,7 @@ from polycnc.deferred.typing import TYPE_CHECKING, Any
 
 with loaded_when_called():
     from polycnc.control.fanuc import dwell
-    from polycnc.control.fanuc.milling import leading_edge, standing_system, table_system
+    from polycnc.control.fanuc.milling import leading_edge, smoothing, standing_system, table_system
     from polycnc.control.word_address.coordinates import stroke_check
     from polycnc.control.word_address.macro_b import macro_calls, parameter_input
     from polycnc.control.word_address.motion import nurbs, planes, position_offset, skip, thread
@@ -73,7 +73,7 @@ ROWS = table(
     GCode("G6.2", "motion", ends="cycle", planner=nurbs.plan_nurbs),
     moves("G4", dwell.dwell, "X P U"),
     GCode("G5", handler=path_modes.high_speed_machining, takes="P"),
-    GCode("G5.1", handler=path_modes.contour_control, takes="Q R"),
+    GCode("G5.1", handler=smoothing.contour_control, takes="Q R", axis_words=True),
     GCode("G5.4", handler=path_modes.select_current_loop, takes="Q"),
     GCode("G8", handler=path_modes.advance_preview, takes="P"),
     GCode("G9", handler=path_modes.exact_stop_block),

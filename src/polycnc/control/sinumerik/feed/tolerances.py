@@ -119,7 +119,7 @@ def _orientation_axes(channel: SinumerikChannel) -> tuple[int, ...]:
     return tuple(made.axes.index(joint.axis) for joint in joints)
 
 
-def _axis_tolerance(channel: SinumerikChannel, column: int) -> float:
+def axis_tolerance(channel: SinumerikChannel, column: int) -> float:
     """CTOL and OTOL come before ATOL, and that before the machine data."""
     geometry = [i for i in channel.coordinates.geometry if i >= 0]
     contour, turning = contour_tolerance(channel), _orientation_axes(channel)
@@ -136,13 +136,13 @@ def _axis_tolerance(channel: SinumerikChannel, column: int) -> float:
 
 def _active_of_axis(channel: SinumerikChannel, indices: Arguments) -> float:
     column = axis_settings.axis_of(channel, "$AA_ATOL", indices)
-    value = _axis_tolerance(channel, column)
+    value = axis_tolerance(channel, column)
     return _in_program_units(channel, value, is_length=not channel.memory.axes[column].rotary)
 
 
 def _active_contour(channel: SinumerikChannel, _indices: Arguments) -> float:
     geometry = [i for i in channel.coordinates.geometry if i >= 0]
-    value = contour_tolerance(channel) or hypot(*(_axis_tolerance(channel, i) for i in geometry))
+    value = contour_tolerance(channel) or hypot(*(axis_tolerance(channel, i) for i in geometry))
     return _in_program_units(channel, value, is_length=True)
 
 
@@ -152,7 +152,7 @@ def _active_orientation(channel: SinumerikChannel, _indices: Arguments) -> float
     if programmed >= 0.0:
         return programmed
     turning = _orientation_axes(channel)
-    return hypot(*(_axis_tolerance(channel, column) for column in turning)) if turning else NO_TOLERANCE
+    return hypot(*(axis_tolerance(channel, column) for column in turning)) if turning else NO_TOLERANCE
 
 
 TOLERANCE_VARIABLES: dict[str, RowWithStop] = {

@@ -293,15 +293,28 @@ class Guard(Stage):
         raise AlarmError(ALARMS[zone.kind], line=move.line, program=move.program, number=zone.number)
 
 
+def is_watched(channel: SinumerikChannel) -> bool:
+    """Whether any zone is on."""
+    return bool(Protection.of(channel).states)
+
+
+def comes_near(channel: SinumerikChannel, start: list[float], end: list[float], distance: float) -> bool:
+    """Whether a straight way of the machine's axes comes nearer than a distance to a contact with any zone."""
+    placed = list(Protection.of(channel).placed(channel))
+    found = contact(channel, placed, start, end, distance)
+    return found is not None and found[0] <= 1.0
+
+
 Placed = list[tuple[Zone, tuple[float, ...]]]
 
 
 def contact(
-    channel: SinumerikChannel, placed: Placed, start: list[float], end: list[float]
+    channel: SinumerikChannel, placed: Placed, start: list[float], end: list[float], beside: float = 0.0
 ) -> tuple[float, Zone] | None:
     """The part of a straight way of the machine's axes at which a zone is first run into, and that zone.
 
-    Parts above 1 are contacts behind the end. None where the way leads into no zone.
+    Parts above 1 are contacts behind the end. None where the way leads into no zone. What goes with the tool may count
+    as larger, by some mm `beside` it on all sides.
     """
     geometry = channel.coordinates.geometry
     a, b = ([point[i] if i >= 0 else 0.0 for i in geometry] for point in (start, end))
@@ -310,7 +323,7 @@ def contact(
     for zone, offset in placed:
         if zone.of_tool:
             continue
-        for part in _contacts(channel, zone, offset, tools, a, b):
+        for part in _contacts(channel, zone, offset, tools, (a, b), beside):
             if best is None or part < best[0]:
                 best = part, zone
     return best
@@ -321,26 +334,26 @@ def _contacts(
     zone: Zone,
     offset: tuple[float, ...],
     tools: Placed,
-    a: list[float],
-    b: list[float],
+    ends: tuple[list[float], list[float]],
+    beside: float,
 ) -> Iterator[float]:
     """Contacts of everything that goes with the tool with one zone of the workpiece."""
     i, j, k = zone.axes
+    a, b = ends
     region = zones.moved(zone.outline, (offset[i], offset[j]))
     low, high = zone.low + offset[k], zone.high + offset[k]
     way = [y - x for x, y in zip(a, b, strict=True)]
     if not tools:
         lengths = channel.memory.tools.lengths
         tip = [x - length for x, length in zip(a, lengths, strict=True)]
-        yield from _first(
-            ([(tip[i], tip[j])], 0.0, 0.0), tip[k], (region, low, high), (way[i], way[j], way[k])
-        )
+        body = zones.grown([(tip[i], tip[j])], beside), -beside, beside
+        yield from _first(body, tip[k], (region, low, high), (way[i], way[j], way[k]))
         return
     for tool, shift in tools:
         if tool.axes != zone.axes:
             raise AlarmError("PC0010", text=f"{tool.kind}{tool.number} {zone.kind}{zone.number} G17 G18 G19")
-        outline = zones.moved(tool.outline, (a[i] + shift[i], a[j] + shift[j]))
-        body = outline, tool.low + shift[k], tool.high + shift[k]
+        outline = zones.grown(zones.moved(tool.outline, (a[i] + shift[i], a[j] + shift[j])), beside)
+        body = outline, tool.low + shift[k] - beside, tool.high + shift[k] + beside
         yield from _first(body, a[k], (region, low, high), (way[i], way[j], way[k]))
 
 

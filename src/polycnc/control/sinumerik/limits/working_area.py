@@ -10,7 +10,7 @@ from __future__ import annotations
 from math import inf
 
 from polycnc.channel.moves.path import Move
-from polycnc.channel.moves.travel import Travel
+from polycnc.channel.moves.travel import Travel, walls_between
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.sinumerik import gcodes
 from polycnc.control.sinumerik.variables.row import Indices, Row
@@ -29,7 +29,12 @@ with loaded_when_called():
     from polycnc.control.sinumerik.block import arguments
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from polycnc.channel.moves.travel import Wall
     from polycnc.control.sinumerik.family import SinumerikChannel
+    from polycnc.geometry.frames import Frame
+    from polycnc.toolpath import Context
 
 SWITCH, WORKING_AREA, WORK_SYSTEM_AREA = "10720", "10730", "10735"
 _SLACK = 1e-6
@@ -79,6 +84,20 @@ class Ranges(State, lifetime=Lifetime.POWER):
             margin = radius_beside(channel, limit, travel.context.plane)
             for point in points[limit.system][1:]:
                 _check(channel, limit, point[limit.column], margin)
+
+    def walls(self, channel: SinumerikChannel, context: Context) -> Iterator[Wall]:
+        """All the ranges, for rows without a transformation."""
+        for limit in self.limits:
+            margin = radius_beside(channel, limit, context.plane)
+            frame, shift = _system(channel, limit.system, context)
+            sides = [(limit.column, limit.low + margin, limit.high - margin)]
+            yield from walls_between(channel, frame, shift, sides)
+
+    def comes_near(
+        self, _channel: SinumerikChannel, _start: list[float], _end: list[float], _distance: float
+    ) -> bool:
+        """Nothing else is forbidden."""
+        return False
 
 
 def refresh(channel: SinumerikChannel) -> None:
@@ -186,19 +205,27 @@ def radius_beside(channel: SinumerikChannel, limit: Limit, plane: str) -> float:
     return channel.memory.tools.radius if limit.column in (geometry[i] for i in PLANES[plane][:2]) else 0.0
 
 
+def _system(channel: SinumerikChannel, system: int, context: Context) -> tuple[Frame, tuple[float, ...]]:
+    """Where positions lead to the system of a limit: a frame, and a shift behind it (empty for none).
+
+    The basic system is that of the tool's tip, but for axes beside X, Y and Z, which have no tip.
+    """
+    offsets = context.offsets
+    if system == BASIC:
+        geometry = channel.coordinates.geometry
+        offsets = tuple(0.0 if column in geometry else by for column, by in enumerate(offsets))
+    frame = {WORK: IDENTITY, SETTABLE: context.part}.get(system, context.frame)
+    return frame, offsets if system in (MACHINE, BASIC) else ()
+
+
 def _points(channel: SinumerikChannel, travel: Travel, system: int) -> list[list[float]]:
     """Points of a way in the system of a limit, each with all at which a coordinate turns back."""
     context = travel.context
     if system == MACHINE or (system == BASIC and context.transformation is not None):
         return travel.machine
-    frame = {WORK: IDENTITY, BASIC: context.frame, SETTABLE: context.part}[system]
+    frame, shift = _system(channel, system, context)
     points = [list(channel.coordinates.image(frame, point)) for point in travel.turns(frame)]
-    if system == BASIC and context.offsets:
-        beside = [i for i in range(len(channel.axes)) if i not in channel.coordinates.geometry]
-        for point in points:
-            for column in beside:
-                point[column] += context.offsets[column]
-    return points
+    return [[at + by for at, by in zip(point, shift, strict=True)] for point in points] if shift else points
 
 
 def _check(channel: SinumerikChannel, limit: Limit, value: float, margin: float) -> None:

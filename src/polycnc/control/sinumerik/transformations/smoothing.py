@@ -8,7 +8,7 @@ along its block, as it turns without smoothing.
 
 from __future__ import annotations
 
-from polycnc.control.sinumerik.feed.tolerances import Smoothing, contour_tolerance
+from polycnc.control.sinumerik.feed.tolerances import Smoothing, axis_tolerance, contour_tolerance
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.transformations.words import BY_PATH, CONES
 from polycnc.deferred.named_tuples import NamedTuple
@@ -38,6 +38,10 @@ BY_CONTOUR, BY_ORIENTATION = (1, 3), (2, 3)
 #: How many ends before and behind one tell a compressor where the path goes: COMPCURV makes it smoother than COMPON,
 #: whose velocity alone is continuous, COMPCAD takes the most blocks together.
 REACH = {"COMPON": 4, "COMPCURV": 8, "COMPCAD": 16}
+
+
+#: A rotary axis that may not leave its way at all may by so much, degrees.
+LEAST_SWING = 1e-4
 
 
 class Turn(NamedTuple):
@@ -80,8 +84,22 @@ def fairing(channel: SinumerikChannel, mode: Mode) -> Fairing | None:
     if tuple(channel.coordinates.geometry) != tuple(channel.machine.geometry_indices(channel.number)):
         return None
     longest = channel.memory.data.number("$MC_COMPRESS_BLOCK_PATH_LIMIT")
-    tolerance = _own_contour(channel)
-    return Fairing(tolerance, REACH[mode["compressor"]], longest) if tolerance > 0.0 < longest else None
+    tolerance, reach = _own_contour(channel), REACH[mode["compressor"]]
+    return Fairing(tolerance, reach, longest, _turns(channel)) if tolerance > 0.0 < longest else None
+
+
+def _turns(channel: SinumerikChannel) -> tuple[tuple[int, float], ...]:
+    """What ATOL or MD33100 allows each rotary axis, degrees."""
+    rotary = (column for column, axis in enumerate(channel.axis_data) if axis.rotary)
+    return tuple((column, axis_tolerance(channel, column)) for column in rotary)
+
+
+def swing(channel: SinumerikChannel, mode: Mode) -> float:
+    """What the compressor allows every rotary axis that no transformation leads, degrees; 0 where it is not on."""
+    if not is_compressed(mode) or mode["path"] == "G641" or channel.coordinates.transformation is not None:
+        return 0.0
+    turns = _turns(channel)
+    return max(min(degrees for _, degrees in turns), LEAST_SWING) if turns else 0.0
 
 
 def select(channel: SinumerikChannel, values: Values) -> None:  # noqa: ARG001 - steps have one signature

@@ -60,7 +60,11 @@ class FittingStage(Stage):
             context = toolpath.contexts[number]
             if context.corner_mode is CornerMode.ROUNDED:
                 context = replace(
-                    context, corner_mode=CornerMode.CONTINUOUS, tolerance_mm=0.0, turn_tolerance_deg=0.0
+                    context,
+                    corner_mode=CornerMode.CONTINUOUS,
+                    tolerance_mm=0.0,
+                    turn_tolerance_deg=0.0,
+                    fairing=None,
                 )
             self._unfitted[number] = toolpath.context_number(context)
         return self._unfitted[number]

@@ -1,7 +1,9 @@
 """G05 and G05.1 of SYNTEC: high-precision modes (manual 2.9 to 2.11).
 
 Both let the control bend the path within a tolerance: rows keep the points of the program, and the planner may round
-what lies between them within the tolerance that the mode gives.
+what lies between them within the tolerance that the mode gives. The curve that G05 fits, and the filter of G05.1 Q1,
+leave points too: where a program or Pr407 gives a tolerance, cuts are led beside their ends, within the same tolerance
+(`channel/moves/fairing.py`). Q2 adds points, and Q5 only bounds speeds: their points stay.
 """
 
 from __future__ import annotations
@@ -16,6 +18,7 @@ from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import dataclass, replace
 from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.units import INCH_MM
+from polycnc.toolpath.context import Fairing
 from polycnc.toolpath.events import Deed
 from polycnc.toolpath.modes import CornerMode
 
@@ -23,6 +26,8 @@ with loaded_when_called():
     from polycnc.control.word_address.motion import nurbs
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from polycnc.channel.channel import Channel
     from polycnc.control.syntec.family import SyntecChannel
     from polycnc.control.word_address.block.words import Words
@@ -34,12 +39,18 @@ ON = 10_000
 TOLERANCES = (0.001, 1.0)
 STOPPING_MODES = ("G61", "G63")
 MAX_ROTARY = 2
-FILTERS = (1, 2)
+FILTER = 1
+FILTERS = (FILTER, 2)
 INTELLIGENT = 5
 #: Largest tolerance of G05.1 Q1 and Q2, in the program's unit; what is above counts as this.
 LARGEST_FILTER = 1.0
-#: Tolerance where neither code nor parameter gives one, mm.
+#: Tolerance of corners where neither code nor parameter gives one, mm.
 DEFAULT_MM = 0.01
+#: How many ends before and behind one tell where the smooth path lies, and the longest cut that is led beside its end,
+#: mm: the manual has no figures; those of SINUMERIK for COMPCAD.
+REACH, LONGEST_MM = 16, 20.0
+#: Pr3802: G05 is on from the start.
+FITS_AT_START = 2
 
 
 @dataclass(slots=True)
@@ -49,22 +60,31 @@ class SmoothingState(State, lifetime=Lifetime.RESET):
     Attributes:
         tolerance: The distance.
         fits: By G05, under which G09 has no effect (2.10.3).
-        turn: How far rotary axes that G05 names may leave their way, degrees; 0 where it names none.
+        turns: How far rotary axes that G05 names may leave their way, degrees, with their columns.
+        leaves_points: Cuts are led beside their ends within the tolerance.
     """
 
     tolerance: float = 0.0
     fits: bool = False
-    turn: float = 0.0
+    turns: tuple[tuple[int, float], ...] = ()
+    leaves_points: bool = False
 
     @classmethod
     def first(cls, channel: Channel) -> Self:
-        """Pr3986 may switch tolerance control on without a code."""
+        """Pr3802 may switch G05 on without a code, Pr3986 tolerance control."""
         given = SyntecParameters.naming(channel.setup.parameters)
+        if given.fits_at_start == FITS_AT_START and given.option_path_fitting:
+            return cls(_fit_tolerance(given), fits=True, leaves_points=given.fit_tolerance > 0.0)
         return cls(_corner_tolerance(given) if given.tolerance_control == 1 else 0.0)
 
 
 def _corner_tolerance(parameters: SyntecParameters) -> float:
     return parameters.corner_control * least_unit(parameters) or DEFAULT_MM
+
+
+def _fit_tolerance(parameters: SyntecParameters) -> float:
+    """Pr407, mm."""
+    return parameters.fit_tolerance / 1000.0 or DEFAULT_MM
 
 
 def smoothed(channel: SyntecChannel, context: Context) -> Context:
@@ -76,7 +96,12 @@ def smoothed(channel: SyntecChannel, context: Context) -> Context:
     if context.corner_mode is not CornerMode.CONTINUOUS and not state.fits:
         return context
     return replace(
-        context, corner_mode=CornerMode.ROUNDED, tolerance_mm=tolerance, turn_tolerance_deg=state.turn
+        context,
+        corner_mode=CornerMode.ROUNDED,
+        tolerance_mm=tolerance,
+        # At corners two rotary axes have one tolerance here, the smaller one: it keeps both.
+        turn_tolerance_deg=min((degrees for _, degrees in state.turns), default=0.0),
+        fairing=Fairing(tolerance, REACH, LONGEST_MM, state.turns) if state.leaves_points else None,
     )
 
 
@@ -104,22 +129,56 @@ def smooth_path(channel: SyntecChannel, words: Words) -> None:
         tolerance = _corner_tolerance(channel.memory.parameters)
     else:
         tolerance = min(error, LARGEST_FILTER) * unit
-    _switch(channel, tolerance, "G5.1")
+    _switch(channel, tolerance, "G5.1", leaves_points=kind == FILTER)
+    _put_stages(channel, ())
+
+
+def begin(channel: SyntecChannel) -> None:
+    """A program begins: what parameters have switched on acts."""
+    state = SmoothingState.of(channel)
+    if state.fits:
+        if _cannot_fit(channel):
+            state.tolerance = 0.0
+        _put_stages(channel, [axis for axis in channel.coordinates.geometry if axis >= 0])
 
 
 def leave(channel: SyntecChannel) -> None:
-    """Nothing chooses any more between blocks that are fitted and others (also at reset)."""
+    """Nothing holds cuts back any more, or chooses between blocks that are fitted and others (also at reset)."""
     channel.path.take(FittingStage)
+    if SmoothingState.of(channel).leaves_points:
+        from polycnc.control.syntec.motion.smoother import Smoother  # where one is on
+
+        channel.path.take(Smoother)
+
+
+def _put_stages(channel: SyntecChannel, geometry: Sequence[int], rotary: Sequence[int] = ()) -> None:
+    """Put into the path what the state asks for; these axes are fitted."""
+    state = SmoothingState.of(channel)
+    if state.tolerance == 0.0:
+        return
+    if state.leaves_points:
+        from polycnc.control.syntec.motion.smoother import Smoother  # where one is on
+
+        channel.path.put(Smoother(channel))
+    if state.fits and len(geometry) + len(rotary) < len(channel.axes):
+        channel.path.put(FittingStage(channel, geometry, rotary))
 
 
 def _switch(
-    channel: SyntecChannel, tolerance: float, code: str, *, fits: bool = False, turn: float = 0.0
+    channel: SyntecChannel,
+    tolerance: float,
+    code: str,
+    *,
+    fits: bool = False,
+    turns: tuple[tuple[int, float], ...] = (),
+    leaves_points: bool,
 ) -> None:
     """Another tolerance holds from here on; the axes come to rest in between."""
     state = SmoothingState.of(channel)
     channel.flush()
     leave(channel)
-    state.tolerance, state.fits, state.turn = tolerance, fits, turn
+    state.tolerance, state.fits, state.turns = tolerance, fits, turns
+    state.leaves_points = leaves_points and tolerance > 0.0
     PathModeState.of(channel).contour_control = tolerance > 0.0
     channel.event(Deed(code, None, _nothing, is_silent=False))
     channel.context_changed()
@@ -149,13 +208,12 @@ def high_precision(channel: SyntecChannel, words: Words) -> None:
     if switch == ON and error is not None:
         tolerance = error * (INCH_MM if words.plan.inch else 1.0)
     elif switch == ON:
-        tolerance = channel.memory.parameters.fit_tolerance / 1000.0 or DEFAULT_MM
+        tolerance = _fit_tolerance(channel.memory.parameters)
     if _cannot_fit(channel):
         tolerance = 0.0
-    # Two rotary axes have one tolerance here, the smaller one: it keeps both.
-    _switch(channel, tolerance, "G5", fits=True, turn=min(rotary.values(), default=0.0))
-    if tolerance > 0.0 and len(geometry) + len(rotary) < len(channel.axes):
-        channel.path.put(FittingStage(channel, geometry, tuple(rotary)))
+    given = error is not None or channel.memory.parameters.fit_tolerance > 0.0
+    _switch(channel, tolerance, "G5", fits=True, turns=tuple(rotary.items()), leaves_points=given)
+    _put_stages(channel, geometry, tuple(rotary))
 
 
 def _cannot_fit(channel: SyntecChannel) -> bool:

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from itertools import pairwise
 
-from polycnc.channel.moves.travel import SLACK
+from polycnc.channel.moves.travel import SLACK, machine_walls
 from polycnc.deferred.records import dataclass
 from polycnc.deferred.typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
-    from polycnc.channel.moves.travel import Travel
+    from polycnc.channel.moves.travel import Travel, Wall
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import MacroChannel, WordAddressChannel
+    from polycnc.toolpath.context import Context
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,17 +36,31 @@ class StrokeZone:
                 direction = 1 if end[axis] >= start[axis] else -1
                 raise channel.control.forbidden_zone(channel.axes[axis], direction, self.number)
 
+    def walls(self, channel: WordAddressChannel, context: Context) -> Iterable[Wall]:
+        """Those of a box that the tool must not leave."""
+        sides = () if self.inside else zip(self.axes, self.low, self.high, strict=True)
+        return machine_walls(channel, context, sides)
+
+    def comes_near(
+        self, _channel: WordAddressChannel, start: list[float], end: list[float], distance: float
+    ) -> bool:
+        """Whether a straight way comes near a box that the tool must not enter."""
+        return self.inside and self._entered(start, end, distance) >= 0
+
     def _left(self, end: list[float]) -> int:
         """The first axis that stands outside, or -1."""
         within = zip(self.axes, self.low, self.high, strict=True)
         outside = (axis for axis, low, high in within if not low - SLACK <= end[axis] <= high + SLACK)
         return next(outside, -1)
 
-    def _entered(self, start: list[float], end: list[float]) -> int:
-        """The axis by which a straight way comes into the box last, or -1 where it stays outside."""
+    def _entered(self, start: list[float], end: list[float], beside: float = 0.0) -> int:
+        """The axis by which a straight way comes into the box last, or -1 where it stays outside.
+
+        The box may count as larger, by some mm `beside` it on all sides.
+        """
         first, last, blamed = 0.0, 1.0, next(iter(self.axes), -1)
-        for axis, low, high in zip(self.axes, self.low, self.high, strict=True):
-            way = end[axis] - start[axis]
+        for axis, lowest, highest in zip(self.axes, self.low, self.high, strict=True):
+            way, low, high = end[axis] - start[axis], lowest - beside, highest + beside
             if way == 0.0:
                 if not low <= start[axis] <= high:
                     return -1

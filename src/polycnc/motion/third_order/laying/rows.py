@@ -38,6 +38,7 @@ from polycnc.motion.kernels.feeds import (
     bounded,
     counted_length,
     follows_radius,
+    left_swing,
     left_tolerance,
     straight_speed,
 )
@@ -367,7 +368,9 @@ def put_stretch(
         contexts[record + ContextRecord.TURN_TOLERANCE],
     )
     path.ease[e] = lead.row.ease
-    path.tolerance[e], path.turn_tolerance[e] = tolerance, turns if turns > 0.0 else tolerance
+    if turns == 0.0:
+        turns = left_swing(contexts, record, lead.row.off, lead.row.swung)
+    path.tolerance[e], path.turn_tolerance[e] = tolerance, turns
 
 
 def meets(contexts: Floats, record: int, n: int, path: Stretches, e: int) -> bool:

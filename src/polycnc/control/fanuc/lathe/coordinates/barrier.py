@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from itertools import pairwise
 
+from polycnc.channel.moves.travel import Untold
 from polycnc.deferred.records import dataclass
 from polycnc.deferred.typing import TYPE_CHECKING
 
@@ -90,7 +91,7 @@ def _ordered(points: Polygon) -> Polygon:
 
 
 @dataclass(frozen=True, slots=True)
-class Barrier:
+class Barrier(Untold):
     """Bodies that turn about the Z axis: no way of the tool may lead through them."""
 
     z: int

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from math import inf
 
+from polycnc.channel.moves.travel import Untold
 from polycnc.channel.states.state import Lifetime, State
 from polycnc.control.fanuc.lathe.coordinates.barrier import barrier, is_described
 from polycnc.deferred.functions import loaded_when_called
@@ -152,7 +153,7 @@ def _travel(channel: LatheChannel) -> dict[int, tuple[float, float]]:
 
 
 @dataclass(frozen=True, slots=True)
-class Boundaries:
+class Boundaries(Untold):
     """Several things to check, in order."""
 
     all: tuple[Boundary, ...]
@@ -164,7 +165,7 @@ class Boundaries:
 
 
 @dataclass(frozen=True, slots=True)
-class IncrementCheck:
+class IncrementCheck(Untold):
     """The largest increment of axes in one block."""
 
     limits: Mapping[int, float]
@@ -178,7 +179,7 @@ class IncrementCheck:
 
 
 @dataclass(frozen=True, slots=True)
-class TravelCheck:
+class TravelCheck(Untold):
     """Limits of the travel of axes, machine coordinates."""
 
     limits: Mapping[int, tuple[float, float]]
