@@ -279,7 +279,7 @@ class Planner:
     def _switch(self, use: Use, context: Context) -> None:
         """Before a row that another use holds for the axes rest."""
         self._rest()
-        self._use, self._limits = use, self._real.limits(context.transformation, use)
+        self._use, self._limits = use, self._real.limits(context, use)
 
     def _lay(self, rows: Rows, row: int, curves: array[float], number: int) -> None:
         """Lay rows out from one on."""
@@ -386,7 +386,7 @@ class Planner:
         """Before a row a transformation begins or ends: at rest the path goes on from where the real axes are."""
         self._rest()
         self._look_ahead(row)
-        self._limits = self._real.limits(context.transformation, self._use)
+        self._limits = self._real.limits(context, self._use)
         self._state.position[:] = array("d", position)
 
     def finish(self) -> Plan:

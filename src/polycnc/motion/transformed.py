@@ -56,7 +56,7 @@ from polycnc.motion.pole import (
     turn_records,
 )
 from polycnc.motion.reach import looked_at, shares_of
-from polycnc.motion.time_constants import Use
+from polycnc.motion.time_constants import Use, cut_use
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS, CURVE_WIDTH, RAPID_KINDS
 from polycnc.toolpath.modes import AccelerationMode, FeedMode
@@ -127,17 +127,20 @@ class RealAxes:
         self._geometry = machine.geometry_indices(channel)
         self._on_path, self._context = list(start) or [0.0] * len(names), Context()
         self._limits: dict[tuple[Geometry | None, Use], Limits] = {}
-        self._linked: tuple[Transformation, Limits] | None = None
+        self._linked: tuple[Transformation, Use, Limits] | None = None
         self._turning = [axis is not None and axis.rotary for axis in self._axes]
         self._left: tuple[Context, bool, list[tuple[int, AxisLimits]]] | None = None
         #: The last row's context and its end, as it was written.
         self._behind: tuple[Context, list[float]] | None = None
 
-    def limits(self, transformation: Transformation | None, use: Use = Use.CUT) -> Limits:
-        """The kernels' `limits` while a transformation acts, which knows no time constants of rapids, or none."""
-        if self._linked is not None and transformation is self._linked[0]:
-            return self._linked[1]
-        key = (None, use) if transformation is None else (transformation.geometry, Use.CUT)
+    def limits(self, context: Context | None, use: Use = Use.CUT) -> Limits:
+        """The kernels' `limits` of rows of a use; under a transformation of a context there are no uses but of cuts."""
+        transformation = context.transformation if context is not None else None
+        if context is not None and transformation is not None:
+            use = cut_use(context, self._settings)
+        if self._linked is not None and transformation is self._linked[0] and use is self._linked[1]:
+            return self._linked[2]
+        key = (None if transformation is None else transformation.geometry, use)
         linkage = NO_LINKAGE
         if transformation is not None and None not in self._axes:
             from polycnc.transformation.orientation.linked import linkage_of  # where a transformation acts
@@ -148,7 +151,7 @@ class RealAxes:
         made, own = key
         found = axis_limits(self._machine, self._channel, self._names, self._settings, made, own, linkage)
         if linkage and transformation is not None:
-            self._linked = transformation, found
+            self._linked = transformation, use, found
         else:
             self._limits[key] = found
         return found
@@ -187,7 +190,7 @@ class RealAxes:
         """Whether the kernels find out themselves what bounds straight rows."""
         if context.transformation is None:
             return True
-        return is_led(context, self._settings) and len(self.limits(context.transformation).linkage) > 0
+        return is_led(context, self._settings) and len(self.limits(context).linkage) > 0
 
     def _run(self, chunk: Chunk, moves: Sequence[int], context: Context, bounds: Bounds) -> None:
         """Look at moves of one context after each other."""
@@ -215,7 +218,7 @@ class RealAxes:
             return b"\1" * len(chunk)
         if self._needs_no_shares(context):
             return chunk.kind.tobytes().translate(LED_KINDS)
-        limits = self.limits(made)
+        limits = self.limits(context)
         if not limits.linkage:
             return bytes(len(chunk))
         if self._behind is not None and self._behind[0] is context:
@@ -266,7 +269,7 @@ class RealAxes:
         """What the program says about the speed of a row is added to its bounds, or to those of its legs."""
         weight = rotary_weight(context, self._settings)
         weights = [weight if self._rotary(i) else 1.0 for i in range(len(goal))]
-        way, limits = self._way_of(chunk, row, goal, context), self.limits(context.transformation)
+        way, limits = self._way_of(chunk, row, goal, context), self.limits(context)
         bounds.feed[row], top, ease, at_corners = pace_of(
             context,
             way,
@@ -408,7 +411,7 @@ class RealAxes:
         """The shares of a row; `angle`: by how much it turns, `rests`: the path begins or ends at the pole."""
         if length == 0.0:
             return RowShares([], Corner(), Corner())
-        more, limits = reserve(context), self.limits(context.transformation)
+        more, limits = reserve(context), self.limits(context)
         pulls, jerks = ([more * limit for limit in of] for of in (limits.acceleration, limits.jerk))
         axes, soft = self.axis_limits(context, rapid=kind in RAPID_KINDS), self._is_soft(context)
         assert context.transformation is not None
@@ -427,7 +430,7 @@ class RealAxes:
         looks = [look(k / count, lateral=True) for k in range(count + 1)]
         sizes = [max(look.pull, 1.0 / look.top) for look in looks]
         uneven = max(sizes) >= UNEVEN * min(sizes) or any(rests)
-        is_tip = len(self.limits(context.transformation).linkage) > 0
+        is_tip = len(self.limits(context).linkage) > 0
         even = not uneven or (is_tip and not any(rests))
         if kind in ARC_KINDS and even and self._may_reach(context):
             seen = looked_at(way)
