@@ -68,7 +68,15 @@ class Travel(NamedTuple):
 
 
 def pace_of(
-    context: Context, way: Travel, weights: Sequence[float], limits: Limits, *, rapid: bool, soft: bool
+    context: Context,
+    way: Travel,
+    weights: Sequence[float],
+    limits: Limits,
+    *,
+    rapid: bool,
+    soft: bool,
+    curved: bool = False,
+    by_way: bool = False,
 ) -> tuple[float, float, float, float]:
     """What a row's pace makes of it.
 
@@ -79,6 +87,8 @@ def pace_of(
         limits: The machine, as the kernels take it.
         rapid: The row is a rapid.
         soft: The jerk is limited.
+        curved: The row is a chord of a curve, which moves its axes as the chord does not.
+        by_way: Its run is bent by its way: corners use little acceleration there, but all the jerk.
 
     Returns:
         Factor on its feed; highest path speed, mm/s; factor on what the axes may accelerate, and on that at its
@@ -103,13 +113,16 @@ def pace_of(
     if made:  # their factors are for the axes of the machine (`axis_limits_of`)
         own = own_columns(context.transformation)
         bound = [i for i in moving if i in own]
+    shrinking = _shrinking(pace, n, made=made, soft=soft)
+    together = min((factors[i] for factors in shrinking for i in bound), default=1.0)
+    ease = _ease(shrinking, way, length, (moving, bound), limits, made=made)
+    jerks = [pace.jerk] if pace.jerk else []
+    at_corners = min((factors[i] for factors in (jerks if by_way else shrinking) for i in bound), default=1.0)
     return (
         feed,
         _top(pace, way, length, (moving, bound), limits, rapid=rapid, made=made),
-        _ease(pace, way, length, (moving, bound), limits, made=made, soft=soft),
-        min(
-            (factors[i] for factors in _shrinking(pace, n, made=made, soft=soft) for i in bound), default=1.0
-        ),
+        min(ease, together) if curved else ease,
+        at_corners,
     )
 
 
@@ -260,20 +273,18 @@ def _shrinking(pace: Pace, n: int, *, made: bool, soft: bool) -> list[tuple[floa
 
 
 def _ease(
-    pace: Pace,
+    shrinking: list[tuple[float, ...]],
     way: Travel,
     length: float,
     columns: tuple[Sequence[int], Sequence[int]],
     limits: Limits,
     *,
     made: bool,
-    soft: bool,
 ) -> float:
     """The factor on the limits of all columns at which the row keeps those of its axes; `columns` as for `_top`."""
     ease, (moving, bound) = inf, columns
     if not bound:
         return 1.0
-    shrinking = _shrinking(pace, len(way.moved), made=made, soft=soft)
     for own, factors in zip((limits.acceleration, limits.jerk), shrinking, strict=False):
         if way.plane:
             ease = min(ease, *(factors[i] for i in bound))

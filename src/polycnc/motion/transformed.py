@@ -43,7 +43,15 @@ from polycnc.motion.demand import (
 )  # fmt: skip
 from polycnc.motion.frames import carried, machine_of, path_of, real_of, real_rows, work_of
 from polycnc.motion.kernels.columns import AT_END, AT_START, SHARES, Limits, Rows
-from polycnc.motion.limits import NO_LINKAGE, averages, axis_limits, channel_axes, is_led, rotary_weight
+from polycnc.motion.limits import (
+    NO_LINKAGE,
+    averages,
+    axis_limits,
+    channel_axes,
+    is_bent_by_way,
+    is_led,
+    rotary_weight,
+)
 from polycnc.motion.pace import Travel, axis_limits_of, following_top, pace_of, reserve
 from polycnc.motion.pole import (
     RING_MM,
@@ -270,16 +278,17 @@ class RealAxes:
         weight = rotary_weight(context, self._settings)
         weights = [weight if self._rotary(i) else 1.0 for i in range(len(goal))]
         way, limits = self._way_of(chunk, row, goal, context), self.limits(context)
+        soft = self._is_soft(context)
         bounds.feed[row], top, ease, at_corners = pace_of(
             context,
             way,
             weights,
             limits,
             rapid=chunk.kind[row] in RAPID_KINDS,
-            soft=self._is_soft(context),
+            curved=chunk.kind[row] == Kind.SPLINE or context.chords,
+            soft=soft,
+            by_way=soft and is_bent_by_way(context, self._settings),
         )
-        if chunk.kind[row] == Kind.SPLINE or context.chords:  # a curve moves its axes as its chord does not
-            ease = min(ease, at_corners)
         whole = (bounds.shares.top, bounds.shares.ease, row * SHARES)
         for tops, eases, first in [(leg.top, leg.ease, 0) for leg in legs] or [whole]:
             for k in range(SHARES):

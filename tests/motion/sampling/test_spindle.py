@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -61,9 +62,11 @@ def test_under_constant_surface_speed_it_goes_to_the_speed_at_the_end_of_a_rapid
 @given(st.lists(st.tuples(st.floats(0.001, 2.0), st.floats(-6000.0, 6000.0)), min_size=1, max_size=6))
 def test_the_angle_is_the_integral_of_the_speed(steps: list[tuple[float, float]]) -> None:
     course, time = SpindleCourse(), 0.0
-    for wait, rpm in steps:
+    rpm: Any
+    angle: Any
+    for wait, aim in steps:
         time += wait
-        course.go_to(time, rpm, 4000.0)
+        course.go_to(time, aim, 4000.0)
     times = np.linspace(0.0, time + 4.0, 4001)
     rpm, angle = course.at(times)
     assert rpm[-1] == pytest.approx(steps[-1][1], abs=1e-6)
