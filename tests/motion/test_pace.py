@@ -75,7 +75,7 @@ def test_a_line_keeps_the_velocity_and_acceleration_of_every_axis(
     factors = (share[0], share[1], share[2])
     context = Context(pace=Pace(velocity=factors, acceleration=factors))
     moved = Travel([abs(part) for part in way])
-    _, top, ease, _ = pace_of(context, moved, WEIGHTS, LIMITS, rapid=False)
+    _, top, ease, _ = pace_of(context, moved, WEIGHTS, LIMITS, rapid=False, soft=False)
     length = moved.length(WEIGHTS)
     pull = ease * min(1000.0 / (part / length) for part in moved.moved if part)
     for part, factor in zip(moved.moved, factors, strict=True):
@@ -120,14 +120,19 @@ def test_an_arc_counts_its_whole_length_once() -> None:
 def test_a_slower_arc_keeps_the_acceleration_across_it() -> None:
     way = Travel([0.0] * 3, (0, 1), 40.0, 10.0, ccw=True)
     context = Context(pace=Pace(acceleration=(0.5, 1.0, 1.0)))
-    _, top, ease, _ = pace_of(context, way, WEIGHTS, LIMITS, rapid=False)
+    _, top, ease, _ = pace_of(context, way, WEIGHTS, LIMITS, rapid=False, soft=False)
     assert top == pytest.approx(sqrt(0.5 * 1000.0 * 10.0))
     assert ease == 0.5
 
 
 def test_nothing_moves_without_a_way() -> None:
     context = Context(pace=Pace(feed=0.5))
-    assert pace_of(context, Travel([0.0] * 3), WEIGHTS, LIMITS, rapid=False) == (1.0, inf, 1.0, 1.0)
+    assert pace_of(context, Travel([0.0] * 3), WEIGHTS, LIMITS, rapid=False, soft=False) == (
+        1.0,
+        inf,
+        1.0,
+        1.0,
+    )
 
 
 @given(st.floats(1.0, 300.0), st.floats(-500.0, 500.0), st.floats(1.0, 170.0))

@@ -7,7 +7,7 @@ along are bounded many at once by a kernel (`kernels/demands.py`), whose parts h
 from __future__ import annotations
 
 from array import array
-from math import ceil, cos, inf, pi, radians
+from math import ceil, cos, hypot, inf, pi, radians
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.typing import TYPE_CHECKING
@@ -21,12 +21,15 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from polycnc.motion.kernels.columns import Limits
+    from polycnc.motion.pace import AxisLimits
     from polycnc.motion.pole import PathLeg
+    from polycnc.toolpath.row_path import Path
     from polycnc.toolpath.table import Chunk
+    from polycnc.transformation.contract import Transformation
 
 __all__ = [
-    "FULL", "LOOKS", "NOTHING", "PATH_STEP", "TWIST", "UNEVEN", "Bounds", "Corner", "Demand", "RowShares", "Shares",
-    "asked_of", "between", "bound_tip", "even_row", "farthest", "looks_along", "share_ends", "within",
+    "FULL", "LOOKS", "PATH_STEP", "UNEVEN", "Bounds", "Corner", "Demand", "RowShares", "Shares", "Way", "between",
+    "bound_tip", "even_row", "farthest", "looks_along", "share_ends", "within",
 ]  # fmt: skip
 
 #: Derivatives along the path are differences over so many mm or degrees at most.
@@ -35,6 +38,8 @@ PATH_STEP = 5e-3
 FULL, LOOK = 2.0 * pi, radians(LOOK_DEG)
 #: A corner reaches as far along a row as there is so much left of what there is at the row's end; looks.
 KEPT, FAR_LOOKS = 0.8, 4
+#: Steps of the search for the worst place of a row.
+SEARCH = 40
 #: Shares become shorter by this factor towards the worst place, or by a smaller one.
 SHORTER = 0.5
 
@@ -86,6 +91,14 @@ class RowShares(NamedTuple):
     at_start: Corner
     at_end: Corner
 
+    def eased(self, reserve: float) -> RowShares:
+        """The same where the columns can accelerate so much more than their limits say; at corners they do not."""
+        if reserve == 1.0:
+            return self
+        shares = [(end, top, reserve * ease) for end, top, ease in self.shares]
+        ends = (own._replace(ease=min(reserve * own.ease, 1.0)) for own in (self.at_start, self.at_end))
+        return RowShares(shares, *ends)
+
     def write(self, columns: Shares, first: int, top: float = inf) -> None:
         """Write them behind number `first` of the columns, with no speed above `top`."""
         for at, (end, most, ease) in enumerate(self.shares, first):
@@ -111,6 +124,101 @@ class Demand(NamedTuple):
     jerk: float
     turn: float
     along: float
+
+
+class Way(NamedTuple):
+    """A row under a transformation, with what bounds it.
+
+    Attributes:
+        made: The transformation.
+        path: The row's points.
+        length: Its length, mm.
+        axes: What the machine's axes may do, by their columns.
+        turning: Which axes are rotary.
+        pulls: What the columns can accelerate; `jerks` likewise.
+        soft: The jerk is limited.
+    """
+
+    made: Transformation
+    path: Path
+    length: float
+    axes: Sequence[tuple[int, AxisLimits]]
+    turning: Sequence[bool]
+    pulls: Sequence[float]
+    jerks: Sequence[float]
+    soft: bool
+
+    def demand(self, share: float, step: float = PATH_STEP, *, lateral: bool = True) -> Demand:
+        """What the real axes allow at a place of the row; `lateral`: the columns may accelerate in any direction."""
+        pulls, jerks, length = self.pulls, self.jerks, self.length
+        step, inside = min(step, PATH_STEP), 4.0 * step < length
+        middle = min(max(share, 1.5 * step / length), 1.0 - 1.5 * step / length) if inside else share
+        nearby = [self.path(middle + (k - 1.5) * step / length) for k in range(4)]
+        real = [self.made.to_machine(point) for point in nearby]
+        direction = [(b - a) / step for a, b in zip(nearby[1], nearby[2], strict=True)]
+        along = [
+            min((limit / abs(u) for limit, u in zip(of, direction, strict=True) if u), default=0.0)
+            for of in (pulls, jerks)
+        ]
+        columns = [j for j, way in enumerate(direction) if way != 0.0 or j in self.made.geometry]
+        here, there = (self._slopes(point, columns) if lateral else [] for point in nearby[1:3])
+        top, bend, pull, jerk, turn = inf, 0.0, NOTHING, 0.0, 0.0
+        for i, axis in self.axes:
+            ways = [self._shorter(i, real[k + 1][i] - real[k][i]) / step for k in range(3)]
+            bends = [(ways[k + 1] - ways[k]) / step for k in range(2)]
+            fastest, steepest = max(map(abs, ways)), max(map(abs, bends))
+            if axis.velocity and fastest > 0.0:
+                top = min(top, axis.velocity / fastest)
+            if axis.acceleration:
+                bend = max(bend, steepest / axis.acceleration)
+                asked = asked_of(here[i], pulls, columns) if lateral else fastest * along[0]
+                pull = max(pull, asked / axis.acceleration)
+            if self.soft and axis.jerk:
+                twist = abs(bends[1] - bends[0]) / step
+                top = min(top, (TWIST * axis.jerk / twist) ** (1.0 / 3.0)) if twist > NOTHING else top
+                asked = asked_of(here[i], jerks, columns) if lateral else fastest * along[1]
+                jerk = max(jerk, asked / axis.jerk)
+                change = steepest * along[0]
+                if lateral:
+                    changes = [abs(b - a) / step for a, b in zip(here[i], there[i], strict=True)]
+                    change = asked_of(changes, pulls, columns)
+                turn = max(turn, change / axis.jerk)
+        return Demand(top, bend, pull, jerk, turn, along[0])
+
+    def worst(self, around: float) -> float:
+        """Where between two looks the columns ask most of the real axes."""
+        low, high = max(around - 1.0 / LOOKS, 0.0), min(around + 1.0 / LOOKS, 1.0)
+        for _ in range(SEARCH):
+            a, b = low + (high - low) / 3.0, high - (high - low) / 3.0
+            if self._pull(a) < self._pull(b):
+                low = a
+            else:
+                high = b
+        return 0.5 * (low + high)
+
+    def extent(self, worst: float) -> float:
+        """How far around its worst place the row asks for at least half as much."""
+        most, extent = self._pull(worst), 1.0 / LOOKS
+        sides = [side for side in (-1.0, 1.0) if 0.0 <= worst + side * extent <= 1.0]
+        for _ in range(SEARCH):
+            if max(self._pull(worst + side * extent) for side in sides) > 0.5 * most:
+                break
+            extent *= 0.5
+        return extent
+
+    def _pull(self, share: float) -> float:
+        columns = [j for j in self.made.geometry if j >= 0]
+        slopes = self._slopes(self.path(share), columns)
+        # Counted alike in all directions, it is most where the path is nearest to the centre of polar interpolation.
+        return max(hypot(*slopes[i]) / (axis.acceleration or inf) for i, axis in self.axes)
+
+    def _slopes(self, point: list[float], columns: list[int]) -> list[list[float]]:
+        """Derivatives of every real axis by some columns."""
+        return [[row[j] for j in columns] for row in self.made.jacobian(point)]
+
+    def _shorter(self, i: int, way: float) -> float:
+        """The shorter way round of a rotary axis."""
+        return (way + 180.0) % 360.0 - 180.0 if self.turning[i] else way
 
 
 def looks_along(angle: float, least: int = LOOKS) -> int:

@@ -15,6 +15,7 @@ from polycnc.motion.time_constants import (
     Use,
     averages_after,
     behind_s,
+    cut_use,
     dynamics,
     is_after,
     is_ahead,
@@ -199,7 +200,8 @@ def averages(context: Context, machine: Machine, settings: Settings) -> tuple[fl
     have a tolerance of their own it is no longer than they may, so that none of them leaves its way by more. A time
     constant behind the interpolation is not for the plan to choose.
     """
-    able = [(axis.rotary, *dynamics(axis, axis.name, settings, Use.CUT)) for axis in machine.axes]
+    use = cut_use(context, settings)
+    able = [(axis.rotary, *dynamics(axis, axis.name, settings, use)) for axis in machine.axes]
     axes = [own for own in able if own[1] > 0.0 and own[2] > 0.0]
     if (context.acceleration or settings.acceleration) is not AccelerationMode.JERK_LIMITED or not axes:
         return 0.0, 0.0

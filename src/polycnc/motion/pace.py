@@ -2,6 +2,10 @@
 
 A row's feed is multiplied by a factor, its speed bounded, and the accelerations that its axes may use shrink or grow by
 another factor: the same that rows under a transformation have (`transformed.py`).
+
+Limits of single axes are those of the machine's axes (SINUMERIK job planning 8.7). Under a transformation these are
+others than the columns: `axis_limits_of` says what each of them has left. What an axis goes by itself that follows
+others is a column all the same.
 """
 
 from __future__ import annotations
@@ -17,10 +21,12 @@ from polycnc.transformation.orientation.linkage import STANDS_MM
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from polycnc.machine.model import Axis
     from polycnc.motion.kernels.columns import Limits
     from polycnc.toolpath import Context
     from polycnc.toolpath.context import Pace
     from polycnc.toolpath.row_path import Path
+    from polycnc.transformation.contract import Transformation
 
 #: Parts of a length up to which a degree is still a millimetre: on a radius of 57.296 mm, as programs write it.
 NOMINAL = 1e-5
@@ -62,7 +68,15 @@ class Travel(NamedTuple):
 
 
 def pace_of(
-    context: Context, way: Travel, weights: Sequence[float], limits: Limits, *, rapid: bool
+    context: Context,
+    way: Travel,
+    weights: Sequence[float],
+    limits: Limits,
+    *,
+    rapid: bool,
+    soft: bool,
+    curved: bool = False,
+    by_way: bool = False,
 ) -> tuple[float, float, float, float]:
     """What a row's pace makes of it.
 
@@ -72,12 +86,15 @@ def pace_of(
         weights: What each column counts in the length that the planner's path speed is of.
         limits: The machine, as the kernels take it.
         rapid: The row is a rapid.
+        soft: The jerk is limited.
+        curved: The row is a chord of a curve, which moves its axes as the chord does not.
+        by_way: Its run is bent by its way: corners use little acceleration there, but all the jerk.
 
     Returns:
         Factor on its feed; highest path speed, mm/s; factor on what the axes may accelerate, and on that at its
         corners, where each of them may have to.
     """
-    pace, n, made = context.pace, len(way.moved), context.transformation is not None
+    pace, n = context.pace, len(way.moved)
     assert pace is not None
     length = way.length(weights)
     turns = length < STANDS_MM
@@ -92,14 +109,20 @@ def pace_of(
         feed *= length / counted
         if turns and abs(counted - length) > NOMINAL * length:
             feed *= context.degree_mm
+    made, bound = context.transformation is not None, moving
+    if made:  # their factors are for the axes of the machine (`axis_limits_of`)
+        own = own_columns(context.transformation)
+        bound = [i for i in moving if i in own]
+    shrinking = _shrinking(pace, n, made=made, soft=soft)
+    together = min((factors[i] for factors in shrinking for i in bound), default=1.0)
+    ease = _ease(shrinking, way, length, (moving, bound), limits, made=made)
+    jerks = [pace.jerk] if pace.jerk else []
+    at_corners = min((factors[i] for factors in (jerks if by_way else shrinking) for i in bound), default=1.0)
     return (
         feed,
-        _top(pace, way, length, moving, limits, rapid=rapid, made=made),
-        _ease(pace, way, length, moving, limits, made=made),
-        min(
-            (factors[i] for factors in (_pulls(pace, made=made), pace.jerk) if factors for i in moving),
-            default=1.0,
-        ),
+        _top(pace, way, length, (moving, bound), limits, rapid=rapid, made=made),
+        min(ease, together) if curved else ease,
+        at_corners,
     )
 
 
@@ -127,33 +150,107 @@ def edge_factor(pace: Pace, context: Context, way: Travel) -> float:
 
 
 def _top(
-    pace: Pace, way: Travel, length: float, moving: Sequence[int], limits: Limits, *, rapid: bool, made: bool
+    pace: Pace,
+    way: Travel,
+    length: float,
+    columns: tuple[Sequence[int], Sequence[int]],
+    limits: Limits,
+    *,
+    rapid: bool,
+    made: bool,
 ) -> float:
-    """The path speed at which no axis passes its velocity, and at which an arc keeps the accelerations."""
+    """The path speed at which no axis passes its velocity, and at which an arc keeps the accelerations.
+
+    `columns` are those that move, and those of them for which the pace's limits of axes are.
+    """
     top, tops = inf, limits.top_rapid if rapid else limits.top_feed
-    pulls = _pulls(pace, made=made)
+    pulls, faster = _pulls(pace, made=made), pace.rapid if rapid else 1.0
+    moving, bound = columns
     for i in moving:
+        if pace.top and not rapid:
+            top = min(top, pace.top[i] / way.share(i, length))
+    for i in bound:
         share = way.share(i, length)
         if pace.velocity:
-            factor = pace.velocity[i] * (pace.rapid if rapid else 1.0)
-            top = min(top, tops[i] * factor / share)
+            top = min(top, tops[i] * pace.velocity[i] * faster / share)
         if pace.reach:
-            top = min(top, pace.reach[i] * (pace.rapid if rapid else 1.0) / share)
+            top = min(top, pace.reach[i] * faster / share)
         if pace.left and not made:
             top = min(top, pace.left[i] / share)
-        if pace.top and not rapid:
-            top = min(top, pace.top[i] / share)
         if pulls and i in way.plane:
             top = min(top, sqrt(pulls[i] * limits.acceleration[i] * way.radius))
     return top
 
 
-def left_of(context: Context, axis: int, velocity: float, acceleration: float) -> tuple[float, float]:
-    """What motions over a real axis leave of its limits to the path under a transformation."""
+class AxisLimits(NamedTuple):
+    """What an axis of the machine may do: velocity, acceleration and jerk, mm or degrees and seconds; 0 for any."""
+
+    velocity: float
+    acceleration: float
+    jerk: float
+
+
+def axis_limits_of(
+    context: Context, axes: Sequence[Axis | None], *, rapid: bool
+) -> list[tuple[int, AxisLimits]]:
+    """What the program leaves the machine's axes under a transformation, by their columns.
+
+    Those are the factors of the pace and its highest velocities, and what motions over an axis leave to the path. An
+    axis that follows others has them for what it goes by itself, which is its column.
+    """
+    pace, made = context.pace, context.transformation
+    found = []
+    for column, axis in enumerate(axes):
+        if axis is not None:
+            own = AxisLimits(axis.rapid if rapid else axis.max_feed, axis.acceleration, axis.jerk)
+            found.append((column, own))
+    if pace is None:
+        return found
+    by_itself = own_columns(made)
+    return [
+        (column, _left(pace, column, own, rapid=rapid, named=column not in by_itself))
+        for column, own in found
+    ]
+
+
+def own_columns(transformation: Transformation | None) -> frozenset[int]:
+    """Columns of axes that follow others, for which a pace's limits of axes are those of the column."""
+    if transformation is None:
+        return frozenset()
+    from polycnc.transformation.couplings.acting import following  # for paths under a transformation
+
+    return following(transformation)
+
+
+def _left(pace: Pace, i: int, own: AxisLimits, *, rapid: bool, named: bool) -> AxisLimits:
+    """What is left of an axis; `named`: factors for axes are for this one, not for what it goes by itself."""
+    velocity, acceleration, jerk = own
+    faster = pace.rapid if rapid else 1.0
+    velocity *= faster
+    if named:
+        velocity *= pace.velocity[i] if pace.velocity else 1.0
+        acceleration *= pace.acceleration[i] if pace.acceleration else 1.0
+        jerk *= pace.jerk[i] if pace.jerk else 1.0
+        if pace.reach:
+            velocity = _least(velocity, faster * pace.reach[i])
+    if pace.left:
+        velocity = _least(velocity, pace.left[i])
+        acceleration *= pace.left_pull[i]
+    return AxisLimits(velocity, acceleration, jerk)
+
+
+def _least(velocity: float, top: float) -> float:
+    """The lower one of two velocities, of which 0 and infinity stand for any."""
+    return min(velocity or inf, top) if top < inf else velocity
+
+
+def reserve(context: Context) -> float:
+    """How much more than a column the machine's axes can accelerate under a transformation: more than 1 for `ACC`.
+
+    What is left of each of them bounds the path; the columns' own acceleration is no limit of the machine.
+    """
     pace = context.pace
-    if pace is None or not pace.left:
-        return velocity, acceleration
-    return min(velocity or inf, pace.left[axis]), acceleration * pace.left_pull[axis]
+    return max(1.0, *pace.acceleration) if pace is not None and pace.acceleration else 1.0
 
 
 def _pulls(pace: Pace, *, made: bool) -> tuple[float, ...]:
@@ -163,20 +260,38 @@ def _pulls(pace: Pace, *, made: bool) -> tuple[float, ...]:
     return tuple(map(mul, pace.acceleration, pace.left_pull)) if pace.acceleration else pace.left_pull
 
 
+def _shrinking(pace: Pace, n: int, *, made: bool, soft: bool) -> list[tuple[float, ...]]:
+    """Factors on the accelerations of the columns, and on their jerks where these are limited; none where all are 1.
+
+    One factor shrinks both, so both have a say: what more acceleration there is, the jerk may not follow.
+    """
+    pulls = _pulls(pace, made=made)
+    if not pulls and not pace.jerk:
+        return []
+    even = (1.0,) * n
+    return [pulls or even, pace.jerk or even] if soft else [pulls or even]
+
+
 def _ease(
-    pace: Pace, way: Travel, length: float, moving: Sequence[int], limits: Limits, *, made: bool
+    shrinking: list[tuple[float, ...]],
+    way: Travel,
+    length: float,
+    columns: tuple[Sequence[int], Sequence[int]],
+    limits: Limits,
+    *,
+    made: bool,
 ) -> float:
-    """The factor on the limits of all columns at which the row keeps those of its axes."""
-    ease = inf
-    for own, factors in ((limits.acceleration, _pulls(pace, made=made)), (limits.jerk, pace.jerk)):
-        if not factors or not moving:
-            continue
+    """The factor on the limits of all columns at which the row keeps those of its axes; `columns` as for `_top`."""
+    ease, (moving, bound) = inf, columns
+    if not bound:
+        return 1.0
+    for own, factors in zip((limits.acceleration, limits.jerk), shrinking, strict=False):
         if way.plane:
-            ease = min(ease, *(factors[i] for i in moving))
+            ease = min(ease, *(factors[i] for i in bound))
         else:
-            pulls = [own[i] / way.share(i, length) for i in moving]
-            ease = min(ease, min(p * factors[i] for p, i in zip(pulls, moving, strict=True)) / min(pulls))
-    return ease if ease < inf else 1.0
+            least = min(own[i] / way.share(i, length) for i in moving)
+            ease = min(ease, *(own[i] / way.share(i, length) * factors[i] / least for i in bound))
+    return min(ease, 1.0) if made else ease if ease < inf else 1.0
 
 
 def following_top(context: Context, path: Path, length: float, *, rapid: bool) -> float:

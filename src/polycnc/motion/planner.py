@@ -145,6 +145,16 @@ class Planner:
         """Spindle speed of a context at a turning radius."""
         return self._waits.rpm(context, radius_mm)
 
+    def spindle_pull(self, context: Context) -> float:
+        """Acceleration of the spindle of a context, rpm a second; 0 for at once."""
+        spindle = self._waits.spindle(context)
+        return spindle.acceleration_rpm_s if spindle is not None else 0.0
+
+    def runs_up_beside(self, context: Context) -> bool:
+        """Whether the spindle of a context goes to another speed beside the axes, and no block waits for that."""
+        spindle = self._waits.spindle(context)
+        return spindle is not None and not self._waits.stands_for_speed(spindle)
+
     @property
     def top_speeds(self) -> tuple[Sequence[float], Sequence[float]]:
         """Highest velocity of every column in cuts, and in rapids."""
@@ -278,7 +288,7 @@ class Planner:
     def _switch(self, use: Use, context: Context) -> None:
         """Before a row that another use holds for the axes rest."""
         self._rest()
-        self._use, self._limits = use, self._real.limits(context.transformation, use)
+        self._use, self._limits = use, self._real.limits(context, use)
 
     def _lay(self, rows: Rows, row: int, curves: array[float], number: int) -> None:
         """Lay rows out from one on."""
@@ -385,7 +395,7 @@ class Planner:
         """Before a row a transformation begins or ends: at rest the path goes on from where the real axes are."""
         self._rest()
         self._look_ahead(row)
-        self._limits = self._real.limits(context.transformation, self._use)
+        self._limits = self._real.limits(context, self._use)
         self._state.position[:] = array("d", position)
 
     def finish(self) -> Plan:

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from polycnc.machine import Axis
+    from polycnc.motion.pace import AxisLimits
     from polycnc.toolpath import Context
     from polycnc.toolpath.row_path import Path
     from polycnc.transformation.contract import Geometry, Transformation
@@ -240,12 +241,11 @@ def _turn(pole: Pole, start: list[float], end: Sequence[float]) -> Turn | None:
 
 def turn_records(
     turn: Turn,
-    axis: Axis,
+    axis: AxisLimits,
     context: Context,
     geometry: Geometry,
     *,
     soft: bool,
-    rapid: bool,
     row: float,
     slot: int,
 ) -> array[float]:
@@ -253,17 +253,16 @@ def turn_records(
 
     Args:
         turn: The turn.
-        axis: The rotary axis.
+        axis: What the rotary axis may do.
         context: What holds in the row.
         geometry: Columns of X, Y and Z.
         soft: The jerk is limited.
-        rapid: At rapid traverse.
         row: Number of the row.
         slot: Where the row's time counts.
     """
     n, way = len(turn.start), abs(degrees(turn.way))
     width, count = piece_width(n), ceil(way / PIECE_DEG)
-    top, pull = PART * (axis.rapid if rapid else axis.max_feed) or 1e9, PART * axis.acceleration or 1e9
+    top, pull = PART * axis.velocity or 1e9, PART * axis.acceleration or 1e9
     jerk, ramp = PART * axis.jerk, 0.0
     if soft and jerk > 0.0:
         from polycnc.motion.kernels.alone import best_ramp

@@ -19,15 +19,11 @@ from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.motion.demand import PATH_STEP
 from polycnc.motion.kernels.columns import PIECES_PER_TURN
 from polycnc.motion.kernels.demands import NOTHING
-from polycnc.motion.pace import left_of
-from polycnc.toolpath.kinds import RAPID_KINDS
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from polycnc.machine.model import Axis
-    from polycnc.toolpath import Context
-    from polycnc.toolpath.row_path import Path
+    from polycnc.motion.demand import Way
 
 #: Shares of a row: as many as a row has room for, but for those of its ends.
 PARTS = 28
@@ -53,49 +49,28 @@ class Place(NamedTuple):
     asks: list[tuple[float, float]]
 
 
-def looked_at(
-    context: Context,
-    axes: Sequence[Axis | None],
-    pulls: Sequence[float],
-    path: Path,
-    length: float,
-    kind: int,
-) -> list[Place]:
-    """Look at a row under a transformation, from share to share; `pulls` is what the columns can accelerate."""
-    return [_place(context, axes, pulls, path, length, k / PARTS, kind) for k in range(PARTS + 1)]
+def looked_at(way: Way) -> list[Place]:
+    """Look at a row under a transformation, from share to share."""
+    return [_place(way, k / PARTS) for k in range(PARTS + 1)]
 
 
-def _place(
-    context: Context,
-    axes: Sequence[Axis | None],
-    pulls: Sequence[float],
-    path: Path,
-    length: float,
-    share: float,
-    kind: int,
-) -> Place:
-    made = context.transformation
-    assert made is not None
-    step = PATH_STEP / length
+def _place(way: Way, share: float) -> Place:
+    step = PATH_STEP / way.length
     middle = min(max(share, step), 1.0 - step)
-    nearby = [path(middle + k * step) for k in (-1, 0, 1)]
-    before, here, after = (made.to_machine(point) for point in nearby)
+    nearby = [way.path(middle + k * step) for k in (-1, 0, 1)]
+    before, here, after = (way.made.to_machine(point) for point in nearby)
     direction = [(b - a) / (2.0 * PATH_STEP) for a, b in zip(nearby[0], nearby[2], strict=True)]
-    along = min((limit / abs(u) for limit, u in zip(pulls, direction, strict=True) if u), default=0.0)
+    along = min((limit / abs(u) for limit, u in zip(way.pulls, direction, strict=True) if u), default=0.0)
     top2, asks = inf, []
-    for i, axis in enumerate(axes):
-        if axis is None:
-            continue
+    for i, axis in way.axes:
         came, goes = here[i] - before[i], after[i] - here[i]
-        if axis.rotary:  # the shorter way round
-            came, goes = ((way + 180.0) % 360.0 - 180.0 for way in (came, goes))
+        if way.turning[i]:  # the shorter way round
+            came, goes = ((turn + 180.0) % 360.0 - 180.0 for turn in (came, goes))
         first, second = abs(came + goes) / (2.0 * PATH_STEP), abs(goes - came) / PATH_STEP**2
-        velocity = axis.rapid if kind in RAPID_KINDS else axis.max_feed
-        velocity, acceleration = left_of(context, i, velocity, axis.acceleration)
-        if velocity and first > 0.0:
-            top2 = min(top2, (velocity / first) ** 2)
-        if acceleration:
-            asks.append((second / acceleration, first * along / acceleration))
+        if axis.velocity and first > 0.0:
+            top2 = min(top2, (axis.velocity / first) ** 2)
+        if axis.acceleration:
+            asks.append((second / axis.acceleration, first * along / axis.acceleration))
     return Place(top2, along, asks)
 
 

@@ -44,6 +44,8 @@ class Use(IntEnum):
     RAPID = 1
     AFTER = 2
     """Cuts that are accelerated after the interpolation."""
+    PLAIN = 3
+    """Cuts that are not planned ahead, where nothing says how they are accelerated after the interpolation either."""
 
 
 class Dynamics(NamedTuple):
@@ -63,7 +65,9 @@ def dynamics(axis: Axis, name: str, settings: MotionSettings, use: Use) -> Dynam
             min(axis.rapid, settings.rapid_caps.get(name, axis.rapid)),
         )
         return _ramp(axis, given, top, axis.rapid_time_s, axis.rapid_bell_s)
-    given, top = settings.cut_ramps.get(name), min(axis.max_feed, settings.feed_caps.get(name, axis.max_feed))
+    # What parameters say of cuts that are planned ahead says nothing of others: these are for the machine file.
+    given = settings.cut_ramps.get(name) if use is Use.CUT else None
+    top = min(axis.max_feed, settings.feed_caps.get(name, axis.max_feed))
     return _ramp(axis, given, top, axis.cutting_time_s, axis.cutting_bell_s)
 
 
@@ -104,7 +108,14 @@ def use_of(kind: int, context: Context, uses: Uses) -> Use:
     """What a row of a kind runs by."""
     if kind in RAPID_KINDS:
         return Use.RAPID if uses.rapid else Use.CUT
-    return Use.AFTER if kind not in _LED and is_after(context, uses.after_s) else Use.CUT
+    if kind not in _LED and is_after(context, uses.after_s):
+        return Use.AFTER
+    return Use.PLAIN if uses.plain and context.acceleration is None else Use.CUT
+
+
+def cut_use(context: Context, settings: MotionSettings) -> Use:
+    """What cuts under a context run by, but for those that are accelerated after the interpolation."""
+    return Use.CUT if is_ahead(context, settings) or not settings.cut_ramps else Use.PLAIN
 
 
 def is_after(context: Context, seconds: float) -> bool:
@@ -145,15 +156,17 @@ class Uses(NamedTuple):
     Attributes:
         rapid: Rapids have limits of their own.
         after_s: Time constant of cuts after the interpolation, s; 0 for none.
+        plain: Parameters say how cuts accelerate that are planned ahead, and not all are.
     """
 
     rapid: bool
     after_s: float
+    plain: bool = False
 
     @property
     def differ(self) -> bool:
         """Whether any do."""
-        return self.rapid or self.after_s > 0.0
+        return self.rapid or self.after_s > 0.0 or self.plain
 
 
 def uses_of(machine: Machine, channel: int, settings: MotionSettings) -> Uses:
@@ -162,7 +175,8 @@ def uses_of(machine: Machine, channel: int, settings: MotionSettings) -> Uses:
         dynamics(axis, name, settings, Use.RAPID) != dynamics(axis, name, settings, Use.CUT)
         for axis, name in _axes(machine, channel)
     )
-    return Uses(rapid, after_s(machine, channel, settings))
+    plain = settings.after_interpolation and len(settings.cut_ramps) > 0
+    return Uses(rapid, after_s(machine, channel, settings), plain)
 
 
 def averages_after(seconds: float) -> tuple[float, float]:

@@ -25,17 +25,14 @@ from operator import sub
 from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.motion.demand import (
     FULL,
-    LOOKS,
-    NOTHING,
     PATH_STEP,
-    TWIST,
     UNEVEN,
     Bounds,
     Corner,
     Demand,
     RowShares,
     Shares,
-    asked_of,
+    Way,
     between,
     bound_tip,
     even_row,
@@ -46,8 +43,16 @@ from polycnc.motion.demand import (
 )  # fmt: skip
 from polycnc.motion.frames import carried, machine_of, path_of, real_of, real_rows, work_of
 from polycnc.motion.kernels.columns import AT_END, AT_START, SHARES, Limits, Rows
-from polycnc.motion.limits import NO_LINKAGE, averages, axis_limits, channel_axes, is_led, rotary_weight
-from polycnc.motion.pace import Travel, following_top, left_of, pace_of
+from polycnc.motion.limits import (
+    NO_LINKAGE,
+    averages,
+    axis_limits,
+    channel_axes,
+    is_bent_by_way,
+    is_led,
+    rotary_weight,
+)
+from polycnc.motion.pace import Travel, axis_limits_of, following_top, pace_of, reserve
 from polycnc.motion.pole import (
     RING_MM,
     PathLeg,
@@ -59,7 +64,7 @@ from polycnc.motion.pole import (
     turn_records,
 )
 from polycnc.motion.reach import looked_at, shares_of
-from polycnc.motion.time_constants import Use
+from polycnc.motion.time_constants import Use, cut_use
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS, CURVE_WIDTH, RAPID_KINDS
 from polycnc.toolpath.modes import AccelerationMode, FeedMode
@@ -71,6 +76,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from polycnc.machine import Machine
+    from polycnc.motion.pace import AxisLimits
     from polycnc.motion.sampling.run import Moved
     from polycnc.motion.settings import Settings
     from polycnc.toolpath.row_path import Path
@@ -81,8 +87,6 @@ if TYPE_CHECKING:
 _STANDING = bytes((Kind.DWELL, Kind.EVENT))
 #: Derivatives by time are differences over so many seconds.
 SHORT_S = 1e-4
-#: Steps of the search for the worst place of a row.
-SEARCH = 40
 #: Parts of the share around the worst place that are looked at.
 WITHIN = 8
 #: Part of the share next to a corner that the corner may reach; no share of a way to the pole is much shorter, mm.
@@ -131,15 +135,20 @@ class RealAxes:
         self._geometry = machine.geometry_indices(channel)
         self._on_path, self._context = list(start) or [0.0] * len(names), Context()
         self._limits: dict[tuple[Geometry | None, Use], Limits] = {}
-        self._linked: tuple[Transformation, Limits] | None = None
+        self._linked: tuple[Transformation, Use, Limits] | None = None
+        self._turning = [axis is not None and axis.rotary for axis in self._axes]
+        self._left: tuple[Context, bool, list[tuple[int, AxisLimits]]] | None = None
         #: The last row's context and its end, as it was written.
         self._behind: tuple[Context, list[float]] | None = None
 
-    def limits(self, transformation: Transformation | None, use: Use = Use.CUT) -> Limits:
-        """The kernels' `limits` while a transformation acts, which knows no time constants of rapids, or none."""
-        if self._linked is not None and transformation is self._linked[0]:
-            return self._linked[1]
-        key = (None, use) if transformation is None else (transformation.geometry, Use.CUT)
+    def limits(self, context: Context | None, use: Use = Use.CUT) -> Limits:
+        """The kernels' `limits` of rows of a use; under a transformation of a context there are no uses but of cuts."""
+        transformation = context.transformation if context is not None else None
+        if context is not None and transformation is not None:
+            use = cut_use(context, self._settings)
+        if self._linked is not None and transformation is self._linked[0] and use is self._linked[1]:
+            return self._linked[2]
+        key = (None if transformation is None else transformation.geometry, use)
         linkage = NO_LINKAGE
         if transformation is not None and None not in self._axes:
             from polycnc.transformation.orientation.linked import linkage_of  # where a transformation acts
@@ -150,7 +159,7 @@ class RealAxes:
         made, own = key
         found = axis_limits(self._machine, self._channel, self._names, self._settings, made, own, linkage)
         if linkage and transformation is not None:
-            self._linked = transformation, found
+            self._linked = transformation, use, found
         else:
             self._limits[key] = found
         return found
@@ -189,7 +198,7 @@ class RealAxes:
         """Whether the kernels find out themselves what bounds straight rows."""
         if context.transformation is None:
             return True
-        return is_led(context, self._settings) and len(self.limits(context.transformation).linkage) > 0
+        return is_led(context, self._settings) and len(self.limits(context).linkage) > 0
 
     def _run(self, chunk: Chunk, moves: Sequence[int], context: Context, bounds: Bounds) -> None:
         """Look at moves of one context after each other."""
@@ -217,7 +226,7 @@ class RealAxes:
             return b"\1" * len(chunk)
         if self._needs_no_shares(context):
             return chunk.kind.tobytes().translate(LED_KINDS)
-        limits = self.limits(made)
+        limits = self.limits(context)
         if not limits.linkage:
             return bytes(len(chunk))
         if self._behind is not None and self._behind[0] is context:
@@ -238,6 +247,8 @@ class RealAxes:
             legs = self._legs(chunk, row, start, end, context)
             if legs:
                 bounds.legs[row] = legs
+                if context.pace is not None:
+                    self._pace(chunk, row, legs[-1].end, context, bounds, [leg.rows for leg in legs])
                 self._on_path = legs[-1].end
                 return
             path, length, angle = self._path(chunk, row, start, end, context)
@@ -254,19 +265,35 @@ class RealAxes:
         n = len(self._axes)
         return machine_of(chunk.end[row * n : (row + 1) * n], context, self._geometry)
 
-    def _pace(self, chunk: Chunk, row: int, goal: list[float], context: Context, bounds: Bounds) -> None:
-        """What the program says about the speed of a row beside its feed is added to its bounds."""
+    def _pace(
+        self,
+        chunk: Chunk,
+        row: int,
+        goal: list[float],
+        context: Context,
+        bounds: Bounds,
+        legs: Sequence[Rows] = (),
+    ) -> None:
+        """What the program says about the speed of a row is added to its bounds, or to those of its legs."""
         weight = rotary_weight(context, self._settings)
         weights = [weight if self._rotary(i) else 1.0 for i in range(len(goal))]
-        way, limits = self._way_of(chunk, row, goal, context), self.limits(context.transformation)
+        way, limits = self._way_of(chunk, row, goal, context), self.limits(context)
+        soft = self._is_soft(context)
         bounds.feed[row], top, ease, at_corners = pace_of(
-            context, way, weights, limits, rapid=chunk.kind[row] in RAPID_KINDS
+            context,
+            way,
+            weights,
+            limits,
+            rapid=chunk.kind[row] in RAPID_KINDS,
+            curved=chunk.kind[row] == Kind.SPLINE or context.chords,
+            soft=soft,
+            by_way=soft and is_bent_by_way(context, self._settings),
         )
-        if chunk.kind[row] == Kind.SPLINE or context.chords:  # a curve moves its axes as its chord does not
-            ease = min(ease, at_corners)
-        for k in range(row * SHARES, (row + 1) * SHARES):
-            bounds.shares.top[k] = min(bounds.shares.top[k], top)
-            bounds.shares.ease[k] *= at_corners if k - row * SHARES in (AT_START, AT_END) else ease
+        whole = (bounds.shares.top, bounds.shares.ease, row * SHARES)
+        for tops, eases, first in [(leg.top, leg.ease, 0) for leg in legs] or [whole]:
+            for k in range(SHARES):
+                tops[first + k] = min(tops[first + k], top)
+                eases[first + k] *= at_corners if k in (AT_START, AT_END) else ease
 
     def _way_of(self, chunk: Chunk, row: int, goal: list[float], context: Context) -> Travel:
         """The way of a row in the columns' machine coordinates."""
@@ -326,10 +353,16 @@ class RealAxes:
 
     def turn(self, turn: Turn, context: Context, kind: int, row: float, slot: int) -> array[float]:
         """The planner's pieces of a turn at the pole."""
-        axis = self._axes[turn.pole.rotary]
-        assert axis is not None
-        soft, rapid = self._is_soft(context), kind == Kind.RAPID
-        return turn_records(turn, axis, context, self._geometry, soft=soft, rapid=rapid, row=row, slot=slot)
+        axis = dict(self.axis_limits(context, rapid=kind in RAPID_KINDS))[turn.pole.rotary]
+        return turn_records(
+            turn, axis, context, self._geometry, soft=self._is_soft(context), row=row, slot=slot
+        )
+
+    def axis_limits(self, context: Context, *, rapid: bool) -> list[tuple[int, AxisLimits]]:
+        """What the program leaves the machine's axes under a transformation, by their columns."""
+        if self._left is None or self._left[0] is not context or self._left[1] is not rapid:
+            self._left = context, rapid, axis_limits_of(context, self._axes, rapid=rapid)
+        return self._left[2]
 
     def rates(self, on_path: Sequence[float], direction: Sequence[float], context: Context) -> list[float]:
         """Way of every real axis by the way of the path, at a position of it and in a direction."""
@@ -387,21 +420,34 @@ class RealAxes:
         """The shares of a row; `angle`: by how much it turns, `rests`: the path begins or ends at the pole."""
         if length == 0.0:
             return RowShares([], Corner(), Corner())
-        count = looks_along(angle)
+        more, limits = reserve(context), self.limits(context)
+        pulls, jerks = ([more * limit for limit in of] for of in (limits.acceleration, limits.jerk))
+        axes, soft = self.axis_limits(context, rapid=kind in RAPID_KINDS), self._is_soft(context)
+        assert context.transformation is not None
+        way = Way(context.transformation, path, length, axes, self._turning, pulls, jerks, soft)
+        return self._shares_of(context, way, kind, angle, rests).eased(more)
+
+    def _shares_of(
+        self, context: Context, way: Way, kind: int, angle: float, rests: tuple[bool, bool]
+    ) -> RowShares:
+        """The same, the columns' limits being those of the way."""
+        count, length = looks_along(angle), way.length
 
         def look(place: float, *, lateral: bool) -> Demand:
-            return between(self._demand(context, path, length, place, kind, lateral=lateral), angle / count)
+            return between(way.demand(place, lateral=lateral), angle / count)
 
         looks = [look(k / count, lateral=True) for k in range(count + 1)]
         sizes = [max(look.pull, 1.0 / look.top) for look in looks]
         uneven = max(sizes) >= UNEVEN * min(sizes) or any(rests)
-        limits = self.limits(context.transformation)
-        even = not uneven or (len(limits.linkage) > 0 and not any(rests))
+        is_tip = len(self.limits(context).linkage) > 0
+        even = not uneven or (is_tip and not any(rests))
         if kind in ARC_KINDS and even and self._may_reach(context):
-            seen = looked_at(context, self._axes, limits.acceleration, path, length, kind)
+            seen = looked_at(way)
             shares = shares_of(seen, length, angle, stops=context.stops)
             return self._corners(context, length, look, shares, rests)
-        if kind in ARC_KINDS and not uneven:
+        # Where the program limits single axes, an axis that stands in a line leaves that its whole acceleration.
+        limited = kind in (Kind.RAPID, Kind.FEED) and context.pace is not None and not context.chords
+        if (kind in ARC_KINDS or limited) and not uneven:
             inside = [look(k / count, lateral=False) for k in range(count + 1)]
             found = self._corners(context, length, look, [(1.0, *within(inside, length))], rests)
             # What holds at corners all along the row lets their averages reach as far as they like.
@@ -410,14 +456,14 @@ class RealAxes:
         if kind in (Kind.SPLINE, Kind.THREAD, Kind.TAP) or context.chords or not uneven:
             top, ease = within(looks, length)
             return even_row(top, ease)
-        worst = self._worst(context, path, sizes.index(max(sizes)) / count)
-        extent = self._extent(context, path, worst)
+        worst = way.worst(sizes.index(max(sizes)) / count)
+        extent = way.extent(worst)
         if any(rests):
             worst, extent = (0.0 if rests[0] else 1.0), max(extent, NEAR_POLE / length)
 
         def demand(place: float, *, lateral: bool) -> Demand:
             step = 0.1 * hypot(extent, place - worst) * length
-            return self._demand(context, path, length, place, kind, step, lateral=lateral)
+            return way.demand(place, step, lateral=lateral)
 
         shares, begin = [], 0.0
         for f in share_ends(worst, extent):
@@ -425,7 +471,7 @@ class RealAxes:
             if begin <= worst <= f:
                 places.append(worst)
                 # Beside it a rotary axis changes its speed most. With limited jerk the bounds of the jerk are lower.
-                steps = 1 if self._is_soft(context) else WITHIN
+                steps = 1 if way.soft else WITHIN
                 places += [begin + (f - begin) * k / steps for k in range(1, steps)]
             parts = looks_along(angle * (f - begin), 1)
             places += [begin + (f - begin) * k / parts for k in range(1, parts)]
@@ -471,34 +517,6 @@ class RealAxes:
                 shares[k] = (shares[k][0], min(top, shares[k][1]), shares[k][2])
         return RowShares(shares, *corners)
 
-    def _worst(self, context: Context, path: Path, around: float) -> float:
-        """Where between two looks the columns ask most of the real axes."""
-        low, high = max(around - 1.0 / LOOKS, 0.0), min(around + 1.0 / LOOKS, 1.0)
-        for _ in range(SEARCH):
-            a, b = low + (high - low) / 3.0, high - (high - low) / 3.0
-            if self._pull(context, path(a)) < self._pull(context, path(b)):
-                low = a
-            else:
-                high = b
-        return 0.5 * (low + high)
-
-    def _extent(self, context: Context, path: Path, worst: float) -> float:
-        """How far around its worst place a row asks for at least half as much."""
-        most, extent = self._pull(context, path(worst)), 1.0 / LOOKS
-        sides = [side for side in (-1.0, 1.0) if 0.0 <= worst + side * extent <= 1.0]
-        for _ in range(SEARCH):
-            if max(self._pull(context, path(worst + side * extent)) for side in sides) > 0.5 * most:
-                break
-            extent *= 0.5
-        return extent
-
-    def _pull(self, context: Context, point: list[float]) -> float:
-        columns = [j for j in context.transformation.geometry if j >= 0]  # type: ignore[union-attr]
-        slopes = self._slopes(context, point, columns)
-        shares = zip(slopes, self._axes, strict=True)
-        # Counted alike in all directions, it is most where the path is nearest to the centre of polar interpolation.
-        return max(hypot(*own) / (axis.acceleration or inf) for own, axis in shares if axis is not None)
-
     def _length(self, context: Context, start: Sequence[float], end: Sequence[float]) -> float:
         """Length of a way, as the feed counts it."""
         counted = hypot(*self._counted(context, start, end))
@@ -512,71 +530,9 @@ class RealAxes:
         turned = [weight if self._rotary(i) and i not in made else 1.0 for i in range(len(start))]
         return [w * (b - a) for w, a, b in zip(turned, start, end, strict=True)]
 
-    def _demand(
-        self,
-        context: Context,
-        path: Path,
-        length: float,
-        share: float,
-        kind: int,
-        step: float = PATH_STEP,
-        *,
-        lateral: bool = True,
-    ) -> Demand:
-        """What the real axes allow at a place of a row; `lateral`: the columns may accelerate in any direction."""
-        assert context.transformation is not None
-        soft, limits = self._is_soft(context), self.limits(context.transformation)
-        pulls, jerks = limits.acceleration, limits.jerk
-        step, inside = min(step, PATH_STEP), 4.0 * step < length
-        middle = min(max(share, 1.5 * step / length), 1.0 - 1.5 * step / length) if inside else share
-        nearby = [path(middle + (k - 1.5) * step / length) for k in range(4)]
-        real = [context.transformation.to_machine(point) for point in nearby]
-        direction = [(b - a) / step for a, b in zip(nearby[1], nearby[2], strict=True)]
-        along = [
-            min((limit / abs(u) for limit, u in zip(of, direction, strict=True) if u), default=0.0)
-            for of in (pulls, jerks)
-        ]
-        columns = [j for j, way in enumerate(direction) if way != 0.0 or j in context.transformation.geometry]
-        here, there = (self._slopes(context, point, columns) if lateral else [] for point in nearby[1:3])
-        top, bend, pull, jerk, turn = inf, 0.0, NOTHING, 0.0, 0.0
-        for i, axis in enumerate(self._axes):
-            if axis is None:
-                continue
-            ways = [self._way(i, real[k + 1][i] - real[k][i]) / step for k in range(3)]
-            bends = [(ways[k + 1] - ways[k]) / step for k in range(2)]
-            velocity, fastest = (axis.rapid if kind == Kind.RAPID else axis.max_feed), max(map(abs, ways))
-            velocity, acceleration = left_of(context, i, velocity, axis.acceleration)
-            steepest = max(map(abs, bends))
-            if velocity and fastest > 0.0:
-                top = min(top, velocity / fastest)
-            if acceleration:
-                bend = max(bend, steepest / acceleration)
-                asked = asked_of(here[i], pulls, columns) if lateral else fastest * along[0]
-                pull = max(pull, asked / acceleration)
-            if soft and axis.jerk:
-                twist = abs(bends[1] - bends[0]) / step
-                top = min(top, (TWIST * axis.jerk / twist) ** (1.0 / 3.0)) if twist > NOTHING else top
-                asked = asked_of(here[i], jerks, columns) if lateral else fastest * along[1]
-                jerk = max(jerk, asked / axis.jerk)
-                change = steepest * along[0]
-                if lateral:
-                    changes = [abs(b - a) / step for a, b in zip(here[i], there[i], strict=True)]
-                    change = asked_of(changes, pulls, columns)
-                turn = max(turn, change / axis.jerk)
-        return Demand(top, bend, pull, jerk, turn, along[0])
-
-    def _slopes(self, context: Context, point: list[float], columns: list[int]) -> list[list[float]]:
-        """Derivatives of every real axis by some columns."""
-        assert context.transformation is not None
-        return [[row[j] for j in columns] for row in context.transformation.jacobian(point)]
-
     def _is_soft(self, context: Context) -> bool:
         return (context.acceleration or self._settings.acceleration) is AccelerationMode.JERK_LIMITED
 
     def _rotary(self, column: int) -> bool:
         axis = self._axes[column]
         return axis is not None and axis.rotary
-
-    def _way(self, column: int, way: float) -> float:
-        """The shorter way round of a rotary axis."""
-        return (way + 180.0) % 360.0 - 180.0 if self._rotary(column) else way

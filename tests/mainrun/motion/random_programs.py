@@ -26,8 +26,10 @@ class Writer:
     lines: list[str] = field(default_factory=list)
     place: tuple[float, float, float] = (0.0, 0.0, 0.0)
     feed: str = ""
-    #: Part of its acceleration that the program leaves an axis, by name.
+    #: Part of its acceleration, its velocity and its jerk that the program leaves an axis, by name.
     left: dict[str, float] = field(default_factory=dict)
+    left_speed: dict[str, float] = field(default_factory=dict)
+    left_jerk: dict[str, float] = field(default_factory=dict)
 
     @property
     def siemens(self) -> bool:

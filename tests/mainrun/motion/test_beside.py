@@ -117,3 +117,27 @@ def test_plan_samples_and_main_run_wait_alike(tmp_path: Path, control: str) -> N
             )
             waited.add(round(standing, 3))
     assert len(waited) == 6
+
+
+#: Cuts at constant surface speed with rapids between them to other radii.
+TURNED = {
+    "fanuc-0i-tf": "O1\nG99 G97 S300 M3\nG0 X120. Z5.\nG96 S180\nG1 Z-10. F0.2\nG0 X20.\nZ2.\nG1 Z-5.\nX40.\n"
+    "G0 X100. Z-20.\nG0 X60.\nG1 X30.\nG0 X25.\nG97 S500\nG0 X50.\nG1 Z-30.\nM30\n",
+    "sinumerik-840d": "G95 S300 M3 F0.2\nG0 X120 Z5\nG96 S180\nG1 Z-10\nG0 X20\nZ2\nG1 Z-5\nX40\n"
+    "G0 X100 Z-20\nG0 X60\nG1 X30\nG0 X25\nG97 S500\nG0 X50\nG1 Z-30\nM30\n",
+}
+
+
+@pytest.mark.parametrize("control", TURNED)
+def test_so_they_do_where_the_spindle_runs_up_beside_rapids_at_constant_surface_speed(
+    tmp_path: Path, control: str
+) -> None:
+    found = {}
+    for wait in ("block", "cut", "never"):
+        file = tmp_path / f"{wait}.toml"
+        file.write_text(f'base = "lathe2"\n[spindle.1]\nspeed_wait = "{wait}"\nacceleration = 1000\n')
+        total, standing, end = planned(TURNED[control], control, str(file))
+        assert end == pytest.approx(total, abs=1e-6), wait
+        assert executed(TURNED[control], control, str(file)) == pytest.approx(total, abs=0.001), wait
+        found[wait] = standing
+    assert found["cut"] > found["never"] + 1.0

@@ -21,6 +21,7 @@ from polycnc.mainrun import State
 from polycnc.motion.limits import channel_axes
 from polycnc.motion.sampling.samples import Samples
 from polycnc.session import open_session
+from tests.mainrun.motion.drawn import limited
 from tests.mainrun.motion.drawn.kinds import drawn
 from tests.mainrun.motion.random_programs import Back, Writer, writer
 from tests.mainrun.support import power_on, recorded
@@ -32,13 +33,16 @@ if TYPE_CHECKING:
 PERIOD = 0.001
 #: Sums of many terms, and positions of many digits behind third differences.
 SLACK = 1.001
-#: Programs that are drawn in every run, and in one test, and those of a run that explores; rows that turn back.
-DRAWN, IN_A_TEST, EXPLORE, BACK = 2000, 50, 20_000, 30
+#: Programs that are drawn in every run, and in one test, and those of a run that explores; rows that turn back;
+#: programs of each kind under limits of real axes.
+DRAWN, IN_A_TEST, EXPLORE, BACK, LIMITED = 2000, 50, 20_000, 30, 16
 #: Programs of `random_programs` that exploring has found: the main run took the averages of the real axes where a
 #: transformation ends; a rotary axis was too quick beside the centre under BRISK; on bends, arcs and splines axes
 #: exceeded what TRACYL, TRAANG and ACC leave them; the main run went on by averages where a spline turns back on a line
 #: under SOFT.
 FOUND = (341917, 487807, 535447, 975837, 998267, 294, 674, 705, 1895, 3265, 1310, 203865)
+#: Programs without a transformation in which an axis exceeded what JERKLIM leaves it, on rows that do not move it.
+LIMITED_FOUND = (47, 67)
 #: Samples of a program whose places are looked up in the main run, from its first on.
 PLACES = 1500
 #: Largest distance of both, mm or degrees: an arc is a circle in the main run, cubics of 7.5° in the samples.
@@ -95,13 +99,15 @@ def compare(text: str, written: Writer) -> None:
         if axis.rotary:
             steps[:, i] = (steps[:, i] + 180.0) % 360.0 - 180.0
         slope = written.left.get(axis.name, 1.0) * axis.acceleration * PERIOD**2
-        assert np.abs(steps[:, i]).max() <= axis.rapid * PERIOD * SLACK, text
+        fastest = written.left_speed.get(axis.name, 1.0) * axis.rapid
+        assert np.abs(steps[:, i]).max() <= fastest * PERIOD * SLACK, text
         assert np.abs(np.diff(steps[:, i])).max(initial=0.0) <= slope * SLACK, text
         if "BRISK" in text or "DRIVE" in text:  # the acceleration steps between two samples
             assert np.abs(steps - middle)[:, i].max() <= 0.26 * slope, text
             continue
         assert np.abs(steps - middle + change)[:, i].max() < 2e-6, text
-        assert np.abs(np.diff(steps[:, i], 2)).max(initial=0.0) <= axis.jerk * PERIOD**3 * SLACK, text
+        jerk = written.left_jerk.get(axis.name, 1.0) * axis.jerk
+        assert np.abs(np.diff(steps[:, i], 2)).max(initial=0.0) <= jerk * PERIOD**3 * SLACK, text
 
 
 @pytest.mark.parametrize("first", range(0, DRAWN, IN_A_TEST))
@@ -123,6 +129,14 @@ def test_so_they_are_on_programs_that_were_found(seed: int) -> None:
 @pytest.mark.parametrize("seed", range(BACK))
 def test_so_they_are_where_rows_turn_back(seed: int) -> None:
     check(Back(Random(seed), "sinumerik-840d"))
+
+
+@pytest.mark.parametrize("kind", limited.KINDS)
+def test_so_they_are_where_a_program_limits_the_axes_of_the_machine(
+    kind: type[limited.Limited],
+) -> None:
+    for seed in (*range(LIMITED), *(LIMITED_FOUND if kind is limited.LimitedMill else ())):
+        check(kind(Random(seed), "sinumerik-840d"))
 
 
 @settings(max_examples=EXPLORE if settings.get_current_profile_name() == "explore" else 1, deadline=None)

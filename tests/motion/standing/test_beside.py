@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from polycnc.motion import Settings
 from polycnc.motion.planner import Planner
 from polycnc.motion.standing.beside import Search, Turning
+from polycnc.toolpath import Context
 from polycnc.toolpath.events import Auxiliary, ToolSelection
 from polycnc.toolpath.modes import AccelerationMode
 from tests.motion.paths import LATHE, MILL, Build
@@ -124,6 +125,22 @@ def test_the_rapid_of_a_control_that_does_not_stop_rests_before_the_cut() -> Non
     plan, _ = planned(approach(), waiting("cut"), settings=settings)
     stopping = planned(approach(), waiting("cut"), settings=replace(settings, rapid_stops=True))[0]
     assert plan.total_s == pytest.approx(stopping.total_s)
+
+
+def test_a_cut_waits_for_what_rapids_under_constant_surface_speed_leave_of_the_ramp() -> None:
+    """From radius 50 to 10, and back and forth: a rapid goes on from where the last one has left the spindle."""
+    speed, lathe = 188.49555921538757, waiting("cut", LATHE)
+    ramp = lathe.spindles[0].acceleration_rpm_s
+    rows = Build(axes=("X", "Z"), context=Context(spindle_rpm=speed, spindle_direction=1, surface_speed=True))
+    rows.rapid(50.0, 0.0).feed(50.0, -10.0).rapid(10.0, -10.0).feed(10.0, -20.0)
+    plan, _ = planned(rows, lathe, settings=replace(SOFT, rapid_stops=True))
+    change = 30_000.0 / 10.0 - 30_000.0 / 50.0
+    assert plan.row_waits[3] == pytest.approx(change / ramp - plan.row_s[2])
+    assert planned(rows, waiting("never", LATHE))[0].row_waits.get(3, 0.0) == 0.0
+    rows.rapid(30.0, -20.0).rapid(50.0, -20.0).rapid(10.0, -20.0).feed(10.0, -30.0)
+    plan, _ = planned(rows, lathe)
+    back_s = plan.row_s[4] + plan.row_s[5]  # it slows down meanwhile, and goes up again in the last rapid
+    assert plan.row_waits[7] == pytest.approx(max(back_s - plan.row_s[6], 0.0), abs=1e-6)
 
 
 @given(st.lists(st.tuples(st.floats(-6000.0, 6000.0), st.floats(0.0, 2.0)), max_size=6))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import inf, sqrt
+from math import dist, inf, sqrt
 
 from polycnc.deferred.typing import TYPE_CHECKING, Protocol
 from polycnc.mainrun.motion.law_motion import LawMotion
@@ -13,7 +13,8 @@ from polycnc.motion.third_order.laying.room import axes_of
 
 if TYPE_CHECKING:
     from polycnc.mainrun.execution.clock import Clock
-    from polycnc.mainrun.preparation.items import ChannelRates
+    from polycnc.mainrun.motion.law_run import State
+    from polycnc.mainrun.preparation.items import ChannelRates, Piece
     from polycnc.mainrun.preparation.law_rows import RowOfRun
     from polycnc.mainrun.preparation.preprocessing import Preprocessing
 
@@ -51,6 +52,7 @@ class ByLaw:
         self._set: tuple[object, ...] = ()
         self._row: RowOfRun
         self._fed = -inf
+        self._parted = -inf  # the row in execution is a run of its own because of single block
         self._first_rest = -inf  # before rows in front of this one the axes cannot rest any more
 
     def drop(self) -> None:
@@ -84,6 +86,37 @@ class ByLaw:
             self._lead_farther(run)
         motion.follow()
         return motion
+
+    def take_over(self, piece: Piece, state: State | None) -> LawMotion | None:
+        """Single block is off again, and the row in execution goes on into the next one: the motion along it.
+
+        Args:
+            piece: The row, which is a run of its own, from rest to rest.
+            state: How the axes move along it.
+
+        Returns:
+            None where the row is such a run for itself, or where the next one is too near to go on into it.
+        """
+        if state is None or piece.row != self._parted:
+            return None
+        self._one_block, self._parted = False, -inf
+        queue, rows, time = self._preprocessing.queue, self._rows, self._clock.time
+        self._preprocessing.reopen()
+        queue.join_rows()
+        self._feed_two(rows)
+        row = self._rows.find(piece.row)
+        if row is not None and not rows.is_one_line and row.move.prepared is not None:
+            run = LawRun(axes_of(row.move.prepared.limits), time, rows.cap2)
+            run.take_up(time, state)
+            self._row = row
+            self._know(run)
+            goes_on = dist(run.place(state.way), piece.at(state.way / piece.length)) < NEAR_MM
+            if goes_on and run.lead_to(time, self._stop_way(run), self._far(run)):
+                self._run, self._set = run, self._asked(held=False)
+                return LawMotion(queue.front_row, run, row.begin, row.end)
+        queue.join_rows(rests=True)
+        self._run = None
+        return None
 
     def revise(self, *, held: bool) -> None:
         """What bounds the speed may have changed: find the law anew where it has."""
@@ -147,16 +180,23 @@ class ByLaw:
         self._fed = -inf
         if not rows.add(move, self._preprocessing.contexts):
             return None
-        self._fed, closed = move.row, False
-        while not closed and len(rows.rows) < 2:
-            closed = self._feed() or (len(rows.rows) < 2 and not self._fill_on())
+        self._fed = move.row
+        self._feed_two(rows)
         if rows.is_one_line:
+            asked = self._one_block or self._rest_before(gated=False) < inf
+            self._parted = move.row if asked else -inf
             self._preprocessing.revised |= self._preprocessing.queue.lay_alone(self._rates)
         if not rows.rows or rows.is_one_line:
             return None
         assert move.prepared is not None
         self._set = False, inf, *self._asked_speeds()
         return LawRun(axes_of(move.prepared.limits), self._clock.time, rows.cap2)
+
+    def _feed_two(self, rows: LawRows) -> None:
+        """Let the run go on along a second row, if there is one."""
+        closed = False
+        while not closed and len(rows.rows) < 2:
+            closed = self._feed() or (len(rows.rows) < 2 and not self._fill_on())
 
     def _fill_on(self) -> bool:
         return self._preprocessing.fill_on(one_block=self._one_block)

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from math import inf
+from math import dist, inf
 
 from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.mainrun.motion.follower import Follower
+from polycnc.mainrun.motion.law_run import State
 from polycnc.mainrun.motion.piece_motion import NO_WAYS, AxesMotion, Motion, PathMotion
 from polycnc.mainrun.motion.speed import FREE, Calm
 from polycnc.motion.kernels.columns import UNEVEN_FORMS, PieceRecord
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
     from polycnc.mainrun.preparation.items import ChannelRates, Piece
     from polycnc.mainrun.preparation.preprocessing import Preprocessing
 
+#: Places nearer than this are one, mm.
+SAME_MM = 1e-6
 #: Squared speed below which the axes stand, (mm/s)².
 REST2 = 1e-9
 
@@ -95,6 +98,14 @@ class ByPieces:
         if at_rest:
             self._follower.begin(self._clock.time, 0.0, 0.0)
 
+    def on_line(self, motion: Motion) -> State | None:
+        """How the axes move along a whole straight row from rest, which is all that they follow; None otherwise."""
+        piece = motion.piece
+        if not isinstance(motion, PathMotion) or piece.first > 0.0 or piece.share < 1.0 or piece.is_coasting:
+            return None
+        found = self._follower.along(self._clock.time)
+        return None if found is None else State(*found)
+
     def _steadiness(self, record: array[Any], x2: float) -> tuple[Calm, tuple[float, float]]:
         """Of a piece of a line from rest to rest: how long it keeps its speed, and how far behind it the axes rest."""
         ramp = record[PieceRecord.RAMP]
@@ -145,10 +156,14 @@ class ByPieces:
             cap2: Largest square of the speed on it.
 
         Returns:
-            None where the axes cannot brake any more as the new piece asks.
+            None where the axes cannot brake any more as the new piece asks, or are where it leads another way: past
+            the point from which a corner is bent now.
         """
         (piece, record, here), time, preprocessing = found, self._clock.time, self._preprocessing
         speed, done = motion.speed(time), motion.done(time)
+        is_beside = dist(piece.at(here / record[PieceRecord.LENGTH]), motion.machine(time)) > SAME_MM
+        if is_beside or preprocessing.queue.passes_corner(piece, record):
+            return None
         left = record[PieceRecord.LENGTH] - here
         reach2 = preprocessing.reach2 + 2.0 * record[PieceRecord.PULL] * left
         if record[PieceRecord.FORM] not in UNEVEN_FORMS and speed * speed > reach2 + REST2:

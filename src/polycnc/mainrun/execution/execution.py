@@ -420,7 +420,7 @@ class Execution:
             return True
         cap2 = self.preprocessing.front_cap2(self.rates)  # it may have been laid out again
         if self.preprocessing.is_last_piece:
-            self.preprocessing.end_in_rest()
+            self.preprocessing.end_in_rest(is_all=True)
             self.preprocessing.revised = True
         if self.preprocessing.revised:
             self._look_ahead()
@@ -462,10 +462,11 @@ class Execution:
 
     def _look_ahead(self) -> None:
         """Work out the speeds of what is prepared again."""
+        gated = self._gated or self._machinery.busy
         self.preprocessing.revise(
             self.rates,
             self._cap2 * self._rise,
-            gated=self._gated or self._machinery.busy,
+            gated=gated,
             single_block=self.single_block,
             stops=self._stops_beside,
         )
@@ -481,12 +482,16 @@ class Execution:
                 self.preprocessing.queue.lay_again(self.rates, at_rest=at_rest)
             self._look_ahead()
             return
+        if not self.single_block and self.rates.moves(motion.piece):
+            led = self._by_law.take_over(motion.piece, self._pieces.on_line(motion))
+            if led is not None:
+                self._pieces.begin_by_law(at_rest=True)
+                self.motion = motion = led
+            elif self._pieces.window == 0.0 and self.preprocessing.reopen() and self._lay_again(motion):
+                return
         by_law = isinstance(motion, LawMotion)
-        if (
-            not by_law
-            and not self.preprocessing.queue.suits(self.rates, at_rest=False)
-            and self._lay_again(motion)
-        ):
+        suits = by_law or self.preprocessing.queue.suits(self.rates, at_rest=False)
+        if not suits and self._lay_again(motion):
             return
         piece = motion.piece
         self._cap2 = self.rates.cap2(piece, piece.cap2, piece.asked)

@@ -121,6 +121,13 @@ class Follower:
         laws = self._alone or [(self._law, self._ramp)]
         return max(abs(law.mean_speed(middle, ramp)) for law, ramp in laws)
 
+    def along(self, time: float) -> tuple[float, float, float] | None:
+        """Way, speed and acceleration of the axes on a row from rest; None where they follow more than one."""
+        if self._alone or self._before is not None or self._blend > 0.0 or len(self._pieces) != 1:
+            return None
+        law, ramp = self._law, self._ramp
+        return law.mean(time, ramp), law.mean_speed(time, ramp), law.mean_pull(time, ramp)
+
     def _edges(self, middle: float) -> list[float]:
         """When, around a time, the averaged way begins to follow another rule, or comes to another piece."""
         first, last = middle - self._blend, middle + self._blend

@@ -34,6 +34,8 @@ NEAR_MM, STILL = 1e-7, 1e-6
 LONGER, EXACT = 1.25, 0.02
 #: Where no law is found over a way, this many times as long a way is tried, so many times.
 FARTHER, TRIES = 1.5, 6
+#: As long as nothing is known of it a motion goes on for a moment, seconds.
+MOMENT_S = 1e-9
 #: Slowing down a little takes so long at least, seconds.
 AT_LEAST_S = 0.01
 
@@ -144,6 +146,10 @@ class LawRun:
         return Piece(part, min(max(k, 0), len(ways) - 2))
 
     # ---- the law -------------------------------------------------------------------------------------------
+
+    def take_up(self, time: float, state: State) -> None:
+        """Before anything of the run is known: it begins in a motion, not at rest."""
+        self._follow(time, state, (Phase(MOMENT_S, state.speed * MOMENT_S, state.speed, state.pull),))
 
     def lead_to(self, time: float, stop: float = inf, far: float = inf) -> bool:
         """Find the law anew from a time on, to rest at a way, or so far ahead at most; false where there is none.

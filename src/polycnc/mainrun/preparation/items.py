@@ -345,6 +345,10 @@ class ChannelRates:
         """Largest squared speed on a piece of a move, where the axes allow `cap2` and the program asks for `asked`."""
         return 0.0 if self.stops else self._of(move).cap2(move, cap2, asked, self._own(move))
 
+    def moves(self, piece: Piece) -> bool:
+        """Whether neither a hold nor an override of 0 keeps the axes from moving along a piece."""
+        return self.cap2(piece, piece.cap2, piece.asked) > 0.0
+
     def axis_speed(self, move: Row, top: float) -> float:
         """Speed of an axis that runs a rapid alone and could go as fast as `top`."""
         return 0.0 if self.stops else self._of(move).axis_speed(move, top, self._own(move))

@@ -49,6 +49,7 @@ class PieceBuffer:
         self.state = new_state(axes)
         self.state.run.free, self.state.run.stop = MAIN_RUN, 0.0
         self._rested = False  # before the next row, for what is none
+        self._is_open = False  # the axes rest there because nothing more is prepared
         self.tables = ContextTables(0.0)
         self.limits: Limits
         self.use = Use.CUT
@@ -80,7 +81,7 @@ class PieceBuffer:
 
     def stand_at(self, position: Sequence[float]) -> None:
         """The axes stand elsewhere than the rows have led them."""
-        self.state.run.stop, self._rested = 1.0, True
+        self.state.run.stop, self._rested, self._is_open = 1.0, True, False
         self.state.position[:] = array("d", position)
 
     def move_axis(self, column: int, place: float, context: Context, geometry: Geometry) -> None:
@@ -90,8 +91,20 @@ class PieceBuffer:
 
     def end_in_rest(self) -> None:
         """The axes come to rest behind the last row."""
-        self.state.run.stop, self._rested = 1.0, True
+        self.state.run.stop, self._rested, self._is_open = 1.0, True, False
         self._kernels.settle(self._records, self._axes, self.limits, self.state)
+
+    def end_here(self) -> None:
+        """The axes come to rest behind the last row, because nothing more is prepared."""
+        is_open = not self._rested
+        self.end_in_rest()
+        self._is_open = is_open
+
+    def reopen(self) -> bool:
+        """More is going to be prepared, before which nothing else asks for a rest; whether that is so."""
+        is_open, self._is_open = self._is_open and self._rested, False
+        self._rested = self._rested and not is_open
+        return is_open
 
     def least_seconds(self, behind: int) -> float:
         """The least time of the pieces ahead, but for so many of them in front."""

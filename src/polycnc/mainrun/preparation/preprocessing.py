@@ -267,9 +267,19 @@ class Preprocessing:
         """Whether nothing comes any more of the blocks that were typed in."""
         return not self.items and self.waiting is TYPED_BLOCKS_DONE
 
-    def end_in_rest(self) -> None:
-        """The axes come to rest behind what is prepared."""
-        self._buffer.end_in_rest()
+    def end_in_rest(self, *, is_all: bool = False) -> None:
+        """The axes come to rest behind what is prepared; `is_all`: for no other reason than that nothing follows."""
+        (self._buffer.end_here if is_all else self._buffer.end_in_rest)()
+
+    def reopen(self) -> bool:
+        """More may be prepared behind a row than when it began; whether there is, and nothing asks for a rest there."""
+        if not self._buffer.reopen():
+            return False
+        self.fill()
+        if any(isinstance(item, Move) for item in self.items):
+            return True
+        self._buffer.end_here()
+        return False
 
     def refuse(self, error: AlarmError) -> None:
         """What is prepared cannot be executed: an alarm is in its place."""

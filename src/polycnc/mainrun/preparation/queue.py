@@ -39,6 +39,7 @@ class Queue:
         self.layout = Layout()
         self._front: Move | None = None
         self._rounds = self._nears_corner = False
+        self._parted: Move | None = None
         self.lay_back: Callable[[], None] = _nothing
 
     def pop_piece(self) -> tuple[Piece, array[Any]]:
@@ -60,6 +61,15 @@ class Queue:
             is_last = self._buffer.is_last_of_row
             self._buffer.take()
         self._front, move.done = move, 1.0
+        return self._whole(move)
+
+    @property
+    def front_row(self) -> Piece:
+        """The move from which a piece has been taken last, whole."""
+        assert self._front is not None
+        return self._whole(self._front)
+
+    def _whole(self, move: Move) -> Piece:
         return Piece(
             move.way, move.row, move.kind, move.context, move.program, move.line, move.rapid, move.fixed,
             move.per_revolution, 0.0, move.by_axis, move.overridden, move.held, move.faster, move.largest_override,
@@ -111,6 +121,11 @@ class Queue:
         if self._rounds or (is_curve and zone == 0.0):
             return piece_cubic(record, len(move.way.start))
         return None
+
+    def passes_corner(self, piece: Piece, record: array[Any]) -> bool:
+        """Whether the axes would pass a corner that is not rounded, because they are near it already."""
+        is_sharp = record[PieceRecord.ZONE] == TO_CORNER and piece.curve is None
+        return is_sharp and not self._buffer.rests_behind(piece.row)
 
     def keep_to_corner(self) -> None:
         """The axes rest at the corner that they have come to: it is not rounded."""
@@ -178,12 +193,18 @@ class Queue:
         """
         if self._buffer.rests_around:
             return False
-        moves = (item for item in self.items if isinstance(item, Move))
-        for move in islice(moves, 2):  # and what comes behind it
+        moves = list(islice((item for item in self.items if isinstance(item, Move)), 2))
+        for move in moves:  # and what comes behind it
             if move.prepared is not None:
+                self._parted = None if move is moves[0] or move.prepared.rests else move
                 move.prepared = replace(move.prepared, rests=True)
         self.lay_again(rates, at_rest=True)
         return True
+
+    def join_rows(self, *, rests: bool = False) -> None:
+        """Nothing asks for a rest behind the row that `lay_alone` has laid, or something does all the same."""
+        if self._parted is not None and self._parted.prepared is not None:
+            self._parted.prepared = replace(self._parted.prepared, rests=rests)
 
     def _row_is_prepared(self, move: Move) -> bool:
         """Whether pieces of a row are still to come."""

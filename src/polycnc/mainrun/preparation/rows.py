@@ -102,7 +102,7 @@ class RowLayer:
         context, kind = self._toolpath.contexts[chunk.context[row]], chunk.kind[row]
         records = self.real.turn(turn, context, kind, called, 0)
         before, rests = Before.of(self._buffer.state), self._buffer.note_rest()
-        limits = self.real.limits(context.transformation)
+        limits = self.real.limits(context)
         prepared = PreparedRow(
             None, array("d"), 0, called, limits, 0.0, context, False, rests, before, records
         )
@@ -126,7 +126,7 @@ class RowLayer:
         n, buffer, kind = self._axes, self._buffer, chunk.kind[row]
         context = self._toolpath.contexts[chunk.context[row]]
         use = self.use_of(kind, context)
-        start, limits = tuple(buffer.position), self.real.limits(context.transformation, use)
+        start, limits = tuple(buffer.position), self.real.limits(context, use)
         record = chunk.context[row] * (ContextRecord.OFFSETS + n)
         per_revolution = buffer.contexts[record + ContextRecord.PER_REVOLUTION] != 0.0
         by_law = goes_by_law(kind, record, buffer.contexts, limits)

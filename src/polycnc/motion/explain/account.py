@@ -14,6 +14,7 @@ from polycnc.motion.explain.causes import Cause, Part
 from polycnc.motion.explain.compiled import kernels
 from polycnc.motion.explain.kernels.held import PACES, STEADY, Held, Ledger, Limit, Note, Tables
 from polycnc.motion.kernels.columns import PLACES, ContextRecord, PieceRecord, new_state, piece_width
+from polycnc.motion.pace import own_columns
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
@@ -133,7 +134,11 @@ class TimeAccount:
         for context in self._toolpath.contexts[self._paced :]:
             self._paced += 1
             pace = context.pace
-            blocks = _caps(pace, self._n, feed, rapid=False) + _caps(pace, self._n, rapid, rapid=True)
+            bound = None if context.transformation is None else own_columns(context.transformation)
+            blocks = [
+                *_caps(pace, self._n, feed, bound, rapid=False),
+                *_caps(pace, self._n, rapid, bound, rapid=True),
+            ]
             self._paces.extend((context.transformation is not None, min(blocks) < inf, *blocks))
 
     def _pieces(self, records: array[float], count: int) -> None:
@@ -172,7 +177,11 @@ class TimeAccount:
         first, last = (records[here + (PLACES + end) * n : here + (PLACES + end + 1) * n] for end in (0, 1))
         mean = [(b - a) / length for a, b in zip(first, last, strict=True)]
         peak2, real = records[at + PieceRecord.PEAK2], self._planner.real_axes
-        tops, pulls = self._planner.top_speeds[slot % 2 == 0], real.limits(None).acceleration
+        tops, pulls = (
+            list(own) for own in (self._planner.top_speeds[slot % 2 == 0], real.limits(None).acceleration)
+        )
+        for i, own in real.axis_limits(context, rapid=slot % 2 == 0):
+            tops[i], pulls[i] = min(tops[i], own.velocity or inf), own.acceleration or inf
         middle = [0.5 * (a + b) for a, b in zip(first, last, strict=True)]
         rates = [real.rates(place, mean, context) for place in (first, middle, last)]
         fastest = [
@@ -192,15 +201,20 @@ def _total(parts: Iterable[Part]) -> Part:
     return Part(sum(seconds), sum(ways))
 
 
-def _caps(pace: Pace | None, n: int, tops: Sequence[float], *, rapid: bool) -> list[float]:
-    """PACES blocks of highest velocities of the axes (`motion/pace.py`)."""
+def _caps(
+    pace: Pace | None, n: int, tops: Sequence[float], bound: frozenset[int] | None, *, rapid: bool
+) -> list[float]:
+    """PACES blocks of highest velocities of the columns (`motion/pace.py`).
+
+    `bound` are the columns for which limits of single axes are; None for all.
+    """
     if pace is None:
         return [inf] * (PACES * n)
     faster, none = pace.rapid if rapid else 1.0, (inf,) * n
     named = [inf if rapid else top for top in pace.top or none]
     lowered = [factor * faster * top for factor, top in zip(pace.velocity or none, tops, strict=True)]
-    return [
-        *map(min, named, lowered),
-        *(faster * top for top in pace.reach or none),
-        *(pace.left or none),
-    ]
+    reach, left = [faster * top for top in pace.reach or none], list(pace.left or none)
+    if bound is not None:
+        lowered, reach = ([top if i in bound else inf for i, top in enumerate(of)] for of in (lowered, reach))
+        left = list(none)
+    return [*map(min, named, lowered), *reach, *left]

@@ -14,6 +14,7 @@ from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.motion.kernels.columns import PieceRecord, piece_width
 from polycnc.motion.sampling.facts import Facts, RowFacts
+from polycnc.motion.sampling.spindle import SpindleCourse
 from polycnc.toolpath import Context, Kind
 
 if TYPE_CHECKING:
@@ -88,7 +89,7 @@ class Sampler:
         self._waits: dict[int, list[tuple[str, float]]] = {}
         self._open: list[Numbers] = []
         self._followed: _Followed | None = None
-        self._time, self._count, self._angle, self._rpm = 0.0, 0, 0.0, 0.0
+        self._time, self._count, self._spindle = 0.0, 0, SpindleCourse()
         self._tap_way: Numbers | None = None
         self._tails: list[tuple[Run, float]] = []
         self._row = RowFacts(Kind.EVENT, 0, 0, Context(), 0.0, 0.0)
@@ -152,8 +153,10 @@ class Sampler:
                 return
         followed = self._taken_up()
         if followed.run.can_go_on:
+            self._turn(followed)
             self._give_moves(followed, self._times(followed.run.known_s, is_whole=False))
             followed.forget((self._count - 1) * self._period - self._time)
+            self._spindle.forget((self._count - 1) * self._period)
             self._facts.forget(int(followed.run.rows[0]))
 
     def _taken_up(self) -> _Followed:
@@ -199,7 +202,7 @@ class Sampler:
         for row in sorted(row for row in self._waits if row <= until):
             self._row = self._facts.of(row) or self._row
             for share, seconds in self._waits.pop(row):
-                self._spin(seconds, self._row.rpm if share == "spindle_s" else self._rpm)
+                self._rest_for(seconds, share)
         if run is not None:
             self._row = self._facts.of(until) or self._row
 
@@ -212,32 +215,37 @@ class Sampler:
         self._count = max(last, self._count)
         return times
 
-    def _spin(self, seconds: float, rpm: float) -> None:
-        """Rest while the spindle goes evenly to a speed."""
+    def _rest_for(self, seconds: float, share: str) -> None:
+        """Rest while a row waits; the spindle goes evenly to a speed that is waited for, or runs up beside it."""
+        if share == "spindle_s":
+            self._spindle.go_evenly(self._time, self._row.rpm, seconds)
+        elif share != "tool_change_s" and self._planner.runs_up_beside(self._row.context):
+            self._spindle.go_to(self._time, self._row.rpm, self._planner.spindle_pull(self._row.context))
         for times in _batches(self._times(seconds)):
             still = np.zeros((len(times), self._n))
             place = np.repeat(np.array([self._rest]), len(times), axis=0)
-            share = times / seconds
-            speed = self._rpm + share * (rpm - self._rpm)
-            angle = self._angle + 3.0 * (self._rpm + speed) * times
             program, line = (np.full(len(times), number) for number in (self._row.program, self._row.line))
-            self._say(times, (place, still, still), speed, angle, program, line)
-        self._angle += 3.0 * (self._rpm + rpm) * seconds
-        self._rpm = rpm
+            self._say(times, (place, still, still), *self._spindle.at(times + self._time), program, line)
         self._time += seconds
+        self._spindle.forget((self._count - 1) * self._period)
+
+    def _turn(self, followed: _Followed) -> None:
+        """The spindle turns as the rows of a run ask, as far as they are known."""
+        pull = self._planner.spindle_pull(self._row.context)
+        for time, rpm in followed.pop_speeds():
+            self._spindle.go_to(self._time + time, rpm, pull)
 
     def _move(self, followed: _Followed, seconds: float) -> None:
         """Follow a run to its end; the spindle of a tap follows the axes, else it turns as the rows ask."""
         run, first = followed.run, self._row
-        sense = self._tap_sense(run, first)
+        sense, angle = self._tap_sense(run, first), self._spindle.angle(self._time)
+        if sense == 0.0:
+            self._turn(followed)
         self._give_moves(followed, self._times(seconds), sense)
-        if sense != 0.0:
-            self._angle += sense * 360.0 * float(np.abs(run.end - self._position)[run.main_axis]) / first.lead
-            self._rpm = 0.0
-        else:
-            self._angle += followed.turned_at(seconds)
-            self._rpm = float(followed.rpm[-1])
         self._time += seconds
+        if sense != 0.0:
+            turned = sense * 360.0 * float(np.abs(run.end - self._position)[run.main_axis]) / first.lead
+            self._spindle.stand(self._time, angle + turned)
 
     def _give_moves(self, followed: _Followed, times: Numbers, sense: float = 0.0) -> None:
         """Samples of a run; `sense` says how a tap turns the spindle."""
@@ -247,12 +255,12 @@ class Sampler:
             if sense != 0.0:
                 axis = run.main_axis
                 angle = (
-                    self._angle
+                    self._spindle.angle(self._time)
                     + sense * 360.0 * np.abs(moved[0][:, axis] - self._position[axis]) / first.lead
                 )
                 speed = sense * 60.0 * np.abs(moved[1][:, axis]) / first.lead
             else:
-                speed, angle = followed.spindle(part, self._angle)
+                speed, angle = self._spindle.at(part + self._time)
             program, line = self._facts.places(run.rows[run.piece_at(part)])
             moved = self._planner.real_axes.motion(moved, first.context)
             self._say(part, moved, speed, angle, program, line)
@@ -286,56 +294,43 @@ class Sampler:
 
 
 class _Followed:
-    """A run that is sampled, and how its rows turn the spindle.
+    """A run that is sampled, and the speeds that its rows ask of the spindle.
 
     Args:
         run: The run.
         facts: Those of its rows.
-
-    Attributes:
-        rpm: Speed of the spindle from each of `starts` on, (k,).
     """
 
     def __init__(self, run: Run, facts: Facts) -> None:
-        self.run = run
-        rows = run.rows if len(run.rows) == 1 else np.unique(run.rows)
-        self._last = int(rows[-1])
-        self.rpm = facts.rpm(rows)
-        self._starts = run.enters(rows) if len(rows) > 1 else np.zeros(1)
-        self._starts[0] = 0.0
-        self._turned = np.zeros(len(rows))
-        np.cumsum(6.0 * self.rpm[:-1] * np.diff(self._starts), out=self._turned[1:])
+        self.run, self._last = run, -1
+        self._speeds: list[tuple[float, float]] = []
+        self._note_speeds(facts, np.zeros(1))
 
     def go_on(self, pieces: Numbers, facts: Facts) -> None:
         """More pieces of the run."""
         self.run.go_on(pieces)
-        rows = np.unique(self.run.rows)
+        self._note_speeds(facts, np.zeros(0))
+
+    def _note_speeds(self, facts: Facts, first: Numbers) -> None:
+        """Note what rows ask that have become known; the first one from the beginning of the run on."""
+        rows = self.run.rows if len(self.run.rows) == 1 else np.unique(self.run.rows)
         rows = rows[rows > self._last]
-        if not len(rows):
-            return
-        self._last = int(rows[-1])
-        starts = np.concatenate([self._starts[-1:], self.run.enters(rows)])
-        rpm = np.concatenate([self.rpm[-1:], facts.rpm(rows)])
-        steps = 6.0 * rpm[:-1] * np.diff(starts)
-        self._turned = np.concatenate([self._turned[:-1], np.cumsum([self._turned[-1], *steps])])
-        self._starts = np.concatenate([self._starts, starts[1:]])
-        self.rpm = np.concatenate([self.rpm, rpm[1:]])
+        if len(rows):
+            self._last = int(rows[-1])
+            rpm = facts.rpm(rows)
+            changes = np.flatnonzero(np.diff(rpm, prepend=np.nan) != 0.0)
+            starts = self.run.enters(rows[changes]) if len(rows) > 1 or not len(first) else first
+            starts[: len(first)] = first
+            self._speeds += zip(starts.tolist(), rpm[changes].tolist(), strict=True)
+
+    def pop_speeds(self) -> list[tuple[float, float]]:
+        """From when on which speed is asked for, as far as nobody has been told yet."""
+        speeds, self._speeds = self._speeds, []
+        return speeds
 
     def forget(self, before: float) -> None:
         """Nobody asks for a time before this one."""
         self.run.forget(before)
-        kept = max(int(np.searchsorted(self._starts, before, "right")) - 1, 0)
-        self._starts, self._turned, self.rpm = self._starts[kept:], self._turned[kept:], self.rpm[kept:]
-
-    def spindle(self, times: Numbers, angle: float) -> tuple[Numbers, Numbers]:
-        """Speed and angle at times, (k,) each, for an angle at the start of the run."""
-        k = np.maximum(np.searchsorted(self._starts, times, "right") - 1, 0)
-        speed = self.rpm[k]
-        return speed, angle + self._turned[k] + 6.0 * speed * (times - self._starts[k])
-
-    def turned_at(self, seconds: float) -> float:
-        """Degrees that the spindle turns until the run is over."""
-        return float(self._turned[-1] + 6.0 * self.rpm[-1] * (seconds - self._starts[-1]))
 
 
 def _batches(times: Numbers) -> list[Numbers]:

@@ -122,6 +122,7 @@ class Waits:
         self._rpm: dict[int, float] = {}
         self._context = -1
         self._radius: float | None = None
+        self._has_followed = False  # the spindle has followed the radius of a cut since it was told a speed
         self._leads_on = False  # the last row is of a thread, which the next one may go on with
         self.rapid_stops = False
         self._windows = {"fine": machine.settle_fine_s, "coarse": machine.settle_coarse_s}
@@ -188,7 +189,7 @@ class Waits:
             if number == THREAD:
                 self._angle_of(self.contexts[chunk.context[row]])
                 continue
-            self._cuts(chunk, kinds, row)
+            self._rows(chunk, kinds, row, radius)
             if number == EVENT:
                 self._event(chunk, row)
                 continue
@@ -197,7 +198,7 @@ class Waits:
             ahead = radius(row) if kinds[row] in RAPID_KINDS else here
             self._new_context(chunk.first + row, number, here, ahead)
             self._context = number
-        self._cuts(chunk, kinds, len(chunk))
+        self._rows(chunk, kinds, len(chunk), radius)
         if len(chunk):
             self._radius = radius(len(chunk) - 1)
         for row in _places(kinds, Kind.DWELL):
@@ -226,13 +227,13 @@ class Waits:
         if tool != self._tool and (any(tool) or any(self._tool)):
             self._change(row, number, self._tool[0], tool[0])
         self._tool = tool
-        spindle = self.spindle(context)
+        spindle, self._has_followed = self.spindle(context), False
         if spindle is not None:
             if last is not None and last.surface_speed and self.spindle(last) is spindle:
                 self._rpm[spindle.number] = last.spindle_direction * self.rpm(last, here)
             target = context.spindle_direction * self.rpm(context, ahead)
             change = abs(target - self._rpm.get(spindle.number, 0.0))
-            stands = (self.spindle_wait or spindle.speed_wait) == "block"
+            stands = self.stands_for_speed(spindle)
             self._turn(row, spindle, target, change, is_even=stands and not context.surface_speed)
             if change > 0.0 and spindle.acceleration_rpm_s > 0.0:
                 if stands:
@@ -242,6 +243,10 @@ class Waits:
                     since = self._rpm.get(spindle.number, 0.0) if follows else None
                     self._run_up(row, spindle, target, since)
             self._rpm[spindle.number] = target
+
+    def stands_for_speed(self, spindle: Spindle) -> bool:
+        """Whether a block that asks for another speed of a spindle waits for it."""
+        return (self.spindle_wait or spindle.speed_wait) == "block"
 
     def _turn(self, row: int, spindle: Spindle, target: float, change: float, *, is_even: bool) -> None:
         """A spindle with a known angle goes to a speed; it is lost unless it goes there evenly, while the axes wait."""
@@ -280,17 +285,43 @@ class Waits:
         """Some work begins, behind what the row has waited for already."""
         self.step(Begins(row, work, aim, self._waits_of(row), since))
 
-    def _cuts(self, chunk: Chunk, kinds: bytes, before: int) -> None:
-        """Rows up to one: the first cut waits for the spindle."""
-        if self._open is None:
+    def _rows(self, chunk: Chunk, kinds: bytes, before: int, radius: Callable[[int], float]) -> None:
+        """Rows up to one: the first cut waits for the spindle, which goes to other speeds in rapids under G96."""
+        follows = self._following_spindle()
+        if self._open is None and follows is None:
             self._looked = before
             return
         for row in range(self._looked, before):
-            if kinds[row] < Kind.DWELL and kinds[row] not in RAPID_KINDS:
-                self.step(Awaits(chunk.first + row, self._open, chunk.context[row], rests=True))
-                self._open = None
-                break
+            if kinds[row] in RAPID_KINDS and follows is not None:
+                here = radius(row - 1) if row else self._radius
+                self._to_radius(chunk.first + row, follows, radius(row), here)
+            elif kinds[row] < Kind.DWELL and kinds[row] not in RAPID_KINDS:
+                if self._open is not None:
+                    self.step(Awaits(chunk.first + row, self._open, chunk.context[row], rests=True))
+                    self._open = None
+                self._has_followed = follows is not None
+                if follows is None:
+                    break
         self._looked = before
+
+    def _following_spindle(self) -> Spindle | None:
+        """The spindle, where it follows the turning radius and cuts behind a rapid wait for it; else None."""
+        context = self.contexts[self._context] if self._context >= 0 else None
+        if context is None or not context.surface_speed:
+            return None
+        spindle = self.spindle(context)
+        waits = spindle is not None and (self.spindle_wait or spindle.speed_wait) == "cut"
+        return spindle if waits and spindle is not None and spindle.acceleration_rpm_s > 0.0 else None
+
+    def _to_radius(self, row: int, spindle: Spindle, radius_mm: float, before: float | None) -> None:
+        """In a rapid under constant surface speed the spindle goes to the speed at its end, for which a cut waits."""
+        context, since = self.contexts[self._context], None
+        if self._has_followed and before is not None:
+            since = context.spindle_direction * self.rpm(context, before)
+        target = context.spindle_direction * self.rpm(context, radius_mm)
+        if target != (self._rpm.get(spindle.number, 0.0) if since is None else since):
+            self._run_up(row, spindle, target, since)
+        self._rpm[spindle.number], self._has_followed = target, False
 
     def _change(self, row: int, number: int, before: int, after: int) -> None:
         """The tool is changed.

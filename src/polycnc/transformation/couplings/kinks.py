@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from polycnc.deferred.typing import TYPE_CHECKING
-from polycnc.transformation.couplings.coupled import Coupled
+from polycnc.transformation.couplings.acting import couplings_of
 from polycnc.transformation.couplings.laws import ByCurve
-from polycnc.transformation.seated import Seated
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
     from polycnc.transformation.contract import Transformation
-
-    Places = Callable[[list[float]], list[float]]
+    from polycnc.transformation.couplings.acting import Places
 
 #: Parts of a row between whose ends a leading axis passes a place once at most; halvings of the search for it.
 PARTS, HALVINGS = 64, 60
@@ -24,7 +22,7 @@ def has_kinks(transformation: Transformation | None) -> bool:
     """Whether curves lead axes under a transformation."""
     return any(
         isinstance(law, ByCurve)
-        for coupled, _ in _couplings(transformation)
+        for coupled, _ in couplings_of(transformation)
         for each in coupled.following
         for law in each.laws
     )
@@ -43,7 +41,7 @@ def kinks(
         most: The step of the slope that counts as none, by the columns of the following and the leading axis.
     """
     found, shares = set[float](), [k / PARTS for k in range(PARTS + 1)]
-    for coupled, placed in _couplings(transformation):
+    for coupled, placed in couplings_of(transformation):
         axes = [placed(path(share)) for share in shares]
         for each in coupled.following:
             for law in each.laws:
@@ -78,13 +76,3 @@ def _passes(
                 else:
                     high = middle
             yield high
-
-
-def _couplings(transformation: Transformation | None) -> list[tuple[Coupled, Places]]:
-    """Couplings under a transformation, each with what gives the places of axes that it sees at a point of the path."""
-    if isinstance(transformation, Coupled):
-        return [(transformation, transformation.to_machine)]
-    if not isinstance(transformation, Seated):
-        return []
-    sides = ((transformation.led, transformation.basic), (transformation.driven, transformation.to_machine))
-    return [(coupled, placed) for coupled, placed in sides if coupled is not None]

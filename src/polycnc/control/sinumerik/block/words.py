@@ -18,7 +18,7 @@ from polycnc.control.sinumerik.couplings import synchronous
 from polycnc.control.sinumerik.couplings.spindle_pairs import turns
 from polycnc.control.sinumerik.errors import not_supported
 from polycnc.control.sinumerik.feed import spindle_speed, thread_ramps, tolerances, tooth_feed, wheels
-from polycnc.control.sinumerik.feed.pace import Overrides
+from polycnc.control.sinumerik.feed.pace import Overrides, real_column
 from polycnc.control.sinumerik.feed.path_feed import PathFeed
 from polycnc.control.sinumerik.motion import moves
 from polycnc.control.sinumerik.punching import block as punching
@@ -397,7 +397,8 @@ def percentage(_draft: Draft, position: int, shape: WordShape) -> Step:
     """OVR, OVRRAP, OVRA[axis], ACC[axis], VELOLIM[axis] …: per cent, for the motion planner (`pace.py`).
 
     Raises:
-        AlarmError: 12040 without the axis or spindle that the others need, 12560 beyond the range.
+        AlarmError: 12040 without the axis or spindle that the others need, 12560 beyond the range, PC0001 for an axis
+            that a transformation makes: limits are for axes of the machine (8.7).
     """
     if shape.address not in OF_PATH and not isinstance(shape.index, Axis):
         raise WordAlarm("12040", position, text=str(shape.index or shape.address))
@@ -410,6 +411,12 @@ def percentage(_draft: Draft, position: int, shape: WordShape) -> Step:
             raise WordAlarm("12560", position, text=shape.address)
         if shape.address == "JERKLIMA" and value != 100.0:
             raise not_supported("JERKLIMA")
+        if (
+            isinstance(shape.index, Axis)
+            and named_spindle(shape.index) is None
+            and real_column(channel, name) is None
+        ):
+            raise not_supported(f"{shape.address}[{name}]")
         Overrides.of(channel).percent[shape.address, name] = value
         if shape.address == "OVRA" and isinstance(shape.index, Axis):
             _override(channel, shape.index, value / 100.0)

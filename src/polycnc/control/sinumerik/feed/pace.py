@@ -155,12 +155,18 @@ def _reach(channel: SinumerikChannel) -> tuple[float, ...]:
     return tuple(reach) if min(reach, default=inf) < inf else ()
 
 
-def _factors(channel: SinumerikChannel, address: str) -> tuple[float, ...]:
+def real_column(channel: SinumerikChannel, axis: str) -> int | None:
+    """Column of the machine's axis that a name means, whatever a transformation makes of it (8.7); None for none."""
     memory = channel.memory
+    return memory.own_columns.get(axis, memory.machine_columns.get(axis))
+
+
+def _factors(channel: SinumerikChannel, address: str) -> tuple[float, ...]:
     factors = [1.0] * len(channel.axes)
     for (name, axis), percent in Overrides.of(channel).percent.items():
-        if name == address and (axis in memory.columns or axis in memory.machine_columns):
-            factors[memory.column(axis)] = percent / 100.0
+        column = real_column(channel, axis) if name == address else None
+        if column is not None:
+            factors[column] = percent / 100.0
     return tuple(factors) if any(factor != 1.0 for factor in factors) else ()
 
 

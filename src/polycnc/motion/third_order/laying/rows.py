@@ -19,6 +19,7 @@ from polycnc.motion.kernels.arcs import (
     turns_faster,
 )
 from polycnc.motion.kernels.columns import (
+    AT_END,
     CW,
     DWELL,
     EVENT,
@@ -54,6 +55,8 @@ ARC_OFF = 1.0 / 384.0
 ARC_MORE = 1.0022
 #: A corner that is rounded from a distance on may at least be left by so much, mm.
 LEAST_CORNER_MM = 1e-3
+#: Directions that differ by less count as one.
+SAME_DIRECTION = 1e-9
 #: What the kernel stops for: every row is laid; a run is over; a run of one straight row is, which came with the chunk
 #: before; stretches, or pieces, have no room.
 DONE, RUN_ENDS, ROW_ENDS, NO_STRETCH, NO_PIECE = 0, 1, 2, 3, 4
@@ -154,7 +157,7 @@ def begin_run(n: int, path: Stretches, state: State, lead: State, laid: RunLaid)
     """A run begins where the axes are."""
     laid.stretches = laid.rows = laid.slots = 0
     laid.first_row = -1
-    lead.run.stop = 0.0
+    lead.run.stop = lead.run.corner_ease = 0.0
     lead.run.without_feed = lead.run.standing_spindle = 0
     path.way[0] = 0.0
     for i in range(n):
@@ -229,6 +232,7 @@ def add_row(
         lead.position[i] = lead.target[i]
     lead.run.station, lead.run.metric = contexts[record + ContextRecord.STATION], weight
     lead.run.stop = contexts[record + ContextRecord.EXACT_STOP]
+    lead.run.corner_ease = lead.share_ease[AT_END]
     return True
 
 
@@ -260,6 +264,8 @@ def add_line(
             path.place[(e + 1) * n + i] = lead.position[i] + (part + 1) / parts * lead.delta[i]
         if part == 0 and not meets(contexts, record, n, path, e):
             return False
+        if part == 0:
+            share_corner(lead, n, path, e)
         radius = start_x + (lead.row.facing - start_x) * (part + 0.5) / parts
         asked = straight_speed(curves, contexts, record, lead, length, radius, weight)
         speed = min(top, bounded(asked, lead) if part == 0 else bound(asked, lead))
@@ -318,6 +324,7 @@ def add_arc(
         if part == 0:
             if not meets(contexts, record, n, path, e):
                 return False
+            share_corner(lead, n, path, e)
             asked = asked_on_arc(curves, contexts, record, limits, lead, length, radius)
             speed = bounded(asked, lead)
         elif follows:
@@ -401,3 +408,13 @@ def meets(contexts: Floats, record: int, n: int, path: Stretches, e: int) -> boo
             path.turn_tolerance[e] = min(path.turn_tolerance[e], most)
             path.turn_tolerance[e - 1] = min(path.turn_tolerance[e - 1], most)
     return not must_rest(path, e, n)
+
+
+def share_corner(lead: State, n: int, path: Stretches, e: int) -> None:
+    """Before stretch e the path turns: there axes move along both stretches that are limited in one of them alone."""
+    turned = 0.0
+    for i in range(n if e > 0 else 0):
+        turned = max(turned, abs(path.leave[e * n + i] - path.arrive[(e - 1) * n + i]))
+    if turned > SAME_DIRECTION:
+        path.ease[e] = min(path.ease[e], lead.joint.ease)
+        path.ease[e - 1] = min(path.ease[e - 1], lead.joint.ease)
