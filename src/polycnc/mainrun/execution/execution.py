@@ -462,14 +462,9 @@ class Execution:
 
     def _look_ahead(self) -> None:
         """Work out the speeds of what is prepared again."""
-        gated = self._gated or self._machinery.busy
-        self.preprocessing.revise(
-            self.rates,
-            self._cap2 * self._rise,
-            gated=gated,
-            single_block=self.single_block,
-            stops=self._stops_beside,
-        )
+        cap2, single = self._cap2 * self._rise, self.single_block
+        gated, stops = self._gated or self._machinery.busy, self._stops_beside
+        self.preprocessing.revise(self.rates, cap2, gated=gated, single_block=single, stops=stops)
 
     def revise(self) -> None:
         """Something that bounds the speed has changed: the motion goes on accordingly from where it is."""
