@@ -17,6 +17,7 @@ from polycnc.mainrun import State
 from polycnc.motion.sampling.samples import Samples
 from polycnc.session import open_session
 from polycnc.toolpath import Kind
+from tests.examples import examples
 from tests.mainrun.motion.random_programs import Compressed
 from tests.mainrun.motion.test_disturbed import JERK, disturb
 from tests.mainrun.motion.test_one_motion import compare
@@ -68,7 +69,7 @@ def check(seed: int) -> None:
     check_tolerance(text, writer.tolerance)
 
 
-@pytest.mark.parametrize("seed", range(CI))
+@pytest.mark.parametrize("seed", range(examples(CI)))
 def test_compressed_programs_are_one_motion_within_their_tolerance(seed: int) -> None:
     check(seed)
 
@@ -93,7 +94,7 @@ def test_noise_within_the_tolerance_costs_no_time(mode: str, least: float, code:
     assert noisy(code, mode) < 1.03 * least < 0.7 * noisy("COMPOF", mode)
 
 
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", range(examples(12)))
 def test_no_script_leads_the_axes_off_the_tolerance_or_beyond_their_limits(seed: int) -> None:
     """Overrides, holds and single block: the path stays, and under SOFT so does the jerk."""
     text, writer = written(seed)
