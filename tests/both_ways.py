@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import json
 import sys
-from functools import _lru_cache_wrapper
+from functools import _lru_cache_wrapper, cached_property
 from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -24,12 +24,26 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Generator
 
 ROOT = Path(__file__).parents[1]
-#: What is no part of the sources: byte code and machine code, which are made of them.
-MADE = {".pyc", ".so", ".dylib", ".dll"}
+#: What is no part of the sources: machine code, which is made of them (and byte code, which has a folder).
+MADE = {".so", ".dylib", ".dll"}
 #: What Python says (`sys.addaudithook`) before it starts a process.
 PROCESS = {"subprocess.Popen", "os.fork", "os.forkpty", "os.posix_spawn", "os.spawn", "os.exec", "os.system"}
 #: Under this name a worker of xdist hands over what it found.
 FOUND = "polycnc_alike"
+
+
+class Asked:
+    """A property that is found out each time it is asked for; who wants may set it on an object.
+
+    Args:
+        function: What finds it out.
+    """
+
+    def __init__(self, function: Callable[..., Any]) -> None:
+        self.function = function
+
+    def __get__(self, library: Library | None, owner: type | None = None) -> Any:
+        return self if library is None else self.function(library)
 
 
 class Touch:
@@ -45,11 +59,12 @@ class Touch:
 
     def watch(self) -> None:
         """Look at libraries, their kernels and processes from now on; nobody may have asked for a kernel before."""
-        caller, lack = call.caller, vars(Library)["lack"].func
+        caller, lack = call.caller, vars(Library)["lack"]
+        lacks = lack.func if isinstance(lack, cached_property) else lack.function
         self._patched.setattr(call, "caller", lambda *given: self._noting(caller(*given)))
         self._patched.setattr(Library, "compiled", self._noting(Library.compiled))
         self._patched.setattr(Library, "plain", self._noting(Library.plain))
-        self._patched.setattr(Library, "lack", property(self._noting(lack)))
+        self._patched.setattr(Library, "lack", Asked(self._noting(lacks)))
         self._patched.setattr(native, "is_wanted", self._noting(native.is_wanted))
         sys.addaudithook(self._hear)
 
@@ -85,6 +100,8 @@ class Finder:
         self._alike: list[str] = []
         self._modules: set[Path] = set()
         self._fixtures: set[str] = set()
+        self._kept: list[_lru_cache_wrapper[Any]] = []
+        self._of_modules = 0
         file.unlink(missing_ok=True)
         self._touch.watch()
 
@@ -113,10 +130,21 @@ class Finder:
         self._touch.noted = False
         done = yield
         if self._touch.noted:
-            forget()
+            self._forget()
         elif item.path not in self._modules and self._fixtures.isdisjoint(item.fixturenames):
             self._alike.append(item.nodeid)
         return done
+
+    def _forget(self) -> None:
+        """Empty what helpers of tests keep."""
+        if self._of_modules != len(sys.modules):
+            self._of_modules = len(sys.modules)
+            ours = [vars(module) for name, module in sys.modules.items() if name.partition(".")[0] == "tests"]
+            self._kept = [
+                each for names in ours for each in names.values() if isinstance(each, _lru_cache_wrapper)
+            ]
+        for kept in self._kept:
+            kept.cache_clear()
 
     @pytest.hookimpl(optionalhook=True)
     def pytest_testnodedown(self, node: Any) -> None:
@@ -180,16 +208,7 @@ def digest() -> str:
     found = sha256(sys.version.encode())
     tops = [top for top in ROOT.iterdir() if not top.name.startswith(".")]
     for path in sorted(path for top in tops for path in (top, *top.rglob("*"))):
-        if path.is_file() and path.suffix not in MADE:
+        if path.suffix not in MADE and path.parent.name != "__pycache__" and path.is_file():
             content = path.read_bytes()
             found.update(f"{path.relative_to(ROOT).as_posix()}\n{len(content)}\n".encode() + content)
     return found.hexdigest()
-
-
-def forget() -> None:
-    """Empty what helpers of tests keep."""
-    for name, module in list(sys.modules.items()):
-        if name.partition(".")[0] == "tests":
-            for kept in list(vars(module).values()):
-                if isinstance(kept, _lru_cache_wrapper):
-                    kept.cache_clear()

@@ -150,6 +150,7 @@ def test_a_change_of_any_file_changes_the_digest(tmp_path: Path, monkeypatch: py
     before = both_ways.digest()
     (tmp_path / "a.py").write_text("1", encoding="utf-8")
     changed = both_ways.digest()
-    (tmp_path / "a.pyc").write_text("2", encoding="utf-8")
+    (tmp_path / "__pycache__").mkdir()
+    (tmp_path / "__pycache__" / "a.pyc").write_text("2", encoding="utf-8")
     (tmp_path / ".hidden").write_text("2", encoding="utf-8")
     assert before != changed == both_ways.digest()
