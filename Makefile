@@ -3,18 +3,21 @@
 PYTHON ?= python3
 VENV ?= .venv
 BIN := $(VENV)/bin
+# The tests that do the same with compiled kernels and with plain ones.
+ALIKE := .pytest_cache/alike.json
 CONTROLS := syntec-mill fanuc-m meldas-m sinumerik-840d fanuc-0i-tf
 
 # What machine code is made of.
 KERNELS := $(wildcard build_kernels/*.py src/polycnc/kernels/*.py src/polycnc/motion/kernels/*.py \
   src/polycnc/language/bulk/*.py src/polycnc/toolpath/*.py src/polycnc/toolpath/columns/*.py src/polycnc/parquet/*.py)
 
-.PHONY: help demo panel test kernels check fuzz bench features clean
+.PHONY: help demo panel test test-plain kernels check fuzz bench features clean
 
 help:
 	@echo "make demo      install polycnc into $(VENV) and run every program of examples/"
 	@echo "make panel     install the panel and open an example in the browser"
 	@echo "make test      run all tests"
+	@echo "make test-plain  behind it: with plain kernels, without tests that have been seen to use none"
 	@echo "make kernels   compile the kernels of this source tree again, if they have changed"
 	@echo "make check     lint, formatting, types, direction of imports"
 	@echo "make fuzz      run COUNT mutated inputs on all cores, from number FIRST on (FIRST=0 COUNT=10000 SEED=1)"
@@ -45,7 +48,10 @@ demo: $(VENV)/.installed-plain
 	done
 
 test: $(VENV)/.installed-test
-	$(BIN)/python -m pytest -n 2
+	$(BIN)/python -m pytest -n 2 --write-alike $(ALIKE)
+
+test-plain: $(VENV)/.installed-test
+	POLYCNC_KERNELS=python $(BIN)/python -m pytest -n 2 --hypothesis-profile=brief --leave-out $(ALIKE)
 
 kernels: $(VENV)/.installed-test
 	$(BIN)/python -m build_kernels

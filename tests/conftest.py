@@ -7,16 +7,34 @@ repeats tests in another way.
 
 from __future__ import annotations
 
+import gc
+import signal
+
 import pytest
 from hypothesis import settings
 
 from polycnc.cases.features import PROPERTY
+from tests import both_ways
 
 # A slow machine is no failure.
 settings.register_profile("polycnc", deadline=None, derandomize=True)
 settings.register_profile("explore", deadline=None, derandomize=False)
 settings.register_profile("brief", deadline=None, derandomize=True, max_examples=20)
 settings.load_profile("polycnc")
+
+# Where tests run in the background of a shell, Ctrl-C is ignored, and the processes that they start would inherit that.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def pytest_addoption(pluginmanager: pytest.PytestPluginManager) -> None:
+    pluginmanager.register(both_ways)
+
+
+def pytest_collection_finish() -> None:
+    """Thousands of tests stay until the end: no search for garbage need look at them."""
+    gc.collect()
+    gc.freeze()
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -21,17 +21,16 @@ from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from polycnc.cases.features import case_files, functions
+from polycnc.cases.features import functions
 from polycnc.cases.format import Case, CaseError, parse_case
-from polycnc.cases.reading import read_cases
 from polycnc.cases.runner import run_case
+from tests.conformance.reading import FILES, HERE, cases_in
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from polycnc.cases.format import Step
 
-HERE = Path(__file__).parent
 EXEMPT = HERE / "exempt.toml"
 #: What may follow an address: a number, an expression in brackets, a variable, a name.
 _VALUE = r'\s*=?\s*(?:[-+]*(?:\d+\.?\d*|\.\d+)|[-+]*\[[^\]]*\]|[-+]*#\w+|[-+]*R\d+|\([^)]*\)|"[^"]*")'
@@ -239,7 +238,7 @@ def _without_a_part(case: Case) -> Iterator[Case]:
 def cases(paths: list[Path]) -> Iterator[tuple[Path, Case]]:
     """All cases of files, each with its file."""
     for path in paths:
-        for data in read_cases(path):
+        for data in cases_in(path):
             yield path, parse_case(data)
 
 
@@ -252,7 +251,7 @@ def main(arguments: list[str]) -> int:
     """Print each case that proves nothing, with its file and function; status 1 if there is one."""
     found = 0
     known = exempt()
-    for path, case in cases([Path(name) for name in arguments] or case_files(HERE)):
+    for path, case in cases([Path(name) for name in arguments] or FILES):
         try:
             empty = proves_nothing(case, path.parent)
         except CaseError as error:

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from polycnc.cases.features import case_files, claimed, shipped_of_cases
+from polycnc.cases.features import claimed, shipped_of_cases
 from polycnc.cases.format import case_id, parse_case
-from polycnc.cases.reading import read_cases
 from polycnc.cases.runner import run_case
+from tests.conformance.reading import FILES, cases_in
 
-HERE = Path(__file__).parent
-CASES = [(path, number, data) for path in case_files(HERE) for number, data in enumerate(read_cases(path), 1)]
+if TYPE_CHECKING:
+    from pathlib import Path
+
+CASES = [(path, number, data) for path in FILES for number, data in enumerate(cases_in(path), 1)]
 
 
 def name_of(case: tuple[Path, int, Any]) -> str:

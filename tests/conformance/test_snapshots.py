@@ -2,34 +2,32 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from random import Random
 from typing import TYPE_CHECKING
 
 import pytest
 
-from polycnc.cases.features import case_files
 from polycnc.cases.format import Case, case_id, parse_case
-from polycnc.cases.reading import read_cases
 from polycnc.channel.states.snapshot import Snapshot
 from polycnc.channel.states.state import plain_states, plain_tables
 from polycnc.channel.waits import CLOCK
 from polycnc.session import open_session
 from tests.channel.states.test_snapshot import rest_of, state_of
+from tests.conformance.reading import FILES, cases_in
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+    from pathlib import Path
 
     from polycnc.channel.group import GroupRun
     from polycnc.session import Session
 
-HERE = Path(__file__).parent
 #: One case in so many; all of them take minutes.
 EVERY = 12
 CASES = [
     (parse_case(data), case_id(data, number), path)
-    for path in case_files(HERE)
-    for number, data in enumerate(read_cases(path), 1)
+    for path in FILES
+    for number, data in enumerate(cases_in(path), 1)
 ]
 SOME = [(case, name, path) for case, name, path in CASES if not case.operate][::EVERY]
 #: States by the names of their classes, each with a case that changes it, such that it is changed between two blocks.

@@ -3,29 +3,32 @@
 from __future__ import annotations
 
 import ast
-from itertools import chain
+import re
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 import pytest
 
 import polycnc
-from polycnc.cases.features import case_files
 from polycnc.cases.format import parse_case
-from polycnc.cases.reading import read_cases
 from polycnc.control import registry
 from polycnc.messages.catalogue import messages, placeholders
 from polycnc.session import open_session
-from tests import conformance
+from tests.conformance.reading import FILES, cases_in
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
 SOURCE = Path(polycnc.__file__).parent
-MODULES = {path: ast.parse(path.read_text(encoding="utf-8")) for path in sorted(SOURCE.rglob("*.py"))}
 CONTROLS = [registry.control(name) for name in registry.ids()]
 #: What a raise gives beside its own arguments: the classes of SINUMERIK's language take the text by place.
 GIVEN = {"AlarmError": set(), "WordAlarm": set(), "NcSyntaxError": {"text", "code"}, "fail": {"word", "code"}}
+#: A text that a module names, as the formatter writes it.
+CONSTANT = re.compile(r'^(\w+) = "([^"\\\n]*)"', re.MULTILINE)
+MODULES = sorted(SOURCE.rglob("*.py"))
+CALLED = re.compile(rf"\b(?:{'|'.join(GIVEN)})\(")
+RAISING = [path for path in MODULES if CALLED.search(path.read_text(encoding="utf-8"))]
 FAMILIES = {"fanuc", "meldas", "syntec", "sinumerik"}
 #: Arguments that say where, and not what.
 PLACES = {"column", "line", "program", "address", "hint", "detail"}
@@ -41,16 +44,15 @@ class Raise(NamedTuple):
     hint: str
 
 
-def constants(module: ast.Module) -> dict[str, str]:
+def constants(path: Path) -> dict[str, str]:
     """The texts that a module names."""
-    named: dict[str, str] = {}
-    for node in module.body:
-        if isinstance(node, ast.Assign) and isinstance(node.value, ast.Constant):
-            named |= {t.id: str(node.value.value) for t in node.targets if isinstance(t, ast.Name)}
-    return named
+    return dict(CONSTANT.findall(path.read_text(encoding="utf-8")))
 
 
-ALL_CONSTANTS = dict(chain.from_iterable(constants(module).items() for module in MODULES.values()))
+@cache
+def all_constants() -> dict[str, str]:
+    """The texts that any module names."""
+    return {name: text for path in MODULES for name, text in constants(path).items()}
 
 
 def codes_in(node: ast.expr, own: dict[str, str]) -> Iterator[tuple[str, bool]]:
@@ -58,8 +60,8 @@ def codes_in(node: ast.expr, own: dict[str, str]) -> Iterator[tuple[str, bool]]:
     match node:
         case ast.Constant(value=str(code)):
             yield code, False
-        case ast.Name(id=name) if name in own or name in ALL_CONSTANTS:
-            yield own.get(name, ALL_CONSTANTS.get(name, "")), False
+        case ast.Name(id=name) if name in own or name in all_constants():
+            yield own.get(name, all_constants().get(name, "")), False
         case ast.IfExp(body=body, orelse=orelse):
             yield from codes_in(body, own)
             yield from codes_in(orelse, own)
@@ -67,28 +69,25 @@ def codes_in(node: ast.expr, own: dict[str, str]) -> Iterator[tuple[str, bool]]:
             yield mistake, True
 
 
-def raises() -> Iterator[Raise]:
-    for path, module in MODULES.items():
-        own = constants(module)
-        for node in ast.walk(module):
-            if not isinstance(node, ast.Call) or not node.args:
-                continue
-            name = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
-            if name not in GIVEN or any(keyword.arg is None for keyword in node.keywords):
-                continue
-            keywords = {str(keyword.arg): keyword.value for keyword in node.keywords}
-            hint = keywords.get("hint")
-            for code, by_mistake in codes_in(node.args[0], own):
-                yield Raise(
-                    f"{path.relative_to(SOURCE)}:{node.lineno}",
-                    code,
-                    by_mistake or name == "fail",
-                    frozenset(set(keywords) - PLACES | GIVEN[name]),
-                    str(hint.value) if isinstance(hint, ast.Constant) else "",
-                )
-
-
-RAISES = list(raises())
+def raises(path: Path) -> Iterator[Raise]:
+    """The places of a module."""
+    own = constants(path)
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if not isinstance(node, ast.Call) or not node.args:
+            continue
+        name = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
+        if name not in GIVEN or any(keyword.arg is None for keyword in node.keywords):
+            continue
+        keywords = {str(keyword.arg): keyword.value for keyword in node.keywords}
+        hint = keywords.get("hint")
+        for code, by_mistake in codes_in(node.args[0], own):
+            yield Raise(
+                f"{path.relative_to(SOURCE)}:{node.lineno}",
+                code,
+                by_mistake or name == "fail",
+                frozenset(set(keywords) - PLACES | GIVEN[name]),
+                str(hint.value) if isinstance(hint, ast.Constant) else "",
+            )
 
 
 def families(where: str) -> set[str]:
@@ -119,21 +118,20 @@ def untold(each: Raise) -> Iterator[str]:
 
 
 def test_the_places_that_raise_are_found() -> None:
-    assert len(RAISES) > 700
-    assert sum(1 for each in RAISES if list(untold(each))) > 600
+    found = [each for path in RAISING for each in raises(path)]
+    assert len(found) > 1600
+    assert sum(1 for each in found if list(untold(each))) > 600
 
 
-@pytest.mark.parametrize("each", RAISES, ids=lambda each: f"{each.where}-{each.code}")
-def test_a_text_that_the_code_raises_has_all_its_values(each: Raise) -> None:
-    assert [text for text in untold(each) if text] == []
+@pytest.mark.parametrize("path", RAISING, ids=lambda path: path.relative_to(SOURCE).as_posix())
+def test_texts_that_a_module_raises_have_all_their_values(path: Path) -> None:
+    open_texts = [(each.where, each.code, text) for each in raises(path) for text in untold(each) if text]
+    assert open_texts == []
 
 
-FOLDER = Path(str(conformance.__file__)).parent
-
-
-@pytest.mark.parametrize("path", case_files(FOLDER), ids=lambda path: f"{path.parent.name}/{path.name}")
+@pytest.mark.parametrize("path", FILES, ids=lambda path: f"{path.parent.name}/{path.name}")
 def test_an_alarm_of_a_case_leaves_no_value_open(path: Path) -> None:
-    for data in read_cases(path):
+    for data in cases_in(path):
         case = parse_case(data)
         if not case.expect.alarms or case.operate:
             continue

@@ -13,7 +13,7 @@ import threading
 from functools import wraps
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 
@@ -22,9 +22,6 @@ from polycnc.channel.states.snapshot import Snapshot
 from polycnc.deferred.functions import Deferred, loaded_when_called
 from polycnc.geometry import vectors as loaded
 from polycnc.geometry.frames import Frame as LoadedFrame
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 with loaded_when_called():
     from polycnc.geometry import frames, vectors
@@ -221,14 +218,11 @@ def deferred_names(tree: ast.Module) -> dict[str, str]:
     return found
 
 
-def deferring() -> Iterator[tuple[Path, ast.Module]]:
-    for path in sorted(SOURCE.rglob("*.py")):
-        text = path.read_text(encoding="utf-8")
-        if "with loaded_when_called():" in text and path.parent.name != "deferred":
-            yield path, ast.parse(text)
-
-
-DEFERRING = list(deferring())
+DEFERRING = [
+    path
+    for path in sorted(SOURCE.rglob("*.py"))
+    if path.parent.name != "deferred" and "with loaded_when_called():" in path.read_text(encoding="utf-8")
+]
 
 
 def file_of(module: str) -> Path:
@@ -236,10 +230,9 @@ def file_of(module: str) -> Path:
     return SOURCE.parent.joinpath(*module.split(".")).with_suffix(".py")
 
 
-@pytest.mark.parametrize(
-    ("path", "tree"), DEFERRING, ids=[str(path.relative_to(SOURCE)) for path, _ in DEFERRING]
-)
-def test_what_is_deferred_is_called_or_handed_on(path: Path, tree: ast.Module) -> None:
+@pytest.mark.parametrize("path", DEFERRING, ids=lambda path: path.relative_to(SOURCE).as_posix())
+def test_what_is_deferred_is_called_or_handed_on(path: Path) -> None:
+    tree = ast.parse(path.read_text(encoding="utf-8"))
     parents = {child: node for node in ast.walk(tree) for child in ast.iter_child_nodes(node)}
     names = deferred_names(tree)
     assert names
@@ -270,10 +263,9 @@ def test_what_is_deferred_is_called_or_handed_on(path: Path, tree: ast.Module) -
             assert called is not None
 
 
-@pytest.mark.parametrize(
-    ("path", "tree"), DEFERRING, ids=[str(path.relative_to(SOURCE)) for path, _ in DEFERRING]
-)
-def test_what_is_deferred_is_there_when_it_is_called(path: Path, tree: ast.Module) -> None:
+@pytest.mark.parametrize("path", DEFERRING, ids=lambda path: path.relative_to(SOURCE).as_posix())
+def test_what_is_deferred_is_there_when_it_is_called(path: Path) -> None:
+    tree = ast.parse(path.read_text(encoding="utf-8"))
     names = deferred_names(tree)
     for name, target in names.items():
         place, _, of = target.rpartition(".")

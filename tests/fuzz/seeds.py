@@ -6,10 +6,9 @@ from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 
-from polycnc.cases.features import case_files
-from polycnc.cases.reading import read_cases
 from polycnc.control import registry
 from polycnc.machine.load import BUILTIN
+from tests.conformance.reading import FILES, cases_in
 
 TESTS = Path(__file__).parents[1]
 EXAMPLES = TESTS.parent / "examples"
@@ -39,7 +38,7 @@ class Seed:
 @cache
 def seeds() -> tuple[Seed, ...]:
     """Every seed, in an order that does not change as long as the cases do not."""
-    cases = [case for path in case_files(TESTS / "conformance") for case in read_cases(path)]
+    cases = [case for path in FILES for case in cases_in(path)]
     found = [
         Seed(
             case["id"], case["control"], case["program"], case.get("setup") or {}, case.get("files") or {},

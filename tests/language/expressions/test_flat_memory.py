@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from polycnc.control.interface import Control
 
 #: Programs of each control, all different; the first ones fill what is bounded.
-PROGRAMS, FIRST = 2000, 500
+PROGRAMS, FIRST = 1200, 500
 #: Shapes that the controls keep here, so that they are soon full.
 SHAPES = 64
 #: Blocks of memory that may be there afterwards: far fewer than programs.

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from polycnc.mainrun import CommandRefused, Mode, State, VirtualControl
+from tests.examples import examples
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -136,7 +137,7 @@ def press(
 def test_no_script_of_keys_leads_out_of_the_limits_or_into_a_traceback(control: str, tmp_path: Path) -> None:
     file = tmp_path / "machine.toml"
     file.write_text(limited("mill3"), encoding="utf-8")
-    for seed in range(25):
+    for seed in range(examples(25)):
         virtual = VirtualControl(control, machine=file)
         virtual.load(PROGRAMS[control])
         press(virtual, Random(seed), seed, 120)
@@ -149,7 +150,7 @@ def test_no_script_of_keys_leads_out_of_the_limits_or_into_a_traceback(control: 
 def test_nor_does_one_on_a_lathe(machine: str, text: str, tmp_path: Path) -> None:
     file = tmp_path / "machine.toml"
     file.write_text(limited(machine, "XZ"), encoding="utf-8")
-    for seed in range(25):
+    for seed in range(examples(25)):
         virtual = VirtualControl("fanuc-0i-tf", machine=file, setup={"variables": {"#100": 30}})
         virtual.load(text)
         press(virtual, Random(seed), seed, 120, axes=(0, 1))
@@ -159,7 +160,7 @@ def test_nor_does_one_on_a_lathe(machine: str, text: str, tmp_path: Path) -> Non
 def test_nor_does_one_on_two_channels_that_wait_for_each_other(tmp_path: Path) -> None:
     file = tmp_path / "machine.toml"
     file.write_text(limited("mill3-2ch"), encoding="utf-8")
-    for seed in range(25):
+    for seed in range(examples(25)):
         virtual = VirtualControl("sinumerik-840d", machine=file, files={"B.MPF": SIDE})
         virtual.load(MAIN)
         press(virtual, Random(seed), seed, 120)

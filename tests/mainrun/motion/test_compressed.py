@@ -21,6 +21,7 @@ from polycnc.mainrun import State
 from polycnc.motion.sampling.samples import Samples
 from polycnc.session import open_session
 from polycnc.toolpath import Kind
+from tests.examples import examples
 from tests.mainrun.motion.random_programs import (
     Compressed,
     CompressedTurns,
@@ -110,7 +111,7 @@ def check(seed: int, kind: str) -> None:
 
 
 @pytest.mark.parametrize("kind", DRAWN)
-@pytest.mark.parametrize("seed", range(CI))
+@pytest.mark.parametrize("seed", range(examples(CI)))
 def test_they_are_one_motion_within_their_tolerance(seed: int, kind: str) -> None:
     check(seed, kind)
 
@@ -136,7 +137,7 @@ def test_noise_within_the_tolerance_costs_no_time(mode: str, least: float, code:
 
 
 @pytest.mark.parametrize("kind", ["compressors", "syntec"])
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", range(examples(12)))
 def test_no_script_leads_the_axes_off_the_tolerance_or_beyond_their_limits(seed: int, kind: str) -> None:
     """Overrides, holds and single block: the path stays, and with limited jerk so does the jerk."""
     text, writer = written(seed, kind)

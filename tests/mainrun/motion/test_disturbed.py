@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from polycnc.mainrun import State, VirtualControl
+from tests.examples import examples
 from tests.mainrun.support import MILL, execution_of, power_on, recorded
 
 if TYPE_CHECKING:
@@ -83,7 +84,7 @@ def undisturbed() -> tuple[list[tuple[float, ...]], list[float]]:
 
 def test_a_thousand_scripts_end_where_the_undisturbed_run_ends() -> None:
     path, end = undisturbed()
-    for seed in range(SCRIPTS):
+    for seed in range(examples(SCRIPTS)):
         virtual = power_on()
         joints = joints_of(virtual)
         for _ in play(virtual, Random(seed), 12):
@@ -103,7 +104,7 @@ def test_the_same_script_gives_the_same_trace() -> None:
 
 
 def test_every_position_lies_on_the_path_or_within_the_tolerance_of_it() -> None:
-    for seed in range(20):
+    for seed in range(examples(20)):
         virtual = power_on("O1\nG1 X20. F3000\nG2 X30. Y10. R10.\nG1 Y40.\nM30\n")
         for _ in play(virtual, Random(seed), 20):
             x, y, _z = virtual.machine_position
@@ -128,7 +129,7 @@ TOLERANCE = 0.01
 def test_no_script_makes_an_axis_exceed_its_acceleration(text: str) -> None:
     cycle = 0.004
     jump = 1.2 * PULL * cycle  # what an axis may step by at a corner
-    for seed in range(40):
+    for seed in range(examples(40)):
         virtual = power_on(text)
         random = Random(seed)
         positions = [virtual.machine_position]
@@ -151,7 +152,7 @@ def test_no_script_makes_an_axis_exceed_its_acceleration(text: str) -> None:
 def test_no_script_makes_an_axis_exceed_its_jerk(text: str) -> None:
     """The third difference of positions is a mean of the jerk: never above its limit."""
     cycle = 0.004
-    for seed in range(25):
+    for seed in range(examples(25)):
         virtual, random = power_on(text), Random(seed)
         places = [virtual.machine_position[:2]] * 3
         virtual.cycle_start()

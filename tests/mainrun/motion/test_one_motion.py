@@ -21,6 +21,7 @@ from polycnc.mainrun import State
 from polycnc.motion.limits import channel_axes
 from polycnc.motion.sampling.samples import Samples
 from polycnc.session import open_session
+from tests.examples import examples
 from tests.mainrun.motion.drawn import limited
 from tests.mainrun.motion.drawn.kinds import drawn
 from tests.mainrun.motion.random_programs import Back, Writer, writer
@@ -112,8 +113,7 @@ def compare(text: str, written: Writer) -> None:
 
 @pytest.mark.parametrize("first", range(0, DRAWN, IN_A_TEST))
 def test_plan_samples_and_main_run_are_one_motion(first: int) -> None:
-    count = IN_A_TEST // 5 if settings.get_current_profile_name() == "brief" else IN_A_TEST
-    for seed in range(first, first + count):
+    for seed in range(first, first + examples(IN_A_TEST)):
         try:
             check(drawn(seed))
         except Exception as error:
@@ -126,7 +126,7 @@ def test_so_they_are_on_programs_that_were_found(seed: int) -> None:
     check(writer(seed))
 
 
-@pytest.mark.parametrize("seed", range(BACK))
+@pytest.mark.parametrize("seed", range(examples(BACK)))
 def test_so_they_are_where_rows_turn_back(seed: int) -> None:
     check(Back(Random(seed), "sinumerik-840d"))
 

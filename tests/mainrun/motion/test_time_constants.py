@@ -10,6 +10,7 @@ import pytest
 
 from polycnc.machine.setup.file import parse_setup
 from polycnc.mainrun import State
+from tests.examples import examples
 from tests.mainrun.motion.random_programs import Writer, writer
 from tests.mainrun.motion.test_disturbed import disturb, joints_of, play
 from tests.mainrun.motion.test_one_motion import PLACES, executed, planned
@@ -34,7 +35,7 @@ CUTS = "O1\nG1 X20. F6000\nG2 X30. Y10. R10.\nG1 Y14.\nX-10. Y14.\nX-10. Y0\nM30
 SEEDS = range(24)
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("seed", SEEDS[: examples(len(SEEDS))])
 def test_plan_samples_and_main_run_are_one_motion(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, seed: int
 ) -> None:
@@ -69,7 +70,7 @@ def test_scripts_of_an_operator_lead_to_the_same_end_along_the_same_rows(tmp_pat
         return joints, virtual.machine_position
 
     path, end = run(None)
-    for seed in range(100):
+    for seed in range(examples(100)):
         assert run(seed) == (path, end), seed
 
 
@@ -77,7 +78,7 @@ def test_whatever_an_operator_does_a_cut_takes_its_time_constant_to_change_its_s
     file = tmp_path / "constants.toml"
     file.write_text(CONSTANTS.format(machine="mill3", bell=0.03, after=T))
     feed, step = 6000.0 / 60.0, 0.004
-    for seed in range(20):
+    for seed in range(examples(20)):
         virtual = power_on(CUTS, machine=str(file))
         random = Random(seed)
         places = [virtual.machine_position]

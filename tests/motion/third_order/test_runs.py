@@ -21,6 +21,7 @@ from polycnc.motion.third_order.laws import compiled as laws_compiled
 from polycnc.motion.third_order.laws import quickest as quickest_module
 from polycnc.motion.third_order.laws.quickest import NoLawError
 from polycnc.motion.third_order.runs import Passing, RunPlanner, Sizes
+from tests.examples import examples
 from tests.motion.jerk_paths import jerk_paths
 from tests.motion.third_order.laws import AXES
 from tests.motion.third_order.long_runs import (
@@ -73,7 +74,7 @@ def within(path: Stretches, windows: list[Window]) -> float:
     return max(parts_of_leg(leg, bent, 8)[0] for leg, bent in zip(legs(path), legs_of(windows), strict=True))
 
 
-@pytest.mark.parametrize("number", range(31))
+@pytest.mark.parametrize("number", range(31)[:: 31 // examples(31)])  # of every sort of path, however few
 def test_windows_are_run_like_the_whole(number: int) -> None:
     path = long_runs()[number]
     windows = windows_of(deepcopy(path))
@@ -86,7 +87,7 @@ def test_windows_are_run_like_the_whole(number: int) -> None:
     assert [row for w in windows for row in w.part.rows] == list(dict.fromkeys(path.row))
 
 
-@pytest.mark.parametrize("number", [5, 10, 12, 17, 20, 25])
+@pytest.mark.parametrize("number", [5, 10, 12, 17, 20, 25][: examples(6)])
 def test_windows_of_the_usual_size_take_no_longer(number: int) -> None:
     stretches = jerk_paths()[number].programmed.path
     path = behind_one_another(repeat(stretches, 1 + 3500 // len(stretches.form)))

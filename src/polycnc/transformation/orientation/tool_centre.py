@@ -192,8 +192,9 @@ class ToolCentrePoint:
 
 
 def _moved(point: Point[N], offset: Vector, sense: float) -> Point[N]:
-    x, y, z = (place + sense * shift for place, shift in zip(point, offset, strict=True))
-    return (x, y, z)
+    x, y, z = point
+    u, v, w = offset
+    return (x + sense * u, y + sense * v, z + sense * w)
 
 
 def _cross(k: Vector, v: Point[N]) -> Point[N]:
@@ -202,10 +203,13 @@ def _cross(k: Vector, v: Point[N]) -> Point[N]:
 
 def _turned(link: Link, v: Point[N], angle: N, sense: float) -> Point[N]:
     """A vector turned about a joint: what lies along its axis stays, to the bit (Rodrigues)."""
-    k = link.direction
+    k, (x, y, z) = link.direction, v
     c, s = cosine_and_sine_deg(angle * sense)
-    size = k[0] * v[0] + k[1] * v[1] + k[2] * v[2]
-    along = (k[0] * size, k[1] * size, k[2] * size)
-    across, aside = (v[0] - along[0], v[1] - along[1], v[2] - along[2]), _cross(k, v)
-    x, y, z = (a + c * b + s * d for a, b, d in zip(along, across, aside, strict=True))
-    return (x, y, z)
+    size = k[0] * x + k[1] * y + k[2] * z
+    along_x, along_y, along_z = k[0] * size, k[1] * size, k[2] * size
+    aside_x, aside_y, aside_z = _cross(k, v)
+    return (
+        along_x + c * (x - along_x) + s * aside_x,
+        along_y + c * (y - along_y) + s * aside_y,
+        along_z + c * (z - along_z) + s * aside_z,
+    )

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.conformance.leaving_out import HERE
+from tests.conformance.reading import HERE
 from tests.mainrun.support import power_on
 
 CONTROL, MACHINE = "sinumerik-840d", str(HERE / "machines/mill5-bc-head-v.toml")
