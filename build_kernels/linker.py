@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import platform
 import shutil
 import subprocess
 import sys
@@ -37,7 +38,7 @@ tanh
 
 def system_linker() -> str | None:
     """The C compiler of the system, or the one that CC names; never one of Windows, whose linkers differ too much."""
-    if sys.platform == "win32":
+    if platform.system() == "Windows":
         return None
     return shutil.which(os.environ.get("CC") or "cc") or shutil.which("gcc") or shutil.which("clang")
 
@@ -57,7 +58,7 @@ def _mathematics(folder: str) -> str:
 
     On Windows the compiler has ones of its own, which round otherwise, and prefers them to those of any `-l`.
     """
-    if sys.platform != "win32":
+    if platform.system() != "Windows":
         return "-lm"
     declared, library = Path(folder, "mathematics.def"), Path(folder, "mathematics.lib")
     declared.write_text(_MATHEMATICS, encoding="ascii")

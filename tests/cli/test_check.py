@@ -3,6 +3,7 @@ from __future__ import annotations
 import _thread
 import io
 import json
+import multiprocessing
 import sys
 from contextlib import nullcontext
 from time import monotonic, sleep
@@ -255,6 +256,19 @@ def test_many_files_are_checked_on_all_cores_in_their_order(
     alone = console("check", *names, *FANUC, "--lang", "zh-TW")
     assert shared == alone
     assert [line[:9] for line in shared.out.splitlines() if line.startswith("part")] == names[::5]
+
+
+def test_workers_that_begin_anew_find_the_same(console: Console, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As on Windows and macOS: each imports what it needs, and is told what the command has been told."""
+    names = [f"part{i:02d}.nc" for i in range(2 * check.SHARED)]
+    for i, name in enumerate(names):
+        console.file(name, BAD if i % 5 == 0 else GOOD)
+    monkeypatch.setattr(check, "_cores", lambda: 1)
+    alone = console("check", *names, *FANUC, "--lang", "zh-TW")
+    spawning = multiprocessing.get_context("spawn")
+    monkeypatch.setattr(multiprocessing, "get_context", lambda _: spawning)
+    monkeypatch.setattr(check, "_cores", lambda: 2)
+    assert console("check", *names, *FANUC, "--lang", "zh-TW") == alone
 
 
 def test_nobody_looks_on_while_the_process_is_copied(

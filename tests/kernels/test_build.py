@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import platform
 import re
+import subprocess
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -97,8 +98,8 @@ def test_windows_gives_the_kernels_the_mathematics_that_python_calls(
         else:
             Path(command[command.index("-o") + 1]).touch()
 
-    monkeypatch.setattr(sys, "platform", "win32")
-    monkeypatch.setattr(linker.subprocess, "run", run)
+    monkeypatch.setattr(platform, "system", lambda: "Windows")
+    monkeypatch.setattr(subprocess, "run", run)
     linker.link([b""], tmp_path / "compiled.dll")
     assert [command[3] for command in commands] == ["dlltool", "cc"]
     assert commands[1][-1] == commands[0][-1]  # no `-lm`
