@@ -119,6 +119,7 @@ def _optimised(module: ModuleRef, entries: set[str]) -> bytes:
         if not value.is_declaration and value.name not in entries:
             value.linkage = "internal"
     target = _machine()
+    module.triple, module.data_layout = target.triple, str(target.target_data)
     builder = binding.create_pass_builder(target, binding.create_pipeline_tuning_options(speed_level=3))
     builder.getModulePassManager().run(module, builder)
     raising = [f.name for f in module.functions if f.is_declaration and f.name.startswith(_PYTHON)]
@@ -134,8 +135,16 @@ def _machine() -> TargetMachine:
 
     binding.initialize_native_target()
     binding.initialize_native_asmprinter()
-    target = binding.Target.from_default_triple()
+    target = binding.Target.from_triple(_platform(binding.get_default_triple()))
     return target.create_target_machine(cpu=_processor(), opt=3, reloc="pic", codemodel="default")
+
+
+def _platform(triple: str) -> str:
+    """A platform as LLVM names it, without what Microsoft's linker asks of objects: a mark where they have numbers.
+
+    That of MinGW, which asks for none, has LLVM call a `sincos` that the system does not have.
+    """
+    return triple.replace("-windows-msvc", "-windows-itanium")
 
 
 def _compiled(modules: Sequence[ModuleType], *, inline: bool) -> dict[str, Callable[..., object]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import platform
 import shutil
 import subprocess
 import sys
@@ -14,14 +15,55 @@ from tempfile import TemporaryDirectory
 ZIG = "ziglang>=0.13,<1"
 
 
+#: What Windows has of the functions of mathematics, from which Python has them, too.
+_MATHEMATICS = """LIBRARY api-ms-win-crt-math-l1-1-0.dll
+EXPORTS
+acos
+asin
+atan
+atan2
+cos
+cosh
+exp
+fmod
+hypot
+log
+pow
+sin
+sinh
+tan
+tanh
+"""
+
+
 def system_linker() -> str | None:
-    """The C compiler of the system, or the one that CC names."""
+    """The C compiler of the system, or the one that CC names; never one of Windows, whose linkers differ too much."""
+    if platform.system() == "Windows":
+        return None
     return shutil.which(os.environ.get("CC") or "cc") or shutil.which("gcc") or shutil.which("clang")
 
 
 def _command() -> list[str]:
     found = system_linker()
-    return [found] if found else [sys.executable, "-m", "ziglang", "cc"]
+    # What it adds of its own is for any processor, too.
+    return [found] if found else [*_zig("cc"), "-mcpu=baseline"]
+
+
+def _zig(tool: str) -> list[str]:
+    return [sys.executable, "-m", "ziglang", tool]
+
+
+def _mathematics(folder: str) -> str:
+    """What the linker takes functions of mathematics from: those of the system that Python calls.
+
+    On Windows the compiler has ones of its own, which round otherwise, and prefers them to those of any `-l`.
+    """
+    if platform.system() != "Windows":
+        return "-lm"
+    declared, library = Path(folder, "mathematics.def"), Path(folder, "mathematics.lib")
+    declared.write_text(_MATHEMATICS, encoding="ascii")
+    subprocess.run([*_zig("dlltool"), "-m", "i386:x86-64", "-d", declared, "-l", library], check=True)
+    return str(library)
 
 
 def link(objects: Sequence[bytes], file: Path) -> None:
@@ -37,5 +79,5 @@ def link(objects: Sequence[bytes], file: Path) -> None:
             names.append(Path(folder, f"{i}.o"))
             names[-1].write_bytes(code)
         made = Path(folder, file.name)
-        subprocess.run([*_command(), "-shared", "-s", "-o", made, *names, "-lm"], check=True)
+        subprocess.run([*_command(), "-shared", "-s", "-o", made, *names, _mathematics(folder)], check=True)
         made.replace(file)

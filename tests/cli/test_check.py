@@ -1,10 +1,12 @@
 from __future__ import annotations
 
+import _thread
 import io
 import json
+import multiprocessing
 import sys
 from contextlib import nullcontext
-from threading import Thread
+from time import monotonic, sleep
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 from xml.etree import ElementTree
@@ -256,17 +258,35 @@ def test_many_files_are_checked_on_all_cores_in_their_order(
     assert [line[:9] for line in shared.out.splitlines() if line.startswith("part")] == names[::5]
 
 
+def test_workers_that_begin_anew_find_the_same(console: Console, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As on Windows and macOS: each imports what it needs, and is told what the command has been told."""
+    names = [f"part{i:02d}.nc" for i in range(2 * check.SHARED)]
+    for i, name in enumerate(names):
+        console.file(name, BAD if i % 5 == 0 else GOOD)
+    monkeypatch.setattr(check, "_cores", lambda: 1)
+    alone = console("check", *names, *FANUC, "--lang", "zh-TW")
+    spawning = multiprocessing.get_context("spawn")
+    monkeypatch.setattr(multiprocessing, "get_context", lambda _: spawning)
+    monkeypatch.setattr(check, "_cores", lambda: 2)
+    assert console("check", *names, *FANUC, "--lang", "zh-TW") == alone
+
+
 def test_nobody_looks_on_while_the_process_is_copied(
     console: Console, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A worker would have the locks of a thread that it has not."""
-    watch, free = Watch("polycnc check"), []
+    """A worker would have the locks of a thread that it has not; from 3.12 on Python warns of that."""
+    watch, threads = Watch("polycnc check"), []
+    begun = _thread._count()
 
     def copied(_: object, run: Callable[[Any], Any], files: list[Any], **__: int) -> Iterable[Any]:
-        look = Thread(target=lambda: free.append(watch.lock.acquire(blocking=False)))
-        look.start()
-        look.join()
+        threads.append(_counted())
         return map(run, files)
+
+    def _counted() -> int:
+        end = monotonic() + 10.0  # Python counts a thread as long as it cleans up behind it
+        while (count := _thread._count()) > begun and monotonic() < end:
+            sleep(0.01)
+        return count
 
     monkeypatch.setattr(check, "_cores", lambda: 2)
     monkeypatch.setattr("concurrent.futures.ProcessPoolExecutor.map", copied)
@@ -275,5 +295,10 @@ def test_nobody_looks_on_while_the_process_is_copied(
     names = [f"{number}.nc" for number in range(2 * check.SHARED)]
     for name in names:
         console.file(name, GOOD)
-    assert console("check", *names, "--control", "fanuc-m").status == 0
-    assert free == [False]
+    watch.begin()
+    try:
+        assert console("check", *names, "--control", "fanuc-m").status == 0
+        assert watch._is_seen
+    finally:
+        watch.end()
+    assert threads == [begun]

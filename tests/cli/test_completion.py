@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -53,6 +54,7 @@ def offered(shell: str, words: str, begun: str) -> list[str]:
     [
         ("", "ma", ["plain,machines"]),
         ("machines", "s", ["plain,show"]),
+        ("machines show", "lathe2-", ["plain,lathe2-2path"]),
         ("run --control", "s", ["plain,syntec-mill", "plain,sinumerik-840d"]),
         ("run --machine", "lathe2-", ["plain,lathe2-2path"]),
         ("run --machine", "./m", ["file,./m"]),
@@ -81,6 +83,19 @@ def test_a_shell_is_offered_commands_options_values_and_files(
 )
 def test_every_shell_is_answered_in_its_form(shell: str, answer: list[str]) -> None:
     assert offered(shell, "run --control", "fanuc-m") == answer
+
+
+@pytest.mark.parametrize(
+    ("shell", "answer"),
+    [
+        ("bash", ["plain,fanuc-m"]),
+        ("zsh", ["plain", "--control=fanuc-m", "_"]),
+        ("fish", ["plain,--control=fanuc-m"]),
+        ("powershell", ["plain", "--control=fanuc-m", "_"]),
+    ],
+)
+def test_a_value_behind_its_option_is_offered_as_the_shell_takes_words(shell: str, answer: list[str]) -> None:
+    assert offered(shell, "run", "--control=fanuc-m") == answer
 
 
 @pytest.mark.parametrize("shell", SHELLS)
@@ -122,6 +137,64 @@ def test_bash_completes_when_it_is_installed(console: Console, home: Path) -> No
     assert startup == "alias x=y\nsource ~/.bash_completions/polycnc.sh\n"
     asked = "COMP_WORDS=(polycnc run --control s); COMP_CWORD=3; _polycnc_completion polycnc; echo ${COMPREPLY[@]}"
     assert bash(f"source ~/.bashrc; {asked}", home) == ["syntec-mill", "sinumerik-840d"]
+
+
+#: What is typed, and what it becomes with the Tab key.
+TYPED = {
+    "polycnc ru": "polycnc run",
+    "polycnc run --con": "polycnc run --control",
+    "polycnc run --control fan": "polycnc run --control fanuc-",
+    "polycnc run --control=syn": "polycnc run --control=syntec-mill",
+    "polycnc run bra": "polycnc run bracket.nc",
+    "polycnc run bracket.nc --setup=bra": "polycnc run bracket.nc --setup=bracket.nc",
+    "polycnc check --format s": "polycnc check --format sarif",
+}
+
+
+@pytest.mark.skipif(shutil.which("fish") is None, reason="fish is not installed")
+@pytest.mark.parametrize("typed", TYPED)
+def test_fish_completes_when_it_is_installed(console: Console, home: Path, typed: str) -> None:
+    assert console("--install-completion", "fish").status == 0
+    (home / "bracket.nc").touch()
+    command = ["fish", "--command", f"complete --do-complete '{typed}'"]
+    done = subprocess.run(command, cwd=home, capture_output=True, text=True, timeout=60, check=True)
+    offered = [line.partition("\t")[0] for line in done.stdout.splitlines()]
+    assert common(offered) == TYPED[typed].split()[-1]
+
+
+def common(words: list[str]) -> str:
+    """What all words begin with."""
+    return next(
+        (words[0][:n] for n in range(len(words[0]), 0, -1) if all(w.startswith(words[0][:n]) for w in words)),
+        "",
+    )
+
+
+@pytest.mark.skipif(shutil.which("zsh") is None, reason="zsh is not installed")
+@pytest.mark.parametrize("typed", TYPED)
+def test_zsh_completes_when_it_is_installed(console: Console, home: Path, typed: str) -> None:
+    assert console("--install-completion", "zsh").status == 0
+    (home / "bracket.nc").touch()
+    assert typed_in_zsh(typed, home).rstrip() == TYPED[typed]
+
+
+def typed_in_zsh(line: str, home: Path) -> str:
+    """What a line becomes in a zsh with the Tab key: a pseudo terminal within is typed at, and the line shown then."""
+    code = f"""
+        zmodload zsh/zpty
+        zpty inner zsh -f -i
+        zpty -w inner "PS1= ; stty cols 200; source ~/.zshrc"
+        zpty -w inner 'show() {{ print -r -- "[[$BUFFER]]" }}; zle -N show; bindkey "^X" show; print rea""dy'
+        zpty -r inner said '*ready*'
+        zpty -w -n inner $'{line}\\t\\x18'
+        zpty -r inner said '*\\[\\[*\\]\\]*'
+        print -r -- $said
+    """
+    done = subprocess.run(
+        ["zsh", "-f", "-c", code], cwd=home, capture_output=True, text=True, timeout=60, check=True,
+        env={**os.environ, "TERM": "dumb"},
+    )  # fmt: skip
+    return done.stdout.rpartition("[[")[2].partition("]]")[0]
 
 
 def test_zsh_and_fish_find_their_scripts(console: Console, home: Path) -> None:

@@ -98,11 +98,12 @@ with whole_file(Path(sys.argv[1])) as stream:
 
 
 @pytest.mark.skipif(not hasattr(os, "O_TMPFILE"), reason="files without a name are Linux's")
-@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGHUP, signal.SIGTERM])
-def test_nothing_is_left_of_a_process_that_is_killed(tmp_path: Path, number: int) -> None:
+@pytest.mark.parametrize("name", ["SIGKILL", "SIGHUP", "SIGTERM"])
+def test_nothing_is_left_of_a_process_that_is_killed(tmp_path: Path, name: str) -> None:
     path = tmp_path / "out.txt"
     path.write_text("old", encoding="utf-8")
-    subprocess.run([sys.executable, "-c", KILLED, str(path), str(number)], check=False)
+    number = str(int(getattr(signal, name)))
+    subprocess.run([sys.executable, "-c", KILLED, str(path), number], check=False)
     assert [each.name for each in tmp_path.iterdir()] == ["out.txt"]
     assert path.read_text(encoding="utf-8") == "old"
 

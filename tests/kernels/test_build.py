@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import platform
 import re
+import subprocess
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
-from build_kernels import linker, shared_object
+from build_kernels import compiler, linker, shared_object
 
 from polycnc.kernels import native
 
@@ -81,7 +82,41 @@ def test_the_wheel_has_the_object_and_the_tag_of_its_platform(monkeypatch: pytes
 
 def test_without_a_c_compiler_that_of_pypi_links(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(linker, "system_linker", lambda: None)
-    assert linker._command() == [sys.executable, "-m", "ziglang", "cc"]
+    assert linker._command() == [sys.executable, "-m", "ziglang", "cc", "-mcpu=baseline"]
+
+
+def test_windows_gives_the_kernels_the_mathematics_that_python_calls(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The linker for Windows would take other functions, which round otherwise."""
+    declared, commands = [], []
+
+    def run(command: list[str | Path], **_: object) -> None:
+        commands.append([str(each) for each in command])
+        if "dlltool" in command:
+            declared.extend(Path(command[command.index("-d") + 1]).read_text(encoding="ascii").split())
+        else:
+            Path(command[command.index("-o") + 1]).touch()
+
+    monkeypatch.setattr(platform, "system", lambda: "Windows")
+    monkeypatch.setattr(subprocess, "run", run)
+    linker.link([b""], tmp_path / "compiled.dll")
+    assert [command[3] for command in commands] == ["dlltool", "cc"]
+    assert commands[1][-1] == commands[0][-1]  # no `-lm`
+    assert declared[:2] == ["LIBRARY", "api-ms-win-crt-math-l1-1-0.dll"]
+    assert {"sin", "cos", "tan", "pow", "fmod", "atan2", "acos", "asin"} <= {*declared}
+
+
+@pytest.mark.parametrize(
+    ("triple", "wanted"),
+    [
+        ("x86_64-pc-windows-msvc", "x86_64-pc-windows-itanium"),
+        ("x86_64-unknown-linux-gnu", "x86_64-unknown-linux-gnu"),
+        ("arm64-apple-darwin23.6.0", "arm64-apple-darwin23.6.0"),
+    ],
+)
+def test_no_object_needs_what_only_the_linker_of_microsoft_has(triple: str, wanted: str) -> None:
+    assert compiler._platform(triple) == wanted
 
 
 def made_hook(monkeypatch: pytest.MonkeyPatch, found: str | None) -> KernelHook:

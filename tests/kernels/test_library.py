@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from array import array
 from ctypes import Structure
 from pathlib import Path
@@ -36,6 +37,26 @@ def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     made = tmp_path_factory.mktemp("kernels") / Path(native.FILE).name
     link([object_code(library(made), described(library(made)))], made)
     return made
+
+
+@pytest.mark.parametrize(
+    "triple", ["x86_64-unknown-linux-gnu", "aarch64-unknown-linux-gnu", "arm64-apple-darwin"]
+)
+def test_no_processor_fuses_a_product_with_a_sum(triple: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It would round once where Python rounds twice."""
+    pytest.importorskip("numba")
+    from build_kernels import compiler
+    from llvmlite import binding
+
+    binding.initialize_all_targets()
+    binding.initialize_all_asmprinters()
+    machine = binding.Target.from_triple(triple).create_target_machine(cpu="", opt=3)
+    monkeypatch.setattr(machine, "emit_object", lambda module: machine.emit_assembly(module).encode())
+    monkeypatch.setattr(compiler, "_machine", lambda: machine)
+    code = compiler.object_code(library(Path()), b"").decode()
+    assert len(re.findall(r"\t(fmul|mulsd|mulpd)", code)) > 0
+    assert len(re.findall(r"\t(fadd|addsd|addpd)", code)) > 0
+    assert re.findall(r"\t(fn?m(?:add|sub|la|ls)|vfn?m)", code) == []
 
 
 @pytest.fixture

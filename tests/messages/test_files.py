@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+import tracemalloc
 from typing import TYPE_CHECKING
 
 import pytest
@@ -90,3 +91,28 @@ def test_at_most_so_many_bytes_are_read(tmp_path: Path) -> None:
     path.write_bytes(b"12345")
     assert read_regular(path, 3) == b"123"
     assert read_regular(path) == b"12345"
+
+
+def test_no_more_memory_is_asked_for_than_a_file_has_bytes(tmp_path: Path) -> None:
+    """What Python is asked to read it takes memory for: two gigabytes, for a program of a few lines."""
+    path = tmp_path / "short"
+    path.write_bytes(b"12345")
+    tracemalloc.start()
+    try:
+        assert read_regular(path, 2 << 30) == b"12345"
+        assert tracemalloc.get_traced_memory()[1] < 1 << 20
+    finally:
+        tracemalloc.stop()
+
+
+@pytest.mark.parametrize("length", [4095, 4096, 4097, 20_000])
+def test_what_does_not_say_its_size_is_read_to_its_end(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, length: int
+) -> None:
+    path = tmp_path / "unknown"
+    path.write_bytes(bytes(length))
+    empty, stat = tmp_path / "empty", os.stat
+    empty.touch()
+    monkeypatch.setattr(os, "stat", lambda asked, **named: stat(empty if asked == path else asked, **named))
+    assert len(read_regular(path, 1 << 30)) == length
+    assert len(read_regular(path, length - 1)) == length - 1

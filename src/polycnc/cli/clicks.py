@@ -144,7 +144,7 @@ def _parameter(declared: Parameter) -> click.Parameter:
     type_ = _type(kind.__args__[0] if is_list else kind, role)
     settings: dict[str, Any] = {"type": type_, "required": is_required}
     if not isinstance(type_, click.Choice):
-        settings["shell_complete"] = _offering(getattr(role, "values", None))
+        settings["shell_complete"] = _offering(role.values)
     shown = text(role.text) if role.text else ""
     if isinstance(role, Argument):
         return click.Argument(

@@ -6,7 +6,15 @@ import subprocess
 from pathlib import Path
 
 import click
-from click.shell_completion import get_completion_class
+from click.shell_completion import (
+    CompletionItem,
+    FishComplete,
+    PowerShellComplete,
+    ShellComplete,
+    ZshComplete,
+    add_completion_class,
+    get_completion_class,
+)
 
 from polycnc.cli.console import say, show
 from polycnc.cli.output import write_whole
@@ -39,6 +47,45 @@ if ((Get-ExecutionPolicy) -eq 'Restricted') { Set-ExecutionPolicy RemoteSigned -
 [Console]::OutputEncoding = [System.Text.Encoding]::UTF8
 $PROFILE
 """
+
+
+class _WholeWords(ShellComplete):
+    """A shell that takes `--control=fanuc-m` for one word, and wants it whole; a Bash asks for what is behind `=`."""
+
+    def get_completions(self, args: list[str], incomplete: str) -> list[CompletionItem]:
+        """What may stand in place of a word that is begun."""
+        name, sign, _ = incomplete.partition("=")
+        is_option = bool(sign) and name.startswith("--") and "--" not in args
+        return [
+            CompletionItem(f"{name}={item.value}", item.type, item.help)
+            if is_option and item.type == "plain"
+            else item
+            for item in super().get_completions(args, incomplete)
+        ]
+
+
+class _Zsh(_WholeWords, ZshComplete):
+    """Files are looked for behind the `=`."""
+
+    source_template = ZshComplete.source_template.replace("_path_files", "compset -P 1 '--*='; _path_files")
+
+
+class _Fish(_WholeWords, FishComplete):
+    """Files are looked for behind the `=`; texts of help may hold commas."""
+
+    source_template = FishComplete.source_template.replace('split ","', 'split --max 1 ","').replace(
+        "__fish_complete_path $metadata[2];",
+        "set -l option (string match --regex -- '^--[^=]+=' (commandline -t));\n"
+        '            for path in (__fish_complete_path $metadata[2]); echo "$option$path"; end;',
+    )
+
+
+class _PowerShell(_WholeWords, PowerShellComplete):
+    """A PowerShell replaces the word."""
+
+
+for _each in _Zsh, _Fish, _PowerShell:
+    add_completion_class(_each)
 
 
 def options() -> list[click.Option]:

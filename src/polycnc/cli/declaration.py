@@ -74,11 +74,15 @@ class Argument:
     Args:
         text: Id of its text on the page of help; empty where its name says it all.
         metavar: What that page calls it.
+        values: The values that the shell offers.
     """
 
-    def __init__(self, text: str = "", *, metavar: str) -> None:
+    def __init__(
+        self, text: str = "", *, metavar: str, values: Callable[[], Iterable[str]] | None = None
+    ) -> None:
         self.text = text
         self.metavar = metavar
+        self.values = values
 
 
 class Parameter(NamedTuple):

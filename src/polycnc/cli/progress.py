@@ -83,24 +83,44 @@ class Watch:
         self.works: list[Work] = [_Command(what)]
         self.lock = _thread.RLock()
         self._started = monotonic()
-        self._over, self._is_seen = _thread.allocate_lock(), False
+        self._over, self._left, self._is_seen = _thread.allocate_lock(), _thread.allocate_lock(), False
         self._bar: tqdm[Never] | None = None
         self._pace: tuple[Work, _Pace] | None = None
 
     def begin(self) -> None:
         """Look from now on."""
         self._over.acquire()
+        self._left.acquire()
         self._is_seen = True
         _thread.start_new_thread(self._look_on, ())
 
     def end(self) -> None:
         """Take the bar away, for good."""
         with self.lock:
-            self.hide()
-            if self._is_seen:
-                self._is_seen = False
-                self._over.release()
+            self._look_away()
             self.works.clear()
+
+    @contextmanager
+    def alone(self) -> Iterator[None]:
+        """While this lasts nobody looks, and there is no thread that does."""
+        with self.lock:
+            was_seen = self._look_away()
+        if was_seen:
+            with self._left:
+                pass
+        try:
+            yield
+        finally:
+            if was_seen:
+                self.begin()
+
+    def _look_away(self) -> bool:
+        """Take the bar away and have the thread leave; only under the lock. Whether there is one."""
+        self.hide()
+        was_seen, self._is_seen = self._is_seen, False
+        if was_seen:
+            self._over.release()
+        return was_seen
 
     def hide(self) -> None:
         """Take the bar away until the next look; only under the lock."""
@@ -114,6 +134,7 @@ class Watch:
                 if self.works:
                     self.look(self.works[-1], monotonic())
         self._over.release()
+        self._left.release()
 
     def look(self, work: Work, now: float) -> None:
         """Look at a work, and show how far it is if it takes long."""
@@ -232,6 +253,17 @@ def end() -> None:
     """The command goes on without an end: nobody waits for one."""
     if Watch.of_command is not None:
         Watch.of_command.end()
+
+
+@contextmanager
+def alone() -> Iterator[None]:
+    """The process has no thread of its own that looks: it is copied, and copies have the locks of a thread only."""
+    watch = Watch.of_command
+    if watch is None:
+        yield
+        return
+    with watch.alone():
+        yield
 
 
 @contextmanager

@@ -8,13 +8,16 @@ import stat
 from io import StringIO
 
 from polycnc.deferred.paths import is_same, text_of
-from polycnc.deferred.typing import TYPE_CHECKING
+from polycnc.deferred.typing import IO, TYPE_CHECKING
 from polycnc.messages.catalogue import messages
 from polycnc.messages.errors import UserError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
     from pathlib import Path
+
+#: What is read of a file that says nothing of its size, bytes.
+_PAGE = 4096
 
 
 def read_regular(path: str | Path, most: int = -1) -> bytes:
@@ -28,17 +31,30 @@ def read_regular(path: str | Path, most: int = -1) -> bytes:
         OSError: It cannot be read, or is no regular file.
         ValueError: A name that no file system takes.
     """
-    mode = os.stat(path).st_mode  # noqa: PTH116 - Path(path) hides what the user typed
-    if stat.S_ISDIR(mode):
+    status = os.stat(path)  # noqa: PTH116 - Path(path) hides what the user typed
+    if stat.S_ISDIR(status.st_mode):
         raise _error(errno.EISDIR, path)
-    if not stat.S_ISREG(mode):
+    if not stat.S_ISREG(status.st_mode):
         raise _error(errno.ENODEV, path)
     # What the system shows as a file (/proc) may wait for something all the same.
     handle = os.open(path, os.O_RDONLY | getattr(os, "O_BINARY", 0) | getattr(os, "O_NONBLOCK", 0))
     with os.fdopen(handle, "rb") as file:
-        data: bytes | None = file.read(most)
+        data = file.read() if most < 0 else _at_most(most, file, status.st_size)
     if data is None:
         raise _error(errno.EAGAIN, path)
+    return data
+
+
+def _at_most(most: int, file: IO[bytes], size: int) -> bytes | None:
+    """So many bytes of a file at most, which says that it has `size` bytes; None where nothing can be read now.
+
+    Python takes memory for all that it asks for, and some systems must have it: no more is asked for than is there.
+    """
+    asked = min(most, max(size + 1, _PAGE))
+    data: bytes | None = file.read(asked)
+    while data and len(data) == asked < most:  # it has grown, or is one whose size nobody knows (/proc)
+        asked = min(most, 2 * asked)
+        data += file.read(asked - len(data)) or b""
     return data
 
 

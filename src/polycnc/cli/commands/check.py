@@ -14,7 +14,7 @@ from itertools import chain
 from polycnc.cli import diagnostics, options
 from polycnc.cli.console import note, show, standard_input
 from polycnc.cli.declaration import Argument, Commands, Option, Path
-from polycnc.cli.progress import away
+from polycnc.cli.progress import alone
 from polycnc.deferred.records import dataclass
 from polycnc.deferred.typing import TYPE_CHECKING, Annotated
 from polycnc.messages import UserError, text
@@ -114,7 +114,7 @@ def _shared(
     workers.enter_context(pool)
     others = active_children()
     workers.push(lambda error, *_: _kill_where(error, others))
-    with away(), _no_interrupt():  # nobody writes or loads anything else while the process is copied
+    with alone(), _no_interrupt():  # no thread writes, loads or holds anything while the process is copied
         return chain((first,), pool.map(run, files[1:], chunksize=SHARED))
 
 

@@ -24,7 +24,7 @@ commands = Commands("help.machines", alone=list_machines)
 
 @commands.command("help.machines.show", "show")
 def show_machine(
-    machine: Annotated[str, Argument("help.option.machine", metavar="ID|FILE")],
+    machine: Annotated[str, Argument("help.option.machine", metavar="ID|FILE", values=options.machines)],
     _lang: options.Lang = None,
 ) -> None:
     """Write one machine as a TOML file, complete with all defaults."""
