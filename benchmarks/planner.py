@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from math import cos, pi, sin, sqrt
+from random import Random
 from typing import Any, NamedTuple
 
 from benchmarks.measure import Figure, best_of, rate, skipped
@@ -15,9 +16,11 @@ from polycnc.motion.kernels.columns import PIECE_BLOCKS, PLACES, Form, PieceReco
 from polycnc.motion.planner import Planner
 from polycnc.motion.settings import DEFAULT
 from polycnc.toolpath import Context, Kind, Toolpath
-from polycnc.toolpath.modes import AccelerationMode
+from polycnc.toolpath.modes import AccelerationMode, CornerMode
 
 SEGMENTS_PER_SECOND = 300_000
+#: Rows of contours in which jerk binds everywhere.
+CORNERS = 20_000
 WORST_RATIO = 1.02
 #: Part of the rate of short programs that long ones keep: the cost is linear.
 LINEAR = 0.8
@@ -25,14 +28,39 @@ LINEAR = 0.8
 STEPS, STEPS_OF_PIECE = 3000, 6
 
 
-def segments_per_second(rows: int = 600_000, settings: Settings = DEFAULT) -> float:
-    """Rows planned a second: a spiral of short cuts over a wavy surface, kernels compiled and warm."""
-    toolpath = Toolpath(("X", "Y", "Z"))
-    number = toolpath.context_number(Context(tolerance_mm=0.01))
+def spiral(rows: int) -> Iterator[list[float]]:
+    """Short cuts over a wavy surface."""
     for k in range(rows):
         angle, radius = 0.01 * k, 10.0 + 2e-4 * k
-        end = [radius * cos(angle), radius * sin(angle), 2.0 * sin(0.07 * k)]
-        toolpath.append(Kind.FEED, 0, k + 1, number, 80.0, end)
+        yield [radius * cos(angle), radius * sin(angle), 2.0 * sin(0.07 * k)]
+
+
+def staircase(rows: int) -> Iterator[list[float]]:
+    """Rows of 0.5 mm in X and in Y, in turn."""
+    for k in range(1, rows + 1):
+        yield [0.5 * ((k + 1) // 2), 0.5 * (k // 2), 0.0]
+
+
+def wandering(rows: int) -> Iterator[list[float]]:
+    """Rows of 0.2 to 2 mm in random directions of half a plane."""
+    random, x, y = Random(5), 0.0, 0.0
+    for _ in range(rows):
+        heading, length = random.uniform(-1.3, 1.3), random.uniform(0.2, 2.0)
+        x, y = x + length * cos(heading), y + length * sin(heading)
+        yield [x, y, 0.0]
+
+
+def segments_per_second(
+    rows: int = 600_000,
+    settings: Settings = DEFAULT,
+    contour: Callable[[int], Iterator[list[float]]] = spiral,
+    corners: CornerMode = CornerMode.CONTINUOUS,
+) -> float:
+    """Rows of a contour planned a second, kernels compiled and warm."""
+    toolpath = Toolpath(("X", "Y", "Z"))
+    number = toolpath.context_number(Context(tolerance_mm=0.01, corner_mode=corners))
+    for k, end in enumerate(contour(rows), 1):
+        toolpath.append(Kind.FEED, 0, k, number, 80.0, end)
         toolpath.block_boundary()
     machine = load_machine("mill3")
 
@@ -193,6 +221,11 @@ def speed() -> Iterator[Figure]:
     yield rate("planner, limited jerk", segments_per_second(settings=soft), SEGMENTS_PER_SECOND, "segments/s")
     bent = segments_per_second(settings=replace(soft, bends_by_way=True))
     yield rate("planner, jerk by a law of third order", bent, SEGMENTS_PER_SECOND, "segments/s")
+    for name, contour in (("a staircase", staircase), ("random directions", wandering)):
+        found = segments_per_second(
+            CORNERS, replace(soft, bends_by_way=True), contour, corners=CornerMode.ROUNDED
+        )
+        yield rate(f"planner, law of third order, {name}", found, SEGMENTS_PER_SECOND, "segments/s")
     few, *more = (segments_per_second(rows) for rows in (10_000, 100_000, 1_000_000))
     for name, many in zip(("1e5", "1e6"), more, strict=True):
         said = f"{name} segments at {many / few:.2f} of the rate of 1e4, limit {LINEAR}"

@@ -31,6 +31,9 @@ FALL, RISE = 0.7, 3.0
 LEVEL = 0.1
 #: Slack, in parts of the limit and of the weight, below which a barrier goes on as a parabola.
 SOFT = 1.0
+#: Part of speed and acceleration up to which they count for nothing. The jerk counts everywhere: without it nothing
+#: would keep x from bending to and fro.
+FREE = 0.5
 #: Diagonals of the matrix that are kept, and the right side.
 BANDS = 4
 
@@ -43,10 +46,15 @@ def lay_stencils(nodes: Nodes, ends: Floats) -> None:
     parabola does: up to the first node it is that, and the spline begins there.
     """
     last = len(nodes.way) - 1
-    for i in range(Stencil.SIZE * (last + 1)):
-        nodes.stencil[i] = 0.0
+    rest, stop = nodes.x[0] == 0.0, nodes.x[last] == 0.0
+    here, there = _control(nodes, 0, last, rest, stop), _control(nodes, 1, last, rest, stop)
+    behind, fall = nodes.way[1] - nodes.way[0], 1.0 / (there - here)
     for k in range(1, last):
-        _inner(nodes, k, last)
+        before, rise = behind, fall
+        behind = nodes.way[k + 1] - nodes.way[k]
+        here, there = there, _control(nodes, k + 1, last, rest, stop)
+        fall = 1.0 / (there - here)
+        _inner(nodes, k, before, behind, rise, fall)
     _end(nodes, 0, 1, ends[Ends.START_SPEED], ends[Ends.START_PULL])
     _end(nodes, last, -1, ends[Ends.END_SPEED], ends[Ends.END_PULL])
 
@@ -59,24 +67,21 @@ def _control(nodes: Nodes, k: int, last: int, rest: bool, stop: bool) -> float:
     return way + 0.25 * (behind - before)
 
 
-def _inner(nodes: Nodes, k: int, last: int) -> None:
-    s, at = nodes.stencil, k * Stencil.SIZE
-    before, behind = nodes.way[k] - nodes.way[k - 1], nodes.way[k + 1] - nodes.way[k]
-    both = before + behind
-    rest, stop = nodes.x[0] == 0.0, nodes.x[last] == 0.0
-    here = _control(nodes, k, last, rest, stop)
-    rise = 1.0 / (here - _control(nodes, k - 1, last, rest, stop))  # slopes are differences times these
-    fall = 1.0 / (_control(nodes, k + 1, last, rest, stop) - here)
-    s[at + Stencil.SLOPE] = -behind / both * rise
-    s[at + Stencil.SLOPE + 1] = (behind * rise - before * fall) / both
-    s[at + Stencil.SLOPE + 2] = before / both * fall
-    s[at + Stencil.BEND] = 2.0 / both * rise
-    s[at + Stencil.BEND + 1] = -2.0 / both * (rise + fall)
-    s[at + Stencil.BEND + 2] = 2.0 / both * fall
-    for i in range(3):
-        s[at + Stencil.VALUE + i] = 0.125 * before * before * s[at + Stencil.BEND + i]
-    s[at + Stencil.VALUE] -= 0.25 * (before - behind) * rise
-    s[at + Stencil.VALUE + 1] += 1.0 + 0.25 * (before - behind) * rise
+def _inner(nodes: Nodes, k: int, before: float, behind: float, rise: float, fall: float) -> None:
+    """The stencil of a node by the distances of its neighbours; slopes are differences times `rise` and `fall`."""
+    s, at, inverse = nodes.stencil, k * Stencil.SIZE, 1.0 / (before + behind)
+    bend, bend2 = 2.0 * inverse * rise, 2.0 * inverse * fall
+    slope, slope2 = behind * inverse * rise, before * inverse * fall
+    value_, shift = 0.125 * before * before, 0.25 * (before - behind) * rise
+    s[at + Stencil.SLOPE] = -slope
+    s[at + Stencil.SLOPE + 1] = slope - slope2
+    s[at + Stencil.SLOPE + 2] = slope2
+    s[at + Stencil.BEND] = bend
+    s[at + Stencil.BEND + 1] = -bend - bend2
+    s[at + Stencil.BEND + 2] = bend2
+    s[at + Stencil.VALUE] = value_ * bend - shift
+    s[at + Stencil.VALUE + 1] = 1.0 + shift - value_ * (bend + bend2)
+    s[at + Stencil.VALUE + 2] = value_ * bend2
 
 
 def _end(nodes: Nodes, k: int, side: int, speed: float, pull: float) -> None:
@@ -144,49 +149,19 @@ def improve(nodes: Nodes, axes: Axes, weight: float, bands: Floats, first: int, 
         first: The one node.
         last: The other one.
     """
-    for i in range(BANDS * first, BANDS * (last + 1)):
+    for i in range(BANDS * first, BANDS * (last + 3)):
         bands[i] = 0.0
-    for k in range(first, last):
-        _time(nodes, k, bands)
+    n = len(axes.jerk)
     for k in range(first, last + 1):
         if nodes.stencil[k * Stencil.SIZE + Stencil.VALUE + 1] > 0.0:
-            _barriers(nodes, axes, k, first, last, weight, bands)
-    _solve(bands, first, last)
-    for k in range(first + 1, last):
-        here = nodes.x[k]
-        nodes.x[k] = here + min(max(bands[BANDS * k + 3], -FALL * here), RISE * here)
-
-
-def _time(nodes: Nodes, k: int, bands: Floats) -> None:
-    """Slope and bend of the time between two nodes, `2·h/(√x + √y)`; beside rest it is 3/2 of that."""
-    step, here, there = nodes.way[k + 1] - nodes.way[k], sqrt(nodes.x[k]), sqrt(nodes.x[k + 1])
-    if here == 0.0 or there == 0.0:
-        step *= 1.5
-    share = 1.0 / (here + there)
-    squared = step * share * share
-    if here > 0.0:
-        own = squared / here
-        bands[BANDS * k + 3] += own
-        bands[BANDS * k] += own * (share + 0.5 / here) / here
-    if there > 0.0:
-        own = squared / there
-        bands[BANDS * k + BANDS + 3] += own
-        bands[BANDS * k + BANDS] += own * (share + 0.5 / there) / there
-    if here > 0.0 and there > 0.0:
-        bands[BANDS * k + 1] += squared * share / (here * there)
-
-
-def _force(slack: float, soft: float) -> tuple[float, float]:
-    """Slope (less) and bend of a barrier `-log(slack)`, which goes on as a parabola where less than `soft` is left."""
-    if slack > soft:
-        inverse = 1.0 / slack
-        return inverse, inverse * inverse
-    inverse = 1.0 / soft
-    return (2.0 - slack * inverse) * inverse, inverse * inverse
+            _barriers(nodes, n, k, weight, bands)
+    _solve(nodes, bands, first, last)
 
 
 def _forces(top: float, sum_: float, soft: float) -> tuple[float, float, float, float]:
-    """Those of the barriers above and below a sum, whose slacks are `top` less and more it.
+    """Slopes and bends of the barriers `-log(slack)` above and below a sum, whose slacks are `top` less and more it.
+
+    Where less than `soft` is left, a barrier goes on as a parabola.
 
     Returns:
         The difference of the slopes (above less below), their sum, that of the bends (below less above), their sum.
@@ -195,121 +170,128 @@ def _forces(top: float, sum_: float, soft: float) -> tuple[float, float, float, 
     if above > soft and below > soft:
         inverse = 1.0 / (above * below)
         plus, minus = below * inverse, above * inverse
-        plus2, minus2 = plus * plus, minus * minus
-    else:
-        plus, plus2 = _force(above, soft)
-        minus, minus2 = _force(below, soft)
+        both, all_ = plus - minus, plus + minus
+        return both, all_, -both * all_, plus * plus + minus * minus
+    plus, minus = 1.0 / max(above, soft), 1.0 / max(below, soft)
+    plus2, minus2 = plus * plus, minus * minus
+    if above < soft:
+        plus *= 2.0 - above * plus
+    if below < soft:
+        minus *= 2.0 - below * minus
     return plus - minus, plus + minus, minus2 - plus2, plus2 + minus2
 
 
-def _barriers(nodes: Nodes, axes: Axes, k: int, first: int, last: int, weight: float, bands: Floats) -> None:
-    """Add slopes and bends of the barriers of a node, in x, x' and x'' there, and then in x at three nodes."""
+def _barriers(nodes: Nodes, n: int, k: int, weight: float, bands: Floats) -> None:
+    """Add slopes and bends of time and barriers of a node, in x, x' and x'' there, and then in x at three nodes."""
     x, slope, bend = value(nodes, k)
     x = max(x, 1e-18)
-    root = sqrt(x)
-    before, behind = nodes.way[max(k - 1, 0)], nodes.way[min(k + 1, len(nodes.x) - 1)]
-    own = weight * 0.5 * (behind - before) / root
-    room = nodes.room[k]
-    gx = gs = gb = hxx = hxs = hxb = hss = hsb = hbb = 0.0
-    n = len(axes.jerk)
-    cap, soft = nodes.cap2[k], SOFT * weight * room
+    inverse, root, steep = 1.0 / x, sqrt(x), abs(slope)
+    near, far = max(k - 1, 0), min(k + 1, len(nodes.x) - 1)
+    before, behind, cell = nodes.way[near], nodes.way[far], 0.5 * (nodes.way[far] - nodes.way[near])
+    room, cap, soft = nodes.room[k], nodes.cap2[k], SOFT * weight * nodes.room[k]
     rises = behind - nodes.way[k] if slope > 0.0 else nodes.way[k] - before
-    wide = room / sqrt(x + 0.25 * rises * abs(slope))  # in the quicker half of the cell
-    half, soft_jolt = 0.5 * wide / x, soft / root
-    slope_of, bend_of = _force(cap - x, LEVEL * SOFT * weight * cap)
-    gx -= LEVEL * slope_of
-    hxx += LEVEL * bend_of
-    for i in range(n):
-        at = (k * n + i) * Shape.SIZE
-        ratio = axes.pull[i] / axes.jerk[i]
-        turn, second = 0.5 * nodes.shape[at + Shape.FIRST], nodes.shape[at + Shape.SECOND]
-        extra = nodes.shape[at + Shape.SECOND_RANGE]
-        sum_, top = turn * slope + second * x, room - extra * x
-        both, all_, odd, even = _forces(top, sum_, soft)
-        # the slack top ∓ sum has the slope -extra ∓ second by x, ∓ turn by x'
-        gx += -second * both - extra * all_
-        gs -= turn * both
-        hxx += even * (extra * extra + second * second) - 2.0 * odd * extra * second
-        hxs += turn * (even * second - odd * extra)
-        hss += even * turn * turn
-        third, extra = nodes.shape[at + Shape.THIRD], nodes.shape[at + Shape.THIRD_RANGE]
-        turn, second = ratio * turn, 1.5 * ratio * second
+    wide = room / sqrt(x + 0.25 * rises * steep)  # in the quicker half of the cell
+    half, soft_jolt = 0.5 * wide * inverse, soft * root * inverse
+    gx = 0.5 * inverse / weight  # time, `cell/√x`; from or to rest it is `3·way/√x`
+    if nodes.x[near] == 0.0:
+        gx *= 1.0 + 2.5 * (nodes.way[k] - before) / cell
+    if nodes.x[far] == 0.0:
+        gx *= 1.0 + 2.5 * (behind - nodes.way[k]) / cell
+    hxx = 1.5 * gx * inverse
+    gs = gb = hxs = hxb = hss = hsb = hbb = 0.0
+    s = nodes.shape
+    if x > FREE * cap:
+        slack, least = cap - x, LEVEL * SOFT * weight * cap
+        force = 1.0 / max(slack, least)
+        gx -= LEVEL * force * (1.0 if slack >= least else 2.0 - slack * force)
+        hxx += LEVEL * force * force
+    for at in range(k * n * Shape.SIZE, (k + 1) * n * Shape.SIZE, Shape.SIZE):
+        turn, second, extra = s[at + Shape.FIRST], s[at + Shape.SECOND], s[at + Shape.SECOND_RANGE]
+        sum_ = turn * slope + second * x
+        used = abs(sum_) + extra * x
+        if used > FREE * room:
+            top = room - extra * x
+            both, all_, odd, even = _forces(top, sum_, soft)
+            # the slack top ∓ sum has the slope -extra ∓ second by x, ∓ turn by x'
+            gx -= second * both + extra * all_
+            gs -= turn * both
+            mixed = even * second - odd * extra
+            hxx += second * mixed + extra * (even * extra - odd * second)
+            hxs += turn * mixed
+            hss += even * turn * turn
+        turn, second, third = s[at + Shape.JOLT_FIRST], s[at + Shape.JOLT_SECOND], s[at + Shape.THIRD]
+        extra = s[at + Shape.THIRD_RANGE]
         sum_ = turn * bend + second * slope + third * x
-        top = wide - extra * x - 1.5 * ratio * nodes.shape[at + Shape.SECOND_RANGE] * abs(slope)
-        falls = half + extra
-        both, all_, odd, even = _forces(top, sum_, soft_jolt)
-        gx += -third * both - falls * all_
-        gs -= second * both
-        gb -= turn * both
-        hxx += even * (falls * falls + third * third) - 2.0 * odd * falls * third
-        hxs += second * (even * third - odd * falls)
-        hxb += turn * (even * third - odd * falls)
-        hss += even * second * second
-        hsb += even * turn * second
-        hbb += even * turn * turn
-    _add(nodes, k, first, last, own, (gx, gs, gb, hxx, hxs, hxb, hss, hsb, hbb), bands)
+        used = abs(sum_) + extra * x + s[at + Shape.JOLT_RANGE] * steep
+        if used > 0.0:
+            top = wide - extra * x - s[at + Shape.JOLT_RANGE] * steep
+            falls = half + extra
+            both, all_, odd, even = _forces(top, sum_, soft_jolt)
+            gx -= third * both + falls * all_
+            gs -= second * both
+            gb -= turn * both
+            mixed, sloped, bent = even * third - odd * falls, even * second, even * turn
+            hxx += third * mixed + falls * (even * falls - odd * third)
+            hxs += second * mixed
+            hxb += turn * mixed
+            hss += sloped * second
+            hsb += sloped * turn
+            hbb += bent * turn
+    _add(nodes, k, weight * cell * root * inverse, (gx, gs, gb, hxx, hxs, hxb, hss, hsb, hbb), bands)
 
 
 def _add(
     nodes: Nodes,
     k: int,
-    first: int,
-    last: int,
     own: float,
     found: tuple[float, float, float, float, float, float, float, float, float],
     bands: Floats,
 ) -> None:
     """Bring slopes and bends in x, x' and x'' at a node to x at three nodes. `bands` has less the slopes."""
     gx, gs, gb, hxx, hxs, hxb, hss, hsb, hbb = found
-    s, at = nodes.stencil, k * Stencil.SIZE
-    for p in range(3):
-        row = k - 1 + p
-        if first <= row <= last:
-            v, d, b = s[at + Stencil.VALUE + p], s[at + Stencil.SLOPE + p], s[at + Stencil.BEND + p]
-            bands[BANDS * row + 3] += own * (gx * v + gs * d + gb * b)
-            x = own * (hxx * v + hxs * d + hxb * b)
-            y = own * (hxs * v + hss * d + hsb * b)
-            z = own * (hxb * v + hsb * d + hbb * b)
-            for q in range(p, 3):
-                if k - 1 + q <= last:
-                    bands[BANDS * row + q - p] += (
-                        x * s[at + Stencil.VALUE + q]
-                        + y * s[at + Stencil.SLOPE + q]
-                        + z * s[at + Stencil.BEND + q]
-                    )
+    gx, gs, gb, hxx, hxs, hxb = own * gx, own * gs, own * gb, own * hxx, own * hxs, own * hxb
+    hss, hsb, hbb = own * hss, own * hsb, own * hbb
+    s, at, to = nodes.stencil, k * Stencil.SIZE, k * BANDS
+    v0, v1, v2 = s[at + Stencil.VALUE], s[at + Stencil.VALUE + 1], s[at + Stencil.VALUE + 2]
+    d0, d1, d2 = s[at + Stencil.SLOPE], s[at + Stencil.SLOPE + 1], s[at + Stencil.SLOPE + 2]
+    b0, b1, b2 = s[at + Stencil.BEND], s[at + Stencil.BEND + 1], s[at + Stencil.BEND + 2]
+    x, y, z = hxx * v0 + hxs * d0 + hxb * b0, hxs * v0 + hss * d0 + hsb * b0, hxb * v0 + hsb * d0 + hbb * b0
+    bands[to] += x * v0 + y * d0 + z * b0
+    bands[to + 1] += x * v1 + y * d1 + z * b1
+    bands[to + 2] += x * v2 + y * d2 + z * b2
+    bands[to + 3] += gx * v0 + gs * d0 + gb * b0
+    x, y, z = hxx * v1 + hxs * d1 + hxb * b1, hxs * v1 + hss * d1 + hsb * b1, hxb * v1 + hsb * d1 + hbb * b1
+    bands[to + 4] += x * v1 + y * d1 + z * b1
+    bands[to + 5] += x * v2 + y * d2 + z * b2
+    bands[to + 7] += gx * v1 + gs * d1 + gb * b1
+    x, y, z = hxx * v2 + hxs * d2 + hxb * b2, hxs * v2 + hss * d2 + hsb * b2, hxb * v2 + hsb * d2 + hbb * b2
+    bands[to + 8] += x * v2 + y * d2 + z * b2
+    bands[to + 11] += gx * v2 + gs * d2 + gb * b2
 
 
-def _solve(bands: Floats, first: int, last: int) -> None:
-    """The step of Newton's method, into the last number of each node: a matrix of five diagonals as L·D·Lᵀ."""
-    for k in (first, last):
-        bands[BANDS * k] = 1.0
-        bands[BANDS * k + 1] = bands[BANDS * k + 2] = bands[BANDS * k + 3] = 0.0
-    bands[BANDS * (last - 1) + 1] = 0.0
-    if last - first > 1:
-        bands[BANDS * (last - 2) + 2] = 0.0
-    for k in range(first, last + 1):
-        at = BANDS * k
+def _solve(nodes: Nodes, bands: Floats, first: int, last: int) -> None:
+    """Take the step of Newton's method: a matrix of five diagonals as L·D·Lᵀ. Of D the inverse is kept."""
+    begin_, end = BANDS * (first + 2), BANDS * last
+    bands[end + 1] = bands[end + 2] = bands[end - 2] = 0.0  # the node behind keeps its x
+    for at in range(begin_, end + 1, BANDS):
         own = bands[at]
         if own <= 0.0:  # rounding has left nothing: the node keeps its x
-            own = bands[at] = 1.0
+            own = 1.0
             bands[at + 1] = bands[at + 2] = bands[at + 3] = 0.0
-        if k + 1 <= last:
-            near = bands[at + 1] / own
-            bands[at + BANDS] -= near * bands[at + 1]
-            bands[at + BANDS + 1] -= near * bands[at + 2]
-            bands[at + BANDS + 3] -= near * bands[at + 3]
-            if k + 2 <= last:
-                far = bands[at + 2] / own
-                bands[at + 2 * BANDS] -= far * bands[at + 2]
-                bands[at + 2 * BANDS + 3] -= far * bands[at + 3]
-    for k in range(last, first - 1, -1):
-        at = BANDS * k
-        rest = bands[at + 3]
-        if k + 1 <= last:
-            rest -= bands[at + 1] * bands[at + BANDS + 3]
-        if k + 2 <= last:
-            rest -= bands[at + 2] * bands[at + 2 * BANDS + 3]
-        bands[at + 3] = rest / bands[at]
+        inverse, beside, beyond = 1.0 / own, bands[at + 1], bands[at + 2]
+        rest, near, far = bands[at + 3], beside * inverse, beyond * inverse
+        bands[at] = inverse
+        bands[at + 4] -= near * beside
+        bands[at + 5] -= near * beyond
+        bands[at + 7] -= near * rest
+        bands[at + 8] -= far * beyond
+        bands[at + 11] -= far * rest
+    behind = far = 0.0  # the steps of the next two nodes
+    for k in range(last - 1, first, -1):
+        at = BANDS * (k + 1)
+        step = (bands[at + 3] - bands[at + 1] * behind - bands[at + 2] * far) * bands[at]
+        here, far, behind = nodes.x[k], behind, step
+        nodes.x[k] = here + min(max(step, -FALL * here), RISE * here)
 
 
 def begin(
@@ -340,10 +322,11 @@ def _from_rest(nodes: Nodes, axes: Axes, k: int, beside: int, way: float, share:
     """Bound x by a jerk from rest on."""
     n, most = len(axes.jerk), 1e-12
     for i in range(n):
-        most = max(
-            most, abs(nodes.shape[(k * n + i) * Shape.SIZE + Shape.FIRST]) * axes.pull[i] / axes.jerk[i]
-        )
-    top = (4.5 * nodes.room[k] / most * way * way) ** (2.0 / 3.0)
+        most = max(most, 2.0 * abs(nodes.shape[(k * n + i) * Shape.SIZE + Shape.JOLT_FIRST]))
+    cube, part = 4.5 * nodes.room[k] / most * way * way, nodes.x[k] / share
+    if k != beside and part * part * part <= cube * cube:
+        return
+    top = cube ** (2.0 / 3.0)
     nodes.x[k] = min(nodes.x[k], share * top)
     if k == beside:
         nodes.cap2[k] = min(nodes.cap2[k], 0.95 * top)

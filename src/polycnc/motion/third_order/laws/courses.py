@@ -46,14 +46,17 @@ class Ends(Places):
 
 
 class Shape(Places):
-    """What a node knows of one axis on its cell: q' at the node, the middles and half the ranges of q'' and q'''.
+    """What a node knows of one axis on its cell: half of q' at it, the middles and half the ranges of q'' and q'''.
 
-    They are parts of the limits: q' and q'' of the acceleration, q''' of the jerk.
+    They are parts of the limits: of the acceleration first; those of the jerk have half of q', 3/2 of q'', and q'''.
     """
 
     FIRST = place()
     SECOND = place()
     SECOND_RANGE = place()
+    JOLT_FIRST = place()
+    JOLT_SECOND = place()
+    JOLT_RANGE = place()
     THIRD = place()
     THIRD_RANGE = place()
 

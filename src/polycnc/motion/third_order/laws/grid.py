@@ -13,14 +13,16 @@ from polycnc.kernels.layout import Floats
 from polycnc.motion.third_order.laws.courses import Axes, Course, Ends, Nodes, Shape
 
 #: Distance of nodes where the acceleration changes, in parts of the time that an axis takes to build it up.
-CLOSE = 0.08
-#: What the distance grows by with time; the part of the acceleration whose change wants the closest nodes; what q' may
-#: change by from node to node.
-GROWTH, CHANGE, TURN = 0.06, 0.15, 0.06
+CLOSE = 0.1
+#: What the distance grows by with time, less where a short law has closer nodes; the part of the acceleration whose
+#: change wants the closest nodes; what q' may change by from node to node.
+GROWTH, CHANGE, TURN = 0.12, 0.15, 0.25
+#: A node moves to a knot that lies within this part of the distance: there q''' steps.
+SNAP = 0.45
 #: Behind nodes that are known the first other one is apart by this part of the last distance at least.
 APART = 0.7
 #: Nodes at least.
-FEWEST = 16
+FEWEST = 32
 #: Parts of a piece of no account, in parts of the ways on which the speed changes: nanometres at a slow feed.
 LITTLE = 1e-3
 #: Pull along the path that is taken to be left at least, as a part of the smallest acceleration.
@@ -137,22 +139,23 @@ def spread(axes: Axes, count: int, places: Floats, squares: Floats, gaps: Floats
     for k in range(count - 1):
         whole += _seconds(places, squares, k)
     close = min(CLOSE * build, whole / FEWEST)
+    growth = GROWTH * close / (CLOSE * build)
     before, gap = 0.0, inf
     for k in range(count):
         behind = 0.5 * (squares[k + 1] - squares[k]) / (places[k + 1] - places[k]) if k < count - 1 else 0.0
         change = abs(behind - before) / (CHANGE * pull)
         own = min(gaps[k], close / min(1.0, max(change, 1e-3)))
         if k > 0:
-            gap += GROWTH * _seconds(places, squares, k - 1)
+            gap += growth * _seconds(places, squares, k - 1)
         gap = min(own, gap)
         gaps[k] = gap
         before = behind
     for k in range(count - 2, -1, -1):
-        gaps[k] = min(gaps[k], gaps[k + 1] + GROWTH * _seconds(places, squares, k))
-    return _walk(count, places, squares, gaps, nodes)
+        gaps[k] = min(gaps[k], gaps[k + 1] + growth * _seconds(places, squares, k))
+    return _walk(count, growth, places, squares, gaps, nodes)
 
 
-def _walk(count: int, places: Floats, squares: Floats, gaps: Floats, nodes: Floats) -> int:
+def _walk(count: int, growth: float, places: Floats, squares: Floats, gaps: Floats, nodes: Floats) -> int:
     """Set nodes one after another, each as far from the one before as the gap there says."""
     nodes[0] = places[0]
     number, passed, gap = 1, 0.0, gaps[0]  # `passed` since the last node
@@ -160,14 +163,20 @@ def _walk(count: int, places: Floats, squares: Floats, gaps: Floats, nodes: Floa
         time, at = _seconds(places, squares, k), 0.0
         speed = sqrt(squares[k])
         pull = 0.5 * (squares[k + 1] - squares[k]) / (places[k + 1] - places[k])
-        while passed + time - at >= gap:
+        while passed + time - at >= gap * (1.0 + SNAP):
             at += gap - passed
             passed = 0.0
             if number < len(nodes):
                 nodes[number] = min(max(places[k] + at * (speed + 0.5 * at * pull), places[k]), places[k + 1])
             number += 1
-            gap = min(gaps[k] + GROWTH * at, gaps[k + 1] + GROWTH * (time - at))
+            gap = min(gaps[k] + growth * at, gaps[k + 1] + growth * (time - at))
         passed += time - at
+        # to a knot that the next node would lie near, where knots are no closer than nodes
+        if k < count - 2 and passed >= (1.0 - SNAP) * gap and 2.0 * time > gap:
+            if number < len(nodes):
+                nodes[number] = places[k + 1]
+            number += 1
+            passed, gap = 0.0, gaps[k + 1]
     if passed < 0.5 * gap and number > 2:
         number -= 1
     if number < len(nodes):
@@ -233,12 +242,17 @@ def _gather_axis(
     end: float,
 ) -> None:
     shape = (k * n + i) * Shape.SIZE
+    moves = False
+    for p in range(low, high + 2):
+        moves = moves or course.first[p * n + i] != 0.0 or course.second[p * n + i] != 0.0
+    if not moves:
+        for place_ in range(Shape.SIZE):
+            nodes.shape[shape + place_] = 0.0
+        return
     step = nodes.way[k] - course.way[at]
     bend = course.second[at * n + i]
     third = (course.second[at * n + n + i] - bend) / (course.way[at + 1] - course.way[at])
-    nodes.shape[shape + Shape.FIRST] = (
-        course.first[at * n + i] + step * (bend + 0.5 * step * third)
-    ) / axes.pull[i]
+    first = 0.5 * (course.first[at * n + i] + step * (bend + 0.5 * step * third))
     bend_low = bend_high = bend + step * third
     third_low, third_high = inf, -inf
     for p in range(low, high + 1):
@@ -249,7 +263,11 @@ def _gather_axis(
         left = here + third * max(begin - course.way[p], 0.0)
         right = here + third * min(end - course.way[p], length)
         bend_low, bend_high = min(bend_low, left, right), max(bend_high, left, right)
-    nodes.shape[shape + Shape.SECOND] = 0.5 * (bend_high + bend_low) / axes.pull[i]
-    nodes.shape[shape + Shape.SECOND_RANGE] = 0.5 * (bend_high - bend_low) / axes.pull[i]
-    nodes.shape[shape + Shape.THIRD] = 0.5 * (third_high + third_low) / axes.jerk[i]
-    nodes.shape[shape + Shape.THIRD_RANGE] = 0.5 * (third_high - third_low) / axes.jerk[i]
+    pull, jerk = 1.0 / axes.pull[i], 1.0 / axes.jerk[i]
+    middle, range_ = 0.5 * (bend_high + bend_low), 0.5 * (bend_high - bend_low)
+    nodes.shape[shape + Shape.FIRST], nodes.shape[shape + Shape.JOLT_FIRST] = first * pull, first * jerk
+    nodes.shape[shape + Shape.SECOND], nodes.shape[shape + Shape.SECOND_RANGE] = middle * pull, range_ * pull
+    nodes.shape[shape + Shape.JOLT_SECOND] = 1.5 * middle * jerk
+    nodes.shape[shape + Shape.JOLT_RANGE] = 1.5 * range_ * jerk
+    nodes.shape[shape + Shape.THIRD] = 0.5 * (third_high + third_low) * jerk
+    nodes.shape[shape + Shape.THIRD_RANGE] = 0.5 * (third_high - third_low) * jerk

@@ -150,17 +150,19 @@ def _roughly(
 ) -> bool:
     """Whether a piece keeps all limits even if the highest speed, acceleration and jerk of a phase come together."""
     n, step = len(axes.jerk), course.way[p + 1] - course.way[p]
-    square, ease = fast * fast, course.ease[p]
+    square, inverse = fast * fast, 1.0 / course.ease[p]
+    curl = square / step
     high, high_a, high_j = square / course.cap2[p], 0.0, 0.0
     for i in range(n):
         here, there = course.second[p * n + i], course.second[p * n + n + i]
-        third, bend = abs(there - here) / step, max(abs(here), abs(there))
-        turn = (
-            max(abs(course.first[p * n + i]), abs(course.first[p * n + n + i])) + 0.125 * third * step * step
-        )
-        high_a = max(high_a, (turn * hard + bend * square) / (ease * axes.pull[i]))
+        turn = max(abs(course.first[p * n + i]), abs(course.first[p * n + n + i]))
+        if turn == 0.0 and here == there == 0.0:
+            continue  # it stands still
+        twist, bend = abs(there - here), max(abs(here), abs(there))
+        turn += 0.125 * twist * step
+        high_a = max(high_a, (turn * hard + bend * square) * inverse / axes.pull[i])
         high_j = max(
-            high_j, (turn * jerk + fast * (3.0 * bend * hard + third * square)) / (ease * axes.jerk[i])
+            high_j, (turn * jerk + fast * (3.0 * bend * hard + twist * curl)) * inverse / axes.jerk[i]
         )
     if high > 1.0 or high_a > 1.0 or high_j > 1.0:
         return False
@@ -250,6 +252,8 @@ def _used(
     for i in range(n):
         first, second = course.first[p * n + i], course.second[p * n + i]
         third = (course.second[p * n + n + i] - second) / length
+        if first == 0.0 and second == 0.0 and third == 0.0:
+            continue  # it stands still
         bend, bend2 = second + third * way, second + third * way2
         turn, turn2 = first + way * (second + 0.5 * third * way), first + way2 * (second + 0.5 * third * way2)
         used = max(abs(turn * pull + bend * speed * speed), abs(turn2 * pull2 + bend2 * speed2 * speed2))

@@ -73,7 +73,7 @@ def quickest(course: Course, axes: Axes, ends: array[float], known: Known = NONE
     )
     phases, most = numbers(PAIR * (count - 1) * Phase.SIZE), numbers(3 * PAIR * (count - 1))
     rounds = kernels().find_law(
-        course, axes, ends, places, squares, nodes, known, numbers(BANDS * count), phases, most
+        course, axes, ends, places, squares, nodes, known, numbers(BANDS * (count + 2)), phases, most
     )
     if rounds < 0:
         return None

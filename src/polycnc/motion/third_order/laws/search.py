@@ -10,18 +10,24 @@ from polycnc.motion.third_order.laws.courses import Axes, Course, Ends, Known, N
 from polycnc.motion.third_order.laws.grid import cut, estimate, gather, spread
 from polycnc.motion.third_order.laws.phases import PAIR, examine, lay_phases, leads_on
 
-#: Weights of the barriers in each pass; the last one is for the passes of repairs, too.
-WEIGHTS = (0.05, 0.05, 0.03, 0.03, 0.02, 0.02)
-#: The part of the estimate that the first pass begins with.
-SHARE = 0.7
+#: Weights of the barriers in each pass, and in those of repairs, which shall not use up what is left.
+WEIGHTS, REPAIRING = (0.1, 0.06, 0.04, 0.04), 0.06
+#: A law at fewer nodes than this, as that of a single row, costs little: weights of further passes, and of repairs.
+FEW, FINE, FINEST = 64, (0.03, 0.03, 0.02, 0.02), 0.02
+#: The part of the estimate that the first pass begins with: jerk leaves less of it than acceleration.
+SHARE = 0.4
 #: Rounds of repairs at most, passes in each, and nodes around a place that go along; so many rounds later one pass more
 #: and once more as many nodes.
-ROUNDS, PASSES, AROUND, LATER = 30, 2, 10, 3
+ROUNDS, PASSES, AROUND, LATER = 30, 1, 5, 3
 #: By what part the excess counts more in every round.
 RISING = 0.001
-#: What counts as kept; beyond this much a first round may help by itself; how much more room is taken away, and how
-#: much at most.
-KEPT, FAR, MORE, MOST = 1.0 + 4e-7, 1.2, 0.003, 1.5
+#: What counts as kept; beyond this much a first round may help by itself.
+KEPT, FAR = 1.0 + 4e-7, 1.2
+#: By how many times the excess room is taken away, and how much more of it: few large steps; the same where there are
+#: few nodes; how much at most.
+STRONGER, MORE = 2.0, 0.02
+AS_STRONG, LITTLE = 1.0, 0.003
+MOST = 1.5
 
 
 def place_nodes(
@@ -82,10 +88,14 @@ def find_law(
     lay_stencils(nodes, ends)
     for weight in WEIGHTS:
         improve(nodes, axes, weight, bands, 0, last)
+    few = last < FEW
+    if few:
+        for weight in FINE:
+            improve(nodes, axes, weight, bands, 0, last)
     lay_phases(nodes, phases, 0, last)
     examine(course, axes, phases, most, 0, PAIR * last)
     rounds = 0
-    while rounds < ROUNDS and _repair(course, axes, nodes, bands, phases, most, rounds):
+    while rounds < ROUNDS and _repair(course, axes, nodes, bands, phases, most, rounds, few):
         rounds += 1
     if rounds == ROUNDS and _worst(most) > KEPT:
         if ends[Ends.START_SPEED] > 0.0 or ends[Ends.END_SPEED] > 0.0:
@@ -113,7 +123,14 @@ def _over(most: Floats, k: int) -> float:
 
 
 def _repair(
-    course: Course, axes: Axes, nodes: Nodes, bands: Floats, phases: Floats, most: Floats, rounds: int
+    course: Course,
+    axes: Axes,
+    nodes: Nodes,
+    bands: Floats,
+    phases: Floats,
+    most: Floats,
+    rounds: int,
+    few: bool,
 ) -> bool:
     """Take room away around every place where a limit is exceeded, look for x anew there; says whether one was."""
     last, k, any_ = len(nodes.way) - 1, 0, False
@@ -129,11 +146,11 @@ def _repair(
             if over > KEPT:
                 end = k
                 if rounds > 0 or over < FAR:
-                    _lower(nodes, most, k, over * (1.0 + RISING * rounds))
+                    _lower(nodes, most, k, over * (1.0 + RISING * rounds), few)
             k += 1
         k = end = min(end + 1 + around, last)
         for _ in range(PASSES + rounds // LATER):
-            improve(nodes, axes, WEIGHTS[len(WEIGHTS) - 1], bands, first, end)
+            improve(nodes, axes, FINEST if few else REPAIRING, bands, first, end)
         # the acceleration of a node depends on two on either side
         first, end = max(first - 2, 0), min(end + 2, last)
         lay_phases(nodes, phases, first, end)
@@ -141,15 +158,16 @@ def _repair(
     return any_
 
 
-def _lower(nodes: Nodes, most: Floats, k: int, over: float) -> None:
+def _lower(nodes: Nodes, most: Floats, k: int, over: float, few: bool) -> None:
     """Take room away at the nodes on both sides of phases that exceed a limit."""
     speed = 0.0
     for i in range(PAIR):
         speed = max(speed, most[3 * (PAIR * k + i)])
-    less = min(over + MORE, MOST)
+    less = 1.0 + (AS_STRONG * (over - 1.0) + LITTLE if few else STRONGER * (over - 1.0) + MORE)
+    less = min(less, MOST)
     for q in (k, k + 1):
         if speed > KEPT:
-            nodes.cap2[q] /= min(speed + MORE, MOST)
+            nodes.cap2[q] /= min(speed + LITTLE, MOST)
         elif nodes.x[k] == 0.0 or nodes.x[k + 1] == 0.0:
             nodes.cap2[q] /= less ** (2.0 / 3.0)
         else:
