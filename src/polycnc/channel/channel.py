@@ -137,7 +137,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         self.axes: tuple[str, ...] = definition.names
         self.axis_index = {name: i for i, name in enumerate(self.axes)}
         self.axis_data: tuple[Axis, ...] = tuple(machine.axis[name] for name in definition.axes)
-        start = [setup.start.get(name, 0.0) for name in self.axes]
+        start = control.start_position(self, [setup.start.get(name, 0.0) for name in self.axes])
         self.coordinates = Coordinates(self.axes, machine.geometry_indices(number), start)
         self.stands_at = self.coordinates.machine
         self.toolpath = Toolpath(self.axes) if toolpath is None else toolpath
@@ -153,8 +153,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         self._finished = self.attention = self.off_path = self.block_by_block = False
         self.mark = self.blocks = self.skip_levels = 0
         self.block_limit, self.burst = block_limit, BURST
-        #: Joined steps run no more of their blocks at once from here on, so that the block limit is exact.
-        self.joined_below = block_limit - 2 * len(BURST)
+        self.joined_below = block_limit - 2 * len(BURST)  # joined steps go no further: the limit is exact
         self._wait: Wait | None = None
         self.running: Run | None = None
         self.turning: Turning | None = None
@@ -266,7 +265,9 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         Raises:
             PreprocessingStop: The main run is behind. Where a stage holds moves, the block must have done nothing yet.
         """
-        if self.main_run is not None and not self.main_run.has_caught_up:
+        if self.main_run is None:
+            self.toolpath.rest(None if self.path.head else self.mark)
+        elif not self.main_run.has_caught_up:
             raise PreprocessingStop
 
     def on_clock(self) -> Interpolator:
@@ -431,11 +432,10 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         """
         self.blocks += 1
         self.attention |= self.blocks > self.joined_below  # those behind it run with the limit in sight
-        rows = len(self.toolpath.chunk.kind)
-        is_too_long = self.main_run is not None and rows >= MOST_ROWS_OF_A_BLOCK
-        if is_too_long or self.blocks >= self.block_limit:
+        rows, is_executed = len(self.toolpath.chunk.kind), self.main_run is not None
+        if (is_executed and rows >= MOST_ROWS_OF_A_BLOCK) or self.blocks >= self.block_limit:
             raise self.control.block_limit()
-        if rows >= CHUNK_ROWS and self.main_run is None:
+        if rows >= CHUNK_ROWS and not is_executed:
             self.keep_rows()
             self.toolpath.block_boundary()
             self.mark = 0

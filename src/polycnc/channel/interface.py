@@ -24,6 +24,9 @@ class Control(Protocol):
     def compile(self, program: Program) -> Executable:
         """Make a program ready to run."""
 
+    def start_position(self, channel: Channel, shown: list[float]) -> list[float]:
+        """Where the axes stand at power-on, in internal units; the memory is not made yet."""
+
     def start(self, channel: Channel) -> None:
         """Bring a channel into the state of power-on and program start; sets `mode` and `memory`."""
 

@@ -8,6 +8,6 @@ with the code. The head of its module names the manual's section.
 
 `registry` finds a control by its id, `interface` says what all of them offer, `modal_groups` names their groups;
 `alarm_text`, `data_files`, `tool_change` and `machine_words` (what the machine refuses) serve every family, as does
-`parameters` (values by mnemonic, from the list in a `parameters.toml`; `parameter_module` writes the module that names
-them).
+`signals` (as a program of a calculated run reads them) and `parameters` (values by mnemonic, from the list in a
+`parameters.toml`; `parameter_module` writes the module that names them).
 """

@@ -10,11 +10,12 @@ chunks, and the cost stays in proportion to the rows.
 from __future__ import annotations
 
 from array import array
+from bisect import bisect_left
 from math import sqrt
 
 from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.motion.compiled import kernels, plain
-from polycnc.motion.kernels.columns import PLACES, Form, PieceRecord, Rows, new_state, piece_width
+from polycnc.motion.kernels.columns import FACTOR, PLACES, Form, PieceRecord, Rows, new_state, piece_width
 from polycnc.motion.limits import ContextTables, averages, axis_rapids, is_bent_by_way
 from polycnc.motion.settings import DEFAULT, Settings
 from polycnc.motion.standing.beside import Awaits, Beside
@@ -24,6 +25,7 @@ from polycnc.motion.time_constants import Use, use_of, uses_of
 from polycnc.motion.times import Plan, Times, ToolTimes
 from polycnc.motion.transformed import RealAxes
 from polycnc.toolpath import Kind
+from polycnc.toolpath.kinds import CURVE_WIDTH
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -111,10 +113,14 @@ class Planner:
         self._next_row = 0
         self._waits = Waits(machine, toolpath.contexts, tool, self._wait)
         self._waits.rapid_stops, self._waits.spindle_wait = settings.rapid_stops, settings.spindle_wait
-        self._waits.step, self._beside = self._step, Beside(self._lag_of)
+        self._waits.step, self._beside = self._step, Beside(self._lag_of, self._settle_parallel)
         self._final_row = 0  # rows before it are planned
         self._rests: set[int] = set()
         self._come_to_rest: dict[int, float] = {}  # by row: averages of a run that a function outlasts
+        self._outlasted = (
+            -1,
+            0.0,
+        )  # the row that has waited last for a function beside the block in front, seconds
         self._runs: LawRuns | None = None  # until a context asks for it
         self._rapid_context: Context | None = None  # whose rapids were looked at last
         self._rapids_are_soft = False
@@ -200,18 +206,20 @@ class Planner:
         feed = chunk.feed if self._feed_profile is None else self._feed_profile(chunk)
         bounds = self._real.bounds(chunk, self._toolpath.contexts)
         feed = bounds.paced(feed)
+        curves = _taps_as_overridden(chunk) if self._settings.taps_overridden else chunk.curves
         others = chunk.context, feed, chunk.end, chunk.curve, stops, *bounds.shares
         switches = self._switches(chunk) if self._uses.differ else {}
-        rests = {number - chunk.first for number in self._rests}
+        rests = {number - chunk.first for number in self._rests} | self._rests_of(chunk)
         self._rests.clear()
         beside = {entry.last + 1 - chunk.first for entry in self._waits.parallel if entry.last >= chunk.first}
         row = 0
         for edge in (*sorted({*bounds.enters, *bounds.legs, *switches, *rests, *beside}), len(chunk)):
-            self._lay(Rows(chunk.kind[:edge], *others), row, chunk.curves, chunk.first)
+            self._lay(Rows(chunk.kind[:edge], *others), row, curves, chunk.first)
             row = edge
             outlasted = edge in beside and self._is_outlasted(chunk.first + edge)
             if outlasted or edge in rests:
                 self._rest()
+                self._state.run.overlap = self._state.run.rapid_overlap = 0.0
             if outlasted:
                 self._come_to_rest[chunk.first + edge] = self._averages(chunk.first + edge)
             if edge in switches:
@@ -225,9 +233,17 @@ class Planner:
         self._laid = self._next_row
         return True
 
+    def _rests_of(self, chunk: Chunk) -> set[int]:
+        """Rows of a chunk before which the axes rest because nothing was prepared beyond."""
+        rests, first = self._toolpath.rests, chunk.first
+        ahead = rests[bisect_left(rests, first) : bisect_left(rests, first + len(chunk))]
+        return {row - first for row in ahead}
+
     def _is_outlasted(self, row: int) -> bool:
         """Whether a function beside the block in front of a row outlasts its motion: the axes rest at its end."""
         entries = [entry for entry in self._waits.parallel if entry.last + 1 == row]
+        if not entries:  # the axes rest there anyhow, and the block is planned
+            return False
         seconds, begins = max(entry.seconds for entry in entries), min(entry.row for entry in entries)
         if self._runs is not None and self._runs.is_open:
             return self._runs.least_seconds(begins) < seconds
@@ -236,7 +252,10 @@ class Planner:
 
     def _averages(self, row: int) -> float:
         """Seconds in which the averages come to rest in front of a row, where a block before the last one has them."""
-        first = self._piece_of(min(entry.row for entry in self._waits.parallel if entry.last + 1 == row))
+        begins = [entry.row for entry in self._waits.parallel if entry.last + 1 == row]
+        if not begins:  # a law has led the block, which is planned: nothing was averaged
+            return 0.0
+        first = self._piece_of(min(begins))
         for piece in reversed(range(self._state.run.pieces)):
             pause = self._pieces[piece * self._width + PieceRecord.PAUSE]
             if pause > 0.0:
@@ -247,7 +266,6 @@ class Planner:
         """Seconds by which the axes of a thread are behind its spindle, up to speed; None before the row is planned."""
         if row >= self._final_row:
             return None
-        self._settle_parallel(row)
         at = self._piece_of(row) * self._width
         laid = at < self._state.run.pieces * self._width and self._pieces[at + PieceRecord.ROW] == row
         return lag_s(self._pieces, at) if laid else 0.0
@@ -529,15 +547,21 @@ class Planner:
         shares[share] = shares.get(share, 0.0) + seconds
 
     def _settle_parallel(self, planned_rows: int) -> None:
-        """Let planned blocks wait for the auxiliary functions that run beside them and take longer."""
+        """Let what follows on planned blocks wait for the auxiliary functions that run beside them and take longer."""
         open_yet = []
         for entry in self._waits.parallel:
-            if entry.last >= planned_rows:
+            behind = entry.last + 1
+            if behind > planned_rows:
                 open_yet.append(entry)
                 continue
-            motion = self._seconds(entry.row, entry.last + 1) + self._come_to_rest.get(entry.last + 1, 0.0)
-            if entry.seconds > motion:
-                self._wait(entry.row, "auxiliary_s", entry.context, entry.seconds - motion)
+            row, waited = self._outlasted
+            before = waited if row in (entry.row, behind) else 0.0
+            motion = self._seconds(entry.row, behind) + self._come_to_rest.get(behind, 0.0)
+            left = entry.seconds - motion + (before if row == entry.row else -before)
+            if left > 0.0:
+                self._outlasted = behind, left + (waited if row == behind else 0.0)
+                self._wait(behind, "auxiliary_s", entry.context, left)
+                self._beside.stand(behind, left)
         self._waits.parallel[:] = open_yet
         if not open_yet:
             self._come_to_rest.clear()
@@ -562,3 +586,12 @@ def _station(context: Context) -> tuple[object, ...]:
     """What the axes stand still for when it changes between two moves."""
     spindle = (context.spindle, context.spindle_rpm, context.spindle_direction, context.surface_speed)
     return (context.tool, context.tool_name, *spindle)
+
+
+def _taps_as_overridden(chunk: Chunk) -> array[float]:
+    """Curve parameters of a chunk where the feed override acts on taps: at 100 % they come out as they go in."""
+    curves = chunk.curves[:]
+    for kind, place in zip(chunk.kind, chunk.curve, strict=True):
+        if kind == Kind.TAP and place >= 0:
+            curves[place * CURVE_WIDTH + FACTOR] = 1.0
+    return curves

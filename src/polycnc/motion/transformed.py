@@ -330,9 +330,10 @@ class RealAxes:
         if kind not in LEGGED or not runs_in_legs(context.transformation):
             return []
         curve, made = self._curve(chunk, row), context.transformation.geometry
+        legs = []
         if pole is not None:
             legs = legs_of(pole, start, end, curve, made, ccw=kind in CCW_KINDS)
-        else:
+        if not legs:
             steps = slope_steps(self._axes, soft=self._is_soft(context))
             legs = kink_legs(context.transformation, steps, start, end, curve, ccw=kind in CCW_KINDS)
         found = []

@@ -269,6 +269,7 @@ class Toolpath:
 
     Attributes:
         kind_before_chunk: Kind of the last row in front of the chunk that is written.
+        rests: Rows before which the axes rest because nothing may be prepared beyond, in order; events say the others.
     """
 
     def __init__(
@@ -282,6 +283,7 @@ class Toolpath:
         self.chunks: list[Chunk] = []
         self.contexts: list[Context] = []
         self.programs: list[str] = []
+        self.rests: list[int] = []
         self._context_numbers: dict[Context, int] = {}
         self._program_numbers: dict[str, int] = {}
         self._chunk_rows = chunk_rows
@@ -300,6 +302,12 @@ class Toolpath:
     def ways(self) -> int:
         """How many rows move an axis."""
         return self._ways_before + _ways(self.chunk)
+
+    def rest(self, row: int | None = None) -> None:
+        """The axes rest before a row of the chunk that is written; None for the next one."""
+        number = self._rows_before + (len(self.chunk) if row is None else row)
+        if not self.rests or self.rests[-1] < number:
+            self.rests.append(number)
 
     def context_number(self, context: Context) -> int:
         """The number of a context; a new one is added."""

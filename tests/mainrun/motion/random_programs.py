@@ -64,7 +64,8 @@ class Writer:
 
     def write(self, code: str, *, rest: str = "") -> None:
         x, y, z = self.place
-        feed = self.feed or (f" F{FEEDS[0]}." if not any(" F" in line for line in self.lines) else "")
+        fed = any(" F" in line and "G4 F" not in line for line in self.lines)  # that of a dwell is none
+        feed = self.feed or ("" if fed else f" F{FEEDS[0]}.")
         self.lines.append(f"{code} X{x:.4f} Y{y:.4f} Z{z:.4f}{rest}{'' if code == 'G0' else feed}")
         self.feed = ""
 

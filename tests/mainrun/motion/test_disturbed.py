@@ -226,6 +226,17 @@ def test_an_override_of_the_feed_leaves_rapids_alone() -> None:
     assert virtual.run() is State.READY
 
 
+def test_a_program_whose_last_move_knows_no_hold_ends_with_it() -> None:
+    virtual = power_on(
+        "G90 G0 X30. Z2.\nM3 S500\nG33 Z-10. F2.\nM30\n", "fanuc-0i-tf", setup={"parameters": {"3401#7": 1}}
+    )
+    virtual.cycle_start()
+    virtual.run_until(lambda control: control.machine_position[1] < -5.0)
+    virtual.feed_hold()
+    assert virtual.run() is State.READY
+    assert virtual.machine_position[1] == pytest.approx(-10.0)
+
+
 def test_a_tap_knows_no_override_and_no_hold() -> None:
     text = "O1\nM29 S600\nG84 Z-20. R2. F600\nG80\nM30\n"
     plain, disturbed = power_on(text), power_on(text)

@@ -141,6 +141,10 @@ class Sinumerik:
         """Make a program ready to run."""
         return SinumerikProgram(program, self)
 
+    def start_position(self, _channel: SinumerikChannel, shown: list[float]) -> list[float]:
+        """Machine positions are shown in radius (DIAMOF)."""
+        return shown
+
     def start(self, channel: SinumerikChannel) -> None:
         """Power-on: modal state, machine data, tools and frames as machine and setup say."""
         kept = _names_kept(channel)

@@ -228,6 +228,10 @@ class WordAddressControl:
         """The control's memory as the setup fills it."""
         return Memory(channel)
 
+    def start_position(self, _channel: Channel, shown: list[float]) -> list[float]:
+        """Displays show positions as they are."""
+        return shown
+
     def start(self, channel: Channel) -> None:
         """Power-on state."""
         self.name_parameters(channel)
@@ -309,15 +313,10 @@ class WordAddressControl:
         return 0.0, 1.0
 
     def hand_speed(
-        self,
-        _channel: Channel,
-        _axis: int,
-        _what: HandMotion,
-        _place: int,
-        *,
-        rapid: bool,  # noqa: ARG002
+        self, _channel: Channel, _axis: int, _what: HandMotion, _place: int, *, rapid: bool
     ) -> float | None:
         """The machine says it."""
+        del rapid
         return None
 
     def stop_spindles(self, channel: Channel) -> None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from math import inf
 
-from polycnc.channel.waits import TYPED_BLOCKS_DONE, Why
+from polycnc.channel.waits import TIME_SLICE, TYPED_BLOCKS_DONE, Why
 from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.mainrun.execution.beside_path import beyond_limits, stops_beside, taken_back
 from polycnc.mainrun.execution.by_law import ByLaw
@@ -30,8 +30,9 @@ if TYPE_CHECKING:
     from polycnc.mainrun.preparation.items import Item, Piece
     from polycnc.mainrun.preparation.preprocessing import Preprocessing
 
-#: What the control needs for a block, s; so many are prepared when the axes rest, and executed in no time.
-BLOCK_S, PREPARED = 0.001, 512
+#: What the control needs for a block, s; so many are prepared when the axes rest, and executed in no time; so often a
+#: program may ask there for what the main run knows before that takes an interpolation cycle each time.
+BLOCK_S, PREPARED, ASKED = 0.001, 512, 100
 
 
 class Execution:
@@ -85,13 +86,12 @@ class Execution:
         self.modal: Mapping[str, str] = {}
         self.motion: Motion | None = None
         self.position = list(position)
-        self._machinery = machinery
-        self._x2, self._cap2, self._rise = 0.0, inf, 1.0
+        self._machinery, self._x2, self._cap2, self._rise = machinery, 0.0, inf, 1.0
         self._until, self._dwell_signal, self.stands_for = 0.0, "", ""
         self._gated = self._waiting = self._blocked = self._moved_on = False
         self._by_hand: tuple[float, ...] = ()
         self._skip_after_s, self._skips_at = skip_after_s, inf
-        self._worked_until, self._has_skipped = -inf, False
+        self._worked_until, self._asked, self._acted = -inf, 0, False
         self._pieces = ByPieces(preprocessing, self.rates, clock)
         self._by_law = ByLaw(preprocessing, self.rates, clock, self._rest_before)
 
@@ -313,9 +313,10 @@ class Execution:
             return self._end(waiting.reason)
         if waiting.reason is Why.PREPROCESSING:
             self._machinery.synchronise()
-            if not self._has_skipped:  # behind a skip move a program waits for where it has ended, as planned
+            self._asked += 1
+            needs_time = self._acted or self.lingers is not None or not self.preprocessing.is_alone
+            if needs_time or waiting is TIME_SLICE or self._asked > ASKED:
                 self._until = self.clock.time + self.clock.cycle_s
-            self._has_skipped = False
         self.preprocessing.proceed()
         return True
 
@@ -374,6 +375,7 @@ class Execution:
             self.context = item.context
             self._machinery.perform(item)
             self._waiting = item.stands
+            self._acted = self._acted or isinstance(item.event, Deed)
             self._awaits = item.event.awaits if isinstance(item.event, Deed) else None
             if self._machinery.busy:
                 self._look_ahead()
@@ -436,8 +438,7 @@ class Execution:
     def _take_up(self, piece: Piece, cap2: float) -> None:
         """A piece, or a row, is in execution."""
         self._turn_spindle(piece.context)
-        self._has_skipped = piece.kind == Kind.SKIP
-        self._cap2, self._rise = cap2, piece.rise
+        self._cap2, self._rise, self._asked = cap2, piece.rise, 0
         self.context = self.place = piece.context
         if self.block is not None and (self.block.program, self.block.line) != (piece.program, piece.line):
             self._enter(self.block.followed_by(piece.program, piece.line, self.modal))
@@ -445,7 +446,7 @@ class Execution:
     def _rest_before(self, *, gated: bool, first: float = -inf) -> float:
         """The row before which the axes shall rest, because an operator or an auxiliary function asks for it."""
         return self.preprocessing.row_to_rest_before(
-            gated=gated and (self._gated or self._machinery.busy),
+            gated=gated and (self._gated or self._machinery.is_open),
             single_block=self.single_block,
             stops=self._stops_beside,
             first=first,
@@ -463,7 +464,7 @@ class Execution:
     def _look_ahead(self) -> None:
         """Work out the speeds of what is prepared again."""
         cap2, single = self._cap2 * self._rise, self.single_block
-        gated, stops = self._gated or self._machinery.busy, self._stops_beside
+        gated, stops = self._gated or self._machinery.is_open, self._stops_beside
         self.preprocessing.revise(self.rates, cap2, gated=gated, single_block=single, stops=stops)
 
     def revise(self) -> None:

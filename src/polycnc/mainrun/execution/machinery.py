@@ -108,6 +108,11 @@ class Machinery:
         return bool(self._running)
 
     @property
+    def is_open(self) -> bool:
+        """Whether one of them takes as long as the machine's controller says; else it is known where the axes rest."""
+        return inf in self._running.values()
+
+    @property
     def due(self) -> float:
         """When a function is done, or a rule of the machine acts."""
         if not self._running:

@@ -411,7 +411,10 @@ class Operation:
         if reason == "end":
             self.runs.group.end(number)
         others = [other for other in self.runs if other is not run and other.is_active]
-        if self.status.state is State.RUNNING:
+        ends_held = (
+            self.status.state is State.HOLD and reason in HALTS
+        )  # with what knows no hold, such as a thread
+        if self.status.state is State.RUNNING or ends_held:
             if reason in HALT_SIGNALS:
                 self.signals[HALT_SIGNALS[reason]] = 1.0
             if reason == "alarm" or not any(other.execution.running for other in others):

@@ -31,6 +31,10 @@ class Machinery(Protocol):
         """Whether functions are under way that the next block waits for."""
 
     @property
+    def is_open(self) -> bool:
+        """Whether nobody knows yet how long one of them takes."""
+
+    @property
     def due(self) -> float:
         """When something happens on the machine next; inf where nothing will."""
 

@@ -90,8 +90,9 @@ class PieceBuffer:
             self.state.position[i] = value
 
     def end_in_rest(self) -> None:
-        """The axes come to rest behind the last row."""
+        """The axes come to rest behind the last row, and nothing begins before they do."""
         self.state.run.stop, self._rested, self._is_open = 1.0, True, False
+        self.state.run.overlap = self.state.run.rapid_overlap = 0.0
         self._kernels.settle(self._records, self._axes, self.limits, self.state)
 
     def end_here(self) -> None:

@@ -245,6 +245,11 @@ class Preprocessing:
         return self.finished or self.waiting is not None
 
     @property
+    def is_alone(self) -> bool:
+        """Whether no other channel has been spoken of."""
+        return self.channel.group is None or len(self.channel.group.channels) == 1
+
+    @property
     def begins_anew(self) -> bool:
         """Whether a block begins next, or one that has waited for everything before it."""
         if self.items:

@@ -14,7 +14,7 @@ from polycnc.channel.states.passes import Passes
 from polycnc.channel.states.standstill import Standstill
 from polycnc.channel.waits import CHUNK, Why
 from polycnc.control.registry import control as control_of
-from polycnc.deferred.records import dataclass, replace
+from polycnc.deferred.records import dataclass
 from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.bulk.settings import Bulk
 from polycnc.memory.retained import copied
@@ -47,11 +47,12 @@ class Job:
     Attributes:
         control: Id of the control.
         machine: The machine.
-        setup: What the channel starts from, with its axes where they stand.
+        setup: What the channel starts from.
         store: The programs that calls find.
         retained: What programs read and write of the control's memory.
         number: Number of the channel.
-        axes: Its axes.
+        axes: Its axes, and `position` where they stand, machine position.
+        position: See `axes`.
         block_limit: The calculation ends after so many blocks.
         name: Name of the program, and `text` its text, where that is not in the memory as it is now.
         text: See `name`.
@@ -65,6 +66,7 @@ class Job:
     retained: InMemoryStore
     number: int
     axes: tuple[str, ...]
+    position: tuple[float, ...]
     block_limit: int
     name: str
     text: str | None
@@ -112,6 +114,7 @@ class Forecast:
             control, job.machine, job.setup, job.store, number=job.number, block_limit=job.block_limit,
             toolpath=Toolpath(job.axes, on_full=on_full), bulk=Bulk(), retained=job.retained,
         )  # fmt: skip
+        channel.coordinates.arrive_machine(list(job.position))
         channel.burst = range(SLICE)
         channel.passes, channel.standstill = Passes(), _HandsOver()
         return channel
@@ -192,12 +195,10 @@ def forecast_of(
         block_limit: The calculation ends after so many blocks.
     """
     like = run.channel
-    here = dict(zip(like.axes, run.machine_position, strict=True))
-    setup = replace(like.setup, start={**like.setup.start, **here})
     kept, key = copied(retained, like.number), programs.key_of(name or "MAIN")
     job = Job(
-        like.control.id, like.machine, setup, programs.copy(), kept, like.number, tuple(like.axes), block_limit,
-        key, text, main,
+        like.control.id, like.machine, like.setup, programs.copy(), kept, like.number, tuple(like.axes),
+        tuple(run.machine_position), block_limit, key, text, main,
     )  # fmt: skip
     return Forecast(job, like.control)
 

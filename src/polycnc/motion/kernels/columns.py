@@ -352,7 +352,8 @@ class RunState(Structure):
 class JointState(Structure):
     """The joint at hand: pull around it, seconds of rest, averages of a run that begins there, factor on the limits.
 
-    `bend_way` is the way before and behind it on which the path is bent (`rounding.py`), mm; `top2` bounds x there.
+    `bend_way` is the way before and behind it on which the path is bent (`rounding.py`), mm; `top2` bounds x there;
+    `turn_way` is that of rotary axes that bend by themselves.
     """
 
     pull: float
@@ -361,6 +362,7 @@ class JointState(Structure):
     blend: float
     ease: float
     bend_way: float
+    turn_way: float
     top2: float
 
 

@@ -70,7 +70,7 @@ def join(
         contexts[record + ContextRecord.TURN_DISTANCE],
     )
     turns = not (angle > 0.0 or distance > 0.0)
-    if ramp == 0.0 and turns:
+    if ramp == 0.0:
         reach = min(0.5 * shorter, state.share_end[AT_START] * length, state.run.corner_reach)
         own2 = bend_corner(contexts, record, n, limits, state, reach)
     elif tolerance > 0.0:
@@ -78,7 +78,7 @@ def join(
         own2 = rounded2(tolerance, rounding, turns, n, limits, state, shorter, cap2)
     else:
         own2 = jump2(turns, n, limits, state, shorter)
-    if not turns:
+    if ramp > 0.0 and not turns:
         own2 = min(own2, turned2(angle, distance, n, limits, state, shorter))
     cap2 = min(cap2, own2, stepped2(contexts, record, n, limits, state, shorter))
     if ramp > 0.0:

@@ -225,6 +225,7 @@ def lay_move(
     """Lay the row at hand out; false when the room ends: it can then be tried again."""
     kind, first, state.joint.bend_way = state.row.kind, state.run.pieces, 0.0
     exit2 = state.run.exit2
+    state.joint.turn_way = 0.0
     if first == 0:
         state.run.chord = 0.0
     not_held = first - (1 if state.run.chord != 0.0 else 0)
@@ -272,8 +273,9 @@ def overlap(
 ) -> None:
     """A stroke of a cycle, or a rapid, may begin while the averages of the one before come to rest (FANUC 1681).
 
-    The axes' accelerations add up to no more than either stroke's: the sum is the average of what both ask for. The
-    row's pieces begin at `first`.
+    The axes' accelerations add up to no more than either stroke's: the sum is the average of what both ask for. So
+    does their jerk where an axis turns round; on one that goes on in its sense the jerk of both adds up, as behind the
+    filters of a control. The row's pieces begin at `first`.
     """
     width, kind, rapid = piece_width(n), contexts[record + ContextRecord.OVERLAP], is_rapid(state)
     way = state.run.overlap

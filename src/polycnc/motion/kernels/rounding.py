@@ -28,6 +28,8 @@ from polycnc.motion.kernels.hold import cut, end_cap2, lower_cap
 
 #: Directions that differ by less count as one; ways shorter than this (mm) are not bent.
 SAME_DIRECTION, NO_BEND_MM = 1e-9, 1e-9
+#: Which axes a bend is of.
+ALL, LINEAR, TURNING = 0.0, 1.0, 2.0
 #: Of what corners leave the columns under a tip's row: the part for the bend; the rest is for acceleration along it.
 BENDS = 0.7
 #: Least MARGIN of a part of a curve that is bent.
@@ -35,27 +37,35 @@ CHORD_MARGIN = 1.005
 
 
 def bend_corner(contexts: Floats, record: int, n: int, limits: Limits, state: State, reach: float) -> float:
-    """Largest x at the corner before the row at hand; sets `joint.bend_way` and `turn`.
+    """Largest x at the corner before the row at hand; sets `joint.bend_way`, `joint.turn_way` and `turn`.
 
     No more of both rows is bent than `reach`, half of the shorter one at most. Within a tolerance the path leaves the
     corner by no more than that, a rotary axis by as many degrees, and the bend reaches no farther than ROUNDING.
-    Without one it takes as long as an axis needs for the step of velocity that is allowed at a corner.
+    Without one it takes as long as an axis needs for the step of velocity that is allowed at a corner. Rotary axes
+    with a tolerance or a distance of their own bend their way by that alone.
     """
     unit, tangent, turn = state.unit, state.tangent, state.turn
     off = max(state.run.off, state.row.off)
     tolerance = left_tolerance(contexts, record, off)
     swing = left_swing(contexts, record, off, max(state.run.swung, state.row.swung))
+    angle, distance = (
+        contexts[record + ContextRecord.TURN_TOLERANCE],
+        contexts[record + ContextRecord.TURN_DISTANCE],
+    )
     turned, swung, most = 0.0, 0.0, 0.0
     way, x2 = reach, inf
     for i in range(n):
         turn[i] = unit[i] - tangent[i]
-        most = max(most, abs(turn[i]))
         if limits.rotary[i] == 0.0:
             turned += turn[i] * turn[i]
+            most = max(most, abs(turn[i]))
         else:
             swung = max(swung, abs(turn[i]))
+    if (angle > 0.0 or distance > 0.0) and swung > SAME_DIRECTION:
+        x2, swung = turn_apart(angle, distance, swung, reach, n, limits, state), 0.0
+    most = max(most, swung)
     if most <= SAME_DIRECTION:
-        return inf
+        return x2
     if tolerance > 0.0:
         way = min(way, contexts[record + ContextRecord.ROUNDING])
         if turned > SAME_DIRECTION * SAME_DIRECTION:
@@ -65,23 +75,54 @@ def bend_corner(contexts: Floats, record: int, n: int, limits: Limits, state: St
     else:
         for i in range(n):
             step = abs(turn[i])
-            if step > SAME_DIRECTION:
+            if step > SAME_DIRECTION and (swung > 0.0 or limits.rotary[i] == 0.0):
                 jump = limits.jump[i]
                 way = min(way, 0.5 * state.joint.ease * jump * jump / (limits.acceleration[i] * step))
     for i in range(n):
         step = abs(turn[i])
-        if step > SAME_DIRECTION:
+        if step > SAME_DIRECTION and (swung > 0.0 or limits.rotary[i] == 0.0):
             x2 = min(x2, state.joint.ease * limits.acceleration[i] * 2.0 * way / step)
     state.joint.bend_way = way
+    return x2
+
+
+def turn_apart(
+    angle: float, distance: float, swung: float, reach: float, n: int, limits: Limits, state: State
+) -> float:
+    """Largest x at a corner at which rotary axes leave their way by an angle, or within a distance; sets `turn_way`.
+
+    `swung` is the largest step of their q'.
+    """
+    way, x2 = reach, inf
+    if angle > 0.0:
+        way = min(way, 4.0 * angle / swung)
+    if distance > 0.0:
+        way = min(way, distance)
+    for i in range(n):
+        step = abs(state.turn[i])
+        if limits.rotary[i] != 0.0 and step > SAME_DIRECTION:
+            x2 = min(x2, state.joint.ease * limits.acceleration[i] * 2.0 * way / step)
+    state.joint.turn_way = way
     return x2
 
 
 def round_joint(pieces: Floats, first: int, n: int, limits: Limits, state: State) -> None:
     """Bend the path before and behind the joint at piece `first`, where the row at hand begins."""
     way, state.joint.bend_way = state.joint.bend_way, 0.0
+    turn_way, state.joint.turn_way = state.joint.turn_way, 0.0
     behind, state.run.is_bent = state.run.is_bent == 0.0, 0.0
-    if way <= NO_BEND_MM or first >= state.run.pieces:
+    if first >= state.run.pieces:
         return
+    if turn_way > NO_BEND_MM:
+        first = bend_around(pieces, first, n, limits, state, turn_way, behind, TURNING)
+    if way > NO_BEND_MM:
+        bend_around(pieces, first, n, limits, state, way, behind, LINEAR if turn_way > 0.0 else ALL)
+
+
+def bend_around(
+    pieces: Floats, first: int, n: int, limits: Limits, state: State, way: float, behind: bool, which: float
+) -> int:
+    """Bend some axes on a way before a joint, unless they are bent there already, and behind it; its piece then."""
     width, p, left = piece_width(n), first - 1, way
     while behind and p >= 0 and left > NO_BEND_MM and pieces[p * width + PieceRecord.FORM] != Form.TIMED:
         length = pieces[p * width + PieceRecord.LENGTH]
@@ -89,7 +130,7 @@ def round_joint(pieces: Floats, first: int, n: int, limits: Limits, state: State
             p, first = p + 1, first + 1
             keep_at_cut(pieces, p, n, limits, state)
             length = pieces[p * width + PieceRecord.LENGTH]
-        add_bend(pieces, p, n, limits, state, way, left - length, left)
+        add_bend(pieces, p, n, limits, state, way, left - length, left, which)
         left -= length
         p -= 1
     p, left = first, way
@@ -97,15 +138,24 @@ def round_joint(pieces: Floats, first: int, n: int, limits: Limits, state: State
         if pieces[p * width + PieceRecord.LENGTH] > left + NO_BEND_MM and cut(pieces, p, n, state, left):
             keep_at_cut(pieces, p + 1, n, limits, state)
         length = pieces[p * width + PieceRecord.LENGTH]
-        add_bend(pieces, p, n, limits, state, way, left, left - length)
+        add_bend(pieces, p, n, limits, state, way, left, left - length, which)
         left -= length
         p += 1
+    return first
 
 
 def add_bend(
-    pieces: Floats, p: int, n: int, limits: Limits, state: State, way: float, start: float, end: float
+    pieces: Floats,
+    p: int,
+    n: int,
+    limits: Limits,
+    state: State,
+    way: float,
+    start: float,
+    end: float,
+    which: float,
 ) -> None:
-    """Bend piece p, whose start and end are so far from where the bend of a corner begins or ends."""
+    """Bend some axes on piece p, whose start and end are so far from where the bend of a corner begins or ends."""
     at, width = p * piece_width(n), piece_width(n)
     length, tops = pieces[at + PieceRecord.LENGTH], limits.top_feed
     here, sense = at + PieceRecord.VECTORS, 1.0 if end > start else -1.0
@@ -133,6 +183,8 @@ def add_bend(
         far = far if far > NO_BEND_MM else 0.0
         for i in range(n):
             bend, q = 0.5 * state.turn[i] / way, here + k * n + i
+            if which != ALL and (which == TURNING) != (limits.rotary[i] != 0.0):
+                bend = 0.0
             pieces[q + PLACES * n] += 0.5 * bend * far * far
             pieces[q] += margin * sense * bend * far
             pieces[q + 2 * n] += margin * bend

@@ -115,12 +115,14 @@ class Beside:
     Args:
         lag_of: Gives for a row of a thread the seconds by which its axes are behind its spindle up to speed; None where
             the row is not planned yet.
+        before: Called with a row before anything of it is looked at: what it stands for otherwise is told to `stand`.
 
     Attributes:
         hidden_s: Seconds of such work that nothing had to wait for, by the field of `Times`.
     """
 
-    def __init__(self, lag_of: Callable[[int], float | None]) -> None:
+    def __init__(self, lag_of: Callable[[int], float | None], before: Callable[[int], None]) -> None:
+        self._before, self._standing = before, dict[int, float]()
         self._coming: list[Step] = []
         self._works: dict[Work, float] = {}
         self._angles: set[SpindleAngle] = set()
@@ -156,7 +158,9 @@ class Beside:
             if step.row > row or lag is None:
                 break
             done += 1
+            self._before(step.row)
             self._let_pass(step.row, seconds)
+            self._let_stand(None, self._standing.pop(step.row, 0.0))
             if isinstance(step, Begins):
                 step.work.begin(step.aim, step.since)
                 self._works[step.work] = self._waited + step.after_s
@@ -176,7 +180,13 @@ class Beside:
     ) -> None:
         """A row waits; other work goes on meanwhile."""
         wait(step.row, share, step.context, waits)
-        awaited = step.work if isinstance(step, Awaits) else None
+        self._let_stand(step.work if isinstance(step, Awaits) else None, waits)
+
+    def stand(self, row: int, seconds: float) -> None:
+        """The axes stand before a row for something else, before it waits for what is followed here."""
+        self._standing[row] = self._standing.get(row, 0.0) + seconds
+
+    def _let_stand(self, awaited: Work | None, waits: float) -> None:
         for work in self._works:
             self._hide(work, min(waits, work.left_s) if work is not awaited else 0.0)
             work.left_s = max(work.left_s - waits, 0.0)
@@ -214,6 +224,8 @@ class Beside:
         else:
             self._works.clear()
         self._row, self._waited = row, 0.0
+        for done in [other for other in self._standing if other < row]:
+            del self._standing[done]
 
     def _hide(self, work: Work, seconds: float) -> None:
         self.hidden_s[work.share] = self.hidden_s.get(work.share, 0.0) + seconds

@@ -6,6 +6,7 @@ SOFT, its jerk, and the main run is where the samples are. `pytest --hypothesis-
 
 from __future__ import annotations
 
+from pathlib import Path
 from random import Random
 
 import numpy as np
@@ -51,10 +52,12 @@ def program(seed: int) -> str:
     return "\n".join([*lines, "LEADOF(V,X)", "M30", ""])
 
 
-def sampled(text: str) -> tuple[float, Samples, list[tuple[float, float, float]]]:
+def sampled(
+    text: str, machine: str | Path = MACHINE
+) -> tuple[float, Samples, list[tuple[float, float, float]]]:
     """Planned time, samples, and velocity, acceleration and jerk of the axes."""
     found: list[Samples] = []
-    session = open_session(text.encode(), control=CONTROL, machine=MACHINE, keep=False)
+    session = open_session(text.encode(), control=CONTROL, machine=machine, keep=False)
     sampler = session.sample(PERIOD, found.append)
     result = session.run()
     total = result.plan.total_s
@@ -91,6 +94,18 @@ def test_so_they_do_on_tables_that_nobody_has_seen(seed: int) -> None:
         open_session(text.encode(), control=CONTROL, machine=MACHINE).run().ok
     ):  # no arc beyond the table's reach
         check(text)
+
+
+@pytest.mark.parametrize("mode", ["SOFT", "BRISK"])
+def test_a_kink_of_an_axis_that_polar_interpolation_makes_costs_a_stop_too(mode: str) -> None:
+    text = (
+        f"{mode} G18 DIAMOF G0 X20 Z5 F2000\nTRANSMIT\nCTABDEF(V,Y,1,0)\nG1 Y0 V0\nY10 V4\nY20 V20\nCTABEND\n"
+    )
+    machine = Path(__file__).parents[3] / "conformance" / "machines" / "lathe-c-transmit-v.toml"
+    _, samples, limits = sampled(f"{text}LEADON(V,Y,1)\nY15\nY0\nM30\n", machine)
+    for column, own in zip(samples.position.T, limits, strict=True):
+        assert np.abs(np.diff(column)).max() <= own[0] * PERIOD * SLACK
+        assert np.abs(np.diff(column, 2)).max() <= own[1] * PERIOD**2 * SLACK
 
 
 @pytest.mark.parametrize("mode", ["SOFT", "BRISK"])

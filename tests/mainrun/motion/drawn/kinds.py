@@ -12,6 +12,8 @@ ALL = ("sinumerik-840d", *MILLS)
 #: Writers with the controls that they write for.
 KINDS: tuple[tuple[type[Writer], tuple[str, ...]], ...] = (
     (mixed.Pauses, ALL),
+    (mixed.Questions, ALL),
+    (mixed.Functions, ALL),
     (mixed.Revolutions, ALL),
     (mixed.InverseTimes, ALL),
     (mixed.Oblique, ALL),
@@ -26,6 +28,7 @@ KINDS: tuple[tuple[type[Writer], tuple[str, ...]], ...] = (
     (milling.TipOfHead, ("fanuc-m", "syntec-mill")),
     (milling.Plane, ("fanuc-m",)),
     (milling.Groove, ("fanuc-m", "meldas-m")),
+    (sinumerik.Smoothed, ("sinumerik-840d",)),
     (sinumerik.Reduced, ("sinumerik-840d",)),
     (sinumerik.Frames, ("sinumerik-840d",)),
     (sinumerik.Calls, ("sinumerik-840d",)),

@@ -55,6 +55,28 @@ class Pauses(Blocks):
         )
 
 
+class Questions(Blocks):
+    """Between blocks the program asks for what only the machine knows, and waits for its answer."""
+
+    ASKED: ClassVar[dict[str, tuple[str, ...]]] = {
+        "sinumerik-840d": ("STOPRE", "R1=$AA_IM[X]", "R1=$A_IN[1]\nR2=$A_IN[2]", "M1"),
+        "syntec-mill": ("M1", "M1 M8"),
+        "fanuc-m": ("#1=#1000", "#1=#1000\n#2=#1001", "M1"),
+        "meldas-m": ("#1=#1000", "#1=#1032", "M1"),
+    }
+
+    def between(self) -> str:
+        return self.random.choice(("", *self.ASKED[self.control]))
+
+
+class Functions(Blocks):
+    """Auxiliary functions beside the motion of their blocks, some longer than it."""
+
+    def write(self, code: str, *, rest: str = "") -> None:
+        function = self.random.choice(("", "", " M8", " M9"))
+        super().write(code, rest=f"{rest}{function}")
+
+
 class Revolutions(Blocks):
     """Feeds a revolution, and of them back to feeds a minute."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from tests.mainrun.motion.drawn.mixed import Blocks
 from tests.mainrun.motion.random_programs import FEEDS
@@ -46,6 +46,33 @@ class Frames(Blocks):
                 "ROT",
             )
         )
+
+
+class Smoothed(Blocks):
+    """Blocks of a tip whose tool turns to and fro, by a tolerance or a distance of its own."""
+
+    machine = "mill5-ca-head"
+    SMOOTHED: ClassVar[tuple[str, ...]] = (
+        "OST\n$SC_ORI_SMOOTH_TOL={tolerance}",
+        "OSD\n$SC_ORI_SMOOTH_DIST={distance}",
+        "OST OTOL={tolerance}",
+        "COMPON\n$SC_COMPRESS_ORI_TOL={tolerance}",
+    )
+
+    def program(self) -> str:
+        draw, x, y = self.random, 0.0, 0.0
+        smoothed = draw.choice(self.SMOOTHED)
+        smoothed = smoothed.format(tolerance=draw.choice((0.05, 0.5, 2.0)), distance=draw.choice((0.2, 2.0)))
+        corners = draw.choice(("G64", "G642", "G645"))
+        self.lines = [f"G71 G90 BRISK {corners} {smoothed}", "TRAORI", "G1 X0 Y0 A10 C0 F2000"]
+        for k in range(draw.randint(3, 10)):
+            reach = draw.choice((1.0, 5.0))
+            x += draw.uniform(0.2, 1.0) * reach
+            y += draw.choice((0.0, draw.uniform(-0.5, 0.5))) * reach
+            turned = f" C{draw.uniform(-10.0, 10.0):.3f}" if draw.random() < 0.3 else ""
+            feed = f" F{draw.choice(FEEDS)}" if k == 0 or draw.random() < 0.2 else ""
+            self.lines.append(f"X{x:.3f} Y{y:.3f} A{10.0 + draw.uniform(-5.0, 5.0):.3f}{turned}{feed}")
+        return "\n".join([*self.lines, "TRAFOOF", "M30", ""])
 
 
 class Calls(Blocks):

@@ -20,7 +20,7 @@ from polycnc.control.fanuc.lathe.codes import (
 )
 from polycnc.control.fanuc.lathe.coordinates import limits, systems
 from polycnc.control.fanuc.lathe.cycles import drilling, modal, tapping
-from polycnc.control.fanuc.lathe.memory import TurningMemory
+from polycnc.control.fanuc.lathe.memory import TurningMemory, has_diameter
 from polycnc.control.fanuc.lathe.motion import threads
 from polycnc.control.fanuc.lathe.parameters import LatheParameters
 from polycnc.control.fanuc.lathe.rules import RULES
@@ -213,12 +213,15 @@ class FanucTurning(CustomMacroControl):
 
         return files
 
+    def start_position(self, channel: LatheChannel, shown: list[float]) -> list[float]:
+        """X is shown in diameter, and what 1006#3 DIA says of other axes."""
+        parameters = LatheParameters.naming(channel.setup.parameters)
+        halved = (has_diameter(channel, parameters, i) for i in range(len(shown)))
+        return [value / 2.0 if half else value for half, value in zip(halved, shown, strict=True)]
+
     def start(self, channel: LatheChannel) -> None:
-        """Power-on state; positions of the setup are those of the displays, X in diameter."""
+        """Power-on state."""
         super().start(channel)
-        machine = channel.coordinates.machine
-        shown = [channel.memory.radius_of(i, value) for i, value in enumerate(machine)]
-        channel.coordinates.arrive_machine(shown)
         limits.at_power_on(channel)
         systems.note_codes(channel)
         balance.start_paths(channel)

@@ -66,6 +66,13 @@ class TurningFrames(ProgrammingFrames):
         return shift if any(shift) else None
 
 
+def has_diameter(channel: WordAddressChannel, parameters: LatheParameters, axis: int) -> bool:
+    """Whether an axis is one whose words are diameters (1006#3 DIA; as delivered: as the machine says)."""
+    data = channel.axis_data[axis]
+    chosen = parameters.of(channel.axes[axis]).DIA
+    return (data.diameter if chosen is None else chosen) and not data.rotary
+
+
 class TurningMemory(MacroMemory):
     """State of a lathe control that no single feature owns."""
 
@@ -81,10 +88,8 @@ class TurningMemory(MacroMemory):
         ]
 
     def has_diameter(self, channel: WordAddressChannel, axis: int) -> bool:
-        """Whether an axis is one whose words are diameters (1006#3 DIA; as delivered: as the machine says)."""
-        data = channel.axis_data[axis]
-        chosen = self.parameters.of(channel.axes[axis]).DIA
-        return (data.diameter if chosen is None else chosen) and not data.rotary
+        """Whether an axis is one whose words are diameters."""
+        return has_diameter(channel, self.parameters, axis)
 
     def radius_of(self, axis: int, shown: float) -> float:
         """A value of the displays (diameter where the axis has one), mm, in internal units."""

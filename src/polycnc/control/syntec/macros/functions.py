@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from functools import partial
 
-from polycnc.channel.waits import PREPROCESSING
+from polycnc.channel.waits import TIME_SLICE
 from polycnc.control.syntec.macros import records
 from polycnc.control.syntec.macros.system_variables import system_variable
 from polycnc.control.syntec.macros.variables import BitState, FunctionState
@@ -203,8 +203,10 @@ def wait(memory: SyntecMemory) -> Value:
 
 def sleep(memory: SyntecMemory) -> Value:
     """SLEEP(): gives up a time slice, in which the main run, its inputs and other channels go on."""
-    if memory.channel.main_run is not None:
-        memory.channel.wait = PREPROCESSING
+    if memory.channel.main_run is None:
+        memory.channel.toolpath.rest()
+    else:
+        memory.channel.wait = TIME_SLICE
     return VACANT
 
 

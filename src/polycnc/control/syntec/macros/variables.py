@@ -6,6 +6,7 @@ from bisect import bisect_right
 from collections.abc import Callable
 
 from polycnc.channel.states.state import Lifetime, State, lasting, retained
+from polycnc.control.signals import AskedSignals
 from polycnc.deferred.records import dataclass, field
 from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.language.syntec.expressions import LAST_LOCAL, NO_SUCH_VARIABLE
@@ -166,7 +167,7 @@ class BitState(State, lifetime=Lifetime.POWER):
         """The bits that the setup gives."""
         signals = channel.setup.switches.signals.items()
         names = (pair for pair in signals if pair[0][:1] in BIT_FAMILIES and pair[0][1:].isdigit())
-        return cls({name: int(bool(value)) for name, value in names})
+        return cls(AskedSignals(dict(names), channel))
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,7 +10,7 @@ from polycnc.deferred.records import dataclass, field
 from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.units import INCH_MM
 from polycnc.language.bulk import Conversion, Note, Scaling, SetFeed, Word, declare
-from polycnc.toolpath.events import SecondAuxiliary, SpindleSpeed, ToolSelection
+from polycnc.toolpath.events import Auxiliary, SecondAuxiliary, SpindleSpeed, ToolSelection
 from polycnc.toolpath.modes import FeedMode
 
 with loaded_when_called():
@@ -146,9 +146,11 @@ def stop(channel: WordAddressChannel, _words: Words) -> None:
 
 
 def optional_stop(channel: WordAddressChannel, _words: Words) -> None:
-    """M01: as M00 while the operator's switch is on."""
+    """M01: as M00 while the operator's switch is on; else a function as any other, for which the axes stand."""
     if channel.optional_stop:
         channel.stop("M01")
+    else:
+        channel.event(Auxiliary(1))
 
 
 def end_program(channel: WordAddressChannel, _words: Words) -> None:

@@ -11,6 +11,7 @@ from collections.abc import Callable
 
 from polycnc.channel.states.state import Lifetime, State, retained
 from polycnc.channel.states.unchanging import unchanging
+from polycnc.control.signals import AskedSignals
 from polycnc.control.word_address.memory import Memory
 from polycnc.deferred.records import dataclass, field
 from polycnc.deferred.typing import TYPE_CHECKING, Any
@@ -103,7 +104,7 @@ class MacroSignals(State, lifetime=Lifetime.POWER):
     @classmethod
     def first(cls, channel: Channel) -> MacroSignals:
         """What the setup says."""
-        return cls({name: int(bool(value)) for name, value in channel.setup.switches.signals.items()})
+        return cls(AskedSignals(channel.setup.switches.signals, channel))
 
 
 @dataclass(slots=True)
