@@ -85,11 +85,10 @@ class Execution:
         self.context = self.place = Context()
         self.modal: Mapping[str, str] = {}
         self.motion: Motion | None = None
-        self.position = list(position)
         self._machinery, self._x2, self._cap2, self._rise = machinery, 0.0, inf, 1.0
         self._until, self._dwell_signal, self.stands_for = 0.0, "", ""
         self._gated = self._waiting = self._blocked = self._moved_on = False
-        self._by_hand: tuple[float, ...] = ()
+        self.position, self._by_hand = list(position), tuple[float, ...]()
         self._skip_after_s, self._skips_at = skip_after_s, inf
         self._worked_until, self._asked, self._acted = -inf, 0, False
         self._pieces = ByPieces(preprocessing, self.rates, clock)
