@@ -48,10 +48,10 @@ demo: $(VENV)/.installed-plain
 	done
 
 test: $(VENV)/.installed-test
-	$(BIN)/python -m pytest -n 2 --write-alike $(ALIKE)
+	$(BIN)/python -m pytest -n 2 --write-alike=$(ALIKE)
 
 test-plain: $(VENV)/.installed-test
-	POLYCNC_KERNELS=python $(BIN)/python -m pytest -n 2 --hypothesis-profile=brief --leave-out $(ALIKE)
+	POLYCNC_KERNELS=python $(BIN)/python -m pytest -n 2 --hypothesis-profile=brief --leave-out=$(ALIKE)
 
 kernels: $(VENV)/.installed-test
 	$(BIN)/python -m build_kernels

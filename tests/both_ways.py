@@ -2,7 +2,7 @@
 
 Both runs are the same code but for what a `Library` gives. A test that asks no library for anything, calls no kernel
 and starts no process does the same in both, and to repeat it proves nothing. Nobody lists these tests: a run with
-compiled kernels finds them (`--write-alike FILE`), and one with plain kernels leaves them out (`--leave-out FILE`) as
+compiled kernels finds them (`--write-alike=FILE`), and one with plain kernels leaves them out (`--leave-out=FILE`) as
 long as not a byte of the project has changed. What that file does not name is run.
 """
 

@@ -21,11 +21,11 @@ if TYPE_CHECKING:
     from polycnc.control.interface import Control
 
 #: Programs of each control, all different; the first ones fill what is bounded.
-PROGRAMS, FIRST = 1200, 500
+PROGRAMS, FIRST = 2000, 500
 #: Shapes that the controls keep here, so that they are soon full.
 SHAPES = 64
-#: Blocks of memory that may be there afterwards: far fewer than programs.
-FEW = 500
+#: Blocks of memory that may be there afterwards, for what is bounded changes: fewer than programs.
+FEW = 1200
 
 MACRO_B = """O{n}
 #{common}=[{n}*#2+SIN[{n}.5]]/[#{local}+{n}]

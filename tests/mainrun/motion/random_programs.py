@@ -254,12 +254,17 @@ class Threads(Writer):
         draw, lead = self.random, self.random.choice(LEADS)
         x, _, z = self.place
         for _ in range(draw.randint(1, 3)):
-            z -= draw.uniform(5.0, 30.0)
-            x += draw.choice((0.0, 0.0, draw.uniform(0.0, 2.0), draw.uniform(0.0, 30.0)))
+            down, out = (
+                draw.uniform(5.0, 30.0),
+                draw.choice((0.0, 0.0, draw.uniform(0.0, 2.0), draw.uniform(0.0, 30.0))),
+            )
+            x, z = x + out, z - down
             growth, starts = draw.choice((0.0, 0.0, 0.005, 0.01)), draw.random() < 0.3
             if self.siemens:
                 start = f" SF={draw.choice((0, 90, 180.5))}" if starts else ""
                 code, more = (draw.choice(("G34", "G35")), f" F{growth}") if growth else ("G33", "")
+                if lead * lead < 3.0 * growth * max(down, out):  # G35 would come down to no lead (10605)
+                    code = "G34"
                 word = f"K{lead}"
             else:
                 start = f" Q{draw.choice((0, 90000, 180000))}" if starts else ""

@@ -113,16 +113,14 @@ class Preprocessing:
         self.channel: Channel
         self.waiting: Wait | None = None
         self.sought: tuple[str, int] | None = None
-        self.finished = True
-        self.revised = False
-        self.has_caught_up = False
+        self.finished, self._axes = True, len(self.toolpath.axes)
+        self.revised = self.has_caught_up = self._stopped = False
         self._run: Iterator[Wait] | None = None
-        self._axes = len(self.toolpath.axes)
         self._settings: MotionSettings
         self._buffer = PieceBuffer(self._axes)
         self.queue = Queue(self.items, self._buffer)
         self._rows = RowLayer(self.toolpath, self.queue, self._buffer)
-        self._machine, self._number = machine, number
+        self._machine, self._number, self._machine_axes = machine, number, machine_axes
         self._stations: dict[tuple[object, ...], int] = {}
         self._known_contexts = 0
         self._delays: dict[int, list[Delay]] = {}
@@ -130,9 +128,7 @@ class Preprocessing:
         self._waits = Waits(machine, self.toolpath.contexts, 0, self._delay)
         self._waits.step = self._note_step
         self._blocks = RunBlocks(self.items, self.toolpath.programs)
-        self._stopped = False
         self._geometry = machine.geometry_indices(number)
-        self._machine_axes = machine_axes
 
     # ---- the channel ---------------------------------------------------------------------------------------
 
@@ -578,8 +574,8 @@ class Preprocessing:
         """Largest squared speed on the piece in front."""
         move = self.items[0]
         assert isinstance(move, Move)
-        middle = move.done + 0.5 * self._buffer.front(PieceRecord.LENGTH) / move.total
-        laid2 = self._buffer.front(PieceRecord.CAP2)
+        length, laid2 = self._buffer.front(PieceRecord.LENGTH), self._buffer.front(PieceRecord.CAP2)
+        middle = move.done + 0.5 * length / move.total
         return rates.cap2(move, laid2, self.queue.asked(move, laid2, middle))
 
     def begin_elsewhere(self, move: Move | Piece, start: Sequence[float]) -> None:
