@@ -14,7 +14,8 @@ from benchmarks.programs import HEAD, NO_TIME, TIMED, Work, all_work, lines
 
 TURNS = 3
 FILES, FILES_LIMIT_S = 2_000, 2.0
-FEW, SHORT, LONG = 1_000, 10_000, 100_000
+#: The first one has a line of each kind that the others have.
+FEW, SHORT, LONG = 3_000, 10_000, 100_000
 #: Differences of processes are small beside the processes: smallest of so many.
 GROWTH_TURNS = 15
 #: Part of the speed of few calls that many keep: the cost is linear.
@@ -77,8 +78,8 @@ def _said(options: tuple[str, ...]) -> str:
 def short_programs() -> Iterator[Figure]:
     """What a block of a short program with cycle time costs, and one of a long program.
 
-    It is what further blocks cost: a program ten times as long less the program, by the blocks that it has more. So
-    what is loaded once, at the start and for the first run of blocks, is no part of it.
+    It is what further blocks cost: a longer program less a shorter one, by the blocks that it has more. So what is
+    loaded once, at the start and for the first run of blocks, is no part of it, nor what is learnt of each kind of line.
     """
     work = lines()
     short, long = _growth({count: [*work.ours[: count + 4], "M30"] for count in (FEW, SHORT, LONG)})
