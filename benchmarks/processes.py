@@ -8,6 +8,8 @@ import time
 from collections.abc import Iterator
 from itertools import pairwise
 from pathlib import Path
+from random import Random
+from statistics import median
 
 from benchmarks.measure import Figure, polycnc, process_time, skipped
 from benchmarks.programs import HEAD, NO_TIME, TIMED, Work, all_work, lines
@@ -16,8 +18,8 @@ TURNS = 3
 FILES, FILES_LIMIT_S = 2_000, 2.0
 #: The first one has a line of each kind that the others have.
 FEW, SHORT, LONG = 3_000, 10_000, 100_000
-#: Differences of processes are small beside the processes: smallest of so many.
-GROWTH_TURNS = 15
+#: Differences of processes are small beside the processes, which differ by more from run to run: median of so many.
+GROWTH_TURNS = 41
 #: Part of the speed of few calls that many keep: the cost is linear.
 LINEAR = 0.8
 
@@ -78,8 +80,8 @@ def _said(options: tuple[str, ...]) -> str:
 def short_programs() -> Iterator[Figure]:
     """What a block of a short program with cycle time costs, and one of a long program.
 
-    It is what further blocks cost: a longer program less a shorter one, by the blocks that it has more. So what is
-    loaded once, at the start and for the first run of blocks, is no part of it, nor what is learnt of each kind of line.
+    It is what further blocks cost: a longer program less a shorter one, by the blocks that it has more. So no part of
+    it is what is loaded once, at the start and for the first run of blocks, nor what is learnt of each kind of line.
     """
     work = lines()
     short, long = _growth({count: [*work.ours[: count + 4], "M30"] for count in (FEW, SHORT, LONG)})
@@ -101,17 +103,20 @@ def calls_into_programs() -> Iterator[Figure]:
 
 def _growth(programs: dict[int, list[str]]) -> list[float]:
     """Microseconds that each further block takes between programs of three lengths."""
-    used = dict.fromkeys(programs, float("inf"))
+    used: dict[int, list[float]] = {count: [] for count in programs}
     with tempfile.TemporaryDirectory() as name:
         runs = {
             count: polycnc("run", _write(Path(name, f"{count}.nc"), blocks))
             for count, blocks in programs.items()
         }
+        order, random = [*runs.items()], Random(1)
         for _ in range(GROWTH_TURNS):
-            for count, run in runs.items():
-                used[count] = min(used[count], process_time(run, 1))
+            random.shuffle(order)  # a process is slower or quicker for the one before it
+            for count, run in order:
+                used[count].append(process_time(run, 1))
+    usual = {count: median(seconds) for count, seconds in used.items()}
     return [
-        (used[large] - used[small]) / (large - small) * 1e6 for small, large in pairwise(sorted(programs))
+        (usual[large] - usual[small]) / (large - small) * 1e6 for small, large in pairwise(sorted(programs))
     ]
 
 
