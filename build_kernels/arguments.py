@@ -70,9 +70,12 @@ def _argument(hint: object) -> Argument:
 
 @cache
 def _group(hint: type) -> Argument:
-    """A named tuple; many kernels take the same one."""
-    parts = meaning(hint).values()
-    return Argument(Kind.GROUP, type=hint, parts=tuple(_argument(part) for part in parts))
+    """A named tuple; many kernels take the same one. None holds another one: a call takes them apart once."""
+    parts = tuple(_argument(part) for part in meaning(hint).values())
+    if any(part.kind is Kind.GROUP for part in parts):
+        msg = f"a kernel cannot take {hint}, which holds a group"
+        raise TypeError(msg)
+    return Argument(Kind.GROUP, type=hint, parts=parts)
 
 
 def flat(parts: tuple[Argument, ...]) -> Iterator[Argument]:

@@ -31,8 +31,14 @@ def test_what_machine_code_cannot_have_is_refused() -> None:
     def other(_strange: Strange) -> int:
         return 0
 
-    other.__annotations__["_strange"] = Strange
-    for refused in (kernel, other):
+    def nested(_nested: Strange) -> int:
+        return 0
+
+    class Nested(NamedTuple):
+        columns: sums.Columns
+
+    other.__annotations__["_strange"], nested.__annotations__["_nested"] = Strange, Nested
+    for refused in (kernel, other, nested):
         with pytest.raises(TypeError, match="cannot take"):
             arguments(refused)
 

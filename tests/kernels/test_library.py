@@ -236,6 +236,14 @@ def test_an_array_of_other_items_is_refused(file: Path, few: int, monkeypatch: p
         compiled(array("f", [0.0, 0.0]), False)
 
 
+def test_as_many_arguments_are_taken_as_the_kernel_has(file: Path) -> None:
+    compiled, values = library(file).compiled("put"), array("d", [0.0, 0.0])
+    assert compiled is not None
+    for given in ((values,), (values, False, 1.0), ((values, values), False)):
+        with pytest.raises(ValueError, match="arguments, not 2"):
+            compiled(*given)
+
+
 def test_a_kernel_that_can_raise_is_not_compiled() -> None:
     pytest.importorskip("numba")
     from build_kernels.compiler import object_code

@@ -60,6 +60,8 @@ def _hander(codes: str) -> Callable[[Iterable[Any]], list[Any]]:
         flat: list[Any] = []
         for each in given:
             flat += each if isinstance(each, tuple) else (each,)
+        if len(flat) != len(codes):
+            raise ValueError(f"a kernel was given {len(flat)} arguments, not {len(codes)}")
         found = [flat[i] for i in arrays]
         if "".join(map(_typecode, found)) != wanted:
             _refuse(wanted, found)
