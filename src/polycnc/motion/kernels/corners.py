@@ -16,7 +16,7 @@ from polycnc.motion.kernels.columns import (
     State,
     square,
 )
-from polycnc.motion.kernels.feeds import LEAST_LEFT, is_rapid, left_tolerance
+from polycnc.motion.kernels.feeds import is_rapid, left_angle, left_tolerance
 from polycnc.motion.kernels.jerk import ARC_DEVIATION, corner_hold2, forget_bow, row_deviation2, window_s
 from polycnc.motion.kernels.rounding import bend_corner
 
@@ -137,7 +137,7 @@ def turned2(angle: float, distance: float, n: int, limits: Limits, state: State,
     all of the angle allows: where ends are moved by a part of it, they must be passed more slowly.
     """
     x2, swung, blend = inf, max(state.run.swung, state.row.swung), state.joint.blend
-    left = angle * max(1.0 - swung, LEAST_LEFT)
+    left = left_angle(angle, state)
     for i in range(n):
         step = abs(state.unit[i] - state.tangent[i])
         if limits.rotary[i] != 0.0 and step > SAME_DIRECTION:

@@ -54,6 +54,11 @@ def left_swing(contexts: Floats, record: int, off: float, swung: float) -> float
     return max(1.0 - swung, LEAST_LEFT) * swing
 
 
+def left_angle(angle: float, state: State) -> float:
+    """Likewise of the angle that rotary axes may leave their way by at the corner before the row at hand, degrees."""
+    return angle * max(1.0 - max(state.run.swung, state.row.swung), LEAST_LEFT)
+
+
 def axes_of(state: State) -> int:
     """Number of axes that a state has room for."""
     return len(state.position)

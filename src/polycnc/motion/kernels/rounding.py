@@ -23,7 +23,7 @@ from polycnc.motion.kernels.columns import (
     piece_width,
     square,
 )
-from polycnc.motion.kernels.feeds import left_swing, left_tolerance
+from polycnc.motion.kernels.feeds import left_angle, left_swing, left_tolerance
 from polycnc.motion.kernels.hold import cut, end_cap2, lower_cap
 
 #: Directions that differ by less count as one; ways shorter than this (mm) are not bent.
@@ -95,7 +95,7 @@ def turn_apart(
     """
     way, x2 = reach, inf
     if angle > 0.0:
-        way = min(way, 4.0 * angle / swung)
+        way = min(way, 4.0 * left_angle(angle, state) / swung)
     if distance > 0.0:
         way = min(way, distance)
     for i in range(n):
