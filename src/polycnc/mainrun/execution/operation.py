@@ -411,9 +411,8 @@ class Operation:
         if reason == "end":
             self.runs.group.end(number)
         others = [other for other in self.runs if other is not run and other.is_active]
-        ends_held = (
-            self.status.state is State.HOLD and reason in HALTS
-        )  # with what knows no hold, such as a thread
+        # What knows no hold, such as a thread, may end a program that is held.
+        ends_held = self.status.state is State.HOLD and reason in HALTS
         if self.status.state is State.RUNNING or ends_held:
             if reason in HALT_SIGNALS:
                 self.signals[HALT_SIGNALS[reason]] = 1.0
