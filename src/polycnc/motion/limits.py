@@ -286,18 +286,17 @@ def is_led(context: Context, settings: Settings) -> bool:
 def is_bent_by_way(context: Context, settings: Settings) -> bool:
     """Whether with limited jerk a path is bent by its way, and a law leads along it (`third_order`).
 
-    Not under a transformation or a coupling, whose real axes are others than those of the path; not by time constants,
-    or where strokes and rapids overlap; nor where parameters bound the speed at corners of cuts that are planned ahead.
+    Of cuts that are planned ahead; not under a transformation or a coupling, whose real axes are others than those of
+    the path; not by time constants behind the interpolation, nor where strokes and rapids overlap.
     """
-    corners = (settings.corner_speed, *settings.corner_steps.values(), *settings.line_pulls.values())
     return (
         settings.bends_by_way
+        and is_ahead(context, settings)
         and context.transformation is None
         and context.lag_s == 0.0
         and behind_s(context, settings) == 0.0
         and context.overlap <= 0.0
         and context.rapid_overlap == 0.0
-        and not (is_ahead(context, settings) and min(corners) < inf)
     )
 
 

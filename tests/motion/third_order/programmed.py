@@ -57,7 +57,7 @@ class ProgrammedPath:
     ) -> None:
         self._n, self._plane = len(start), plane
         turns = array("d", [1.0 if turn else 0.0 for turn in rotary] or [0.0] * self._n)
-        empty = (array("d") for _ in range(6))
+        empty = (array("d") for _ in range(8))
         self.path = Stretches(
             way=array("d", (0.0,)),
             place=array("d", start),
@@ -67,6 +67,8 @@ class ProgrammedPath:
             tolerance=next(empty),
             turn_tolerance=next(empty),
             cap2=next(empty),
+            step2=next(empty),
+            spread2=next(empty),
             ease=next(empty),
             row=array("q"),
             rotary=turns,
@@ -172,6 +174,8 @@ class ProgrammedPath:
         turns = bounds.turn_tolerance
         path.turn_tolerance.append(bounds.tolerance if turns is None else turns)
         path.cap2.append(bounds.speed * bounds.speed)
+        path.step2.append(inf)
+        path.spread2.append(inf)
         path.ease.append(bounds.ease)
         path.row.append(row)
 

@@ -18,7 +18,7 @@ from polycnc.control.word_address.cycles import drilling as drilling_cycles
 from polycnc.control.word_address.cycles.drilling import Drilling
 from polycnc.control.word_address.memory import Memory, ParameterTable
 from polycnc.control.word_address.motion import path
-from polycnc.control.word_address.motion.path_modes import corner_mode
+from polycnc.control.word_address.motion.path_modes import BELL_SHAPED, corner_mode
 from polycnc.control.word_address.states import CylinderState, PlaneAxes, PolarState
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.records import replace
@@ -29,7 +29,7 @@ from polycnc.language.word_address import Grammar, WordAddressProgram
 from polycnc.messages import AlarmError, Catalogue, text
 from polycnc.program import Form
 from polycnc.toolpath import Context
-from polycnc.toolpath.modes import AccelerationMode, FeedMode
+from polycnc.toolpath.modes import FeedMode
 from polycnc.toolpath.motion_settings import MotionSettings
 
 with loaded_when_called():
@@ -582,7 +582,7 @@ class WordAddressControl:
 
     def motion_settings(self, _channel: Channel) -> MotionSettings:
         """How the control leads the axes: corners of G64 are rounded, acceleration is bell-shaped."""
-        return MotionSettings(keeps_corners=False, acceleration=AccelerationMode.JERK_LIMITED)
+        return BELL_SHAPED
 
     # ---- variables by name, for reports and test cases ---------------------------------------------------------------
 

@@ -281,7 +281,7 @@ class LawRun:
             if high - low > NEAR_MM or not ways:
                 if not ways:
                     self._knot(path, k, low - start, ways, first, second, begin - start)
-                most = _axes_cap2(path, k, n, self._axes)
+                most = min(_axes_cap2(path, k, n, self._axes), path.corner2[k])
                 for a, b in pairwise(
                     (low, free, high) if low + NEAR_MM < free < high - NEAR_MM else (low, high)
                 ):

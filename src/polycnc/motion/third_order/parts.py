@@ -39,6 +39,7 @@ class Part(NamedTuple):
         first: q' there.
         second: q'' there.
         cap2: Largest square of the speed on each piece, m.
+        corner2: That by parameters for corners near it, m.
         ease: The part of acceleration and jerk that may be used there, m.
         row: Number of the row of each piece, m; of several the first.
         rows: Numbers of the rows that end in the part, r.
@@ -50,6 +51,7 @@ class Part(NamedTuple):
     first: Floats
     second: Floats
     cap2: Floats
+    corner2: Floats
     ease: Floats
     row: Ints
     rows: Ints
@@ -69,6 +71,8 @@ def cut_out(path: Stretches, first: int, end: int, origin: float) -> Stretches:
         tolerance=path.tolerance[first:end],
         turn_tolerance=path.turn_tolerance[first:end],
         cap2=path.cap2[first:end],
+        step2=path.step2[first:end],
+        spread2=path.spread2[first:end],
         ease=path.ease[first:end],
         row=path.row[first:end],
     )
@@ -122,7 +126,7 @@ def bent_part(path: Stretches, seams: array[float]) -> Part:
         turning = turning_for(count)
         samples = Samples(numbers(room), numbers(room), *(whole(room) for _ in range(3)))
         spline = spline_for(room, n)
-        pieces = Pieces(numbers(room), numbers(room), whole(room))
+        pieces = Pieces(numbers(room), numbers(room), numbers(room), whole(room))
         found = kernels().bend_path(path, seams, smooth, turning, samples, spline, pieces, told)
         if found != NO_ROOM:
             break
@@ -140,6 +144,7 @@ def bent_part(path: Stretches, seams: array[float]) -> Part:
         spline.first[of_knots],
         spline.second[of_knots],
         pieces.cap2[low:high],
+        pieces.corner2[low:high],
         pieces.ease[low:high],
         pieces.row[low:high],
         rows[:ended],

@@ -39,7 +39,10 @@ if TYPE_CHECKING:
 ROOM = 16
 #: Columns of stretches that have a number at every end, at every end for each axis, and for each stretch.
 ENDS, PLACES = ("way",), ("place",)
-VECTORS, SINGLE = ("leave", "arrive"), ("form", "tolerance", "turn_tolerance", "cap2", "ease", "row")
+VECTORS, SINGLE = (
+    ("leave", "arrive"),
+    ("form", "tolerance", "turn_tolerance", "cap2", "step2", "spread2", "ease", "row"),
+)
 
 #: Stretches that are taken at once: what lies behind them need not be moved when those before are forgotten.
 AT_ONCE = 2048

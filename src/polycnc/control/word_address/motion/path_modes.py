@@ -6,6 +6,7 @@ from polycnc.channel.states.state import Lifetime, State, lasting
 from polycnc.deferred.records import dataclass, replace
 from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.toolpath.modes import AccelerationMode, CornerMode
+from polycnc.toolpath.motion_settings import MotionSettings
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.block.words import Words
@@ -29,6 +30,10 @@ class PathModeState(State, lifetime=Lifetime.RESET):
 #: What the codes of group 15 make of corners; under all others the path is continuous.
 CORNER_MODES = {"G61": CornerMode.EXACT_STOP, "G61.1": CornerMode.EXACT_STOP}
 HIGH_ACCURACY = "G61.1"
+#: How the axes are led: with limited jerk, by a law where cuts are planned ahead.
+BELL_SHAPED = MotionSettings(
+    bends_by_way=True, keeps_corners=False, acceleration=AccelerationMode.JERK_LIMITED
+)
 
 
 def corner_mode(channel: WordAddressChannel) -> CornerMode:

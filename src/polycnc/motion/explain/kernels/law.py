@@ -19,7 +19,7 @@ from polycnc.motion.explain.kernels.held import (
     resolve,
     wait,
 )
-from polycnc.motion.kernels.columns import CW, SPLINE, PieceRecord
+from polycnc.motion.kernels.columns import CW, SPLINE, PieceRecord, square
 
 
 def share_law(
@@ -37,7 +37,7 @@ def share_law(
     fast = sqrt(records[at + PieceRecord.PEAK2]) / (1.0 - BELOW)
     top = top_of(records, at, n, tables, note, ledger)
     if fast < top and fast * fast >= records[at + PieceRecord.CAP2]:
-        if fast >= tables.notes[note + Note.TOP]:
+        if not at_corner(tables, note, fast, ledger) and fast >= tables.notes[note + Note.TOP]:
             ledger.cause, ledger.axis = Held.CURVATURE, WHOLE
         top = 0.0
     if fast < top:
@@ -49,6 +49,17 @@ def share_law(
             resolve(parts, n, ledger, curve_of(tables, note), WHOLE)
     resolve(parts, n, ledger, ledger.cause, ledger.axis)
     add(parts, n, ledger.cause, ledger.axis, seconds, length)
+
+
+def at_corner(tables: Tables, note: int, fast: float, ledger: Ledger) -> bool:
+    """Whether parameters for the corner at an end of the row bound the speed; `ledger` gets the cause."""
+    for corner in range(note, min(note + 2 * Note.SIZE, len(tables.notes)), Note.SIZE):
+        x2, least = tables.notes[corner + Note.STEP2], fast * (1.0 - 2.0 * BELOW)
+        if square(least) <= x2 <= square(fast):
+            ledger.cause = int(tables.notes[corner + Note.JOINT])
+            ledger.axis = int(tables.notes[corner + Note.JOINT_AXIS])
+            return True
+    return False
 
 
 def curve_of(tables: Tables, note: int) -> int:

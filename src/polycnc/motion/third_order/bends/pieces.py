@@ -2,21 +2,26 @@
 
 from __future__ import annotations
 
-from math import inf
+from math import inf, sqrt
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.kernels.layout import Floats, Ints
 from polycnc.motion.third_order.bends.controls import Spline
-from polycnc.motion.third_order.bends.stretches import Stretches
+from polycnc.motion.third_order.bends.stretches import Stretches, between
+from polycnc.motion.third_order.bends.turning import FULL
 
 #: Stretches whose x differ by no more than this share one piece; nearer to its ends than so many mm it is not cut.
 ALIKE, SLIVER = 1.1, 1e-8
+#: What a velocity may change by at a corner bounds the speed on both sides of it, for so many seconds at that speed, and
+#: on so many mm at least.
+AT_CORNER_S, AT_CORNER_MM = 0.004, 1e-3
 
 
 class Pieces(NamedTuple):
-    """Of each piece the largest square of the speed, the part of acceleration and jerk, and of its rows the first."""
+    """Of each piece the largest square of the speed, that by corners alone, the part of the limits, its first row."""
 
     cap2: Floats
+    corner2: Floats
     ease: Floats
     row: Ints
 
@@ -57,22 +62,80 @@ def cut_pieces(path: Stretches, n: int, spline: Spline, count: int, first: int, 
 
 def find_cuts(path: Stretches, spline: Spline, first: int, last: int) -> int:
     """Write the ways at which pieces are cut into `moved`; their number, -1 where there is no room."""
-    e, end, cuts = 0, len(path.form) - 1, 0
+    e, end, cuts, room = 0, len(path.form) - 1, 0, len(spline.moved) - 8
     for k in range(first, last):
         while e < end and path.way[e + 1] <= spline.way[k]:
             e += 1
         low, high, ease, other = path.cap2[e], path.cap2[e], path.ease[e], e
+        cuts = cut_around(path, spline, k, e, 1.0, cuts)
         while other < end and path.way[other + 1] < spline.way[k + 1]:
             way, other = path.way[other + 1], other + 1
+            cuts = cut_around(path, spline, k, other, -1.0, cuts)
             low, high = min(low, path.cap2[other]), max(high, path.cap2[other])
             if high > ALIKE * low or path.ease[other] != ease:
                 low, high, ease = path.cap2[other], path.cap2[other], path.ease[other]
-                if spline.way[k] + SLIVER < way < spline.way[k + 1] - SLIVER:
-                    if cuts >= len(spline.moved):
-                        return -1
-                    spline.moved[cuts] = way
-                    cuts += 1
+                cuts = cut_at(spline, k, way, cuts)
+            cuts = cut_around(path, spline, k, other, 1.0, cuts)
+            if cuts > room:
+                return -1
+        if other < end:
+            cuts = cut_around(path, spline, k, other + 1, -1.0, cuts)
+        if cuts > room:
+            return -1
     return cuts
+
+
+def cut_at(spline: Spline, k: int, way: float, cuts: int) -> int:
+    """Cut piece k at a way, if it is not near to its ends or to the last cut; the number of cuts."""
+    if not spline.way[k] + SLIVER < way < spline.way[k + 1] - SLIVER:
+        return cuts
+    if cuts > 0 and way <= spline.moved[cuts - 1] + SLIVER:
+        return cuts
+    spline.moved[cuts] = way
+    return cuts + 1
+
+
+def cut_around(path: Stretches, spline: Spline, k: int, e: int, side: float, cuts: int) -> int:
+    """Cut piece k where what bounds the corner before stretch e begins (side -1) and ends (1); the number of cuts."""
+    if e == 0:
+        return cuts
+    fastest2 = max(path.cap2[e - 1], path.cap2[e])
+    step = step_reach(path, e) if path.step2[e] < fastest2 else 0.0
+    spread = spread_reach(path, e) if path.spread2[e] < fastest2 else 0.0
+    first, last = min(step, spread), max(step, spread)
+    if side < 0.0:
+        first, last = last, first
+    if first > 0.0:
+        cuts = cut_at(spline, k, path.way[e] + side * first, cuts)
+    if last > 0.0:
+        cuts = cut_at(spline, k, path.way[e] + side * last, cuts)
+    return cuts
+
+
+def half_line(path: Stretches, e: int) -> float:
+    """Half of the shorter one of the two stretches that meet before stretch e."""
+    return 0.5 * min(path.way[e] - path.way[e - 1], path.way[e + 1] - path.way[e])
+
+
+def step_reach(path: Stretches, e: int) -> float:
+    """How far around the corner before stretch e its `step2` holds."""
+    return min(max(AT_CORNER_S * sqrt(path.step2[e]), AT_CORNER_MM), half_line(path, e))
+
+
+def spread_reach(path: Stretches, e: int) -> float:
+    """The same of its `spread2`: as far as the path may bend for the corner."""
+    turn = between(path, e - 1, e, len(path.rotary), False)
+    return min(FULL / turn, half_line(path, e)) if turn > 0.0 else half_line(path, e)
+
+
+def corner_cap2(path: Stretches, e: int, start: float, end: float) -> float:
+    """Largest square of the speed between two ways by the corner before stretch e."""
+    x2, apart = inf, max(path.way[e] - end, start - path.way[e], 0.0) + SLIVER
+    if path.step2[e] < inf and apart < step_reach(path, e):
+        x2 = path.step2[e]
+    if path.spread2[e] < x2 and path.spread2[e] < inf and apart < spread_reach(path, e):
+        x2 = path.spread2[e]
+    return x2
 
 
 def put_knot(spline: Spline, n: int, k: int, to: int, way: float) -> None:
@@ -90,19 +153,24 @@ def put_knot(spline: Spline, n: int, k: int, to: int, way: float) -> None:
 
 
 def bound_pieces(path: Stretches, n: int, spline: Spline, count: int, pieces: Pieces) -> None:
-    """Set cap, ease and row of every piece."""
+    """Set caps, ease and row of every piece."""
     e, last = 0, len(path.form) - 1
     for k in range(count):
         start, end = spline.way[k], spline.way[k + 1]
         while e < last and path.way[e + 1] <= start:
             e += 1
         pieces.row[k] = path.row[e]
-        cap2, ease, other = path.cap2[e], path.ease[e], e
+        cap2, ease, corner2, other = path.cap2[e], path.ease[e], inf, e
+        if e > 0:
+            corner2 = corner_cap2(path, e, start, end)
         while other < last and path.way[other + 1] < end:
             other += 1
             cap2, ease = min(cap2, path.cap2[other]), min(ease, path.ease[other])
-        pieces.ease[k] = ease
-        pieces.cap2[k] = axes_cap2(path, n, spline, k, cap2)
+            corner2 = min(corner2, corner_cap2(path, other, start, end))
+        if other < last:
+            corner2 = min(corner2, corner_cap2(path, other + 1, start, end))
+        pieces.ease[k], pieces.corner2[k] = ease, corner2
+        pieces.cap2[k] = axes_cap2(path, n, spline, k, min(cap2, corner2))
 
 
 def end_rows(path: Stretches, start: float, end: float, rows: Ints, ways: Floats) -> int:

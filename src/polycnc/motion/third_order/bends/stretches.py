@@ -37,6 +37,8 @@ class Stretches(NamedTuple):
         tolerance: How far the linear axes may leave it, mm, m.
         turn_tolerance: How far the rotary axes may, degrees, m.
         cap2: Largest square of the speed, m.
+        step2: That at the corner where it begins, by how much velocities may change there, m; infinite for none.
+        spread2: That by how much they may while the shorter one of the two rows lasts, m.
         ease: Part of acceleration and jerk that the program lets the axes use, m.
         row: Numbers of their rows, m.
         rotary: 1 for a rotary axis, n.
@@ -51,6 +53,8 @@ class Stretches(NamedTuple):
     tolerance: Floats
     turn_tolerance: Floats
     cap2: Floats
+    step2: Floats
+    spread2: Floats
     ease: Floats
     row: Ints
     rotary: Floats

@@ -103,6 +103,8 @@ def _room(count: int, n: int) -> Stretches:
         tolerance=numbers(count),
         turn_tolerance=numbers(count),
         cap2=numbers(count),
+        step2=numbers(count),
+        spread2=numbers(count),
         ease=numbers(count),
         row=whole(count),
         rotary=numbers(n),

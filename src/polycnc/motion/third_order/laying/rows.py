@@ -31,7 +31,9 @@ from polycnc.motion.kernels.columns import (
     Limits,
     Rows,
     State,
+    square,
 )
+from polycnc.motion.kernels.corners import SAME_DIRECTION
 from polycnc.motion.kernels.feeds import (
     axes_of,
     block_top,
@@ -39,13 +41,15 @@ from polycnc.motion.kernels.feeds import (
     bounded,
     counted_length,
     follows_radius,
+    is_rapid,
     left_swing,
     left_tolerance,
     straight_speed,
 )
 from polycnc.motion.kernels.lay import lay_row, line_top, parts_of_line, take_row
 from polycnc.motion.third_order.bends.rests import must_rest
-from polycnc.motion.third_order.bends.stretches import ARC, CHORD, LINE, Stretches
+from polycnc.motion.third_order.bends.stretches import ARC, CHORD, LINE, SPLINE_TURN, Stretches
+from polycnc.motion.third_order.laying.resting import pays_to_rest
 
 #: An arc's stretches turn by no more (7.5°), and leave it by no more than this part of the tolerance.
 ARC_TURN, ARC_PART = pi / 24.0, 0.02
@@ -55,8 +59,6 @@ ARC_OFF = 1.0 / 384.0
 ARC_MORE = 1.0022
 #: A corner that is rounded from a distance on may at least be left by so much, mm.
 LEAST_CORNER_MM = 1e-3
-#: Directions that differ by less count as one.
-SAME_DIRECTION = 1e-9
 #: What the kernel stops for: every row is laid; a run is over; a run of one straight row is, which came with the chunk
 #: before; stretches, or pieces, have no room.
 DONE, RUN_ENDS, ROW_ENDS, NO_STRETCH, NO_PIECE = 0, 1, 2, 3, 4
@@ -232,7 +234,10 @@ def add_row(
         lead.position[i] = lead.target[i]
     lead.run.station, lead.run.metric = contexts[record + ContextRecord.STATION], weight
     lead.run.stop = contexts[record + ContextRecord.EXACT_STOP]
-    lead.run.corner_ease = lead.share_ease[AT_END]
+    lead.run.corner_ease, lead.run.length = (
+        lead.share_ease[AT_END],
+        path.way[laid.stretches] - path.way[before],
+    )
     return True
 
 
@@ -255,24 +260,26 @@ def add_line(
         return False
     top = line_top(contexts, record, n, limits, lead, length)
     form = CHORD if lead.row.kind == SPLINE else LINE
-    speed = 0.0
+    speed = wanted = 0.0
     for part in range(parts):
         e = laid.stretches + part
         put_stretch(contexts, record, lead, path, e, form, length / parts)
         for i in range(n):
             path.leave[e * n + i] = path.arrive[e * n + i] = lead.unit[i]
             path.place[(e + 1) * n + i] = lead.position[i] + (part + 1) / parts * lead.delta[i]
-        if part == 0 and not meets(contexts, record, n, path, e):
-            return False
-        if part == 0:
-            share_corner(lead, n, path, e)
         radius = start_x + (lead.row.facing - start_x) * (part + 0.5) / parts
         asked = straight_speed(curves, contexts, record, lead, length, radius, weight)
+        if part == 0:
+            if not meets(contexts, record, n, path, e):
+                return False
+            share_corner(lead, n, path, e)
+            bound_corner(contexts, record, n, limits, lead, path, e, length)
+            wanted = (min(top, asked) if asked > 0.0 else top) if form == LINE and parts == 1 else 0.0
+            if e > 0 and wanted > 0.0 and pays_to_rest(n, limits, lead, path, e, wanted):
+                return False
         speed = min(top, bounded(asked, lead) if part == 0 else bound(asked, lead))
         path.cap2[e] = speed * speed
-    for i in range(n):
-        path.place[(laid.stretches + parts) * n + i] = lead.target[i]
-    laid.stretches += parts
+    end_stretches(n, lead, path, laid, parts, wanted)
     return True
 
 
@@ -325,6 +332,7 @@ def add_arc(
             if not meets(contexts, record, n, path, e):
                 return False
             share_corner(lead, n, path, e)
+            bound_corner(contexts, record, n, limits, lead, path, e, length)
             asked = asked_on_arc(curves, contexts, record, limits, lead, length, radius)
             speed = bounded(asked, lead)
         elif follows:
@@ -333,10 +341,16 @@ def add_arc(
         own = min(speed, top, axes_top(n, limits, path, e))
         path.cap2[e] = own * own
         way = next_way
-    for i in range(n):
-        path.place[(laid.stretches + parts) * n + i] = lead.target[i]
-    laid.stretches += parts
+    end_stretches(n, lead, path, laid, parts, 0.0)
     return True
+
+
+def end_stretches(n: int, lead: State, path: Stretches, laid: RunLaid, parts: int, wanted: float) -> None:
+    """A row has become so many stretches; `wanted` is its speed if it is a straight one."""
+    laid.stretches += parts
+    lead.run.wanted = wanted
+    for i in range(n):
+        path.place[laid.stretches * n + i] = lead.target[i]
 
 
 def axes_top(n: int, limits: Limits, path: Stretches, e: int) -> float:
@@ -374,7 +388,7 @@ def put_stretch(
         left_tolerance(contexts, record, lead.row.off),
         contexts[record + ContextRecord.TURN_TOLERANCE],
     )
-    path.ease[e] = lead.row.ease
+    path.ease[e], path.step2[e], path.spread2[e] = lead.row.ease, inf, inf
     if turns == 0.0:
         turns = left_swing(contexts, record, lead.row.off, lead.row.swung)
     path.tolerance[e], path.turn_tolerance[e] = tolerance, turns
@@ -418,3 +432,33 @@ def share_corner(lead: State, n: int, path: Stretches, e: int) -> None:
     if turned > SAME_DIRECTION:
         path.ease[e] = min(path.ease[e], lead.joint.ease)
         path.ease[e - 1] = min(path.ease[e - 1], lead.joint.ease)
+
+
+def bound_corner(
+    contexts: Floats,
+    record: int,
+    n: int,
+    limits: Limits,
+    lead: State,
+    path: Stretches,
+    e: int,
+    length: float,
+) -> None:
+    """Bound the speed at the corner between two cuts, at which stretch e begins, a row of a length.
+
+    The velocity of no axis changes by more than parameters allow; spread over the shorter of the two rows, the change
+    is an acceleration, which they bound too (`corners.stepped2`). Chords of one spline have no corner.
+    """
+    if e == 0 or is_rapid(lead) or contexts[record + ContextRecord.AHEAD] == 0.0:
+        return
+    step2, spread2, turn2 = inf, inf, 0.0
+    shorter = min(length, lead.run.length)
+    for i in range(n):
+        step = abs(path.leave[e * n + i] - path.arrive[(e - 1) * n + i])
+        turn2 += 0.0 if limits.rotary[i] != 0.0 else step * step
+        if step > SAME_DIRECTION:
+            step2 = min(step2, square(limits.step[i] / step))
+            spread2 = min(spread2, limits.bend[i] * shorter / step)
+    if path.form[e] == CHORD and path.form[e - 1] == CHORD and turn2 <= square(SPLINE_TURN):
+        return
+    path.step2[e], path.spread2[e] = step2, max(spread2, square(limits.path.bend_least))
