@@ -12,8 +12,8 @@ from polycnc.motion.third_order.bends.turning import FULL
 
 #: Stretches whose x differ by no more than this share one piece; nearer to its ends than so many mm it is not cut.
 ALIKE, SLIVER = 1.1, 1e-8
-#: What a velocity may change by at a corner bounds the speed on both sides of it, for so many seconds at that speed, and
-#: on so many mm at least.
+#: What a velocity may change by at a corner bounds the speed before and behind it, for so many seconds at that speed,
+#: and on so many mm at least.
 AT_CORNER_S, AT_CORNER_MM = 0.004, 1e-3
 
 
