@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from polycnc.toolpath import Context, Kind
-from polycnc.toolpath.modes import CornerMode
+from polycnc.toolpath.modes import AccelerationMode, CornerMode
 from tests.motion.paths import MILL, Build
 from tests.motion.third_order.programmed import Bounds, ProgrammedPath
 
@@ -28,9 +28,12 @@ class JerkPath:
     name: str
     tolerance: float
     feed: float = 1000.0
+    acceleration: AccelerationMode | None = None
 
     def __post_init__(self) -> None:
-        context = Context(corner_mode=CornerMode.ROUNDED, tolerance_mm=self.tolerance)
+        context = Context(
+            corner_mode=CornerMode.ROUNDED, tolerance_mm=self.tolerance, acceleration=self.acceleration
+        )
         self.rows = Build(context=context)
         self.points: list[Place] = [(0.0, 0.0, 0.0)]
         self.programmed = ProgrammedPath([0.0] * 3, [axis.max_feed for axis in MILL.axes[:3]])
@@ -123,9 +126,12 @@ def pocket(path: JerkPath) -> JerkPath:
     return path
 
 
-def jerk_paths() -> list[JerkPath]:
-    """The paths."""
-    made = JerkPath
+def jerk_paths(acceleration: AccelerationMode | None = None) -> list[JerkPath]:
+    """The paths, in a context that says how they are accelerated."""
+
+    def made(name: str, tolerance: float, feed: float = 1000.0) -> JerkPath:
+        return JerkPath(name, tolerance, feed, acceleration)
+
     return [
         made("line of 200 mm", 0.01).line(200.0, 0.0, 0.0),
         made("line of 200 mm at 100 mm/s", 0.01, 100.0).line(150.0, 120.0, 40.0),

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
+import polycnc
 from polycnc.motion import Settings
 from polycnc.toolpath.modes import AccelerationMode
 from tests.motion.jerk_paths import jerk_paths
@@ -16,22 +19,58 @@ SOFT = Settings(acceleration=AccelerationMode.JERK_LIMITED, bends_by_way=True)
 AVERAGED = Settings(acceleration=AccelerationMode.JERK_LIMITED)
 #: The optimum is discretised, and finds up to this part too little.
 COARSE = 0.97
+#: Cuts that are planned ahead: median and worst of the times over the optimum.
+MEDIAN, WORST = 1.09, 1.19
 
 
-@pytest.mark.parametrize(("settings", "median", "worst"), [(SOFT, 1.12, 1.27), (AVERAGED, 1.57, 2.42)])
-def test_paths_with_limited_jerk_are_close_to_the_optimum(
-    settings: Settings, median: float, worst: float
-) -> None:
-    """Times over the optimum: the median, and the worst path."""
+@pytest.fixture(scope="module")
+def optimum() -> dict[str, float]:
+    """Least time of each path."""
     pytest.importorskip("scipy", reason="scipy, which solves the linear programmes, is not installed")
-    ratios = {}
-    for path in jerk_paths():
-        least = least_time(np.array(path.points), path.tolerance, path.feed, MILL)
-        ratios[path.name] = path.rows.plan(MILL, settings=settings).total_s / least
-    assert len(ratios) == 30
-    assert min(ratios.values()) >= COARSE, ratios
-    assert float(np.median(list(ratios.values()))) <= median, ratios
-    assert max(ratios.values()) <= worst, ratios
+    return {p.name: least_time(np.array(p.points), p.tolerance, p.feed, MILL) for p in jerk_paths()}
+
+
+def ratios(optimum: dict[str, float], settings: Settings, **context: Any) -> dict[str, float]:
+    """Times over the optimum of the paths in a context."""
+    return {
+        p.name: p.rows.plan(MILL, settings=settings).total_s / optimum[p.name] for p in jerk_paths(**context)
+    }
+
+
+@pytest.mark.parametrize(("settings", "median", "worst"), [(SOFT, MEDIAN, WORST), (AVERAGED, 1.57, 2.42)])
+def test_paths_with_limited_jerk_are_close_to_the_optimum(
+    optimum: dict[str, float], settings: Settings, median: float, worst: float
+) -> None:
+    """The median, and the worst path."""
+    found = ratios(optimum, settings)
+    assert len(found) == 30
+    assert min(found.values()) >= COARSE, found
+    assert float(np.median(list(found.values()))) <= median, found
+    assert max(found.values()) <= worst, found
+
+
+@pytest.mark.parametrize(
+    ("control", "code"),
+    [
+        ("syntec-mill", ""),
+        ("fanuc-m", "G05.1 Q1"),
+        ("fanuc-m", "G08 P1"),
+        ("meldas-m", "G05 P2"),
+        ("meldas-m", "G61.1"),
+    ],
+)
+def test_so_they_are_on_controls_that_plan_ahead(optimum: dict[str, float], control: str, code: str) -> None:
+    result = polycnc.run(f"O1\n{code}\nG1 X1. F100.\nM30\n", control=control, machine="mill3")
+    acceleration = result.toolpath.contexts[1 if code else 0].acceleration
+    found = ratios(optimum, result.lead["settings"], acceleration=acceleration)
+    assert float(np.median(list(found.values()))) <= MEDIAN, found
+    assert max(found.values()) <= WORST, found
+
+
+def test_a_law_takes_no_longer_than_averages() -> None:
+    for averaged, led in zip(jerk_paths(), jerk_paths(), strict=True):
+        least = averaged.rows.plan(MILL, settings=AVERAGED).total_s
+        assert led.rows.plan(MILL, settings=SOFT).total_s <= 1.001 * least, led.name
 
 
 @pytest.mark.parametrize(("length", "feed"), [(100.0, 100.0), (10.0, 1000.0)])

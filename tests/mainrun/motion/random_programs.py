@@ -580,3 +580,24 @@ def writer(seed: int) -> Writer:
 
 #: Writers for SINUMERIK alone, by the last digit of the seed.
 OF_SINUMERIK = {5: (Paced, Inclined), 8: (TurningWork,), 9: (FiveAxes, Vectors)}
+
+
+#: Codes with which cuts are planned ahead, on and off.
+AHEAD = {
+    "fanuc-m": (("G05.1 Q1", "G05.1 Q0"), ("G05 P10000", "G05 P0"), ("G08 P1", "G08 P0")),
+    "meldas-m": (("G05 P10000", "G05 P0"), ("G05 P2", "G05 P0")),
+}
+
+
+def planned_ahead(text: str, control: str) -> str:
+    """The program, of two one with cuts planned ahead: behind its head, in some up to the middle, or from there on."""
+    draw = Random(text)
+    if control not in AHEAD or draw.random() < 0.5:
+        return text
+    on, off = draw.choice(AHEAD[control])
+    lines = text.splitlines()
+    first, last = 1, len(lines) - 1
+    if last > 3:
+        middle = draw.randint(2, last - 1)
+        first, last = draw.choice(((first, last), (first, last), (first, middle), (middle, last)))
+    return "\n".join([*lines[:first], on, *lines[first:last], off, *lines[last:], ""])

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
+from polycnc.machine import parse_setup
 from polycnc.mainrun import State, VirtualControl
 from tests.examples import examples
 from tests.mainrun.support import MILL, execution_of, power_on, recorded
@@ -268,6 +269,20 @@ BY_LAW = {
     "sharp": "SOFT G64 G1 X20 F6000\nX30 Y1\nX40 Y2.5\nY0\nX60\nX61 Y.3\nX80\nM30\n",
     "back": "SOFT G64 G3 X10 Y10 J10 F6000\nG1 X10.8 Y0\nG2 X10.5 Y10 CR=30\nG1 X10\nG2 X20 Y0.5 CR=80\nM30\n",
 }
+#: Cuts of the word-address controls that are planned ahead, of which some blocks have corners with parameters.
+AHEAD = "G90 G1 X20. F6000.\nX30. Y1.\nX40. Y0.5\nG3 X60. Y20. R20.\nG1 Y22.\nX60.4 Y24.\nX61. Y25.\nX62. Y25.6\nX80.\n"
+BY_CONTROL: dict[str, tuple[str, str, dict[str, object]]] = {
+    "syntec": ("syntec-mill", f"{AHEAD}M30\n", {}),
+    "syntec, Pr406 and Pr408": ("syntec-mill", f"{AHEAD}M30\n", {"406": 120, "408": 500}),
+    "fanuc": ("fanuc-m", f"O1\nG05.1 Q1\n{AHEAD}G05.1 Q0\nM30\n", {}),
+    "fanuc, 1783 and 1737": (
+        "fanuc-m",
+        f"O1\nG05 P10000\n{AHEAD}G05 P0\nM30\n",
+        {"1783 Y": 100, "1737 Y": 50},
+    ),
+    "meldas": ("meldas-m", f"O1\nG05 P10000\n{AHEAD}G05 P0\nM30\n", {}),
+}
+RUNS = {name: ("sinumerik-840d", text, {}) for name, text in BY_LAW.items()} | BY_CONTROL
 
 
 def every_ms(virtual: VirtualControl, places: list[list[float]]) -> None:
@@ -281,9 +296,11 @@ def every_ms(virtual: VirtualControl, places: list[list[float]]) -> None:
     places.append(virtual.machine_position)
 
 
-@pytest.mark.parametrize("name", BY_LAW)
+@pytest.mark.parametrize("name", RUNS)
 def test_no_script_disturbs_a_run_by_law_beyond_its_limits(name: str) -> None:
-    whole = power_on(BY_LAW[name], "sinumerik-840d")
+    control, text, parameters = RUNS[name]
+    setup = parse_setup({"parameters": parameters})
+    whole = power_on(text, control, setup=setup)
     path: list[list[float]] = [whole.machine_position]
     whole.cycle_start()
     while whole.state is State.RUNNING:
@@ -293,7 +310,7 @@ def test_no_script_disturbs_a_run_by_law_beyond_its_limits(name: str) -> None:
     moved = (way**2).sum(axis=1) > 1e-16
     start, way = start[moved], way[moved]
     for seed in range(2):
-        virtual, random = power_on(BY_LAW[name], "sinumerik-840d"), Random(f"{name} {seed}")
+        virtual, random = power_on(text, control, setup=setup), Random(f"{name} {seed}")
         places = [virtual.machine_position] * 4
         virtual.cycle_start()
         for k in range(8000):

@@ -24,7 +24,7 @@ from polycnc.session import open_session
 from tests.examples import examples
 from tests.mainrun.motion.drawn import limited
 from tests.mainrun.motion.drawn.kinds import drawn
-from tests.mainrun.motion.random_programs import Back, Writer, writer
+from tests.mainrun.motion.random_programs import Back, Writer, planned_ahead, writer
 from tests.mainrun.support import power_on, recorded
 
 if TYPE_CHECKING:
@@ -82,7 +82,7 @@ def executed(text: str, written: Writer, places: Numbers, rotary: list[bool]) ->
 
 
 def check(written: Writer) -> None:
-    compare(written.program(), written)
+    compare(planned_ahead(written.program(), written.control), written)
 
 
 def compare(text: str, written: Writer) -> None:

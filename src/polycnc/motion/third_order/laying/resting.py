@@ -1,8 +1,8 @@
 """Corners between two straight rows at which it takes less time to rest than to pass them on the bent path.
 
 A corner that turns the way of an axis by D, with knots h before and behind it, has a q'' of D/h and a q''' of D/h²: by
-its acceleration a and its jerk j the axis passes it at `√(a·h/D)` and at `∛(j·h²/D)`, steadily on 2·h. A line between
-two rests has the averages that let it take the least time (`kernels/alone.py`).
+its acceleration a and its jerk j the axis passes it at `√(a·h/D)` and at `∛(j·h²/D)`, steadily on 2·h; more slowly
+maybe by parameters. A line between two rests takes the least time, by averages of its own (`kernels/alone.py`).
 """
 
 from __future__ import annotations
@@ -12,12 +12,14 @@ from math import inf, sqrt
 from polycnc.kernels.layout import Floats
 from polycnc.motion.kernels.alone import alone_pull, alone_top, best_ramp, rest_to_rest
 from polycnc.motion.kernels.columns import Limits, State
-from polycnc.motion.third_order.bends.pieces import half_line
+from polycnc.motion.third_order.bends.pieces import half_line, step_reach
 from polycnc.motion.third_order.bends.stretches import Stretches, between
 from polycnc.motion.third_order.bends.turning import FULL
 
 #: Steps in which the speed between two corners is found.
 HALVINGS = 12
+#: A law takes so many times as long as is reckoned here.
+LED = 1.02
 
 
 def pays_to_rest(n: int, limits: Limits, lead: State, path: Stretches, e: int, wanted: float) -> bool:
@@ -32,6 +34,8 @@ def pays_to_rest(n: int, limits: Limits, lead: State, path: Stretches, e: int, w
     if h >= half_line(path, e):
         return False
     corner = corner_speed(n, limits, lead.joint.ease, path, e, h)
+    if path.step2[e] < corner * corner:
+        corner, h = sqrt(path.step2[e]), step_reach(path, e)
     if corner >= top:
         return False
     first, second = path.way[e] - path.way[e - 1], path.way[e + 1] - path.way[e]
@@ -41,12 +45,12 @@ def pays_to_rest(n: int, limits: Limits, lead: State, path: Stretches, e: int, w
         return False
     passing = passed_s(n, limits, path.arrive, (e - 1) * n, first, top, lead.joint.ease, corner, h)
     passing += passed_s(n, limits, path.leave, e * n, second, top, lead.joint.ease, corner, h)
-    return resting < passing
+    return resting < LED * passing
 
 
 def corner_speed(n: int, limits: Limits, ease: float, path: Stretches, e: int, h: float) -> float:
     """Speed at which the corner before stretch e is passed with knots h before and behind it."""
-    cube, x2 = inf, min(path.step2[e], path.spread2[e])
+    cube, x2 = inf, path.spread2[e]
     for i in range(n):
         step = abs(path.leave[e * n + i] - path.arrive[(e - 1) * n + i])
         if step > 0.0:
