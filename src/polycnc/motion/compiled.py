@@ -37,7 +37,10 @@ LIBRARY = Library(
     "motion",
     (
         *PLANNING,
+        f"{_THIRD_ORDER}.bends.at_corners",
         f"{_THIRD_ORDER}.bends.rests",
+        f"{_THIRD_ORDER}.bends.stretches",
+        f"{_THIRD_ORDER}.laying.resting",
         f"{_THIRD_ORDER}.laying.rows",
     ),
     (

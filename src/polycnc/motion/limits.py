@@ -20,6 +20,7 @@ from polycnc.motion.time_constants import (
     is_after,
     is_ahead,
 )
+from polycnc.toolpath.context import NO_OVERLAP
 from polycnc.toolpath.modes import AccelerationMode, CornerMode, FeedMode
 
 if TYPE_CHECKING:
@@ -295,7 +296,7 @@ def is_bent_by_way(context: Context, settings: Settings) -> bool:
         and context.transformation is None
         and context.lag_s == 0.0
         and behind_s(context, settings) == 0.0
-        and context.overlap <= 0.0
+        and context.overlap == NO_OVERLAP
         and context.rapid_overlap == 0.0
     )
 

@@ -9,7 +9,7 @@ import pytest
 from polycnc.mainrun.motion.law_motion import LawMotion
 from tests.mainrun.support import execution_of, power_on
 
-TEXT = "SOFT G642 G1 X20 F6000\nY20\nX40\nM30\n"
+TEXT = "SOFT G642 G1 X20 F6000\nX40 Y2\nX60\nM30\n"
 
 
 def motion_in(seconds: float) -> LawMotion:
@@ -30,9 +30,9 @@ def test_a_row_that_goes_on_ends_in_motion() -> None:
 
 
 def test_the_last_row_ends_at_rest_where_the_program_says() -> None:
-    motion = motion_in(0.8)
+    motion = motion_in(0.65)
     assert motion.end2 == 0.0
-    assert motion.end_position == [40.0, 20.0, 0.0]
+    assert motion.end_position == [60.0, 2.0, 0.0]
     assert motion.speed(motion.end) == 0.0
 
 

@@ -8,7 +8,7 @@ from polycnc.mainrun.preparation.items import Move
 from polycnc.mainrun.preparation.law_rows import LawRows
 from tests.mainrun.support import execution_of, power_on
 
-TEXT = "SOFT G642 G1 X20 F6000\nY20\nG0 X60\nG1 X80\nX85 Y21\nM30\n"
+TEXT = "SOFT G642 G1 X20 F6000\nX40 Y1\nG0 X60\nG1 X80\nX85 Y1.2\nM30\n"
 
 
 def rows_of(text: str, *, rapid: float = 1.0) -> LawRows:

@@ -29,6 +29,7 @@ LIBRARY = Library(
         f"{_BENDS}.controls",
         f"{_BENDS}.within",
         f"{_BENDS}.levelling",
+        f"{_BENDS}.at_corners",
         f"{_BENDS}.pieces",
         f"{_BENDS}.rests",
         f"{_BENDS}.seeking",

@@ -9,6 +9,7 @@
     within      whether it is kept
     seams       where parts that are bent by themselves go over into each other
     seeking     where seams can be
+    at_corners  how far around corners holds what parameters bound their speed by
     pieces      row and highest speed of each piece
     bending     all of it in turn
 

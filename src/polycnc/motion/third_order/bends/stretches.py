@@ -172,7 +172,7 @@ def is_smooth(path: Stretches, e: int, n: int) -> bool:
     )
     if angle > LINE_TURN or bulge > BULGE:
         return False
-    return bulge <= LITTLE_BULGE or is_even(path, e, e - 1, n) or is_even(path, e, e + 1, n)
+    return bulge <= LITTLE_BULGE or bends_evenly(path, e, e - 1, n) or bends_evenly(path, e, e + 1, n)
 
 
 def turn_at(path: Stretches, e: int, n: int, i: int) -> float:
@@ -183,7 +183,7 @@ def turn_at(path: Stretches, e: int, n: int, i: int) -> float:
     return last - first
 
 
-def is_even(path: Stretches, e: int, other: int, n: int) -> bool:
+def bends_evenly(path: Stretches, e: int, other: int, n: int) -> bool:
     """Whether the curvature at end e is like that at another one beside it."""
     if other < 1 or other >= len(path.form):
         return False

@@ -12,7 +12,7 @@ from math import inf, sqrt
 from polycnc.kernels.layout import Floats
 from polycnc.motion.kernels.alone import alone_pull, alone_top, best_ramp, rest_to_rest
 from polycnc.motion.kernels.columns import Limits, State
-from polycnc.motion.third_order.bends.pieces import half_line, step_reach
+from polycnc.motion.third_order.bends.at_corners import half_line, step_reach
 from polycnc.motion.third_order.bends.stretches import Stretches, between
 from polycnc.motion.third_order.bends.turning import FULL
 
@@ -22,7 +22,7 @@ HALVINGS = 12
 LED = 1.02
 
 
-def pays_to_rest(n: int, limits: Limits, lead: State, path: Stretches, e: int, wanted: float) -> bool:
+def is_sooner_with_rest(n: int, limits: Limits, lead: State, path: Stretches, e: int, wanted: float) -> bool:
     """Whether the axes rest before stretch e, a whole straight row as the one before is.
 
     `wanted` is the speed of the second row, `run.wanted` that of the first one; 0 if it is not straight.

@@ -49,7 +49,7 @@ from polycnc.motion.kernels.feeds import (
 from polycnc.motion.kernels.lay import lay_row, line_top, parts_of_line, take_row
 from polycnc.motion.third_order.bends.rests import must_rest
 from polycnc.motion.third_order.bends.stretches import ARC, CHORD, LINE, SPLINE_TURN, Stretches
-from polycnc.motion.third_order.laying.resting import pays_to_rest
+from polycnc.motion.third_order.laying.resting import is_sooner_with_rest
 
 #: An arc's stretches turn by no more (7.5°), and leave it by no more than this part of the tolerance.
 ARC_TURN, ARC_PART = pi / 24.0, 0.02
@@ -275,7 +275,7 @@ def add_line(
             share_corner(lead, n, path, e)
             bound_corner(contexts, record, n, limits, lead, path, e, length)
             wanted = (min(top, asked) if asked > 0.0 else top) if form == LINE and parts == 1 else 0.0
-            if e > 0 and wanted > 0.0 and pays_to_rest(n, limits, lead, path, e, wanted):
+            if e > 0 and wanted > 0.0 and is_sooner_with_rest(n, limits, lead, path, e, wanted):
                 return False
         speed = min(top, bounded(asked, lead) if part == 0 else bound(asked, lead))
         path.cap2[e] = speed * speed
