@@ -105,7 +105,7 @@ CASES = {
         LATHE, ("G98", *FACETS), Cause.BLOCK_TIME, 95.0, machine="lathe2", keys=SLOW_BLOCKS
     ),
     "blocks, meldas": Case(MELDAS, FACETS, Cause.BLOCK_TIME, 95.0, keys=SLOW_BLOCKS),
-    "blocks, syntec": Case(SYNTEC, FACETS, Cause.BLOCK_TIME, 95.0, keys=SLOW_BLOCKS),
+    "blocks, syntec": Case(SYNTEC, FACETS, Cause.BLOCK_TIME, 90.0, keys=SLOW_BLOCKS),
     "blocks, sinumerik": Case(SINUMERIK, ("G64", *FACETS), Cause.BLOCK_TIME, 95.0, keys=SLOW_BLOCKS),
     "blocks, SOFT": Case(SINUMERIK, ("G64 SOFT", *FACETS), Cause.BLOCK_TIME, 90.0, keys=SLOW_BLOCKS),
     "corner, BRISK": Case(SINUMERIK, ("G64 BRISK", *TURN), Cause.CORNERS, 2.0),

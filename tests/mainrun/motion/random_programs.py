@@ -585,6 +585,7 @@ OF_SINUMERIK = {5: (Paced, Inclined), 8: (TurningWork,), 9: (FiveAxes, Vectors)}
 #: Codes with which cuts are planned ahead, on and off.
 AHEAD = {
     "fanuc-m": (("G05.1 Q1", "G05.1 Q0"), ("G05 P10000", "G05 P0"), ("G08 P1", "G08 P0")),
+    "fanuc-0i-tf": (("G05.1 Q1", "G05.1 Q0"), ("G08 P1", "G08 P0")),
     "meldas-m": (("G05 P10000", "G05 P0"), ("G05 P2", "G05 P0")),
 }
 
