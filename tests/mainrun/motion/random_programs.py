@@ -590,10 +590,14 @@ AHEAD = {
 }
 
 
+#: Codes between which none of those may stand.
+ALONE = ("G12.1", "G07.1", "G7.1")
+
+
 def planned_ahead(text: str, control: str) -> str:
     """The program, of two one with cuts planned ahead: behind its head, in some up to the middle, or from there on."""
     draw = Random(text)
-    if control not in AHEAD or draw.random() < 0.5:
+    if control not in AHEAD or draw.random() < 0.5 or any(code in text for code in ALONE):
         return text
     on, off = draw.choice(AHEAD[control])
     lines = text.splitlines()

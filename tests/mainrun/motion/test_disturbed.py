@@ -282,7 +282,9 @@ BY_CONTROL: dict[str, tuple[str, str, dict[str, object]]] = {
     ),
     "meldas": ("meldas-m", f"O1\nG05 P10000\n{AHEAD}G05 P0\nM30\n", {}),
 }
-RUNS = {name: ("sinumerik-840d", text, {}) for name, text in BY_LAW.items()} | BY_CONTROL
+RUNS: dict[str, tuple[str, str, dict[str, object]]] = {
+    name: ("sinumerik-840d", text, {}) for name, text in BY_LAW.items()
+} | BY_CONTROL
 
 
 def every_ms(virtual: VirtualControl, places: list[list[float]]) -> None:
