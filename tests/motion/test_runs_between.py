@@ -47,9 +47,10 @@ def test_a_line_under_soft_in_front_of_brisk_is_as_quick_as_by_itself(between: s
 
 @pytest.mark.parametrize("control", ["fanuc-m", "meldas-m", "syntec-mill"])
 def test_lines_in_front_of_a_tip_count_as_one_like_others(control: str) -> None:
+    """On SYNTEC a law leads two of them, which takes a little longer."""
     text = "G90 G94 F1000.\n{}\nG43.4 H1\nG1 X20. B4. C4.\nG49\nM30\n"
     times = [seconds(text.format(lines), control, "mill5-bc-head") for lines in (ONE, TWO)]
-    assert times[0] == pytest.approx(times[1], abs=1e-6)
+    assert times[0] == pytest.approx(times[1], abs=0.005 if control == "syntec-mill" else 1e-6)
 
 
 @pytest.mark.parametrize("control", ["fanuc-m", "meldas-m", "syntec-mill", "sinumerik-840d"])
