@@ -56,7 +56,8 @@ def corner_speed(n: int, limits: Limits, ease: float, path: Stretches, e: int, h
         if step > 0.0:
             x2 = min(x2, ease * limits.acceleration[i] * h / step)
             cube = min(cube, ease * limits.jerk[i] * h * h / step)
-    return min(sqrt(x2), cube ** (1.0 / 3.0))
+    speed: float = min(sqrt(x2), cube ** (1.0 / 3.0))
+    return speed
 
 
 def able(n: int, limits: Limits, ways: Floats, at: int, ease: float) -> tuple[float, float]:
