@@ -44,6 +44,15 @@ DRAWN, IN_A_TEST, EXPLORE, BACK, LIMITED = 2000, 50, 20_000, 30, 16
 FOUND = (341917, 487807, 535447, 975837, 998267, 294, 674, 705, 1895, 3265, 1310, 203865)
 #: Programs without a transformation in which an axis exceeded what JERKLIM leaves it, on rows that do not move it.
 LIMITED_FOUND = (47, 67)
+#: Parameters that leave axes less than the machine: at corners, on short lines and arcs, by time constants.
+PARAMETERS: dict[str, tuple[dict[str, object], ...]] = {
+    "fanuc-m": (
+        {"1783 X": 200, "1783 Y": 60, "1737 X": 300, "1735 X": 500, "1738": 30},
+        {"1660": 2000, "1772": 50, "1783 Y": 500},
+    ),
+    "syntec-mill": ({"406": 120, "408": 600}, {"401": 100, "641": 60}, {"406": 1000}),
+    "meldas-m": ({"1206": 6000, "1207": 100},),
+}
 #: Samples of a program whose places are looked up in the main run, from its first on.
 PLACES = 1500
 #: Largest distance of both, mm or degrees: an arc is a circle in the main run, cubics of 7.5° in the samples.
@@ -129,6 +138,16 @@ def test_so_they_are_on_programs_that_were_found(seed: int) -> None:
 @pytest.mark.parametrize("seed", range(examples(BACK)))
 def test_so_they_are_where_rows_turn_back(seed: int) -> None:
     check(Back(Random(seed), "sinumerik-840d"))
+
+
+@pytest.mark.parametrize("control", PARAMETERS)
+def test_so_they_are_where_parameters_bound_cuts_that_are_planned_ahead(control: str) -> None:
+    for seed in range(examples(LIMITED)):
+        written = Writer(Random(seed), control)
+        text = planned_ahead(written.program(), control)
+        for parameters in PARAMETERS[control]:
+            written.setup = {**Writer.setup, "parameters": parameters}  # type: ignore[misc]
+            compare(text, written)
 
 
 @pytest.mark.parametrize("kind", limited.KINDS)
