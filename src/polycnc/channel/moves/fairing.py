@@ -95,6 +95,8 @@ class FairingStage(Stage):
         if _fairing(context) is None:
             self._end_run()
             return self.after.run(run)
+        if context.transformation is not None:
+            return 0  # real axes are looked at for every cut
         count = min(run.kinds.tobytes().find(Kind.RAPID) % (len(run.kinds) + 1), AT_ONCE)
         return self._take(run.part(count)) if count and not self._halts else 0
 
@@ -108,7 +110,25 @@ class FairingStage(Stage):
         context = self._channel.toolpath.contexts[move.context]
         is_line = move.kind is Kind.FEED and move.center is None and not move.parameters
         as_written = move.origin == PROGRAMMED and move.turning is None and not self._halts
-        return is_line and as_written and _fairing(context) is not None
+        rule = _fairing(context)
+        return is_line and as_written and rule is not None and not self._stays(move, context, rule)
+
+    def _stays(self, move: Move, context: Context, rule: Fairing) -> bool:
+        """Whether axes that a transformation leads could come to something forbidden, or turn by much near a pole."""
+        if context.transformation is None:
+            return False
+        from polycnc.channel.moves.beside import around, is_within  # where a transformation acts
+
+        channel, turns = self._channel, dict(rule.turns)
+        by = [PART * turns.get(column, 0.0) for column in range(len(channel.axes))]
+        for column in context.transformation.geometry:
+            if column >= 0:
+                by[column] = PART * rule.tolerance_mm
+        near = around(channel, move, context.transformation, by)
+        if near is None or not (channel.limits or self._watches()):
+            return near is None
+        ways = near.chords() if self._watches() else []
+        return not is_within(channel, near) or any(self._comes_near(*way) for way in ways)
 
     @property
     def _halts(self) -> bool:
@@ -158,9 +178,8 @@ class FairingStage(Stage):
         self._run.turns = max((k for k in range(BOUNDS) if bounds[k] > 0.0), default=0)
         self._rows, self._passed = cuts.part(0), 1
         inward = context.frame.inverse().m
-        self._walls = array(
-            "d", [each for wall in walls_of(self._channel, context) for each in self._seen(wall, inward)]
-        )
+        walls = walls_of(self._channel, context) if context.transformation is None else []
+        self._walls = array("d", [each for wall in walls for each in self._seen(wall, inward)])
         at = [cuts.start[column] if column >= 0 else 0.0 for column in self._columns]
         for room, width in self._room():
             room[:] = array("d", bytes(8 * width))
@@ -198,7 +217,7 @@ class FairingStage(Stage):
 
     def _keep_clear(self, cuts: Run, first: int, context: Context) -> None:
         """Ends of lines that come near something forbidden have no room: the first line ends at point `first`."""
-        if not self._watches():
+        if not self._watches() or context.transformation is not None:
             return
         channel, room, distance = self._channel, self._points.room, PART * self._run.tolerance[0]
         axes, to_machine = len(cuts.start), channel.toolpath.to_machine
@@ -286,9 +305,14 @@ def _move(run: Run, i: int) -> Move:
 
 
 def _fairing(context: Context) -> Fairing | None:
-    """What holds for cuts of a context; nothing where a transformation leads the axes, or a motion has several rows."""
-    if context.transformation is not None or context.shown_by is not None or context.knot or context.chords:
+    """What holds for cuts of a context; nothing where a motion has several rows, or axes follow each other."""
+    if context.shown_by is not None or context.knot or context.chords or context.fairing is None:
         return None
+    if context.transformation is not None:
+        from polycnc.channel.moves.beside import is_led_evenly  # where a transformation acts
+
+        if not is_led_evenly(context.transformation):
+            return None
     return context.fairing
 
 

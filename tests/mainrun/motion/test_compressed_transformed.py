@@ -1,0 +1,114 @@
+"""Cuts led beside their ends under a transformation: one motion, the tip and its direction within tolerance."""
+
+from __future__ import annotations
+
+from random import Random
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+
+import polycnc
+from polycnc.session import open_session
+from polycnc.toolpath import Kind
+from tests.examples import examples
+from tests.mainrun.motion.drawn.beside import (
+    InPolarPlane,
+    OnCylinder,
+    OnTip,
+    OnTipByVectors,
+    OnTipOfSyntec,
+)
+from tests.mainrun.motion.test_compressed import farthest
+from tests.mainrun.motion.test_one_motion import compare
+
+if TYPE_CHECKING:
+    from polycnc.motion.sampling.samples import Samples
+    from polycnc.toolpath import Toolpath
+    from tests.mainrun.motion.random_programs import Compressed
+
+#: Programs of each kind.
+DRAWN = 16
+#: What is drawn: the writer of its programs, and its control.
+KINDS = {
+    "tip": (OnTip, "sinumerik-840d"),
+    "vectors": (OnTipByVectors, "sinumerik-840d"),
+    "syntec": (OnTipOfSyntec, "syntec-mill"),
+    "polar plane": (InPolarPlane, "sinumerik-840d"),
+    "cylinder": (OnCylinder, "sinumerik-840d"),
+}
+PERIOD = 0.001
+#: Between two samples the axes are beside their chord, by an eighth of their acceleration times the time squared, mm.
+SLACK = 1e-3
+
+
+def written(seed: int, kind: str) -> Compressed:
+    made, control = KINDS[kind]
+    return made(Random(seed), control)
+
+
+def sampled(text: str, writer: Compressed) -> np.ndarray:
+    """Machine positions, a row for each sample."""
+    given: list[Samples] = []
+    start = {"control": writer.control, "machine": writer.machine, "setup": writer.setup}
+    session = open_session(text.encode(), **start, keep=False)
+    sampler = session.sample(PERIOD, given.append)
+    session.run().plan  # noqa: B018 - plans to the end
+    sampler.close()
+    return np.concatenate([samples.position for samples in given])
+
+
+def toolpath_of(text: str, writer: Compressed) -> Toolpath:
+    run = polycnc.run(text.encode(), control=writer.control, machine=writer.machine, setup=writer.setup)
+    assert run.ok, text
+    return run.toolpath
+
+
+def moved(toolpath: Toolpath) -> float:
+    """How far ends are moved at most, mm."""
+    cuts = (row for row in toolpath.rows() if row.kind is Kind.FEED and row.curve)
+    return max((float(np.hypot.reduce(row.curve[:3])) for row in cuts), default=0.0)
+
+
+def check_tip(text: str, writer: OnTip) -> None:
+    """At every sample the tip is within the tolerance of its lines, and each axis that turns the tool of its own."""
+    toolpath = toolpath_of(text, writer)
+    rows = [row for row in toolpath.rows() if row.kind is Kind.FEED]
+    context = rows[0].context
+    assert context.transformation is not None
+    places = sampled(text, writer)
+    on_path = np.stack(context.transformation.to_work(list(places.T)), axis=1)
+    lines = np.array([on_path[0].tolist(), *(row.end for row in rows)])
+    bounds = np.array([writer.tolerance + SLACK, *(writer.turn_tolerance + SLACK,) * 2])
+    assert farthest(on_path, lines, bounds) <= 1.0, text
+    assert farthest(lines, on_path, bounds) <= 1.0, text
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_they_are_one_motion(kind: str) -> None:
+    for seed in range(examples(DRAWN)):
+        writer = written(seed, kind)
+        text = writer.program()
+        try:
+            compare(text, writer)
+        except Exception as error:
+            error.add_note(f"seed {seed}:\n{text}")
+            raise
+
+
+@pytest.mark.parametrize("kind", ["tip", "vectors", "syntec"])
+def test_the_tip_and_its_direction_keep_their_tolerances(kind: str) -> None:
+    for seed in range(examples(DRAWN)):
+        writer = written(seed, kind)
+        text = writer.program()
+        check_tip(text, writer)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_ends_are_moved_in_many_of_them(kind: str) -> None:
+    shifts = []
+    for seed in range(DRAWN):
+        writer = written(seed, kind)
+        shifts.append(moved(toolpath_of(writer.program(), writer)) / writer.tolerance)
+    assert sum(shift > 0.01 for shift in shifts) > DRAWN // 4
+    assert max(shifts) <= 0.8 + 1e-9
