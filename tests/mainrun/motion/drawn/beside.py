@@ -33,7 +33,7 @@ class OnTip(Compressed):
     def program(self) -> str:
         draw = self.random
         self.machine, self.tilt, self.around = draw.choice(TIPS)
-        self.turned = 20.0, 180.0  # a modulo axis has room on both sides
+        self.turned = draw.choice((20.0, 20.0, 3.0)), 180.0  # a modulo axis has room on both sides
         self.lines = self.begun()
         self.feed = " F2000"
         self.write("G1")
