@@ -18,6 +18,7 @@ from tests.mainrun.motion.drawn.beside import (
     OnTip,
     OnTipByVectors,
     OnTipOfSyntec,
+    on_a_machine,
 )
 from tests.mainrun.motion.test_compressed import farthest
 from tests.mainrun.motion.test_one_motion import compare
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
 #: Programs of each kind.
 DRAWN = 16
 #: What is drawn: the writer of its programs, and its control.
-KINDS = {
+KINDS: dict[str, tuple[type[Compressed], str]] = {
     "tip": (OnTip, "sinumerik-840d"),
     "vectors": (OnTipByVectors, "sinumerik-840d"),
     "syntec": (OnTipOfSyntec, "syntec-mill"),
@@ -44,14 +45,16 @@ SLACK = 1e-3
 
 def written(seed: int, kind: str) -> Compressed:
     made, control = KINDS[kind]
-    return made(Random(seed), control)
+    draw = Random(seed)
+    return on_a_machine(made, draw, control) if issubclass(made, OnTip) else made(draw, control)
 
 
 def sampled(text: str, writer: Compressed) -> np.ndarray:
     """Machine positions, a row for each sample."""
     given: list[Samples] = []
-    start = {"control": writer.control, "machine": writer.machine, "setup": writer.setup}
-    session = open_session(text.encode(), **start, keep=False)
+    session = open_session(
+        text.encode(), control=writer.control, machine=writer.machine, setup=writer.setup, keep=False
+    )
     sampler = session.sample(PERIOD, given.append)
     session.run().plan  # noqa: B018 - plans to the end
     sampler.close()
@@ -101,7 +104,8 @@ def test_the_tip_and_its_direction_keep_their_tolerances(kind: str) -> None:
     for seed in range(examples(DRAWN)):
         writer = written(seed, kind)
         text = writer.program()
-        check_tip(text, writer)  # type: ignore[arg-type]
+        assert isinstance(writer, OnTip)
+        check_tip(text, writer)
 
 
 @pytest.mark.parametrize("kind", KINDS)

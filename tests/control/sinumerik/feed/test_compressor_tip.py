@@ -34,7 +34,7 @@ def noise(count: int, *, beside: float = 0.003, turn: float = 0.01, vectors: boo
     return "".join(lines)
 
 
-def rows_of(text: str, machine: object = MACHINE, **setup: Any) -> list[Row]:
+def rows_of(text: str, machine: str = MACHINE, **setup: Any) -> list[Row]:
     setup = {"tools": {1: {"length": 50.0}}, **setup}
     result = polycnc.run(text.encode(), control="sinumerik-840d", machine=machine, setup=setup)
     assert result.ok, result.alarms
@@ -99,7 +99,7 @@ def limited(axis: str, low: float, high: float, tmp_path: Any) -> str:
     return str(path)
 
 
-def sampled(text: str, machine: object) -> np.ndarray:
+def sampled(text: str, machine: str) -> np.ndarray:
     """Machine positions."""
     given: list[Any] = []
     setup = {"tools": {1: {"length": 50.0}}}
@@ -205,7 +205,7 @@ def test_the_scanner_takes_them() -> None:
 
 @pytest.mark.parametrize(("mode", "part"), [("BRISK", 0.65), ("SOFT", 0.4)])
 def test_noise_within_the_tolerances_costs_no_time(mode: str, part: float) -> None:
-    def seconds(code: str, **how: float) -> float:
+    def seconds(code: str, **how: Any) -> float:
         text = HEAD.replace("COMPCAD", code).replace("G642", f"{mode} G642") + noise(300, **how) + "M30\n"
         result = polycnc.run(
             text.encode(), control="sinumerik-840d", machine=MACHINE, setup={"tools": {1: {"length": 50.0}}}

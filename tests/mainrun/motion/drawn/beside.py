@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from math import cos, radians, sin
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from tests.mainrun.motion.random_programs import FEEDS, Compressed
+
+if TYPE_CHECKING:
+    from random import Random
 
 #: Machines, and the axis that tilts the tool.
 TIPS = (
@@ -22,8 +25,7 @@ class OnTip(Compressed):
     """Contours of a tool's tip while the tool turns, with noise in both."""
 
     turn_tolerance = 0.0
-    machine = ""
-    head: ClassVar[str] = "TRAORI"
+    machine, tilt, around = TIPS[0]
     tail: ClassVar[str] = "COMPOF TRAFOOF"
     #: Positions of the two axes; how far they turn in a block, and how far beside that.
     turned = (20.0, 0.0)
@@ -32,7 +34,6 @@ class OnTip(Compressed):
 
     def program(self) -> str:
         draw = self.random
-        self.machine, self.tilt, self.around = draw.choice(TIPS)
         self.turned = draw.choice((20.0, 20.0, 3.0)), 180.0  # a modulo axis has room on both sides
         self.lines = self.begun()
         self.feed = " F2000"
@@ -93,6 +94,13 @@ class OnTipOfSyntec(OnTip):
         draw = self.random
         self.tolerance, self.turn_tolerance = draw.choice((0.005, 0.01, 0.05)), 0.01
         return ["G71 G90 G94", f"G05.1 Q1 E{self.tolerance}", "G43.4 H1"]
+
+
+def on_a_machine(made: type[OnTip], draw: Random, control: str) -> OnTip:
+    """A writer for a machine that is drawn."""
+    named = dict(zip(("machine", "tilt", "around"), draw.choice(TIPS), strict=True))
+    writer: OnTip = type(made.__name__, (made,), named)(draw, control)
+    return writer
 
 
 class InPolarPlane(Compressed):
