@@ -6,6 +6,8 @@ in the row's curve parameters, for those who lead the axes. A run begins and end
 
 Limits of travel, working areas and forbidden zones are looked at in front of this stage, for the moves as they are
 programmed. No end is moved beyond a limit that these keep to: walls bound how far it may go, and near a zone it stays.
+Under a transformation ends are points of its path, such as the tip and its rotary axes; a cut stays as it is, at both
+ends, where the axes behind it could come to a limit (`beside`).
 
 In single block operation every block is to end where it is programmed, and nothing is held back.
 """
@@ -55,10 +57,8 @@ class FairingStage(Stage):
         self._columns = _columns(channel)
         self._terms: tuple[object, ...] = ()
         self._walls = array("d")
-        self._made: tuple[Transformation | None, bool] = (
-            None,
-            False,
-        )  # the last one, and whether ends may be moved
+        #: The last transformation, and whether ends may be moved under it.
+        self._made: tuple[Transformation | None, bool] = None, False
         self._passed = 0  # points whose rows are passed on; the first is the start
 
     @property

@@ -63,7 +63,7 @@ class SmoothingState(State, lifetime=Lifetime.RESET):
         turns: How far rotary axes that G05 names may leave their way, degrees, with their columns.
         leaves_points: Cuts are led beside their ends within the tolerance.
         filters: By G05.1 Q1 or Q2: of these the manual does not say that tip control suspends them, as it does of G05
-            (2.10.3) and Q5 (2.9.2).
+            (2.11.3) and Q5 (2.9.2).
     """
 
     tolerance: float = 0.0
