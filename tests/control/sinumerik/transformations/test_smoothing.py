@@ -82,7 +82,13 @@ def test_axes_that_turn_by_their_part_turn_the_direction_by_no_more_than_all(
     draw = Random(carries)
     first, second = (0.0, 0.0, 1.0), (0.0, sin(radians(apart)), cos(radians(apart)))
     joints = [
-        Joint(name, rotary=True, carries=who, direction=along, offset=(0.0, 0.0, 0.0))
+        Joint(
+            name,
+            rotary=True,
+            carries="tool" if who == "tool" else "work",
+            direction=along,
+            offset=(0.0, 0.0, 0.0),
+        )
         for name, who, along in zip("AC", carries.split(), (first, second), strict=True)
     ]
     kinematics = Kinematics(
