@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from polycnc.motion.pace import AxisLimits
     from polycnc.motion.pole import PathLeg
     from polycnc.toolpath.row_path import Path
-    from polycnc.toolpath.table import Chunk
     from polycnc.transformation.contract import Transformation
 
 __all__ = [
@@ -260,7 +259,8 @@ def farthest(beside: Callable[[list[float]], tuple[float, float]], near: Corner)
 
 
 def bound_tip(
-    chunk: Chunk,
+    kinds: array[int],
+    ends: array[float],
     rows: tuple[int, int],
     start: Sequence[float],
     weight: float,
@@ -272,7 +272,8 @@ def bound_tip(
     """Set speed and `ease` of the straight rows of a tip along which the demand hardly changes; 1 for each that is set.
 
     Args:
-        chunk: The rows.
+        kinds: Of the rows of a chunk.
+        ends: Where they lead, work coordinates.
         rows: The first of them, and the one behind the last: all of one context.
         start: Where the first one begins, work coordinates.
         weight: Millimetres that a degree counts in the length of a row.
@@ -280,10 +281,10 @@ def bound_tip(
         shares: Speeds and factors of the shares of all rows.
         soft: The jerk is limited.
     """
-    n, done = len(start), array("B", bytes(len(chunk)))
+    n, done = len(start), array("B", bytes(len(kinds)))
     room, unit = array("d", bytes(8 * room_for(n))), array("d", bytes(8 * n))
     share_rows()(
-        chunk.kind, chunk.end, *rows, array("d", start), weight, int(soft), limits.linkage, limits, room, unit,
+        kinds, ends, *rows, array("d", start), weight, int(soft), limits.linkage, limits, room, unit,
         *shares, done,
     )  # fmt: skip
     return done.tobytes()

@@ -6,14 +6,19 @@ the real axes; under one (polar interpolation, tool centre point) they are those
 
 from __future__ import annotations
 
+from array import array
+
 from polycnc.deferred.records import replace
 from polycnc.deferred.typing import TYPE_CHECKING
+from polycnc.motion.kernels.columns import MOST_OFF, MOST_SWUNG, SWUNG
+from polycnc.toolpath.kinds import CURVE_WIDTH, Kind
 from polycnc.transformation.rows import machine_rows, mapped_rows
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from polycnc.toolpath import Context
+    from polycnc.toolpath.table import Chunk
     from polycnc.transformation.contract import Geometry
     from polycnc.transformation.rows import Table
 
@@ -100,3 +105,37 @@ def shown_by_hand(context: Context) -> Context:
     return (
         context if transformation is None or transformation.pole is None else without_transformation(context)
     )
+
+
+def led_to(
+    chunk: Chunk, row: int, context: Context, geometry: Geometry, turning: Sequence[int]
+) -> list[float]:
+    """Where a row leads, work coordinates: its end, or beside it where its curve parameters say so.
+
+    It is what `lead_beside` of the kernels does in machine coordinates. `turning` are the columns of rotary axes.
+    """
+    n, at = chunk.axes, CURVE_WIDTH * chunk.curve[row]
+    end = list(chunk.end[row * n : (row + 1) * n])
+    if chunk.kind[row] != Kind.FEED or at < 0:
+        return end
+    shift = tuple(chunk.curves[at : at + MOST_OFF])
+    if not context.frame.is_identity:
+        shift = context.frame.inverse().direct(*shift)
+    own = geometry if context.transformation is None else context.transformation.geometry
+    swung = chunk.curves[at + SWUNG : at + MOST_SWUNG]
+    for column, by in (*zip(own, shift, strict=True), *zip(turning, swung, strict=False)):
+        if column >= 0:
+            end[column] += by
+    return end
+
+
+def led_ends(
+    chunk: Chunk, rows: tuple[int, int], context: Context, geometry: Geometry, turning: Sequence[int]
+) -> array[float]:
+    """The ends of a chunk, of rows from one to before another of one context where they lead."""
+    n, ends = chunk.axes, chunk.end
+    for row in range(*rows):
+        if chunk.curve[row] >= 0 and chunk.kind[row] == Kind.FEED:
+            ends = ends[:] if ends is chunk.end else ends
+            ends[row * n : (row + 1) * n] = array("d", led_to(chunk, row, context, geometry, turning))
+    return ends

@@ -41,7 +41,16 @@ from polycnc.motion.demand import (
     share_ends,
     within,
 )  # fmt: skip
-from polycnc.motion.frames import carried, machine_of, path_of, real_of, real_rows, work_of
+from polycnc.motion.frames import (
+    carried,
+    led_ends,
+    led_to,
+    machine_of,
+    path_of,
+    real_of,
+    real_rows,
+    work_of,
+)
 from polycnc.motion.kernels.columns import AT_END, AT_START, SHARES, Limits, Rows
 from polycnc.motion.limits import (
     NO_LINKAGE,
@@ -137,8 +146,9 @@ class RealAxes:
         self._limits: dict[tuple[Geometry | None, Use], Limits] = {}
         self._linked: tuple[Transformation, Use, Limits] | None = None
         self._turning = [axis is not None and axis.rotary for axis in self._axes]
+        self._turned = [column for column, turns in enumerate(self._turning) if turns]
         self._left: tuple[Context, bool, list[tuple[int, AxisLimits]]] | None = None
-        #: The last row's context and its end, as it was written.
+        #: The last row's context and where it led, as the row says it.
         self._behind: tuple[Context, list[float]] | None = None
 
     def limits(self, context: Context | None, use: Use = Use.CUT) -> Limits:
@@ -174,15 +184,14 @@ class RealAxes:
 
     def bounds(self, chunk: Chunk, contexts: Sequence[Context]) -> Bounds:
         """Look at the rows of a chunk."""
-        n, bounds = len(self._axes), Bounds(Shares(array("d"), array("d"), array("d")), array("d"), {}, {})
+        bounds = Bounds(Shares(array("d"), array("d"), array("d")), array("d"), {}, {})
         runs = chunk.context_runs()
         used = [contexts[number] for number in {number for number, _, _ in runs}]
         paced = any(context.pace is not None for context in used)
         if self._context.transformation is None and not paced and not any(c.transformation for c in used):
             for row in _last_move(chunk):
                 self._context = contexts[chunk.context[row]]
-                end = list(chunk.end[row * n : (row + 1) * n])
-                self._on_path = machine_of(end, self._context, self._geometry)
+                self._on_path = self._end_of(chunk, row, self._context)
             return bounds
         if paced or not LED_ALONE.issuperset(chunk.kind) or not all(map(self._needs_no_shares, used)):
             for column, free in zip(bounds.shares, FREE_SHARE, strict=True):
@@ -214,8 +223,8 @@ class RealAxes:
             self._row(chunk, row, context, bounds)
         if is_done[moves[-1]]:
             self._on_path = self._end_of(chunk, moves[-1], context)
-        n, self._context = len(self._axes), context
-        self._behind = context, list(chunk.end[moves[-1] * n : (moves[-1] + 1) * n])
+        self._context = context
+        self._behind = context, self._led_to(chunk, moves[-1], context)
 
     def _bounded(self, chunk: Chunk, moves: Sequence[int], context: Context, bounds: Bounds) -> bytes:
         """Which rows need no look of their own: 1 for each; those of a tip are bounded all at once."""
@@ -236,12 +245,13 @@ class RealAxes:
         weight = rotary_weight(context, self._settings)
         shares = bounds.shares.top, bounds.shares.ease
         soft = self._is_soft(context)
-        return bound_tip(chunk, (moves[0], moves[-1] + 1), start, weight, limits, shares, soft=soft)
+        rows = moves[0], moves[-1] + 1
+        ends = led_ends(chunk, rows, context, self._geometry, self._turned)
+        return bound_tip(chunk.kind, ends, rows, start, weight, limits, shares, soft=soft)
 
     def _row(self, chunk: Chunk, row: int, context: Context, bounds: Bounds) -> None:
         """Look at one row, behind the one on whose end `_on_path` is."""
-        n = len(self._axes)
-        end = list(chunk.end[row * n : (row + 1) * n])
+        end = self._led_to(chunk, row, context)
         if context.transformation is not None and chunk.kind[row] != Kind.REF:
             start = work_of(self._on_path, context, self._geometry)
             legs = self._legs(chunk, row, start, end, context)
@@ -262,8 +272,11 @@ class RealAxes:
 
     def _end_of(self, chunk: Chunk, row: int, context: Context) -> list[float]:
         """Machine position of the path at the end of a row."""
-        n = len(self._axes)
-        return machine_of(chunk.end[row * n : (row + 1) * n], context, self._geometry)
+        return machine_of(self._led_to(chunk, row, context), context, self._geometry)
+
+    def _led_to(self, chunk: Chunk, row: int, context: Context) -> list[float]:
+        """Where a row leads, work coordinates: beside its end, where it is led there."""
+        return led_to(chunk, row, context, self._geometry, self._turned)
 
     def _pace(
         self,

@@ -6,6 +6,8 @@ in the row's curve parameters, for those who lead the axes. A run begins and end
 
 Limits of travel, working areas and forbidden zones are looked at in front of this stage, for the moves as they are
 programmed. No end is moved beyond a limit that these keep to: walls bound how far it may go, and near a zone it stays.
+Under a transformation ends are points of its path, such as the tip and its rotary axes; a cut stays as it is, at both
+ends, where the axes behind it could come to a limit (`beside`).
 
 In single block operation every block is to end where it is programmed, and nothing is held back.
 """
@@ -16,7 +18,7 @@ from array import array
 from math import inf
 
 from polycnc.channel.moves.path import Move, Rank, Run, Stage
-from polycnc.channel.moves.travel import walls_of
+from polycnc.channel.moves.travel import certainly_within, walls_of
 from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.toolpath.compiled import fairing
 from polycnc.toolpath.context import PROGRAMMED
@@ -29,6 +31,7 @@ if TYPE_CHECKING:
     from polycnc.channel.moves.travel import Wall
     from polycnc.geometry.frames import Matrix
     from polycnc.toolpath.context import Context, Fairing
+    from polycnc.transformation.contract import Transformation
 
 #: So many points are forgotten at once.
 FORGOTTEN = 256
@@ -54,6 +57,8 @@ class FairingStage(Stage):
         self._columns = _columns(channel)
         self._terms: tuple[object, ...] = ()
         self._walls = array("d")
+        #: The last transformation, and whether ends may be moved under it.
+        self._made: tuple[Transformation | None, bool] = None, False
         self._passed = 0  # points whose rows are passed on; the first is the start
 
     @property
@@ -92,9 +97,13 @@ class FairingStage(Stage):
         context = self._channel.toolpath.contexts[run.context]
         if self._of_block is not None:
             return 0
-        if _fairing(context) is None:
+        if self._rule(context) is None:
             self._end_run()
             return self.after.run(run)
+        if context.transformation is not None and (
+            self._has_limits() or context.transformation.pole is not None
+        ):
+            return 0  # the axes behind every cut are looked at
         count = min(run.kinds.tobytes().find(Kind.RAPID) % (len(run.kinds) + 1), AT_ONCE)
         return self._take(run.part(count)) if count and not self._halts else 0
 
@@ -108,7 +117,44 @@ class FairingStage(Stage):
         context = self._channel.toolpath.contexts[move.context]
         is_line = move.kind is Kind.FEED and move.center is None and not move.parameters
         as_written = move.origin == PROGRAMMED and move.turning is None and not self._halts
-        return is_line and as_written and _fairing(context) is not None
+        rule = self._rule(context)
+        return is_line and as_written and rule is not None and not self._stays(move, context, rule)
+
+    def _stays(self, move: Move, context: Context, rule: Fairing) -> bool:
+        """Whether axes that a transformation leads could come to something forbidden, or turn by much near a pole."""
+        if context.transformation is None:
+            return False
+        channel, made, turns = self._channel, context.transformation, dict(rule.turns)
+        if made.pole is None and not self._has_limits():
+            return False
+        by = [PART * turns.get(column, 0.0) for column in range(len(channel.axes))]
+        for column in made.geometry:
+            if column >= 0:
+                by[column] = PART * rule.tolerance_mm
+        if certainly_within(channel, move, by, self._comes_near):
+            return False
+        from polycnc.channel.moves.beside import around, is_within  # where axes come near to something
+
+        near = around(channel, move, made, by)
+        if near is None or not self._has_limits():
+            return near is None
+        ways = near.chords() if self._watches() else []
+        return not is_within(channel, near) or any(self._comes_near(*way) for way in ways)
+
+    def _has_limits(self) -> bool:
+        """Whether the axes could come to anything that is forbidden."""
+        return bool(self._channel.limits) or self._watches()
+
+    def _rule(self, context: Context) -> Fairing | None:
+        """What holds for cuts of a context; nothing where a motion has several rows, or axes follow each other."""
+        if context.fairing is None or context.shown_by is not None or context.knot or context.chords:
+            return None
+        made = context.transformation
+        if made is not None and made is not self._made[0]:
+            from polycnc.channel.moves.beside import is_led_evenly  # where a transformation acts
+
+            self._made = made, is_led_evenly(made)
+        return context.fairing if made is None or self._made[1] else None
 
     @property
     def _halts(self) -> bool:
@@ -129,7 +175,7 @@ class FairingStage(Stage):
         """Take cuts into the run, and pass on what is settled; gives how many."""
         toolpath, known = self._channel.toolpath, self._rows
         context = toolpath.contexts[cuts.context]
-        rule, terms = _fairing(context), self._terms_of(context)
+        rule, terms = self._rule(context), self._terms_of(context)
         assert rule is not None
         if known is not None and (
             (known.program, known.context) != (cuts.program, cuts.context) or self._terms != terms
@@ -158,9 +204,8 @@ class FairingStage(Stage):
         self._run.turns = max((k for k in range(BOUNDS) if bounds[k] > 0.0), default=0)
         self._rows, self._passed = cuts.part(0), 1
         inward = context.frame.inverse().m
-        self._walls = array(
-            "d", [each for wall in walls_of(self._channel, context) for each in self._seen(wall, inward)]
-        )
+        walls = walls_of(self._channel, context) if context.transformation is None else []
+        self._walls = array("d", [each for wall in walls for each in self._seen(wall, inward)])
         at = [cuts.start[column] if column >= 0 else 0.0 for column in self._columns]
         for room, width in self._room():
             room[:] = array("d", bytes(8 * width))
@@ -198,7 +243,7 @@ class FairingStage(Stage):
 
     def _keep_clear(self, cuts: Run, first: int, context: Context) -> None:
         """Ends of lines that come near something forbidden have no room: the first line ends at point `first`."""
-        if not self._watches():
+        if not self._watches() or context.transformation is not None:
             return
         channel, room, distance = self._channel, self._points.room, PART * self._run.tolerance[0]
         axes, to_machine = len(cuts.start), channel.toolpath.to_machine
@@ -283,13 +328,6 @@ def _move(run: Run, i: int) -> Move:
     if run.parameters is not None and at >= 0:
         move.parameters = tuple(run.parameters[at : at + CURVE_WIDTH])
     return move
-
-
-def _fairing(context: Context) -> Fairing | None:
-    """What holds for cuts of a context; nothing where a transformation leads the axes, or a motion has several rows."""
-    if context.transformation is not None or context.shown_by is not None or context.knot or context.chords:
-        return None
-    return context.fairing
 
 
 def _columns(channel: Channel) -> tuple[int, ...]:

@@ -7,17 +7,18 @@ guard that the path puts there; where nothing changes moves, the channel asks at
 
 from __future__ import annotations
 
-from math import inf
+from math import hypot, inf
 
 from polycnc.channel.moves.path import Move, Rank, Stage
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry import arcs
+from polycnc.geometry.frames import IDENTITY
 from polycnc.messages import AlarmError
 from polycnc.toolpath.kinds import Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Sequence
 
     from polycnc.channel.channel import Channel
     from polycnc.channel.moves.move_path import MovePath
@@ -123,6 +124,79 @@ class Travel:
         return [self.move.start, *(way.at(k / count) for k in range(1, count + 1))]
 
 
+class Reached(Travel):
+    """Where a straight move of a tip can lead at most: a box around where it ends.
+
+    Args:
+        channel: The channel that moves.
+        move: The move.
+        by: How far its ends may be led beside, a number for each column.
+        ways: How far its axes are at most from where they are at its end.
+    """
+
+    def __init__(self, channel: Channel, move: Move, by: Sequence[float], ways: Sequence[float]) -> None:
+        super().__init__(channel, move)
+        end = self.to_machine(move.end)
+        low, high = ([at + side * way for at, way in zip(end, ways, strict=True)] for side in (-1.0, 1.0))
+        self._machine, self._by = [end, low, high], by
+
+    def turns(self, frame: Frame) -> list[list[float]]:  # noqa: ARG002 - a line turns back nowhere
+        """Points around both ends: no linear map leads what the move may become beyond those of them."""
+        found, count = [self.move.start, self.move.end], len(self._by)
+        for place in (self.move.start, self.move.end):
+            for column, way in enumerate(self._by):
+                for step in (-way, way) if way > 0.0 else ():
+                    moved = place.copy()
+                    moved[column] += count * step
+                    found.append(moved)
+        return found
+
+    def closely(self) -> list[list[float]]:
+        """Corners of the box."""
+        return self._machine
+
+
+def certainly_within(
+    channel: Channel,
+    move: Move,
+    by: Sequence[float] = (),
+    comes_near: Callable[[list[float], list[float], float], bool] | None = None,
+) -> bool:
+    """Whether a straight move of a tip is far from all limits, all along it and as far beside it as its ends may be.
+
+    What this cannot tell, and a limit that is near, is to be looked at along the way.
+
+    Args:
+        channel: The channel that moves.
+        move: The move.
+        by: How far its ends may be led beside, a number for each column.
+        comes_near: Whether a way of machine positions comes nearer than a distance to anything forbidden that has no
+            walls; None for what the boundary says.
+    """
+    context, boundary = channel.toolpath.contexts[move.context], channel.boundary
+    if context.transformation is None or move.center is not None or context.frame.m != IDENTITY.m:
+        return False
+    from polycnc.transformation.orientation.linked import ways_behind  # where a transformation acts
+
+    beside = by or (0.0,) * len(channel.axes)
+    ways = ways_behind(context.transformation, move.start, move.end, beside)
+    if not ways:
+        return False
+    box = Reached(channel, move, beside, ways)
+    end, low, high = box.machine
+    for bottom, top, (lowest, highest) in zip(low, high, channel.limits, strict=False):
+        if not lowest <= bottom <= top <= highest:
+            return False
+    try:
+        if boundary is not None:
+            boundary.check(channel, box)
+    except AlarmError:
+        return False
+    if comes_near is not None:
+        return not comes_near(end, end, hypot(*ways))
+    return boundary is None or not boundary.comes_near(channel, end, end, hypot(*ways))
+
+
 class TravelGuard(Stage):
     """Refuses what leads beyond the limits, behind all stages that change moves; the path itself puts it there."""
 
@@ -147,12 +221,14 @@ class TravelGuard(Stage):
     def _within(self, run: Run) -> int:
         """How many straight moves certainly stay within the limits, from the first on."""
         channel, context = self._channel, self._channel.toolpath.contexts[run.context]
-        if channel.boundary is not None or context.transformation is not None:
-            return 0
         axes, count = len(run.start), len(run.kinds)
+        if channel.boundary is None and not channel.limits:
+            return count
+        if channel.boundary is not None or context.transformation is not None:
+            return 0  # these are looked at one by one
         limits, to_machine = channel.limits, channel.toolpath.to_machine
         geometry = channel.coordinates.geometry
-        for i in range(count if limits else 0):
+        for i in range(count):
             machine = to_machine(run.ends[i * axes : (i + 1) * axes].tolist(), context, geometry)
             if not all(low <= at <= high for at, (low, high) in zip(machine, limits, strict=True)):
                 return i
@@ -206,7 +282,7 @@ def walls_of(channel: Channel, context: Context) -> list[Wall]:
 def check_travel(channel: Channel, move: Move) -> None:
     """The control's alarm for a move that leads beyond what machine, setup or program allow."""
     limits, boundary = channel.limits, channel.boundary
-    if move.kind != Kind.DWELL and (limits or boundary is not None):
+    if move.kind != Kind.DWELL and (limits or boundary is not None) and not certainly_within(channel, move):
         travel = Travel(channel, move)
         if limits:
             for machine in travel.machine[1:]:

@@ -17,6 +17,7 @@ from polycnc.toolpath.modes import CornerMode
 
 if TYPE_CHECKING:
     from polycnc.channel.channel import Channel
+    from polycnc.channel.moves.path import Run
     from polycnc.transformation.orientation.turning import Turning
 
 
@@ -30,6 +31,7 @@ class TurningStage(Stage):
     """Leads the rotary axes of moves that say how they go."""
 
     rank = Rank.TURNING
+    takes_runs = True
 
     def __init__(self, channel: Channel) -> None:
         self._channel = channel
@@ -64,6 +66,10 @@ class TurningStage(Stage):
         share_time(self._channel, pieces)
         for piece in pieces:
             self.after.move(piece)
+
+    def run(self, run: Run) -> int:
+        """Rotary axes go evenly along moves of a run."""
+        return self.after.run(run)
 
     def _as_chord(self, context: int) -> int:
         """The context of a row that is a chord of the curve of its rotary axes."""

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from array import array
+from math import dist, hypot
 
 from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.frames import IDENTITY
-from polycnc.transformation.orientation.linkage import JOINT_WIDTH, MOST_JOINTS, Linkage
+from polycnc.transformation.orientation.linkage import JOINT_WIDTH, MOST_JOINTS, RADIAN, Linkage
 from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
 from polycnc.transformation.seated import Seated
 
@@ -62,6 +63,36 @@ def zero_of(transformation: Transformation | None, n: int) -> tuple[float, ...]:
     for column, way in zip(point.geometry, point.apart, strict=True):
         shifts[column] = way - point.zero[column]
     return tuple(a + b for a, b in zip(shifts, behind, strict=True))
+
+
+def ways_behind(
+    transformation: Transformation | None, start: Sequence[float], end: Sequence[float], by: Sequence[float]
+) -> list[float]:
+    """How far axes behind a straight way of the tip are at most from where they are at its end, all along it.
+
+    Its points may be moved by as much as `by` says for each column. Empty for what is no tool centre point, or has
+    couplings. A joint takes what it carries along by no more than its turn times how far that is away.
+    """
+    seated = transformation if isinstance(transformation, Seated) else None
+    point = transformation if seated is None else seated.inner
+    if (seated is not None and seated.is_coupled) or not isinstance(point, ToolCentrePoint):
+        return []
+    ends = [list(place) if seated is None else seated.basic(place) for place in (start, end)]
+    a, b = ([place[column] + point.zero[column] for column in point.geometry] for place in ends)
+    larger = (
+        1.0 if seated is None else max(hypot(*row) for row in zip(*seated.frame.m, strict=True)) * 3.0**0.5
+    )
+    beside = larger * hypot(*(by[column] for column in point.geometry))
+    ways = [abs(to - at) + more for at, to, more in zip(*ends, by, strict=True)]
+    linear = dist(a, b) + beside
+    for links, arm in zip(
+        point.chains, (max(hypot(*a), hypot(*b)) + beside, hypot(*point.hung)), strict=True
+    ):
+        reach = arm + 2.0 * sum(hypot(*link.offset) for link in links)
+        linear += reach * RADIAN * sum(ways[link.column] for link in links)
+    for column in point.geometry:
+        ways[column] = linear
+    return ways
 
 
 def _joint(link: Link) -> Sequence[float]:

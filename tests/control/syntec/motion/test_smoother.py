@@ -192,3 +192,21 @@ def test_g05_moves_rotary_axes_that_it_names_within_their_words() -> None:
     plain = polycnc.run(without.encode(), control="syntec-mill", setup=setup)
     assert not any(row.curve for row in plain.toolpath.rows() if row.kind is Kind.FEED)
     assert noisy.time < 0.5 * plain.time
+
+
+TIP = {"machine": "mill5-ac-table", "tools": {1: {"length": 50.0}}}
+
+
+@pytest.mark.parametrize(
+    ("code", "moved"), [(FILTER, True), ("G05.1 Q2 E0.01", False), ("G05.1 Q5 E0.01", False), ("G64", False)]
+)
+def test_under_tip_control_the_filter_leads_the_tip_beside_its_ends(code: str, *, moved: bool) -> None:
+    """Its direction stays as programmed: E names no angle."""
+    blocks = "".join(
+        f"{line} A{20.0 + 0.1 * k:.1f} C{0.2 * k:.1f}\n" for k, line in enumerate(noise(1, 80).splitlines())
+    )
+    text = f"G71 G90\nG43.4 H1\n{code}\nG01 F6000. X0 Y0 Z0 A20. C0\n{blocks}G49\nM30\n"
+    rows = [row for row in rows_of(text, **TIP) if row.kind is Kind.FEED]
+    assert moves(rows) is moved
+    assert max(map(shift, rows)) <= 0.008
+    assert not any(any(row.curve[4:7]) for row in rows if row.curve)

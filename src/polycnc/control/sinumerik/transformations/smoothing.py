@@ -8,11 +8,15 @@ along its block, as it turns without smoothing.
 
 from __future__ import annotations
 
+from math import sqrt
+
 from polycnc.control.sinumerik.feed.tolerances import Smoothing, axis_tolerance, contour_tolerance
 from polycnc.control.sinumerik.transformations import seat
 from polycnc.control.sinumerik.transformations.words import BY_PATH, CONES
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.typing import TYPE_CHECKING
+from polycnc.geometry.vectors import dot
+from polycnc.machine.kinematics import unit
 from polycnc.toolpath.context import Fairing
 from polycnc.toolpath.modes import CornerMode
 
@@ -22,6 +26,8 @@ if TYPE_CHECKING:
     from polycnc.channel.mode import Mode
     from polycnc.control.sinumerik.block.draft import Values
     from polycnc.control.sinumerik.family import SinumerikChannel
+    from polycnc.machine.kinematics import Kinematics
+    from polycnc.transformation.orientation.tool_centre import ToolCentrePoint
 
 #: Setting data that the tolerances of a context are made of.
 DATA = frozenset(
@@ -78,20 +84,35 @@ def _own_contour(channel: SinumerikChannel) -> float:
 
 
 def fairing(channel: SinumerikChannel, mode: Mode) -> Fairing | None:
-    """How the compressor leads cuts of blocks up to MD20170 (4.4); under a transformation or GEOAX it does not."""
-    if not is_compressed(mode) or channel.coordinates.transformation is not None:
+    """How the compressor leads cuts of blocks up to MD20170 (4.4, 6.6); under GEOAX it does not."""
+    if not is_compressed(mode):
         return None
-    if tuple(channel.coordinates.geometry) != tuple(channel.machine.geometry_indices(channel.number)):
+    made, geometry = channel.coordinates.transformation, tuple(channel.coordinates.geometry)
+    own = channel.machine.geometry_indices(channel.number) if made is None else made.geometry
+    point = None if made is None else seat.centre_point(channel)
+    if geometry != tuple(own) or (point is not None and mode["orientation_motion"] in NOT_COMPRESSED):
         return None
+    turns = _turns(channel) if made is None else _orientation(channel, point)
     longest = channel.memory.data.number("$MC_COMPRESS_BLOCK_PATH_LIMIT")
     tolerance, reach = _own_contour(channel), REACH[mode["compressor"]]
-    return Fairing(tolerance, reach, longest, _turns(channel)) if tolerance > 0.0 < longest else None
+    return Fairing(tolerance, reach, longest, turns) if tolerance > 0.0 < longest else None
 
 
 def _turns(channel: SinumerikChannel) -> tuple[tuple[int, float], ...]:
     """What ATOL or MD33100 allows each rotary axis, degrees."""
     rotary = (column for column, axis in enumerate(channel.axis_data) if axis.rotary)
     return tuple((column, axis_tolerance(channel, column)) for column in rotary)
+
+
+def _orientation(channel: SinumerikChannel, point: ToolCentrePoint | None) -> tuple[tuple[int, float], ...]:
+    """What each axis that turns the tool may leave its way by, so that its direction stays within the tolerance."""
+    if point is None:
+        return ()
+    columns = [point.axes.index(axis) for axis in point.kinematics.axes]
+    allowed = _direction_tolerance(channel)
+    if allowed is None:
+        return tuple((column, axis_tolerance(channel, column)) for column in columns)
+    return tuple((column, allowed / together(point.kinematics)) for column in columns)
 
 
 def swing(channel: SinumerikChannel, mode: Mode) -> float:
@@ -128,14 +149,31 @@ def turn(channel: SinumerikChannel, mode: Mode) -> Turn:
     if code == "OSD":
         return Turn(distance_mm=data.number("$SC_ORI_SMOOTH_DIST"))
     if code == "OST":
-        return Turn(given if given > 0.0 else data.number("$SC_ORI_SMOOTH_TOL"))
+        return Turn(given if given > 0.0 else data.number("$SC_ORI_SMOOTH_TOL"))  # of each axis (7.6)
     if not is_compressed(mode) or mode["orientation_motion"] in NOT_COMPRESSED:
         return Turn()
+    return Turn(min((degrees for _, degrees in _orientation(channel, point)), default=0.0))
+
+
+def _direction_tolerance(channel: SinumerikChannel) -> float | None:
+    """What the compressor lets the tool's direction leave its way by, degrees; None where each axis has its own."""
+    given = Smoothing.of(channel).tolerance.get("OTOL", 0.0)
     if given > 0.0:
-        return Turn(given)
-    if data.integer("$MC_COMPRESSOR_MODE") % 10 in BY_ORIENTATION:
-        return Turn(data.number("$SC_COMPRESS_ORI_TOL"))
-    return Turn(_of_axes(channel, (point.axes.index(axis) for axis in point.kinematics.axes)))
+        return given
+    data = channel.memory.data
+    own = data.integer("$MC_COMPRESSOR_MODE") % 10 in BY_ORIENTATION
+    return data.number("$SC_COMPRESS_ORI_TOL") if own else None
+
+
+def together(kinematics: Kinematics) -> float:
+    """How far the tool's direction is turned at most, as a part of what each rotary axis turns by.
+
+    Two axes, square to each other, turn it by the root of two: turns by little add up as vectors along the axes do.
+    """
+    joints = [unit(joint.direction) for joint in (*kinematics.tool, *kinematics.work)]
+    if len(joints) != 2:
+        return float(len(joints))
+    return sqrt(2.0 + 2.0 * abs(dot(*joints)))
 
 
 def _of_axes(channel: SinumerikChannel, columns: Iterable[int]) -> float:

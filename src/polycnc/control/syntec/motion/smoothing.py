@@ -62,12 +62,15 @@ class SmoothingState(State, lifetime=Lifetime.RESET):
         fits: By G05, under which G09 has no effect (2.10.3).
         turns: How far rotary axes that G05 names may leave their way, degrees, with their columns.
         leaves_points: Cuts are led beside their ends within the tolerance.
+        filters: By G05.1 Q1 or Q2: of these the manual does not say that tip control suspends them, as it does of G05
+            (2.11.3) and Q5 (2.9.2).
     """
 
     tolerance: float = 0.0
     fits: bool = False
     turns: tuple[tuple[int, float], ...] = ()
     leaves_points: bool = False
+    filters: bool = False
 
     @classmethod
     def first(cls, channel: Channel) -> Self:
@@ -88,10 +91,13 @@ def _fit_tolerance(parameters: SyntecParameters) -> float:
 
 
 def smoothed(channel: SyntecChannel, context: Context) -> Context:
-    """A context under G05 or G05.1: corners are rounded within the tolerance, but under G61, G63 and tip control."""
+    """A context under G05 or G05.1: corners are rounded within the tolerance, but under G61 and G63.
+
+    Under tip control the filters act alone, on the tip: they name no tolerance for the axes that turn the tool.
+    """
     state = SmoothingState.of(channel)
     tolerance = state.tolerance
-    if not tolerance or leads_tip(channel) or channel.mode["path"] in STOPPING_MODES:
+    if not tolerance or channel.mode["path"] in STOPPING_MODES or (leads_tip(channel) and not state.filters):
         return context
     if context.corner_mode is not CornerMode.CONTINUOUS and not state.fits:
         return context
@@ -129,7 +135,7 @@ def smooth_path(channel: SyntecChannel, words: Words) -> None:
         tolerance = _corner_tolerance(channel.memory.parameters)
     else:
         tolerance = min(error, LARGEST_FILTER) * unit
-    _switch(channel, tolerance, "G5.1", leaves_points=kind == FILTER)
+    _switch(channel, tolerance, "G5.1", leaves_points=kind == FILTER, filters=kind in FILTERS)
     _put_stages(channel, ())
 
 
@@ -172,13 +178,14 @@ def _switch(
     fits: bool = False,
     turns: tuple[tuple[int, float], ...] = (),
     leaves_points: bool,
+    filters: bool = False,
 ) -> None:
     """Another tolerance holds from here on; the axes come to rest in between."""
     state = SmoothingState.of(channel)
     channel.flush()
     leave(channel)
     state.tolerance, state.fits, state.turns = tolerance, fits, turns
-    state.leaves_points = leaves_points and tolerance > 0.0
+    state.leaves_points, state.filters = leaves_points and tolerance > 0.0, filters
     PathModeState.of(channel).contour_control = tolerance > 0.0
     channel.event(Deed(code, None, _nothing, is_silent=False))
     channel.context_changed()
