@@ -31,6 +31,12 @@ class Turning(NamedTuple):
     weight: Floats
 
 
+def weigh_evenly(turning: Turning, count: int) -> None:
+    """Let the turning of so many stretches count as it is."""
+    for e in range(count):
+        turning.weight[e] = 1.0
+
+
 def sum_turning(path: Stretches, n: int, turning: Turning) -> None:
     """Fill in the sums of the turning of a path."""
     total, area, count = 0.0, 0.0, len(path.form)
