@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from array import array
 from bisect import bisect_left, bisect_right
+from itertools import chain
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.typing import TYPE_CHECKING
@@ -191,7 +192,8 @@ def turning_for(count: int) -> Turning:
 
 def spline_for(room: int, n: int) -> Spline:
     """Room for a spline of so many knots."""
-    return Spline(*(numbers(room) for _ in range(3)), *(numbers((room + 3) * n) for _ in range(4)))
+    of_knots = (numbers(room) for _ in range(3)), (whole(room) for _ in range(2))
+    return Spline(*chain(*of_knots), *(numbers((room + 3) * n) for _ in range(4)))
 
 
 def numbers(count: int) -> array[float]:

@@ -52,7 +52,7 @@ def bend_path(
         if count < 0:
             return NO_ROOM
         even_out(samples, count)
-        made = place_knots(samples, count, seams, spline.way, spline.room) - 1
+        made = place_knots(samples, count, seams, spline) - 1
         if made < 0 or (made + 3) * n > len(spline.control):
             return NO_ROOM
         lay_controls(path, n, spline, made)
