@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from array import array
 from bisect import bisect_left, bisect_right
-from itertools import chain
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.typing import TYPE_CHECKING
@@ -187,13 +186,14 @@ def bent_part(path: Stretches, seams: array[float], room: Room) -> Part:
 
 def turning_for(count: int) -> Turning:
     """Room for the turning of so many stretches."""
-    return Turning(*(numbers(count + 1) for _ in range(3)), numbers(count))
+    before, behind, area = (numbers(count + 1) for _ in range(3))
+    return Turning(before, behind, area, numbers(count))
 
 
 def spline_for(room: int, n: int) -> Spline:
     """Room for a spline of so many knots."""
-    of_knots = (numbers(room) for _ in range(3)), (whole(room) for _ in range(2))
-    return Spline(*chain(*of_knots), *(numbers((room + 3) * n) for _ in range(4)))
+    way, apart, moved = (numbers(room) for _ in range(3))
+    return Spline(way, apart, moved, whole(room), whole(room), *(numbers((room + 3) * n) for _ in range(4)))
 
 
 def numbers(count: int) -> array[float]:

@@ -240,8 +240,10 @@ class _Joined:
 def _cut(law: Found, begin: float, end: float, origin: float) -> array[float]:
     """The phases of a law between two ways, counted from `origin`."""
     nodes = law.nodes.way
-    between = bisect_left(nodes, end) - bisect_right(nodes, begin)
-    out = numbers((between + 2) * PAIR * Phase.SIZE)
-    count = kernels().cut_law(law.phases, begin, end, origin, out)
+    first, last = max(bisect_right(nodes, begin) - 1, 0), bisect_left(nodes, end)
+    of_node = PAIR * Phase.SIZE
+    out = numbers((last - first + 1) * of_node)
+    phases = law.phases[first * of_node :] if first else law.phases
+    count = kernels().cut_law(phases, begin, end, origin, out)
     del out[count * Phase.SIZE :]
     return out

@@ -56,6 +56,12 @@ def cut_law(phases: Floats, begin: float, end: float, origin: float, out: Floats
         behind = phases[at + Phase.SIZE + Phase.WAY] if k + 1 < count else inf
         if until <= 0.0 or way >= end or behind <= begin:
             continue
+        if begin <= way and behind <= end:  # whole, as nearly all are
+            out[to + Phase.TIME], out[to + Phase.WAY] = until, way - origin
+            for i in range(Phase.SPEED, Phase.SIZE):
+                out[to + i] = phases[at + i]
+            found += 1
+            continue
         if way < begin:
             first = reached(phases, at, 0.0, begin)
         if behind > end:
