@@ -54,7 +54,9 @@ def own_cap(course: Course, axes: Axes, k: int) -> float:
     speed = bend = twist = 0.0
     for i in range(n):
         here, there = course.second[k * n + i], course.second[k * n + n + i]
-        third = abs(there - here) / step
+        own = (there - here) / step
+        third = abs(own)
+        course.third[k * n + i] = own
         first = (
             max(abs(course.first[k * n + i]), abs(course.first[k * n + n + i])) + 0.125 * third * step * step
         )
@@ -204,8 +206,10 @@ def _seconds(places: Floats, squares: Floats, k: int) -> float:
     return 2.0 * (places[k + 1] - places[k]) / max(sqrt(squares[k]) + sqrt(squares[k + 1]), 1e-6)
 
 
-def gather(course: Course, axes: Axes, nodes: Nodes) -> None:
-    """What every node knows of the pieces on its cell."""
+def gather(course: Course, axes: Axes, nodes: Nodes, moves: Floats) -> None:
+    """What every node knows of the pieces on its cell; sets which axes move anywhere."""
+    for i in range(len(moves)):
+        moves[i] = 0.0
     n, m, count = len(axes.jerk), len(course.cap2), len(nodes.way)
     low = at = 0
     for k in range(count):
@@ -217,15 +221,16 @@ def gather(course: Course, axes: Axes, nodes: Nodes) -> None:
         at = max(at, low)
         while at < m - 1 and course.way[at + 1] <= way:
             at += 1
-        high, cap, room = low, inf, 1.0
+        high, cap, ease = low, inf, inf
         while True:
-            cap, room = min(cap, course.cap2[high]), min(room, course.ease[high])
+            cap, ease = min(cap, course.cap2[high]), min(ease, course.ease[high])
             if high >= m - 1 or course.way[high + 1] >= end:
                 break
             high += 1
-        nodes.cap2[k], nodes.room[k] = cap, room
+        nodes.cap2[k], nodes.room[k] = cap, 1.0
         for i in range(n):
-            _gather_axis(course, axes, nodes, k, i, n, low, high, at, begin, end)
+            if _gather_axis(course, axes, nodes, k, i, low, high, at, begin, end, ease):
+                moves[i] = 1.0
 
 
 def _gather_axis(
@@ -234,40 +239,33 @@ def _gather_axis(
     nodes: Nodes,
     k: int,
     i: int,
-    n: int,
     low: int,
     high: int,
     at: int,
     begin: float,
     end: float,
-) -> None:
-    shape = (k * n + i) * Shape.SIZE
-    moves = False
-    for p in range(low, high + 2):
-        moves = moves or course.first[p * n + i] != 0.0 or course.second[p * n + i] != 0.0
-    if not moves:
-        for place_ in range(Shape.SIZE):
-            nodes.shape[shape + place_] = 0.0
-        return
-    step = nodes.way[k] - course.way[at]
+    ease: float,
+) -> bool:
+    """What a node on the piece `at` knows of an axis on the pieces `low` to `high` of its cell; says whether it moves."""
+    n = len(axes.jerk)
+    step, third = nodes.way[k] - course.way[at], course.third[at * n + i]
     bend = course.second[at * n + i]
-    third = (course.second[at * n + n + i] - bend) / (course.way[at + 1] - course.way[at])
-    first = 0.5 * (course.first[at * n + i] + step * (bend + 0.5 * step * third))
+    first = course.first[at * n + i] + step * (bend + 0.5 * step * third)
     bend_low = bend_high = bend + step * third
-    third_low, third_high = inf, -inf
+    third_low = third_high = third
     for p in range(low, high + 1):
-        length = course.way[p + 1] - course.way[p]
-        here, there = course.second[p * n + i], course.second[p * n + n + i]
-        third = (there - here) / length
+        here, third, way = course.second[p * n + i], course.third[p * n + i], course.way[p]
+        left = here + third * max(begin - way, 0.0)
+        right = here + third * (min(end, course.way[p + 1]) - way)
         third_low, third_high = min(third_low, third), max(third_high, third)
-        left = here + third * max(begin - course.way[p], 0.0)
-        right = here + third * min(end - course.way[p], length)
         bend_low, bend_high = min(bend_low, left, right), max(bend_high, left, right)
-    pull, jerk = 1.0 / axes.pull[i], 1.0 / axes.jerk[i]
-    middle, range_ = 0.5 * (bend_high + bend_low), 0.5 * (bend_high - bend_low)
-    nodes.shape[shape + Shape.FIRST], nodes.shape[shape + Shape.JOLT_FIRST] = first * pull, first * jerk
-    nodes.shape[shape + Shape.SECOND], nodes.shape[shape + Shape.SECOND_RANGE] = middle * pull, range_ * pull
-    nodes.shape[shape + Shape.JOLT_SECOND] = 1.5 * middle * jerk
-    nodes.shape[shape + Shape.JOLT_RANGE] = 1.5 * range_ * jerk
-    nodes.shape[shape + Shape.THIRD] = 0.5 * (third_high + third_low) * jerk
-    nodes.shape[shape + Shape.THIRD_RANGE] = 0.5 * (third_high - third_low) * jerk
+    s, count, part = nodes.shape, len(nodes.way), 0.5 / (ease * axes.jerk[i])
+    at = i * Shape.SIZE * count + k
+    s[at + Shape.FIRST * count] = first * part
+    s[at + Shape.SECOND * count] = 1.5 * (bend_high + bend_low) * part
+    s[at + Shape.SECOND_RANGE * count] = 1.5 * (bend_high - bend_low) * part
+    s[at + Shape.THIRD * count] = (third_high + third_low) * part
+    s[at + Shape.THIRD_RANGE * count] = (third_high - third_low) * part
+    moves = first != 0.0 or bend_low != 0.0 or bend_high != 0.0 or third_high > third_low
+    s[at + Shape.MOVES * count] = 1.0 if moves else 0.0
+    return moves

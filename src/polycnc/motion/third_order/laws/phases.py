@@ -15,8 +15,8 @@ from __future__ import annotations
 from math import sqrt
 
 from polycnc.kernels.layout import Floats
-from polycnc.motion.third_order.laws.barrier import value
 from polycnc.motion.third_order.laws.courses import Axes, Course, Nodes, Phase
+from polycnc.motion.third_order.laws.stencils import value
 
 #: Phases between two nodes.
 PAIR = 2

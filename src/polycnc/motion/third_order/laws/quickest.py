@@ -6,9 +6,20 @@ from array import array
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.typing import TYPE_CHECKING
-from polycnc.motion.third_order.laws.barrier import BANDS
 from polycnc.motion.third_order.laws.compiled import kernels
-from polycnc.motion.third_order.laws.courses import Course, Ends, Known, Nodes, Phase, Shape, Stencil
+from polycnc.motion.third_order.laws.courses import (
+    BATCH,
+    Course,
+    Ends,
+    Force,
+    Known,
+    Nodes,
+    Phase,
+    Shape,
+    Stencil,
+    Work,
+)
+from polycnc.motion.third_order.laws.newton import BANDS
 from polycnc.motion.third_order.laws.phases import PAIR
 
 if TYPE_CHECKING:
@@ -27,7 +38,8 @@ class NoLawError(ValueError):
 
 def course_of(way: Floats, first: Floats, second: Floats, cap2: Floats, ease: Floats) -> Course:
     """A bent path with room for its estimate."""
-    return Course(way, first, second, cap2, ease, numbers(len(cap2)), numbers(len(cap2) + 1))
+    m, n = len(cap2), len(first) // len(way)
+    return Course(way, first, second, cap2, ease, numbers(m * n), numbers(m), numbers(m + 1))
 
 
 class Found(NamedTuple):
@@ -72,9 +84,8 @@ def quickest(course: Course, axes: Axes, ends: array[float], known: Known = NONE
         numbers(count * Stencil.SIZE),
     )
     phases, most = numbers(PAIR * (count - 1) * Phase.SIZE), numbers(3 * PAIR * (count - 1))
-    rounds = kernels().find_law(
-        course, axes, ends, places, squares, nodes, known, numbers(BANDS * (count + 2)), phases, most
-    )
+    work = Work(numbers(len(axes.jerk)), numbers(BANDS * count), numbers(Force.SIZE * BATCH))
+    rounds = kernels().find_law(course, axes, ends, places, squares, nodes, known, work, phases, most)
     if rounds < 0:
         return None
     return Found(phases, Known(nodes.way, nodes.x, nodes.cap2, nodes.room))

@@ -5,10 +5,11 @@ from __future__ import annotations
 from math import sqrt
 
 from polycnc.kernels.layout import Floats
-from polycnc.motion.third_order.laws.barrier import begin, improve, lay_stencils
-from polycnc.motion.third_order.laws.courses import Axes, Course, Ends, Known, Nodes, Phase
+from polycnc.motion.third_order.laws.courses import Axes, Course, Ends, Known, Nodes, Phase, Work
 from polycnc.motion.third_order.laws.grid import cut, estimate, gather, spread
+from polycnc.motion.third_order.laws.newton import begin, improve
 from polycnc.motion.third_order.laws.phases import PAIR, examine, lay_phases, leads_on
+from polycnc.motion.third_order.laws.stencils import lay_stencils
 
 #: Weights of the barriers in each pass, and in those of repairs, which shall not use up what is left.
 WEIGHTS, REPAIRING = (0.1, 0.06, 0.04, 0.04), 0.06
@@ -58,7 +59,7 @@ def find_law(
     squares: Floats,
     nodes: Nodes,
     known: Known,
-    bands: Floats,
+    work: Work,
     phases: Floats,
     most: Floats,
 ) -> int:
@@ -76,26 +77,26 @@ def find_law(
         squares: As there.
         nodes: k nodes with their ways.
         known: The first of them, where another law leads so far, or none.
-        bands: For `BANDS` numbers a node.
+        work: Room.
         phases: The law: `PAIR` phases between two nodes.
         most: For three numbers a phase, see `examine`.
     """
     last = len(nodes.way) - 1
-    gather(course, axes, nodes)
+    gather(course, axes, nodes, work.moves)
     begin(places, squares, int(places[len(places) - 1]), nodes, axes, ends, SHARE)
     for k in range(1, len(known.way)):
         nodes.x[k], nodes.cap2[k], nodes.room[k] = known.x[k], known.cap2[k], known.room[k]
     lay_stencils(nodes, ends)
     for weight in WEIGHTS:
-        improve(nodes, axes, weight, bands, 0, last)
+        improve(nodes, axes, work, weight, 0, last)
     few = last < FEW
     if few:
         for weight in FINE:
-            improve(nodes, axes, weight, bands, 0, last)
+            improve(nodes, axes, work, weight, 0, last)
     lay_phases(nodes, phases, 0, last)
     examine(course, axes, phases, most, 0, PAIR * last)
     rounds = 0
-    while rounds < ROUNDS and _repair(course, axes, nodes, bands, phases, most, rounds, few):
+    while rounds < ROUNDS and _repair(course, axes, nodes, work, phases, most, rounds, few):
         rounds += 1
     if rounds == ROUNDS and _worst(most) > KEPT:
         if ends[Ends.START_SPEED] > 0.0 or ends[Ends.END_SPEED] > 0.0:
@@ -126,7 +127,7 @@ def _repair(
     course: Course,
     axes: Axes,
     nodes: Nodes,
-    bands: Floats,
+    work: Work,
     phases: Floats,
     most: Floats,
     rounds: int,
@@ -150,7 +151,7 @@ def _repair(
             k += 1
         k = end = min(end + 1 + around, last)
         for _ in range(PASSES + rounds // LATER):
-            improve(nodes, axes, FINEST if few else REPAIRING, bands, first, end)
+            improve(nodes, axes, work, FINEST if few else REPAIRING, first, end)
         # the acceleration of a node depends on two on either side
         first, end = max(first - 2, 0), min(end + 2, last)
         lay_phases(nodes, phases, first, end)
