@@ -89,7 +89,7 @@ def _begin_forces(nodes: Nodes, weight: float, forces: Floats, first: int, end: 
         forces[Force.GX * BATCH + at] = gx - level * force * (2.0 - slack * force)
         forces[Force.OWN * BATCH + at] = weight * cell * at_root
         forces[Force.WIDE * BATCH + at], forces[Force.HALF * BATCH + at] = wide, 0.5 * wide * inverse
-        forces[Force.AT_ROOT * BATCH + at] = at_root
+        forces[Force.SOFT * BATCH + at] = SOFT * weight * nodes.room[k] * at_root
         forces[Force.GS * BATCH + at] = forces[Force.GB * BATCH + at] = 0.0
         forces[Force.HXS * BATCH + at] = forces[Force.HXB * BATCH + at] = 0.0
         forces[Force.HSS * BATCH + at] = forces[Force.HSB * BATCH + at] = forces[Force.HBB * BATCH + at] = 0.0
@@ -98,40 +98,56 @@ def _begin_forces(nodes: Nodes, weight: float, forces: Floats, first: int, end: 
 def _add_axis(
     nodes: Nodes, i: int, build: float, soft_part: float, forces: Floats, first: int, end: int
 ) -> None:
-    """Add the barriers of the acceleration and of the jerk of an axis, in x, x' and x''."""
+    """Add the barriers of the jerk of an axis, in x, x' and x''; those of its acceleration if they count anywhere."""
     count, f = len(nodes.way), forces
     s, shape = nodes.shape, i * Shape.SIZE * count
+    near = 0
     for k in range(first, end):
         at, own = k - first, shape + k
         x, slope, bend = f[Force.X * BATCH + at], f[Force.SLOPE * BATCH + at], f[Force.BEND * BATCH + at]
         turn, second = s[own + Shape.FIRST * count], s[own + Shape.SECOND * count]
         extra, third = s[own + Shape.SECOND_RANGE * count], s[own + Shape.THIRD * count]
         range_, moves = s[own + Shape.THIRD_RANGE * count], s[own + Shape.MOVES * count]
-        room, half, wide = nodes.room[k], f[Force.HALF * BATCH + at], f[Force.WIDE * BATCH + at]
-        # the slack top ∓ sum has the slope -less ∓ more by x, ∓ turn by x'
-        more, less, top = 2.0 / 3.0 * second, 2.0 / 3.0 * extra, room * build
-        sum_, used = turn * slope + more * x, less * x
-        counts = 1.0 if abs(sum_) + used > FREE * top else 0.0
-        both, all_, odd, even = _forces(top - used, sum_, soft_part * top)
-        both, all_, odd, even = counts * both, counts * all_, counts * odd, counts * even
-        gx, gs = more * both + less * all_, turn * both
-        mixed = even * more - odd * less
-        hxx, hxs = more * mixed + less * (even * less - odd * more), turn * mixed
-        hss = even * turn * turn
-        sum_, falls = turn * bend + second * slope + third * x, half + range_
-        top, soft = wide - range_ * x - extra * abs(slope), soft_part * room * f[Force.AT_ROOT * BATCH + at]
-        both, all_, odd, even = _forces(top, sum_, soft)
-        both, all_, odd, even = moves * both, moves * all_, moves * odd, moves * even
+        used = abs(turn * slope + 2.0 / 3.0 * second * x) + 2.0 / 3.0 * extra * x
+        near += used > FREE * build * nodes.room[k]
+        # the slack top ∓ sum has the slope -falls ∓ third by x, ∓ second by x', ∓ turn by x''
+        top = f[Force.WIDE * BATCH + at] - range_ * x - extra * abs(slope)
+        sum_, falls = turn * bend + second * slope + third * x, moves * f[Force.HALF * BATCH + at] + range_
+        both, all_, odd, even = _forces(top, sum_, f[Force.SOFT * BATCH + at])
         mixed, sloped, bent = even * third - odd * falls, even * second, even * turn
-        f[Force.GX * BATCH + at] -= gx + third * both + falls * all_
-        f[Force.GS * BATCH + at] -= gs + second * both
+        f[Force.GX * BATCH + at] -= third * both + falls * all_
+        f[Force.GS * BATCH + at] -= second * both
         f[Force.GB * BATCH + at] -= turn * both
-        f[Force.HXX * BATCH + at] += hxx + third * mixed + falls * (even * falls - odd * third)
-        f[Force.HXS * BATCH + at] += hxs + second * mixed
+        f[Force.HXX * BATCH + at] += third * mixed + falls * (even * falls - odd * third)
+        f[Force.HXS * BATCH + at] += second * mixed
         f[Force.HXB * BATCH + at] += turn * mixed
-        f[Force.HSS * BATCH + at] += hss + sloped * second
+        f[Force.HSS * BATCH + at] += sloped * second
         f[Force.HSB * BATCH + at] += sloped * turn
         f[Force.HBB * BATCH + at] += bent * turn
+    if near > 0:
+        _add_pulls(nodes, shape, build, soft_part, forces, first, end)
+
+
+def _add_pulls(
+    nodes: Nodes, shape: int, build: float, soft_part: float, forces: Floats, first: int, end: int
+) -> None:
+    """Add the barriers of the acceleration of an axis, in x and x', where they count."""
+    count, f, s = len(nodes.way), forces, nodes.shape
+    for k in range(first, end):
+        at, own = k - first, shape + k
+        x, slope, turn = f[Force.X * BATCH + at], f[Force.SLOPE * BATCH + at], s[own + Shape.FIRST * count]
+        more = 2.0 / 3.0 * s[own + Shape.SECOND * count]
+        less = 2.0 / 3.0 * s[own + Shape.SECOND_RANGE * count]
+        top, sum_, used = build * nodes.room[k], turn * slope + more * x, less * x
+        counts = 1.0 if abs(sum_) + used > FREE * top else 0.0
+        both, all_, odd, even = _forces(top - used, sum_, soft_part * top)
+        both, even = counts * both, counts * even
+        mixed = even * more - counts * odd * less
+        f[Force.GX * BATCH + at] -= more * both + counts * less * all_
+        f[Force.GS * BATCH + at] -= turn * both
+        f[Force.HXX * BATCH + at] += more * mixed + less * (even * less - counts * odd * more)
+        f[Force.HXS * BATCH + at] += turn * mixed
+        f[Force.HSS * BATCH + at] += even * turn * turn
 
 
 def _forces(top: float, sum_: float, soft: float) -> tuple[float, float, float, float]:

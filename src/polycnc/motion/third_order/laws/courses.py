@@ -116,7 +116,7 @@ class Force(Places):
     """What the barriers of nodes come to; each field has `BATCH` numbers in a row.
 
     x, x' and x'' there; a factor of all that follows; the jerk that there is room for by √x, and how it falls with x;
-    1/√x. Slopes, with the other sign, and bends: at first by x (X), x' (S) and x'' (B), then by x at the nodes before
+    how little of it is a parabola's. Slopes, with the other sign, and bends: at first by x (X), x' (S) and x'' (B), then by x at the nodes before
     (0), here (1) and behind (2).
     """
 
@@ -126,7 +126,7 @@ class Force(Places):
     OWN = place()
     WIDE = place()
     HALF = place()
-    AT_ROOT = place()
+    SOFT = place()
     GX = place()
     GS = place()
     GB = place()
