@@ -48,7 +48,7 @@ class Ends(Places):
 
 
 class Shape(Places):
-    """What a node knows of one axis on its cell: half of q' at it, the middles and half the ranges of 3/2 q'' and of q'''.
+    """What a node knows of one axis on its cell: half of q' at it, middles and half the ranges of 3/2 q'' and of q'''.
 
     They are parts of the jerk that the axis may have there. And 1 where it moves, 0 where it stands still.
     """
@@ -115,9 +115,9 @@ BATCH = 128
 class Force(Places):
     """What the barriers of nodes come to; each field has `BATCH` numbers in a row.
 
-    x, x' and x'' there; a factor of all that follows; the jerk that there is room for by √x, and how it falls with x;
-    how little of it is a parabola's. Slopes, with the other sign, and bends: at first by x (X), x' (S) and x'' (B), then by x at the nodes before
-    (0), here (1) and behind (2).
+    x, x' and x'' there; a factor of all that follows; the part of jerk by √x that there is room for, and how it falls
+    with x; the slack below which its barrier is a parabola. Slopes, with the other sign, and bends: at first by x (X),
+    x' (S) and x'' (B), then by x at the nodes before (0), here (1) and behind (2).
     """
 
     X = place()

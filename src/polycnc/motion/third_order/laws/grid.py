@@ -208,64 +208,70 @@ def _seconds(places: Floats, squares: Floats, k: int) -> float:
 
 def gather(course: Course, axes: Axes, nodes: Nodes, moves: Floats) -> None:
     """What every node knows of the pieces on its cell; sets which axes move anywhere."""
-    for i in range(len(moves)):
-        moves[i] = 0.0
     n, m, count = len(axes.jerk), len(course.cap2), len(nodes.way)
+    for i in range(n):
+        moves[i] = 1.0 if _moves(course, n, i) else 0.0
     low = at = 0
+    begin = nodes.way[0]
     for k in range(count):
         way = nodes.way[k]
-        begin = 0.5 * (nodes.way[max(k - 1, 0)] + way)
         end = 0.5 * (way + nodes.way[min(k + 1, count - 1)])
         while low < m - 1 and course.way[low + 1] <= begin:
             low += 1
         at = max(at, low)
         while at < m - 1 and course.way[at + 1] <= way:
             at += 1
-        high, cap, ease = low, inf, inf
-        while True:
-            cap, ease = min(cap, course.cap2[high]), min(ease, course.ease[high])
-            if high >= m - 1 or course.way[high + 1] >= end:
-                break
+        high, cap, ease = low, course.cap2[low], course.ease[low]
+        while high < m - 1 and course.way[high + 1] < end:
             high += 1
+            cap, ease = min(cap, course.cap2[high]), min(ease, course.ease[high])
         nodes.cap2[k], nodes.room[k] = cap, 1.0
         for i in range(n):
-            if _gather_axis(course, axes, nodes, k, i, low, high, at, begin, end, ease):
-                moves[i] = 1.0
+            if moves[i] > 0.0:
+                part, to = 0.5 / (ease * axes.jerk[i]), i * Shape.SIZE * count + k
+                _gather_axis(course, nodes, n, i, low, high, at, begin, way, end, part, to)
+        begin = end
+
+
+def _moves(course: Course, n: int, i: int) -> bool:
+    """Whether an axis moves anywhere."""
+    for at in range(i, len(course.first), n):  # noqa: SIM110 - kernels have no generators
+        if course.first[at] != 0.0 or course.second[at] != 0.0:
+            return True
+    return False
 
 
 def _gather_axis(
     course: Course,
-    axes: Axes,
     nodes: Nodes,
-    k: int,
+    n: int,
     i: int,
     low: int,
     high: int,
     at: int,
     begin: float,
+    way: float,
     end: float,
-    ease: float,
-) -> bool:
-    """What a node on the piece `at` knows of an axis on the pieces `low` to `high` of its cell; says whether it moves."""
-    n = len(axes.jerk)
-    step, third = nodes.way[k] - course.way[at], course.third[at * n + i]
-    bend = course.second[at * n + i]
-    first = course.first[at * n + i] + step * (bend + 0.5 * step * third)
-    bend_low = bend_high = bend + step * third
-    third_low = third_high = third
+    part: float,
+    to: int,
+) -> None:
+    """What a node on the piece `at` knows of an axis on its cell, from the piece `low` to `high`."""
+    step = way - course.way[at]
+    at = at * n + i
+    first = course.first[at] + step * (course.second[at] + 0.5 * step * course.third[at])
+    bend_low = third_low = inf
+    bend_high = third_high = -inf
     for p in range(low, high + 1):
-        here, third, way = course.second[p * n + i], course.third[p * n + i], course.way[p]
-        left = here + third * max(begin - way, 0.0)
-        right = here + third * (min(end, course.way[p + 1]) - way)
+        here, third, start = course.second[p * n + i], course.third[p * n + i], course.way[p]
+        left = here + third * max(begin - start, 0.0)
+        right = here + third * (min(end, course.way[p + 1]) - start)
         third_low, third_high = min(third_low, third), max(third_high, third)
         bend_low, bend_high = min(bend_low, left, right), max(bend_high, left, right)
-    s, count, part = nodes.shape, len(nodes.way), 0.5 / (ease * axes.jerk[i])
-    at = i * Shape.SIZE * count + k
-    s[at + Shape.FIRST * count] = first * part
-    s[at + Shape.SECOND * count] = 1.5 * (bend_high + bend_low) * part
-    s[at + Shape.SECOND_RANGE * count] = 1.5 * (bend_high - bend_low) * part
-    s[at + Shape.THIRD * count] = (third_high + third_low) * part
-    s[at + Shape.THIRD_RANGE * count] = (third_high - third_low) * part
+    s, count = nodes.shape, len(nodes.way)
+    s[to + Shape.FIRST * count] = first * part
+    s[to + Shape.SECOND * count] = 1.5 * (bend_high + bend_low) * part
+    s[to + Shape.SECOND_RANGE * count] = 1.5 * (bend_high - bend_low) * part
+    s[to + Shape.THIRD * count] = (third_high + third_low) * part
+    s[to + Shape.THIRD_RANGE * count] = (third_high - third_low) * part
     moves = first != 0.0 or bend_low != 0.0 or bend_high != 0.0 or third_high > third_low
-    s[at + Shape.MOVES * count] = 1.0 if moves else 0.0
-    return moves
+    s[to + Shape.MOVES * count] = 1.0 if moves else 0.0

@@ -15,8 +15,8 @@ BANDS = 3
 def improve(nodes: Nodes, axes: Axes, work: Work, weight: float, first: int, last: int) -> None:
     """One step of Newton's method for all x between two nodes, which keep theirs.
 
-    The matrix has five diagonals, and becomes L·D·Lᵀ row by row: as soon as the barriers of a node are known, the row of
-    the one before is whole.
+    The matrix has five diagonals, and becomes L·D·Lᵀ row by row: as soon as the barriers of a node are known, the row
+    of the one before is whole.
 
     Args:
         nodes: Their x becomes a better one.

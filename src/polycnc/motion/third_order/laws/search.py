@@ -94,7 +94,7 @@ def find_law(
         for weight in FINE:
             improve(nodes, axes, work, weight, 0, last)
     lay_phases(nodes, phases, 0, last)
-    examine(course, axes, phases, most, 0, PAIR * last)
+    examine(course, axes, nodes, phases, most, 0, last)
     rounds = 0
     while rounds < ROUNDS and _repair(course, axes, nodes, work, phases, most, rounds, few):
         rounds += 1
@@ -155,7 +155,7 @@ def _repair(
         # the acceleration of a node depends on two on either side
         first, end = max(first - 2, 0), min(end + 2, last)
         lay_phases(nodes, phases, first, end)
-        examine(course, axes, phases, most, PAIR * first, PAIR * end)
+        examine(course, axes, nodes, phases, most, first, end)
     return any_
 
 

@@ -102,7 +102,14 @@ def value(nodes: Nodes, k: int) -> tuple[float, float, float]:
     count, here, s = len(nodes.way), nodes.x[k], nodes.stencil
     before, behind = nodes.x[max(k - 1, 0)] - here, nodes.x[min(k + 1, count - 1)] - here
     return (
-        here + s[Stencil.VALUE * count + k] * before + s[(Stencil.VALUE + 1) * count + k] * behind + s[Stencil.VALUE_FIXED * count + k],
-        s[Stencil.SLOPE * count + k] * before + s[(Stencil.SLOPE + 1) * count + k] * behind + s[Stencil.SLOPE_FIXED * count + k],
-        s[Stencil.BEND * count + k] * before + s[(Stencil.BEND + 1) * count + k] * behind + s[Stencil.BEND_FIXED * count + k],
+        here
+        + s[Stencil.VALUE * count + k] * before
+        + s[(Stencil.VALUE + 1) * count + k] * behind
+        + s[Stencil.VALUE_FIXED * count + k],
+        s[Stencil.SLOPE * count + k] * before
+        + s[(Stencil.SLOPE + 1) * count + k] * behind
+        + s[Stencil.SLOPE_FIXED * count + k],
+        s[Stencil.BEND * count + k] * before
+        + s[(Stencil.BEND + 1) * count + k] * behind
+        + s[Stencil.BEND_FIXED * count + k],
     )
