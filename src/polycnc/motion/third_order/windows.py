@@ -13,7 +13,7 @@ from polycnc.motion.third_order.compiled import kernels as bending
 from polycnc.motion.third_order.laws.compiled import kernels
 from polycnc.motion.third_order.laws.courses import Known, Phase
 from polycnc.motion.third_order.laws.phases import PAIR
-from polycnc.motion.third_order.laws.quickest import NONE, NoLawError, course_of, numbers, quickest
+from polycnc.motion.third_order.laws.quickest import NONE, NoLawError, Room, course_of, numbers, quickest
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -83,6 +83,7 @@ class Windows:
         self._parts: deque[Part] = deque()
         self._first = (speed, 0.0)
         self._law: _Law | None = None
+        self._room = Room()
         self._end: float | None = None
         build = max(pull / jerk for pull, jerk in zip(axes.pull, axes.jerk, strict=True))
         stop = max(speed / pull for speed, pull in zip(axes.speed, axes.pull, strict=True))
@@ -150,7 +151,8 @@ class Windows:
                 known = Known(*(values[k:taken] for values in nodes))
                 bending().shift_ways(nodes.way, k, taken - k, way, known.way, 0)
                 state = phases[at + Phase.SPEED], phases[at + Phase.PULL]
-                yield _Start(way - law.origin, state, _cut(phases, law.origin, way, law.origin), known)
+                near = phases[PAIR * max(beyond - 1, 0) * Phase.SIZE : PAIR * (k + 1) * Phase.SIZE]
+                yield _Start(way - law.origin, state, _cut(near, law.origin, way, law.origin), known)
         begun = _cut(phases, law.origin, inf, law.origin)
         yield _Start(law.length - law.origin, (0.0, 0.0), begun, NONE)
 
@@ -158,13 +160,13 @@ class Windows:
         """Find a law from a place on; gives whether there is one."""
         end = self._end if final and self._end is not None else 0.0
         course = path.course(start.way, reach)
-        found = quickest(course, self._axes, array("d", (*start.state, end, 0.0)), start.known)
+        found = quickest(course, self._axes, array("d", (*start.state, end, 0.0)), start.known, self._room)
         if found is None:
             return False
         length, last = self._parts[0].way[-1] - start.way, final and len(self._parts) == 1
-        kept = _cut(found.phases, 0.0, inf if last else length, -start.way)
+        window = _cut(found.phases, 0.0, inf if last else length, -start.way, start.begun)
         self._law = _Law(found, length, course.way[-1], final)
-        self._give(start.begun + kept, last)
+        self._give(window, last)
         return True
 
     def _keep_on(self, law: _Law) -> None:
@@ -222,8 +224,14 @@ class _Joined:
         return course_of(way, first, second, self._cap2[p:end], self._ease[p:end])
 
 
-def _cut(phases: array[float], begin: float, end: float, origin: float) -> array[float]:
-    """The phases between two ways, counted from `origin`."""
-    out = numbers(len(phases))
-    count = kernels().cut_law(phases, begin, end, origin, out)
-    return out[: count * Phase.SIZE]
+def _cut(
+    phases: array[float], begin: float, end: float, origin: float, before: array[float] | None = None
+) -> array[float]:
+    """The phases between two ways, counted from `origin`, behind others that come before."""
+    known = len(before) if before else 0
+    out = numbers(known + len(phases))
+    if before:
+        out[:known] = before
+    count = kernels().cut_law(phases, begin, end, origin, out, known // Phase.SIZE)
+    del out[count * Phase.SIZE :]
+    return out

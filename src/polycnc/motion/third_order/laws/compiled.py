@@ -44,11 +44,11 @@ LIBRARY = Library(
 class Kernels(NamedTuple):
     """The kernels that Python calls; see `search.py`, `grid.py`, `joining.py` and `records.py`."""
 
-    place_nodes: Callable[[Course, Axes, Floats, Floats, Floats, Floats, Floats], int]
+    place_nodes: Callable[[Course, Axes, Floats, Floats, Floats, Floats, Floats, Floats], int]
     merge: Callable[[Floats, Floats, int, Floats], int]
     find_law: Callable[[Course, Axes, Floats, Floats, Floats, Nodes, Known, Work, Floats, Floats], int]
     look_ahead: Callable[[Course, Axes, Floats, float, Floats], int]
-    cut_law: Callable[[Floats, float, float, float, Floats], int]
+    cut_law: Callable[[Floats, float, float, float, Floats, int], int]
     put_records: Callable[[Track, Floats, RowEnds, Walk, Floats], int]
     add_times: Callable[[Floats, RowEnds, Walk, Floats, Floats, int], None]
 

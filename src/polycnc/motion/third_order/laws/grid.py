@@ -29,9 +29,8 @@ LITTLE = 1e-3
 LEFT = 0.02
 
 
-def estimate(course: Course, axes: Axes, ends: Floats) -> None:
-    """Caps of all pieces, and the estimate of second order at the knots."""
-    m = len(course.cap2)
+def estimate(course: Course, axes: Axes, ends: Floats, m: int) -> None:
+    """Caps of the first m pieces, and the estimate of second order at their knots."""
     for k in range(m):
         course.low2[k] = own_cap(course, axes, k)
     course.x[0] = ends[Ends.START_SPEED] ** 2
@@ -122,7 +121,9 @@ def cut(course: Course, axes: Axes, places: Floats, squares: Floats, gaps: Float
     return count
 
 
-def spread(axes: Axes, count: int, places: Floats, squares: Floats, gaps: Floats, nodes: Floats) -> int:
+def spread(
+    axes: Axes, count: int, places: Floats, squares: Floats, gaps: Floats, seconds: Floats, nodes: Floats
+) -> int:
     """Spread nodes over a path; gives their number.
 
     Args:
@@ -131,6 +132,7 @@ def spread(axes: Axes, count: int, places: Floats, squares: Floats, gaps: Floats
         places: The way at them.
         squares: The square of the speed there.
         gaps: Their distances by the turn of the path; become the distances of nodes there.
+        seconds: Set to the time from each to the next one.
         nodes: The way at the nodes, if there is room; the number is right in any case.
     """
     build = pull = 0.0
@@ -139,7 +141,8 @@ def spread(axes: Axes, count: int, places: Floats, squares: Floats, gaps: Floats
         pull = max(pull, axes.pull[i])
     whole = 0.0
     for k in range(count - 1):
-        whole += _seconds(places, squares, k)
+        seconds[k] = _seconds(places, squares, k)
+        whole += seconds[k]
     close = min(CLOSE * build, whole / FEWEST)
     growth = GROWTH * close / (CLOSE * build)
     before, gap = 0.0, inf
@@ -148,21 +151,29 @@ def spread(axes: Axes, count: int, places: Floats, squares: Floats, gaps: Floats
         change = abs(behind - before) / (CHANGE * pull)
         own = min(gaps[k], close / min(1.0, max(change, 1e-3)))
         if k > 0:
-            gap += growth * _seconds(places, squares, k - 1)
+            gap += growth * seconds[k - 1]
         gap = min(own, gap)
         gaps[k] = gap
         before = behind
     for k in range(count - 2, -1, -1):
-        gaps[k] = min(gaps[k], gaps[k + 1] + growth * _seconds(places, squares, k))
-    return _walk(count, growth, places, squares, gaps, nodes)
+        gaps[k] = min(gaps[k], gaps[k + 1] + growth * seconds[k])
+    return _walk(count, growth, places, squares, gaps, seconds, nodes)
 
 
-def _walk(count: int, growth: float, places: Floats, squares: Floats, gaps: Floats, nodes: Floats) -> int:
+def _walk(
+    count: int,
+    growth: float,
+    places: Floats,
+    squares: Floats,
+    gaps: Floats,
+    seconds: Floats,
+    nodes: Floats,
+) -> int:
     """Set nodes one after another, each as far from the one before as the gap there says."""
     nodes[0] = places[0]
     number, passed, gap = 1, 0.0, gaps[0]  # `passed` since the last node
     for k in range(count - 1):
-        time, at = _seconds(places, squares, k), 0.0
+        time, at = seconds[k], 0.0
         speed = sqrt(squares[k])
         pull = 0.5 * (squares[k + 1] - squares[k]) / (places[k + 1] - places[k])
         while passed + time - at >= gap * (1.0 + SNAP):
@@ -211,6 +222,8 @@ def gather(course: Course, axes: Axes, nodes: Nodes, moves: Floats) -> None:
     n, m, count = len(axes.jerk), len(course.cap2), len(nodes.way)
     for i in range(n):
         moves[i] = 1.0 if _moves(course, n, i) else 0.0
+        for at in range(i * Shape.SIZE * count, (i + 1) * Shape.SIZE * count if moves[i] == 0.0 else 0):
+            nodes.shape[at] = 0.0
     low = at = 0
     begin = nodes.way[0]
     for k in range(count):

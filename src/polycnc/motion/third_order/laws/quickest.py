@@ -49,7 +49,23 @@ class Found(NamedTuple):
     nodes: Known
 
 
-def quickest(course: Course, axes: Axes, ends: array[float], known: Known = NONE) -> Found | None:
+class Room:
+    """Arrays in which laws are found, one after another: new memory costs as much as several steps of a law."""
+
+    def __init__(self) -> None:
+        self._arrays: dict[str, array[float]] = {}
+
+    def numbers(self, use: str, count: int) -> array[float]:
+        """At least so many numbers for a use; they are what the law before has left."""
+        found = self._arrays.get(use)
+        if found is None or len(found) < count:
+            found = self._arrays[use] = numbers(count)
+        return found
+
+
+def quickest(
+    course: Course, axes: Axes, ends: array[float], known: Known = NONE, room: Room | None = None
+) -> Found | None:
     """The quickest law along a path.
 
     Args:
@@ -57,17 +73,21 @@ def quickest(course: Course, axes: Axes, ends: array[float], known: Known = NONE
         axes: Limits.
         ends: Speed and acceleration at both ends, see `Ends`.
         known: The first nodes, where the law goes on with another one; the first of them lies at the start.
+        room: Where it is found; room of its own without.
 
     Returns:
         None where there is none within the limits from a motion, or to one.
     """
-    room = 3 * len(course.cap2) + 2
-    places, squares, gaps = numbers(room), numbers(room), numbers(room)
-    way = numbers(PER_PLACE * room + BESIDES)
-    count = kernels().place_nodes(course, axes, ends, places, squares, gaps, way)
+    given, n = room or Room(), len(axes.jerk)
+    count = 3 * len(course.cap2) + 2
+    places, squares, gaps, seconds = (
+        given.numbers(use, count) for use in ("places", "squares", "gaps", "seconds")
+    )
+    way = given.numbers("ways", PER_PLACE * count + BESIDES)
+    count = kernels().place_nodes(course, axes, ends, places, squares, gaps, seconds, way)
     if count > len(way):
-        way = numbers(count)
-        count = kernels().place_nodes(course, axes, ends, places, squares, gaps, way)
+        way = given.numbers("ways", count)
+        count = kernels().place_nodes(course, axes, ends, places, squares, gaps, seconds, way)
     if _rests_at_once(ends[Ends.START_SPEED], ends[Ends.START_PULL], way[1] - way[0]) or _rests_at_once(
         ends[Ends.END_SPEED], -ends[Ends.END_PULL], way[count - 1] - way[count - 2]
     ):
@@ -80,11 +100,15 @@ def quickest(course: Course, axes: Axes, ends: array[float], known: Known = NONE
         numbers(count),
         numbers(count),
         numbers(count),
-        numbers(count * len(axes.jerk) * Shape.SIZE),
-        numbers(count * Stencil.SIZE),
+        given.numbers("shape", count * n * Shape.SIZE),
+        given.numbers("stencil", count * Stencil.SIZE),
     )
-    phases, most = numbers(PAIR * (count - 1) * Phase.SIZE), numbers(3 * PAIR * (count - 1))
-    work = Work(numbers(len(axes.jerk)), numbers(BANDS * count), numbers(Force.SIZE * BATCH))
+    phases, most = numbers(PAIR * (count - 1) * Phase.SIZE), given.numbers("most", 3 * PAIR * (count - 1))
+    work = Work(
+        given.numbers("moves", n),
+        given.numbers("bands", BANDS * count),
+        given.numbers("forces", Force.SIZE * BATCH),
+    )
     rounds = kernels().find_law(course, axes, ends, places, squares, nodes, known, work, phases, most)
     if rounds < 0:
         return None

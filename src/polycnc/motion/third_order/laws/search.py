@@ -32,7 +32,14 @@ MOST = 1.5
 
 
 def place_nodes(
-    course: Course, axes: Axes, ends: Floats, places: Floats, squares: Floats, gaps: Floats, nodes: Floats
+    course: Course,
+    axes: Axes,
+    ends: Floats,
+    places: Floats,
+    squares: Floats,
+    gaps: Floats,
+    seconds: Floats,
+    nodes: Floats,
 ) -> int:
     """Estimate a law and spread nodes over the path; see `cut` and `spread`. Gives their number; minus it without room.
 
@@ -43,12 +50,13 @@ def place_nodes(
         places: For 3·m + 2 numbers: the way at places of the estimate; the last number is their count.
         squares: For as many: the square of the speed there.
         gaps: For as many: the distance of nodes there.
+        seconds: For as many: the time from there to the next one.
         nodes: For the way at the nodes.
     """
-    estimate(course, axes, ends)
+    estimate(course, axes, ends, len(course.cap2))
     count = cut(course, axes, places, squares, gaps)
     places[len(places) - 1] = float(count)
-    return spread(axes, count, places, squares, gaps, nodes)
+    return spread(axes, count, places, squares, gaps, seconds, nodes)
 
 
 def find_law(
@@ -98,7 +106,7 @@ def find_law(
     rounds = 0
     while rounds < ROUNDS and _repair(course, axes, nodes, work, phases, most, rounds, few):
         rounds += 1
-    if rounds == ROUNDS and _worst(most) > KEPT:
+    if rounds == ROUNDS and _worst(most, PAIR * last) > KEPT:
         if ends[Ends.START_SPEED] > 0.0 or ends[Ends.END_SPEED] > 0.0:
             return -1
         _stretch(phases, most)
@@ -107,10 +115,10 @@ def find_law(
     return rounds
 
 
-def _worst(most: Floats) -> float:
-    """The largest part of any limit that is used anywhere."""
+def _worst(most: Floats, count: int) -> float:
+    """The largest part of any limit that is used on so many phases."""
     high = 0.0
-    for k in range(len(most)):
+    for k in range(3 * count):
         high = max(high, most[k])
     return high
 
@@ -187,7 +195,7 @@ def _stretch(phases: Floats, most: Floats) -> None:
         phases[k * Phase.SIZE + Phase.SPEED] /= slower
         phases[k * Phase.SIZE + Phase.PULL] /= slower**2
         phases[k * Phase.SIZE + Phase.JERK] /= slower**3
-    for k in range(len(most) // 3):
+    for k in range(len(phases) // Phase.SIZE):
         most[3 * k] /= slower**2
         most[3 * k + 1] /= slower**2
         most[3 * k + 2] /= slower**3

@@ -38,6 +38,8 @@ def _cell(nodes: Nodes, k: int, last: int) -> None:
         time += 2.5 * before / cell
     if nodes.x[far] == 0.0:
         time *= 1.0 + 2.5 * behind / cell
+    for field in range(Stencil.VALUE_FIXED, Stencil.BEFORE):
+        nodes.stencil[field * count + k] = 0.0
     nodes.stencil[Stencil.BEFORE * count + k] = before
     nodes.stencil[Stencil.CELL * count + k] = cell
     nodes.stencil[Stencil.TIME * count + k] = time
