@@ -60,15 +60,6 @@ def lines(seed: int, count: int, turn: float, tolerance: float = 0.01, *, eased:
     return path.path
 
 
-def test_what_lies_farther_ahead_than_a_law_leads_is_not_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
-    path = lines(5, 1500, 1.2)
-    made = windows_of(deepcopy(path))
-    monkeypatch.setattr(windows_module, "LOOKED", 10**6)
-    assert windows_of(path) == made
-    monkeypatch.setattr(windows_module, "LOOKED", 2)  # too few at first
-    assert windows_of(path) == made
-
-
 def long_runs() -> list[Stretches]:
     """The thirty paths, each so often behind itself that there are several windows, and all behind one another."""
     alone = []

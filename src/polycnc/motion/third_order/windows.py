@@ -11,9 +11,9 @@ from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.motion.third_order.compiled import kernels as bending
 from polycnc.motion.third_order.laws.compiled import kernels
-from polycnc.motion.third_order.laws.courses import Ends, Known, Phase
+from polycnc.motion.third_order.laws.courses import Known, Phase
 from polycnc.motion.third_order.laws.phases import PAIR
-from polycnc.motion.third_order.laws.quickest import NONE, NoLawError, course_of, numbers, quickest
+from polycnc.motion.third_order.laws.quickest import NONE, NoLawError, Room, course_of, numbers, quickest
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -27,8 +27,6 @@ if TYPE_CHECKING:
 BUILDS, STOPS = 10.0, 2.0
 #: Nodes behind the first one at which the next law is tried to begin where it cannot there; then the rest.
 LATER = (0, 8, 24, 56, 120)
-#: Pieces of the next part that are looked at for how far that is, and by what factor more where they are too few.
-LOOKED, FURTHER = 256, 4
 #: So little of a piece is none.
 SLIVER = 1e-9
 #: Part of the nodes beyond a window that the next law takes over.
@@ -85,6 +83,7 @@ class Windows:
         self._parts: deque[Part] = deque()
         self._first = (speed, 0.0)
         self._law: _Law | None = None
+        self._room = Room()
         self._end: float | None = None
         build = max(pull / jerk for pull, jerk in zip(axes.pull, axes.jerk, strict=True))
         stop = max(speed / pull for speed, pull in zip(axes.speed, axes.pull, strict=True))
@@ -111,28 +110,15 @@ class Windows:
 
     def _look_ahead(self) -> tuple[_Joined, bool] | None:
         """The path of the law to come, and whether it ends with the leg; nothing as long as it is not known."""
-        left, reached = self._ahead, [self._parts[0]]
+        left, told, reached = self._ahead, numbers(1), [self._parts[0]]
         for part in list(self._parts)[1:]:
             reached.append(part)
-            count, left = self._pieces_for(part, left)
+            course = course_of(part.way, part.first, part.second, part.cap2, part.ease)
+            count = kernels().look_ahead(course, self._axes, numbers(4), left, told)
             if count > 0 and (count < len(part.cap2) or self._end is None):
                 return _Joined(reached, count), False
+            left = told[0]
         return None if self._end is None else (_Joined(reached, len(reached[-1].cap2)), True)
-
-    def _pieces_for(self, part: Part, seconds: float) -> tuple[int, float]:
-        """The first pieces of a part that take so many seconds, -1 without; what is left of them behind the part.
-
-        As many as those are looked at behind them at least: where they lie is not seen from there any more.
-        """
-        n, most, looked, told = len(self._axes.jerk), len(part.cap2), LOOKED, numbers(1)
-        while True:
-            knots, pieces = looked + 1, min(looked, most)
-            path = part.way[:knots], part.first[: knots * n], part.second[: knots * n]
-            course = course_of(*path, part.cap2[:pieces], part.ease[:pieces])
-            count = kernels().look_ahead(course, self._axes, numbers(Ends.SIZE), seconds, told)
-            if pieces == most or 0 < 2 * count <= pieces:
-                return count, told[0]
-            looked *= FURTHER
 
     def _find(self, path: _Joined, final: bool) -> None:
         """Find the law of the first part, and give its window."""
@@ -166,27 +152,28 @@ class Windows:
                 known = Known(*(values[k:taken] for values in nodes))
                 bending().shift_ways(nodes.way, k, taken - k, way, known.way, 0)
                 state = phases[at + Phase.SPEED], phases[at + Phase.PULL]
-                yield _Start(way - law.origin, state, _cut(law.found, law.origin, way, law.origin), known)
-        begun = _cut(law.found, law.origin, inf, law.origin)
+                near = phases[PAIR * max(beyond - 1, 0) * Phase.SIZE : PAIR * (k + 1) * Phase.SIZE]
+                yield _Start(way - law.origin, state, _cut(near, law.origin, way, law.origin), known)
+        begun = _cut(phases, law.origin, inf, law.origin)
         yield _Start(law.length - law.origin, (0.0, 0.0), begun, NONE)
 
     def _begin(self, path: _Joined, start: _Start, final: bool) -> bool:
         """Find a law from a place on; gives whether there is one."""
         end = self._end if final and self._end is not None else 0.0
         course = path.course(start.way)
-        found = quickest(course, self._axes, array("d", (*start.state, end, 0.0)), start.known)
+        found = quickest(course, self._axes, array("d", (*start.state, end, 0.0)), start.known, self._room)
         if found is None:
             return False
         length, last = self._parts[0].way[-1] - start.way, final and len(self._parts) == 1
-        kept = _cut(found, 0.0, inf if last else length, -start.way)
+        window = _cut(found.phases, 0.0, inf if last else length, -start.way, start.begun)
         self._law = _Law(found, length, course.way[-1], final)
-        self._give(start.begun + kept, last)
+        self._give(window, last)
         return True
 
     def _keep_on(self, law: _Law) -> None:
         """Give the window of the first part by a law that leads beyond it."""
         end, last = law.origin + self._parts[0].way[-1], law.final and len(self._parts) == 1
-        kept = _cut(law.found, law.origin, inf if last else end, law.origin)
+        kept = _cut(law.found.phases, law.origin, inf if last else end, law.origin)
         self._law = law._replace(origin=end)
         self._give(kept, last)
 
@@ -237,13 +224,14 @@ class _Joined:
         return course_of(way, q, second, cap2, ease)
 
 
-def _cut(law: Found, begin: float, end: float, origin: float) -> array[float]:
-    """The phases of a law between two ways, counted from `origin`."""
-    nodes = law.nodes.way
-    first, last = max(bisect_right(nodes, begin) - 1, 0), bisect_left(nodes, end)
-    of_node = PAIR * Phase.SIZE
-    out = numbers((last - first + 1) * of_node)
-    phases = law.phases[first * of_node :] if first else law.phases
-    count = kernels().cut_law(phases, begin, end, origin, out)
+def _cut(
+    phases: array[float], begin: float, end: float, origin: float, before: array[float] | None = None
+) -> array[float]:
+    """The phases between two ways, counted from `origin`, behind others that come before."""
+    known = len(before) if before else 0
+    out = numbers(known + len(phases))
+    if before:
+        out[:known] = before
+    count = kernels().cut_law(phases, begin, end, origin, out, known // Phase.SIZE)
     del out[count * Phase.SIZE :]
     return out
