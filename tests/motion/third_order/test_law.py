@@ -13,10 +13,10 @@ from hypothesis import strategies as st
 from polycnc.motion.third_order.bend import bend
 from polycnc.motion.third_order.law import quickest_law
 from polycnc.motion.third_order.laws import compiled
-from polycnc.motion.third_order.laws.barrier import lay_stencils
 from polycnc.motion.third_order.laws.courses import Nodes, Phase, Stencil
 from polycnc.motion.third_order.laws.phases import PAIR, lay_phases, leads_on
 from polycnc.motion.third_order.laws.quickest import NoLawError, numbers
+from polycnc.motion.third_order.laws.stencils import lay_stencils
 from tests.kernels.strict import strict
 from tests.motion.jerk_paths import jerk_paths
 from tests.motion.optimum import least_time
