@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 #: So many axes most machines have. How many there are says an argument of a kernel that has one of these names: a
 #: number, or an array by its length.
-_USUAL_AXES, _AXES = 3, ("n", "position")
+_USUAL_AXES, _AXES = 3, ("n", "position", "rotary", "jerk")
 
 #: What machine code takes for an argument, in the words of LLVM.
 _TAKES = {

@@ -13,10 +13,10 @@ from hypothesis import strategies as st
 from polycnc.motion.third_order.bend import bend
 from polycnc.motion.third_order.law import quickest_law
 from polycnc.motion.third_order.laws import compiled
-from polycnc.motion.third_order.laws.barrier import lay_stencils
 from polycnc.motion.third_order.laws.courses import Nodes, Phase, Stencil
 from polycnc.motion.third_order.laws.phases import PAIR, lay_phases, leads_on
-from polycnc.motion.third_order.laws.quickest import NoLawError, numbers
+from polycnc.motion.third_order.laws.quickest import NoLawError, Room, course_of, numbers, quickest
+from polycnc.motion.third_order.laws.stencils import lay_stencils
 from tests.kernels.strict import strict
 from tests.motion.jerk_paths import jerk_paths
 from tests.motion.optimum import least_time
@@ -142,6 +142,17 @@ def test_phases_lead_from_each_node_to_the_next_however_the_speed_falls(seed: in
     table = np.array(phases).reshape(-1, Phase.SIZE)
     assert table[:, Phase.TIME].min() >= 0.0
     assert np.isfinite(table).all()
+
+
+def test_what_a_law_leaves_in_a_room_changes_no_other_one() -> None:
+    room, axes = Room(), AXES._replace(jerk=array("d", (AXES.jerk[0], 0.1 * AXES.jerk[1], AXES.jerk[2])))
+    for path in (wild(3, 60), line(40.0), bow(30.0, 2.0), line(2.0), wild(4, 20), wild(3, 60)):
+        found = []
+        for where in (room, None):
+            flat = (np.ravel(values) for values in (path.way, path.first, path.second, path.cap2, path.ease))
+            course = course_of(*(array("d", values) for values in flat))
+            found.append(quickest(course, axes, array("d", (0.0, 0.0, 0.0, 0.0)), room=where))
+        assert found[0] == found[1] is not None
 
 
 def test_a_motion_that_cannot_come_to_rest_has_no_law() -> None:

@@ -7,7 +7,7 @@ from array import array
 from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.motion.third_order.bent_path import BentPath
 from polycnc.motion.third_order.compiled import kernels
-from polycnc.motion.third_order.parts import bent_part, cut_out
+from polycnc.motion.third_order.parts import Room, bent_part, cut_out
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -28,7 +28,8 @@ def bend(path: Stretches) -> list[BentPath]:
     Raises:
         ValueError: The tolerance is not kept: it is too small for the numbers of the path.
     """
-    return [as_path(bent_part(leg, array("d", (0.0,)) * 4)) for leg in legs(path)]
+    room = Room()
+    return [as_path(bent_part(leg, array("d", (0.0,)) * 4, room)) for leg in legs(path)]
 
 
 def legs(path: Stretches) -> Iterator[Stretches]:

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 #: Room for knots: a stretch has so many at first, and the path so many besides; fourfold where that is too little.
 PER_STRETCH, OTHERS = 3, 64
+#: How much more room there is than is asked for, so that it seldom grows.
+SPARE = 1.25
 
 
 class Seam(NamedTuple):
@@ -88,13 +90,51 @@ def known_to(path: Stretches, seam: Seam) -> int:
     return min(bisect_left(path.way, seam.way + KNOWN * seam.apart) + BESIDES, len(path.form))
 
 
-def bend_between(path: Stretches, head: Seam | None, tail: Seam | None) -> Part:
+class Room:
+    """Room in which parts are bent, one behind the other; it grows with the largest of them.
+
+    Attributes:
+        smooth: `bend_path` says what these are for.
+        turning: Likewise.
+        samples: Likewise.
+        spline: Likewise.
+        pieces: Likewise.
+        rows: Rows that end in a part.
+        ways: Where they do.
+    """
+
+    def __init__(self) -> None:
+        self._stretches = self._knots = self._axes = 0
+
+    def for_stretches(self, count: int, n: int) -> None:
+        """Make room for so many stretches of n axes, and as many knots as they have at first."""
+        if count > self._stretches:
+            self._stretches = count = int(SPARE * count)
+            self.smooth, self.turning = whole(count + 1), turning_for(count)
+            self.rows, self.ways = whole(count), numbers(count)
+        self.for_knots(PER_STRETCH * count + OTHERS, n)
+
+    def for_knots(self, count: int, n: int) -> None:
+        """Make room for so many knots of n axes."""
+        if count > self._knots or n > self._axes:
+            self._knots, self._axes = count, n
+            self.samples = Samples(numbers(count), numbers(count), *(whole(count) for _ in range(3)))
+            self.spline = spline_for(count, n)
+            self.pieces = Pieces(*(numbers(count) for _ in range(3)), whole(count))
+
+    def widen(self) -> None:
+        """The knots need more."""
+        self.for_knots(4 * self._knots, self._axes)
+
+
+def bend_between(path: Stretches, head: Seam | None, tail: Seam | None, room: Room | None = None) -> Part:
     """Bend a path between two seams, or from rest, or to rest.
 
     Args:
         path: The path, no further than it must be known beyond the seams; from rest it begins there.
         head: The seam at which it begins; none from rest.
         tail: The seam at which it ends; none to rest.
+        room: Of parts that are bent one behind the other.
 
     Raises:
         ValueError: The tolerance is not kept: it is too small for the numbers of the path. Or the seams overlap.
@@ -110,34 +150,31 @@ def bend_between(path: Stretches, head: Seam | None, tail: Seam | None) -> Part:
         seams[0:2] = array("d", (0.0, head.apart))
     if tail is not None:
         seams[2:4] = array("d", (tail.way - origin, tail.apart))
-    return bent_part(cut_out(path, first, end, origin), seams)
+    return bent_part(cut_out(path, first, end, origin), seams, room or Room())
 
 
-def bent_part(path: Stretches, seams: array[float]) -> Part:
+def bent_part(path: Stretches, seams: array[float], room: Room) -> Part:
     """Bend a path between its `Seams`; its tangents are set, its ways count from the start of the part.
 
     Raises:
         ValueError: The tolerance is not kept.
     """
-    count, n = len(path.form), len(path.rotary)
-    room = PER_STRETCH * count + OTHERS
-    smooth, told = whole(count + 1), whole(3)
+    n, told = len(path.rotary), whole(3)
+    room.for_stretches(len(path.form), n)
     while True:
-        turning = turning_for(count)
-        samples = Samples(numbers(room), numbers(room), *(whole(room) for _ in range(3)))
-        spline = spline_for(room, n)
-        pieces = Pieces(numbers(room), numbers(room), numbers(room), whole(room))
-        found = kernels().bend_path(path, seams, smooth, turning, samples, spline, pieces, told)
+        spline, pieces = room.spline, room.pieces
+        found = kernels().bend_path(
+            path, seams, room.smooth, room.turning, room.samples, spline, pieces, told
+        )
         if found != NO_ROOM:
             break
-        room *= 4
+        room.widen()
     if found == NOT_WITHIN:
         msg = f"rows {path.row[0]} to {path.row[-1]} cannot be bent within their tolerance"
         raise ValueError(msg)
     low, high = first_piece(seams), found - pieces_behind(seams)
     of_knots = slice(low * n, (high + 1) * n)
-    rows, ways = whole(count), numbers(count)
-    ended = kernels().end_rows(path, spline.way[low], spline.way[high], rows, ways)
+    ended = kernels().end_rows(path, spline.way[low], spline.way[high], room.rows, room.ways)
     return Part(
         spline.way[low : high + 1],
         spline.place[of_knots],
@@ -147,20 +184,21 @@ def bent_part(path: Stretches, seams: array[float]) -> Part:
         pieces.corner2[low:high],
         pieces.ease[low:high],
         pieces.row[low:high],
-        rows[:ended],
-        ways[:ended],
+        room.rows[:ended],
+        room.ways[:ended],
     )
 
 
 def turning_for(count: int) -> Turning:
     """Room for the turning of so many stretches."""
     before, behind, area = (numbers(count + 1) for _ in range(3))
-    return Turning(before, behind, area, array("d", (1.0,)) * count)
+    return Turning(before, behind, area, numbers(count))
 
 
 def spline_for(room: int, n: int) -> Spline:
     """Room for a spline of so many knots."""
-    return Spline(*(numbers(room) for _ in range(3)), *(numbers((room + 3) * n) for _ in range(4)))
+    way, apart, moved = (numbers(room) for _ in range(3))
+    return Spline(way, apart, moved, whole(room), whole(room), *(numbers((room + 3) * n) for _ in range(4)))
 
 
 def numbers(count: int) -> array[float]:

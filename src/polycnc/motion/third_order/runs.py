@@ -16,15 +16,7 @@ from array import array
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.motion.third_order.compiled import kernels
-from polycnc.motion.third_order.parts import (
-    Seam,
-    bend_between,
-    cut_out,
-    known_from,
-    spline_for,
-    turning_for,
-    whole,
-)
+from polycnc.motion.third_order.parts import Room, Seam, bend_between, cut_out, known_from
 from polycnc.motion.third_order.windows import Windows
 
 if TYPE_CHECKING:
@@ -35,8 +27,6 @@ if TYPE_CHECKING:
     from polycnc.motion.third_order.windows import Window
 
 
-#: Knots around a seam that is tried out.
-ROOM = 16
 #: Columns of stretches that have a number at every end, at every end for each axis, and for each stretch.
 ENDS, PLACES = ("way",), ("place",)
 VECTORS, SINGLE = (
@@ -108,6 +98,7 @@ class RunPlanner:
         self._since = self._counted = self._searched = 0
         self._passed = array("d", (0.0,))
         self._located = start is None
+        self._room = Room()
 
     @property
     def detours(self) -> int:
@@ -149,7 +140,7 @@ class RunPlanner:
             self._searched = min(rest, count) - 1
             tail = self._next_seam(path, min(rest, count))
             if tail is not None:
-                self._windows.add(bend_between(path, self._head, tail))
+                self._windows.add(bend_between(path, self._head, tail, self._room))
                 self._pass(path, tail)
             elif rest < count:
                 self._rest(path, rest)
@@ -157,7 +148,9 @@ class RunPlanner:
                 break
         if ended and path.form:
             tail = None if end is None else Seam(end.way, end.apart)
-            self._windows.add(bend_between(path, self._head, tail), 0.0 if end is None else end.speed)
+            self._windows.add(
+                bend_between(path, self._head, tail, self._room), 0.0 if end is None else end.speed
+            )
 
     def _locate(self, path: Stretches) -> None:
         """Find the stretch of the seam at which the run begins, where it has come."""
@@ -180,15 +173,15 @@ class RunPlanner:
         if high + sizes.around > end:  # and room for a seam at which the run may end
             return None
         around = cut_out(path, low, high, path.way[low])
-        count, n = high - low, len(path.rotary)
-        found = array("d", (0.0, 0.0))
+        found, room = array("d", (0.0, 0.0)), self._room
+        room.for_stretches(high - low, len(path.rotary))
         if not kernels().find_seam(
             around,
             sizes.around,
             sizes.around + sizes.range,
-            whole(count + 1),
-            turning_for(count),
-            spline_for(ROOM, n),
+            room.smooth,
+            room.turning,
+            room.spline,
             found,
         ):
             msg = f"rows {around.row[0]} to {around.row[-1]} cannot be bent within their tolerance"
@@ -208,7 +201,7 @@ class RunPlanner:
     def _rest(self, path: Stretches, rest: int) -> None:
         """Bring the window to an end at a rest within the run."""
         leg = cut_out(path, 0, rest, 0.0)
-        part = bend_between(leg, self._head, None)
+        part = bend_between(leg, self._head, None, self._room)
         if path.row[rest] == path.row[rest - 1]:  # its row goes on
             part.rows.pop()
             part.row_way.pop()

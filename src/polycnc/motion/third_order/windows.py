@@ -13,7 +13,7 @@ from polycnc.motion.third_order.compiled import kernels as bending
 from polycnc.motion.third_order.laws.compiled import kernels
 from polycnc.motion.third_order.laws.courses import Known, Phase
 from polycnc.motion.third_order.laws.phases import PAIR
-from polycnc.motion.third_order.laws.quickest import NONE, NoLawError, course_of, numbers, quickest
+from polycnc.motion.third_order.laws.quickest import NONE, NoLawError, Room, course_of, numbers, quickest
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -83,6 +83,7 @@ class Windows:
         self._parts: deque[Part] = deque()
         self._first = (speed, 0.0)
         self._law: _Law | None = None
+        self._room = Room()
         self._end: float | None = None
         build = max(pull / jerk for pull, jerk in zip(axes.pull, axes.jerk, strict=True))
         stop = max(speed / pull for speed, pull in zip(axes.speed, axes.pull, strict=True))
@@ -125,9 +126,10 @@ class Windows:
             if start.way >= self._parts[0].way[-1]:
                 break
             self.detours += number == 1
-            for reach in dict.fromkeys((path.pieces, path.most)):
-                if self._begin(path, start, reach, final):
-                    return
+            if self._begin(path, start, final) or (
+                not path.is_whole and self._begin(path.whole(), start, final)
+            ):
+                return
         law = self._law
         if law is None or law.length - law.origin < self._parts[0].way[-1]:
             msg = "no law within the limits from or to this motion"
@@ -150,21 +152,22 @@ class Windows:
                 known = Known(*(values[k:taken] for values in nodes))
                 bending().shift_ways(nodes.way, k, taken - k, way, known.way, 0)
                 state = phases[at + Phase.SPEED], phases[at + Phase.PULL]
-                yield _Start(way - law.origin, state, _cut(phases, law.origin, way, law.origin), known)
+                near = phases[PAIR * max(beyond - 1, 0) * Phase.SIZE : PAIR * (k + 1) * Phase.SIZE]
+                yield _Start(way - law.origin, state, _cut(near, law.origin, way, law.origin), known)
         begun = _cut(phases, law.origin, inf, law.origin)
         yield _Start(law.length - law.origin, (0.0, 0.0), begun, NONE)
 
-    def _begin(self, path: _Joined, start: _Start, reach: int, final: bool) -> bool:
+    def _begin(self, path: _Joined, start: _Start, final: bool) -> bool:
         """Find a law from a place on; gives whether there is one."""
         end = self._end if final and self._end is not None else 0.0
-        course = path.course(start.way, reach)
-        found = quickest(course, self._axes, array("d", (*start.state, end, 0.0)), start.known)
+        course = path.course(start.way)
+        found = quickest(course, self._axes, array("d", (*start.state, end, 0.0)), start.known, self._room)
         if found is None:
             return False
         length, last = self._parts[0].way[-1] - start.way, final and len(self._parts) == 1
-        kept = _cut(found.phases, 0.0, inf if last else length, -start.way)
+        window = _cut(found.phases, 0.0, inf if last else length, -start.way, start.begun)
         self._law = _Law(found, length, course.way[-1], final)
-        self._give(start.begun + kept, last)
+        self._give(window, last)
         return True
 
     def _keep_on(self, law: _Law) -> None:
@@ -180,50 +183,55 @@ class Windows:
 
 
 class _Joined:
-    """The path of some parts behind one another, up to a piece of the last one.
-
-    Attributes:
-        way: At its knots, from the start of the first part on, up to the end of the last one.
-        pieces: Up to where the law shall lead.
-        most: Pieces of all of them.
-    """
+    """The path of some parts behind one another, up to a piece of the last one: there the law shall lead."""
 
     def __init__(self, parts: list[Part], last: int) -> None:
-        n = len(parts[0].first) // len(parts[0].way)
-        self.way, self._n = array("d", parts[0].way), n
-        self._first, self._second = array("d", parts[0].first), array("d", parts[0].second)
-        self._cap2, self._ease = array("d", parts[0].cap2), array("d", parts[0].ease)
-        for part in parts[1:]:
-            count, at = len(part.cap2), len(self.way)
-            offset = self.way[-1]
-            self.way.extend(numbers(count))
-            bending().shift_ways(part.way, 1, count, -offset, self.way, at)
-            self._first.extend(part.first[n:])
-            self._second.extend(part.second[n:])
-            self._cap2.extend(part.cap2)
-            self._ease.extend(part.ease)
-        self.most = len(self._cap2)
-        self.pieces = self.most - len(parts[-1].cap2) + last
+        self._parts, self._last = parts, last
 
-    def course(self, start: float, end: int) -> Course:
-        """The path from a way on up to before a piece, its ways counted from there."""
-        p, n = bisect_right(self.way, start) - 1, self._n
-        if self.way[p + 1] - start < SLIVER * (self.way[p + 1] - self.way[p]):
-            p, start = p + 1, self.way[p + 1]
-        count = end - p
-        way, t, step = numbers(count + 1), start - self.way[p], self.way[p + 1] - self.way[p]
-        bending().shift_ways(self.way, p, count + 1, start, way, 0)
-        first, second = self._first[p * n : (end + 1) * n], self._second[p * n : (end + 1) * n]
+    @property
+    def is_whole(self) -> bool:
+        """Whether that piece is the last one."""
+        return self._last == len(self._parts[-1].cap2)
+
+    def whole(self) -> _Joined:
+        """The same up to the end of the last part."""
+        return _Joined(self._parts, len(self._parts[-1].cap2))
+
+    def course(self, start: float) -> Course:
+        """The path from a way on, its ways counted from there."""
+        first, *others = self._parts
+        n, way = len(first.first) // len(first.way), array("d", first.way)
+        p = bisect_right(way, start) - 1
+        if way[p + 1] - start < SLIVER * (way[p + 1] - way[p]):
+            p, start = p + 1, way[p + 1]
+        q, second, cap2, ease = first.first[p * n :], first.second[p * n :], first.cap2[p:], first.ease[p:]
+        for part in others:
+            count, at, offset = len(part.cap2) if part is not others[-1] else self._last, len(way), way[-1]
+            way.extend(numbers(count))
+            bending().shift_ways(part.way, 1, count, -offset, way, at)
+            q.extend(part.first[n : (count + 1) * n])
+            second.extend(part.second[n : (count + 1) * n])
+            cap2.extend(part.cap2[:count])
+            ease.extend(part.ease[:count])
+        t, step = start - way[p], way[p + 1] - way[p]
+        bending().shift_ways(way, p, len(way) - p, start, way, 0)
+        del way[len(way) - p :]
         way[0] = 0.0
         for i in range(n if t > 0.0 else 0):
             third = (second[n + i] - second[i]) / step
-            first[i] += t * (second[i] + 0.5 * t * third)
+            q[i] += t * (second[i] + 0.5 * t * third)
             second[i] += t * third
-        return course_of(way, first, second, self._cap2[p:end], self._ease[p:end])
+        return course_of(way, q, second, cap2, ease)
 
 
-def _cut(phases: array[float], begin: float, end: float, origin: float) -> array[float]:
-    """The phases between two ways, counted from `origin`."""
-    out = numbers(len(phases))
-    count = kernels().cut_law(phases, begin, end, origin, out)
-    return out[: count * Phase.SIZE]
+def _cut(
+    phases: array[float], begin: float, end: float, origin: float, before: array[float] | None = None
+) -> array[float]:
+    """The phases between two ways, counted from `origin`, behind others that come before."""
+    known = len(before) if before else 0
+    out = numbers(known + len(phases))
+    if before:
+        out[:known] = before
+    count = kernels().cut_law(phases, begin, end, origin, out, known // Phase.SIZE)
+    del out[count * Phase.SIZE :]
+    return out

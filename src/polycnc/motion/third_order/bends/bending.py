@@ -9,7 +9,7 @@ from polycnc.motion.third_order.bends.levelling import level
 from polycnc.motion.third_order.bends.pieces import Pieces, bound_pieces, cut_pieces
 from polycnc.motion.third_order.bends.seams import first_piece, pieces_behind
 from polycnc.motion.third_order.bends.stretches import Stretches, curve_lines
-from polycnc.motion.third_order.bends.turning import Turning, sum_turning
+from polycnc.motion.third_order.bends.turning import Turning, sum_turning, weigh_evenly
 from polycnc.motion.third_order.bends.within import weigh_excess
 
 #: Times that knots are placed anew because the tolerance was exceeded somewhere; the first of them with levelling.
@@ -34,7 +34,7 @@ def bend_path(
         path: It; the tangents of lines that are chords of a curve are set.
         seams: `Seams`; the path reaches beyond them, and what lies there of the spline is of no use.
         smooth: Room for a number for each end of a stretch.
-        turning: Room; `weight` is 1 at first.
+        turning: Room.
         samples: Room.
         spline: Room, filled in.
         pieces: Likewise.
@@ -45,13 +45,14 @@ def bend_path(
     """
     n = len(path.rotary)
     curve_lines(path, n, smooth)
+    weigh_evenly(turning, len(path.form))
     for number in range(ROUNDS):
         sum_turning(path, n, turning)
         count = take_samples(path, turning, seams, samples)
         if count < 0:
             return NO_ROOM
         even_out(samples, count)
-        made = place_knots(samples, count, seams, spline.way, spline.room) - 1
+        made = place_knots(samples, count, seams, spline) - 1
         if made < 0 or (made + 3) * n > len(spline.control):
             return NO_ROOM
         lay_controls(path, n, spline, made)

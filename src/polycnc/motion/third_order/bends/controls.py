@@ -8,20 +8,23 @@ by its length (C. de Boor, "A Practical Guide to Splines", IX and XI). A curve i
 from __future__ import annotations
 
 from polycnc.deferred.named_tuples import NamedTuple
-from polycnc.kernels.layout import Floats
+from polycnc.kernels.layout import Floats, Ints
 from polycnc.motion.third_order.bends.stretches import Stretches, put_place
 
 
 class Spline(NamedTuple):
     """A cubic spline of m pieces: way (m + 1) of its knots, control points (m + 3)·n, place, q' and q'' (m + 1)·n.
 
-    `room` is how far apart knots might be around each of them, if it is a corner between lines, else 0; `moved` is by
-    what part of its bow a control point has been moved (`levelling.py`).
+    `room` is how far apart knots might be around each of them, if it is a corner between lines, else 0; `alone` is 1
+    where it is such a corner, and nothing else bends the path around (`knots.py`). `moving` are the knots whose control
+    points are moved, `moved` by what part of its bow each of all is (`levelling.py`).
     """
 
     way: Floats
     room: Floats
     moved: Floats
+    alone: Ints
+    moving: Ints
     control: Floats
     place: Floats
     first: Floats

@@ -15,6 +15,7 @@ from math import ceil, exp, log
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.kernels.layout import Floats, Ints
+from polycnc.motion.third_order.bends.controls import Spline
 from polycnc.motion.third_order.bends.seams import (
     Seams,
     free_from,
@@ -64,7 +65,7 @@ def take_samples(path: Stretches, turning: Turning, seams: Floats, samples: Samp
             return -1
         here, apart = samples.way[count - 1], samples.apart[count - 1]
         e, straight = samples.stretch[count - 1], True
-        goal, k, fixed, still = here + APART * apart, e + 1, False, here
+        goal, k, fixed, still, h = here + APART * apart, e + 1, False, here, 0.0
         while k < last:
             straight = straight and is_straight(turning, e, k)
             if turning.before[k] > turning.behind[k - 1]:
@@ -81,7 +82,7 @@ def take_samples(path: Stretches, turning: Turning, seams: Floats, samples: Samp
             straight = straight and is_straight(turning, e, k)
         samples.straight[count - 1] = 1 if straight else 0
         if fixed:
-            put_sample(samples, count, path.way[k], reach(path, turning, k, path.way[k], apart, most), k, 1)
+            put_sample(samples, count, path.way[k], h, k, 1)
             lone = path.way[k]
         elif straight or goal >= end - LITTLE * apart:
             put_sample(samples, count, end, seams[Seams.TAIL_APART], last - 1, 1)
@@ -153,14 +154,20 @@ def limit(samples: Samples, k: int, other: int, first: int) -> None:
     samples.apart[k] = min(samples.apart[k], most)
 
 
-def place_knots(samples: Samples, count: int, seams: Floats, knots: Floats, room: Floats) -> int:
-    """Write the ways of the knots, in order, and how far apart corners between lines allow them to be, else 0.
+def place_knots(samples: Samples, count: int, seams: Floats, spline: Spline) -> int:
+    """Write the ways of the knots, in order, and which of them are corners between lines.
+
+    A corner from which two others lie on either line, the nearer ones as far away as it allows, is alone: control
+    points around lie on both lines and at the corner itself, from which the spline is farther than from any other
+    place: by what it was placed for. Between two such ones it is the line.
 
     Returns:
         Their number, -1 where there is no room.
     """
-    made, first, on_line = put_head(seams, knots, room) + 1, 0, False
-    knots[made - 1], room[made - 1] = samples.way[0], 0.0
+    knots, room = spline.way, spline.room
+    made, first, on_line, two = put_head(seams, knots) + 1, 0, False, False
+    knots[made - 1] = samples.way[0]
+    set_apart(spline, 0, made)
     while first < count - 1:
         last = first + 1
         while samples.fixed[last] == 0:
@@ -175,11 +182,20 @@ def place_knots(samples: Samples, count: int, seams: Floats, knots: Floats, room
             made = knots_on_curve(samples, first, last, knots, made)
             if made < 0:
                 return -1
+        had_two, two = two, on_line and made == before + 3
+        spline.alone[before] = 1 if had_two and two else 0
         knots[made] = samples.way[last]
-        for k in range(before + 1, made + 1):
-            room[k] = 0.0
+        set_apart(spline, before + 1, made + 1)
         made, first = made + 1, last
-    return put_tail(seams, knots, room, made)
+    first, made = made, put_tail(seams, knots, made)
+    set_apart(spline, first, made)
+    return made
+
+
+def set_apart(spline: Spline, first: int, end: int) -> None:
+    """Let knots from one to before another be no corners between lines."""
+    for k in range(first, end):
+        spline.room[k], spline.alone[k] = 0.0, 0
 
 
 def knots_on_line(samples: Samples, k: int, count: int, seams: Floats, knots: Floats, made: int) -> int:

@@ -21,30 +21,29 @@ HAS_ROOM = 0.93
 
 def level(path: Stretches, n: int, spline: Spline, pieces: int) -> None:
     """Move control points, and shape the spline anew."""
-    if mark(spline, pieces) == 0:
-        return
-    for _ in range(TIMES):
-        e, last = 0, len(path.form) - 1
-        for k in range(1, pieces):
-            if spline.room[k] > 0.0:
-                while e < last and path.way[e + 1] <= spline.way[k]:
-                    e += 1
-                move_on(path, n, spline, pieces, e, k)
-        for k in range(pieces + 1):
-            if max(spline.room[max(k - 1, 0)], spline.room[k], spline.room[min(k + 1, pieces)]) > 0.0:
+    count = choose(spline, pieces)
+    for _ in range(TIMES if count > 0 else 0):
+        e, last, shaped = 0, len(path.form) - 1, 0
+        for j in range(count):
+            k = spline.moving[j]
+            while e < last and path.way[e + 1] <= spline.way[k]:
+                e += 1
+            move_on(path, n, spline, pieces, e, k)
+        for j in range(count):
+            first, end = max(spline.moving[j] - 1, shaped), spline.moving[j] + 2
+            for k in range(first, end):
                 shape_knot(spline, n, pieces, k)
+            shaped = end
 
 
-def mark(spline: Spline, pieces: int) -> int:
-    """Let only those knots have `room` that lie nearer to their neighbours than they need to; their number."""
+def choose(spline: Spline, pieces: int) -> int:
+    """Write the corners into `moving` that lie nearer to their neighbours than they need to; their number."""
     found = 0
     for k in range(1, pieces):
         nearest = min(spline.way[k] - spline.way[k - 1], spline.way[k + 1] - spline.way[k])
-        spline.moved[k] = 0.0
         if nearest < HAS_ROOM * spline.room[k]:
+            spline.moving[found], spline.moved[k] = k, 0.0
             found += 1
-        else:
-            spline.room[k] = 0.0
     return found
 
 

@@ -57,23 +57,23 @@ def stretch_before(path: Stretches, way: float) -> int:
     return e
 
 
-def put_head(seams: Floats, knots: Floats, room: Floats) -> int:
+def put_head(seams: Floats, knots: Floats) -> int:
     """Write the knots of the head seam but for the last one; their number."""
     if seams[Seams.HEAD_APART] <= 0.0:
         return 0
     for j in range(2 * SIDE):
-        knots[j], room[j] = seams[Seams.HEAD] + (j - SIDE) * seams[Seams.HEAD_APART], 0.0
+        knots[j] = seams[Seams.HEAD] + (j - SIDE) * seams[Seams.HEAD_APART]
     return 2 * SIDE
 
 
-def put_tail(seams: Floats, knots: Floats, room: Floats, made: int) -> int:
+def put_tail(seams: Floats, knots: Floats, made: int) -> int:
     """Write those of the tail seam behind the first one; the number of all knots, -1 where there is no room."""
     if seams[Seams.TAIL_APART] <= 0.0:
         return made
     if made + 2 * SIDE > len(knots):
         return -1
     for j in range(2 * SIDE):
-        knots[made + j], room[made + j] = seams[Seams.TAIL] + (j + 1 - SIDE) * seams[Seams.TAIL_APART], 0.0
+        knots[made + j] = seams[Seams.TAIL] + (j + 1 - SIDE) * seams[Seams.TAIL_APART]
     return made + 2 * SIDE
 
 

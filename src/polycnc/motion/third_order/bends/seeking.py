@@ -8,7 +8,7 @@ from polycnc.kernels.layout import Floats, Ints
 from polycnc.motion.third_order.bends.controls import Spline, lay_controls, shape
 from polycnc.motion.third_order.bends.seams import BESIDES, SIDE
 from polycnc.motion.third_order.bends.stretches import Stretches, curve_lines, length_of
-from polycnc.motion.third_order.bends.turning import Turning, reach, sum_turning
+from polycnc.motion.third_order.bends.turning import Turning, reach, sum_turning, weigh_evenly
 from polycnc.motion.third_order.bends.within import most_used
 
 #: On a straight line knots of a seam are apart by this part of it: there they bend nothing. Elsewhere by this part of
@@ -39,7 +39,7 @@ def find_seam(
         low: The first stretch on which it may lie.
         high: The one behind the last.
         smooth: Room for a number for each end of a stretch.
-        turning: Room; `weight` is 1.
+        turning: Room.
         spline: Room for `2 * SIDE + 5` knots.
         found: Set to the way of the seam and the distance of its knots.
 
@@ -48,6 +48,7 @@ def find_seam(
     """
     n, e = len(path.rotary), low
     curve_lines(path, n, smooth)
+    weigh_evenly(turning, len(path.form))
     sum_turning(path, n, turning)
     for k in range(low, high):
         if length_of(path, k) > length_of(path, e):

@@ -31,6 +31,12 @@ class Turning(NamedTuple):
     weight: Floats
 
 
+def weigh_evenly(turning: Turning, count: int) -> None:
+    """Let the turning of so many stretches count as it is."""
+    for e in range(count):
+        turning.weight[e] = 1.0
+
+
 def sum_turning(path: Stretches, n: int, turning: Turning) -> None:
     """Fill in the sums of the turning of a path."""
     total, area, count = 0.0, 0.0, len(path.form)
@@ -78,6 +84,9 @@ def reach(path: Stretches, turning: Turning, e: int, way: float, guess: float, m
     M grows ever faster with h, so that Newton's steps come down to it from above; where a corner lies between they may
     be short far off.
     """
+    alone = reach_alone(path, turning, e, way)
+    if alone > 0.0:
+        return min(alone, most)
     here, h, low, high, last = area_to(path, turning, e, way), min(guess, most), e, e, len(path.form) - 1
     for _ in range(STEPS):
         while low > 0 and path.way[low] > way - h:
@@ -97,3 +106,14 @@ def reach(path: Stretches, turning: Turning, e: int, way: float, guess: float, m
             return h
         h = min(h - over / slope, 4.0 * h, most) if slope > 0.0 else min(2.0 * h, most)
     return h if h < inf else most
+
+
+def reach_alone(path: Stretches, turning: Turning, e: int, way: float) -> float:
+    """The same at a corner between two straight lines, where it ends on both; else 0."""
+    if e == 0 or way != path.way[e]:
+        return 0.0
+    turn = turning.behind[e] - turning.before[e]
+    if turn <= 0.0 or turning.before[e] > turning.behind[e - 1] or turning.before[e + 1] > turning.behind[e]:
+        return 0.0
+    h: float = SHARE * FULL / turn
+    return h if h <= min(way - path.way[e - 1], path.way[e + 1] - way) else 0.0

@@ -33,6 +33,12 @@ def weigh_excess(
     while path.way[e + 1] <= start:
         e += 1
     while k < behind:
+        if is_sure(spline, pieces, k):
+            k += 1
+            start = spline.way[k]
+            while e < last and path.way[e + 1] <= start:
+                e += 1
+            continue
         end = min(path.way[e + 1], spline.way[k + 1])
         if e == last and k == pieces - 1:
             end = path.way[e + 1]
@@ -51,6 +57,13 @@ def weigh_excess(
         else:
             break
     return found
+
+
+def is_sure(spline: Spline, pieces: int, k: int) -> bool:
+    """Whether piece k keeps to the tolerance by how its knots lie: at a corner that is alone, or between two."""
+    if spline.alone[k] != 0 or spline.alone[k + 1] != 0:
+        return True
+    return 0 < k < pieces - 1 and spline.alone[k - 1] != 0 and spline.alone[k + 2] != 0
 
 
 def most_used(path: Stretches, n: int, spline: Spline, first: int, end: int) -> float:

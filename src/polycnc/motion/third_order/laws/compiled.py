@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from polycnc.kernels.layout import Floats
-    from polycnc.motion.third_order.laws.courses import Axes, Course, Known, Nodes
+    from polycnc.motion.third_order.laws.courses import Axes, Course, Known, Nodes, Work
     from polycnc.motion.third_order.laws.records import RowEnds, Track, Walk
 
 _LAWS = "polycnc.motion.third_order.laws"
@@ -21,7 +21,9 @@ LIBRARY = Library(
     (
         f"{_LAWS}.courses",
         f"{_LAWS}.grid",
+        f"{_LAWS}.stencils",
         f"{_LAWS}.barrier",
+        f"{_LAWS}.newton",
         f"{_LAWS}.phases",
         f"{_LAWS}.search",
         f"{_LAWS}.joining",
@@ -42,11 +44,11 @@ LIBRARY = Library(
 class Kernels(NamedTuple):
     """The kernels that Python calls; see `search.py`, `grid.py`, `joining.py` and `records.py`."""
 
-    place_nodes: Callable[[Course, Axes, Floats, Floats, Floats, Floats, Floats], int]
+    place_nodes: Callable[[Course, Axes, Floats, Floats, Floats, Floats, Floats, Floats], int]
     merge: Callable[[Floats, Floats, int, Floats], int]
-    find_law: Callable[[Course, Axes, Floats, Floats, Floats, Nodes, Known, Floats, Floats, Floats], int]
+    find_law: Callable[[Course, Axes, Floats, Floats, Floats, Nodes, Known, Work, Floats, Floats], int]
     look_ahead: Callable[[Course, Axes, Floats, float, Floats], int]
-    cut_law: Callable[[Floats, float, float, float, Floats], int]
+    cut_law: Callable[[Floats, float, float, float, Floats, int], int]
     put_records: Callable[[Track, Floats, RowEnds, Walk, Floats], int]
     add_times: Callable[[Floats, RowEnds, Walk, Floats, Floats, int], None]
 

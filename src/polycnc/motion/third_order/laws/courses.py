@@ -15,7 +15,8 @@ class Course(NamedTuple):
         second: q'' there, (m + 1) · n.
         cap2: Largest square of the speed on each piece, (mm/s)² (m).
         ease: The part of acceleration and jerk of all axes that may be used there (m).
-        low2: The same, and low enough for q'' and q''' alone: an estimate (m).
+        third: q''' on each piece, m · n; the estimate sets it.
+        low2: The same as `cap2`, and low enough for q'' and q''' alone: an estimate (m).
         x: Square of the speed at the knots by the estimate of second order (m + 1).
     """
 
@@ -24,6 +25,7 @@ class Course(NamedTuple):
     second: Floats
     cap2: Floats
     ease: Floats
+    third: Floats
     low2: Floats
     x: Floats
 
@@ -46,19 +48,17 @@ class Ends(Places):
 
 
 class Shape(Places):
-    """What a node knows of one axis on its cell: half of q' at it, the middles and half the ranges of q'' and q'''.
+    """What a node knows of one axis on its cell: half of q' at it, middles and half the ranges of 3/2 q'' and of q'''.
 
-    They are parts of the limits: of the acceleration first; those of the jerk have half of q', 3/2 of q'', and q'''.
+    They are parts of the jerk that the axis may have there. And 1 where it moves, 0 where it stands still.
     """
 
     FIRST = place()
     SECOND = place()
     SECOND_RANGE = place()
-    JOLT_FIRST = place()
-    JOLT_SECOND = place()
-    JOLT_RANGE = place()
     THIRD = place()
     THIRD_RANGE = place()
+    MOVES = place()
 
 
 class Nodes(NamedTuple):
@@ -68,9 +68,9 @@ class Nodes(NamedTuple):
         way: mm, (k).
         x: Square of the speed as found, between which x is a quadratic B-spline, (k).
         cap2: Largest x on the cell of a node, half the way to both neighbours, (k).
-        room: The part of acceleration and jerk that may be used there, (k).
-        shape: `Shape` of each axis, k · n of them.
-        stencil: `Stencil`, k of them.
+        room: The part that may be used there of what the axes have, (k).
+        shape: `Shape` of each axis, n times; each field has its k numbers in a row.
+        stencil: `Stencil`; likewise.
     """
 
     way: Floats
@@ -91,14 +91,74 @@ class Known(NamedTuple):
 
 
 class Stencil(Places):
-    """How value, slope and bend of x at a node follow from x at the node before, at itself, and behind."""
+    """How x, x' and x'' at a node follow from x at the nodes before and behind, each less that at itself.
 
-    SLOPE = place(3)
-    BEND = place(3)
-    VALUE = place(3)
+    Each is the sum of both by these factors and of a fixed number; for x that at the node itself comes to it.
+    Besides, the way from the node before, that of the cell, and a factor of the time in which it is passed.
+    """
+
+    SLOPE = place(2)
+    BEND = place(2)
+    VALUE = place(2)
     VALUE_FIXED = place()
     SLOPE_FIXED = place()
     BEND_FIXED = place()
+    BEFORE = place()
+    CELL = place()
+    TIME = place()
+
+
+#: Nodes whose barriers are found at once.
+BATCH = 128
+
+
+class Force(Places):
+    """What the barriers of nodes come to; each field has `BATCH` numbers in a row.
+
+    x, x' and x'' there; a factor of all that follows; the part of jerk by √x that there is room for, and how it falls
+    with x; the slack below which its barrier is a parabola. Slopes, with the other sign, and bends: at first by x (X),
+    x' (S) and x'' (B), then by x at the nodes before (0), here (1) and behind (2).
+    """
+
+    X = place()
+    SLOPE = place()
+    BEND = place()
+    OWN = place()
+    WIDE = place()
+    HALF = place()
+    SOFT = place()
+    GX = place()
+    GS = place()
+    GB = place()
+    HXX = place()
+    HXS = place()
+    HXB = place()
+    HSS = place()
+    HSB = place()
+    HBB = place()
+    H00 = place()
+    H01 = place()
+    H02 = place()
+    H11 = place()
+    H12 = place()
+    H22 = place()
+    G0 = place()
+    G1 = place()
+    G2 = place()
+
+
+class Work(NamedTuple):
+    """Which axes move, and room for the steps of Newton's method.
+
+    Attributes:
+        moves: For each axis 1 where it moves anywhere, 0 where it stands still, (n).
+        bands: What is left of the row of each node for the way back, `BANDS` numbers.
+        forces: `Force` of a batch of nodes.
+    """
+
+    moves: Floats
+    bands: Floats
+    forces: Floats
 
 
 class Phase(Places):

@@ -29,9 +29,8 @@ LITTLE = 1e-3
 LEFT = 0.02
 
 
-def estimate(course: Course, axes: Axes, ends: Floats) -> None:
-    """Caps of all pieces, and the estimate of second order at the knots."""
-    m = len(course.cap2)
+def estimate(course: Course, axes: Axes, ends: Floats, m: int) -> None:
+    """Caps of the first m pieces, and the estimate of second order at their knots."""
     for k in range(m):
         course.low2[k] = own_cap(course, axes, k)
     course.x[0] = ends[Ends.START_SPEED] ** 2
@@ -54,7 +53,9 @@ def own_cap(course: Course, axes: Axes, k: int) -> float:
     speed = bend = twist = 0.0
     for i in range(n):
         here, there = course.second[k * n + i], course.second[k * n + n + i]
-        third = abs(there - here) / step
+        own = (there - here) / step
+        third = abs(own)
+        course.third[k * n + i] = own
         first = (
             max(abs(course.first[k * n + i]), abs(course.first[k * n + n + i])) + 0.125 * third * step * step
         )
@@ -120,7 +121,9 @@ def cut(course: Course, axes: Axes, places: Floats, squares: Floats, gaps: Float
     return count
 
 
-def spread(axes: Axes, count: int, places: Floats, squares: Floats, gaps: Floats, nodes: Floats) -> int:
+def spread(
+    axes: Axes, count: int, places: Floats, squares: Floats, gaps: Floats, seconds: Floats, nodes: Floats
+) -> int:
     """Spread nodes over a path; gives their number.
 
     Args:
@@ -129,6 +132,7 @@ def spread(axes: Axes, count: int, places: Floats, squares: Floats, gaps: Floats
         places: The way at them.
         squares: The square of the speed there.
         gaps: Their distances by the turn of the path; become the distances of nodes there.
+        seconds: Set to the time from each to the next one.
         nodes: The way at the nodes, if there is room; the number is right in any case.
     """
     build = pull = 0.0
@@ -137,7 +141,8 @@ def spread(axes: Axes, count: int, places: Floats, squares: Floats, gaps: Floats
         pull = max(pull, axes.pull[i])
     whole = 0.0
     for k in range(count - 1):
-        whole += _seconds(places, squares, k)
+        seconds[k] = _seconds(places, squares, k)
+        whole += seconds[k]
     close = min(CLOSE * build, whole / FEWEST)
     growth = GROWTH * close / (CLOSE * build)
     before, gap = 0.0, inf
@@ -146,21 +151,29 @@ def spread(axes: Axes, count: int, places: Floats, squares: Floats, gaps: Floats
         change = abs(behind - before) / (CHANGE * pull)
         own = min(gaps[k], close / min(1.0, max(change, 1e-3)))
         if k > 0:
-            gap += growth * _seconds(places, squares, k - 1)
+            gap += growth * seconds[k - 1]
         gap = min(own, gap)
         gaps[k] = gap
         before = behind
     for k in range(count - 2, -1, -1):
-        gaps[k] = min(gaps[k], gaps[k + 1] + growth * _seconds(places, squares, k))
-    return _walk(count, growth, places, squares, gaps, nodes)
+        gaps[k] = min(gaps[k], gaps[k + 1] + growth * seconds[k])
+    return _walk(count, growth, places, squares, gaps, seconds, nodes)
 
 
-def _walk(count: int, growth: float, places: Floats, squares: Floats, gaps: Floats, nodes: Floats) -> int:
+def _walk(
+    count: int,
+    growth: float,
+    places: Floats,
+    squares: Floats,
+    gaps: Floats,
+    seconds: Floats,
+    nodes: Floats,
+) -> int:
     """Set nodes one after another, each as far from the one before as the gap there says."""
     nodes[0] = places[0]
     number, passed, gap = 1, 0.0, gaps[0]  # `passed` since the last node
     for k in range(count - 1):
-        time, at = _seconds(places, squares, k), 0.0
+        time, at = seconds[k], 0.0
         speed = sqrt(squares[k])
         pull = 0.5 * (squares[k + 1] - squares[k]) / (places[k + 1] - places[k])
         while passed + time - at >= gap * (1.0 + SNAP):
@@ -204,70 +217,74 @@ def _seconds(places: Floats, squares: Floats, k: int) -> float:
     return 2.0 * (places[k + 1] - places[k]) / max(sqrt(squares[k]) + sqrt(squares[k + 1]), 1e-6)
 
 
-def gather(course: Course, axes: Axes, nodes: Nodes) -> None:
-    """What every node knows of the pieces on its cell."""
+def gather(course: Course, axes: Axes, nodes: Nodes, moves: Floats) -> None:
+    """What every node knows of the pieces on its cell; sets which axes move anywhere."""
     n, m, count = len(axes.jerk), len(course.cap2), len(nodes.way)
+    for i in range(n):
+        moves[i] = 1.0 if _moves(course, n, i) else 0.0
+        for at in range(i * Shape.SIZE * count, (i + 1) * Shape.SIZE * count if moves[i] == 0.0 else 0):
+            nodes.shape[at] = 0.0
     low = at = 0
+    begin = nodes.way[0]
     for k in range(count):
         way = nodes.way[k]
-        begin = 0.5 * (nodes.way[max(k - 1, 0)] + way)
         end = 0.5 * (way + nodes.way[min(k + 1, count - 1)])
         while low < m - 1 and course.way[low + 1] <= begin:
             low += 1
         at = max(at, low)
         while at < m - 1 and course.way[at + 1] <= way:
             at += 1
-        high, cap, room = low, inf, 1.0
-        while True:
-            cap, room = min(cap, course.cap2[high]), min(room, course.ease[high])
-            if high >= m - 1 or course.way[high + 1] >= end:
-                break
+        high, cap, ease = low, course.cap2[low], course.ease[low]
+        while high < m - 1 and course.way[high + 1] < end:
             high += 1
-        nodes.cap2[k], nodes.room[k] = cap, room
+            cap, ease = min(cap, course.cap2[high]), min(ease, course.ease[high])
+        nodes.cap2[k], nodes.room[k] = cap, 1.0
         for i in range(n):
-            _gather_axis(course, axes, nodes, k, i, n, low, high, at, begin, end)
+            if moves[i] > 0.0:
+                part, to = 0.5 / (ease * axes.jerk[i]), i * Shape.SIZE * count + k
+                _gather_axis(course, nodes, n, i, low, high, at, begin, way, end, part, to)
+        begin = end
+
+
+def _moves(course: Course, n: int, i: int) -> bool:
+    """Whether an axis moves anywhere."""
+    for at in range(i, len(course.first), n):  # noqa: SIM110 - kernels have no generators
+        if course.first[at] != 0.0 or course.second[at] != 0.0:
+            return True
+    return False
 
 
 def _gather_axis(
     course: Course,
-    axes: Axes,
     nodes: Nodes,
-    k: int,
-    i: int,
     n: int,
+    i: int,
     low: int,
     high: int,
     at: int,
     begin: float,
+    way: float,
     end: float,
+    part: float,
+    to: int,
 ) -> None:
-    shape = (k * n + i) * Shape.SIZE
-    moves = False
-    for p in range(low, high + 2):
-        moves = moves or course.first[p * n + i] != 0.0 or course.second[p * n + i] != 0.0
-    if not moves:
-        for place_ in range(Shape.SIZE):
-            nodes.shape[shape + place_] = 0.0
-        return
-    step = nodes.way[k] - course.way[at]
-    bend = course.second[at * n + i]
-    third = (course.second[at * n + n + i] - bend) / (course.way[at + 1] - course.way[at])
-    first = 0.5 * (course.first[at * n + i] + step * (bend + 0.5 * step * third))
-    bend_low = bend_high = bend + step * third
-    third_low, third_high = inf, -inf
+    """What a node on the piece `at` knows of an axis on its cell, from the piece `low` to `high`."""
+    step = way - course.way[at]
+    at = at * n + i
+    first = course.first[at] + step * (course.second[at] + 0.5 * step * course.third[at])
+    bend_low = third_low = inf
+    bend_high = third_high = -inf
     for p in range(low, high + 1):
-        length = course.way[p + 1] - course.way[p]
-        here, there = course.second[p * n + i], course.second[p * n + n + i]
-        third = (there - here) / length
+        here, third, start = course.second[p * n + i], course.third[p * n + i], course.way[p]
+        left = here + third * max(begin - start, 0.0)
+        right = here + third * (min(end, course.way[p + 1]) - start)
         third_low, third_high = min(third_low, third), max(third_high, third)
-        left = here + third * max(begin - course.way[p], 0.0)
-        right = here + third * min(end - course.way[p], length)
         bend_low, bend_high = min(bend_low, left, right), max(bend_high, left, right)
-    pull, jerk = 1.0 / axes.pull[i], 1.0 / axes.jerk[i]
-    middle, range_ = 0.5 * (bend_high + bend_low), 0.5 * (bend_high - bend_low)
-    nodes.shape[shape + Shape.FIRST], nodes.shape[shape + Shape.JOLT_FIRST] = first * pull, first * jerk
-    nodes.shape[shape + Shape.SECOND], nodes.shape[shape + Shape.SECOND_RANGE] = middle * pull, range_ * pull
-    nodes.shape[shape + Shape.JOLT_SECOND] = 1.5 * middle * jerk
-    nodes.shape[shape + Shape.JOLT_RANGE] = 1.5 * range_ * jerk
-    nodes.shape[shape + Shape.THIRD] = 0.5 * (third_high + third_low) * jerk
-    nodes.shape[shape + Shape.THIRD_RANGE] = 0.5 * (third_high - third_low) * jerk
+    s, count = nodes.shape, len(nodes.way)
+    s[to + Shape.FIRST * count] = first * part
+    s[to + Shape.SECOND * count] = 1.5 * (bend_high + bend_low) * part
+    s[to + Shape.SECOND_RANGE * count] = 1.5 * (bend_high - bend_low) * part
+    s[to + Shape.THIRD * count] = (third_high + third_low) * part
+    s[to + Shape.THIRD_RANGE * count] = (third_high - third_low) * part
+    moves = first != 0.0 or bend_low != 0.0 or bend_high != 0.0 or third_high > third_low
+    s[to + Shape.MOVES * count] = 1.0 if moves else 0.0

@@ -15,8 +15,8 @@ from __future__ import annotations
 from math import sqrt
 
 from polycnc.kernels.layout import Floats
-from polycnc.motion.third_order.laws.barrier import value
-from polycnc.motion.third_order.laws.courses import Axes, Course, Nodes, Phase
+from polycnc.motion.third_order.laws.courses import Axes, Course, Nodes, Phase, Shape
+from polycnc.motion.third_order.laws.stencils import value
 
 #: Phases between two nodes.
 PAIR = 2
@@ -29,15 +29,21 @@ HALVINGS, KEPT, CLOSE_BY = 6, 1.0 + 1e-7, 0.002
 
 def lay_phases(nodes: Nodes, phases: Floats, first: int, last: int) -> None:
     """Phases between two nodes, `PAIR` from each one to the next; one of them may last no time."""
-    speed, pull = _speed(nodes, first), 0.0
-    if speed > 0.0:
-        pull = _pull(nodes, first, speed)
-    for k in range(first + 1, last + 1):
-        there, new = _speed(nodes, k), 0.0
-        if there > 0.0:
-            new = _pull(nodes, k, there)
-        _pair(nodes, k - 1, speed, pull, there, new, phases)
-        speed, pull = there, new
+    count = len(nodes.x)
+    before = 0.0
+    if first > 0:
+        before, _ = _motion(nodes, first - 1)
+    speed, pull = _motion(nodes, first)
+    there, ahead = _motion(nodes, first + 1)
+    if first > 0:
+        pull = _within(nodes, first, before, speed, there, pull)
+    for k in range(first, last):
+        behind, slope, new = 0.0, 0.0, ahead
+        if k + 2 < count:
+            behind, slope = _motion(nodes, k + 2)
+            new = _within(nodes, k + 1, speed, there, behind, ahead)
+        _pair(nodes, k, speed, pull, there, new, phases)
+        speed, pull, there, ahead = there, new, behind, slope
 
 
 def leads_on(nodes: Nodes, phases: Floats, k: int) -> bool:
@@ -48,26 +54,24 @@ def leads_on(nodes: Nodes, phases: Floats, k: int) -> bool:
     return abs(way - nodes.way[k + 1]) <= APART * (nodes.way[k + 1] - nodes.way[k])
 
 
-def _speed(nodes: Nodes, k: int) -> float:
-    """Speed at a node."""
+def _motion(nodes: Nodes, k: int) -> tuple[float, float]:
+    """Speed and acceleration of the spline at a node."""
     if nodes.x[k] <= 0.0:
+        return 0.0, 0.0
+    x, slope, _ = value(nodes, k)
+    return sqrt(max(x, 1e-18)), 0.5 * slope
+
+
+def _within(nodes: Nodes, k: int, before: float, speed: float, behind: float, pull: float) -> float:
+    """An acceleration; no more than with which phases lead from the node before to this one and to the next."""
+    if speed <= 0.0:
         return 0.0
-    x, _, _ = value(nodes, k)
-    return sqrt(max(x, 1e-18))
-
-
-def _pull(nodes: Nodes, k: int, speed: float) -> float:
-    """Acceleration at a node; no more than with which phases lead from the node before to this one and to the next."""
-    _, slope, _ = value(nodes, k)
-    pull = 0.5 * slope
-    last = len(nodes.x) - 1
-    if k == 0 or k == last:
-        return pull
-    before, behind = _speed(nodes, k - 1), _speed(nodes, k + 1)
     if before > 0.0:
-        pull = min(pull, MEETS * (before + speed) ** 2 / (nodes.way[k] - nodes.way[k - 1]))
+        both = before + speed
+        pull = min(pull, MEETS * both * both / (nodes.way[k] - nodes.way[k - 1]))
     if behind > 0.0:
-        pull = max(pull, -MEETS * (speed + behind) ** 2 / (nodes.way[k + 1] - nodes.way[k]))
+        both = speed + behind
+        pull = max(pull, -MEETS * both * both / (nodes.way[k + 1] - nodes.way[k]))
     return pull
 
 
@@ -103,72 +107,93 @@ def _set(phases: Floats, at: int, time: float, way: float, speed: float, pull: f
     phases[at + Phase.JERK] = jerk
 
 
-def examine(course: Course, axes: Axes, phases: Floats, most: Floats, begin: int, end: int) -> None:
+def examine(
+    course: Course, axes: Axes, nodes: Nodes, phases: Floats, most: Floats, first: int, last: int
+) -> None:
     """The largest parts of speed, acceleration and jerk that are used on every phase.
 
     Args:
         course: The path.
         axes: Limits.
+        nodes: With what they know of the path.
         phases: The law.
-        most: For three numbers a phase: bounds of the parts used of the square of the speed, of acceleration and jerk.
-        begin: The first phase to look at.
-        end: The one behind the last.
+        most: For three numbers a phase: bounds of the parts used of the square of the speed, of acceleration and jerk;
+            zero where it is plain that there are less than the limits.
+        first: The node behind which to look.
+        last: The node up to which.
     """
-    m, p = len(course.cap2), 0
-    high = m
-    while high - p > 1:  # the piece of the first phase
+    p, high = 0, len(course.cap2)
+    while high - p > 1:  # the piece of the first node
         middle = (p + high) // 2
-        p, high = (
-            (middle, high) if course.way[middle] <= phases[begin * Phase.SIZE + Phase.WAY] else (p, middle)
-        )
-    for k in range(begin, end):
-        at = k * Phase.SIZE
-        most[3 * k] = most[3 * k + 1] = most[3 * k + 2] = 0.0
-        time = phases[at + Phase.TIME]
-        if time <= 0.0:
-            continue
-        there, now = phases[at + Phase.WAY] + gone(phases, at, time), 0.0
-        while p < m - 1 and course.way[p + 1] <= phases[at + Phase.WAY]:
-            p += 1
-        pull, jerk = phases[at + Phase.PULL], phases[at + Phase.JERK]
-        speed, hard = phases[at + Phase.SPEED], max(abs(pull), abs(pull + time * jerk))
-        fast = max(speed, speed + time * (pull + 0.5 * time * jerk)) + 0.125 * time * time * abs(jerk)
-        while True:
-            last = p >= m - 1 or course.way[p + 1] >= there
-            if not _roughly(course, axes, p, fast, hard, abs(jerk), most, 3 * k):
-                if course.way[p] > phases[at + Phase.WAY]:
-                    now = reached(phases, at, now, course.way[p])
-                until = time if last else reached(phases, at, now, course.way[p + 1])
-                _piece(course, axes, phases, at, p, now, until, most, 3 * k)
-            if last:
-                break
-            p += 1
+        p, high = (middle, high) if course.way[middle] <= nodes.way[first] else (p, middle)
+    for k in range(first, last):
+        for i in range(3 * PAIR * k, 3 * PAIR * (k + 1)):
+            most[i] = 0.0
+        if not _plainly(axes, nodes, phases, k):
+            for at in range(PAIR * k, PAIR * (k + 1)):
+                p = _phase(course, axes, phases, at, most, p)
 
 
-def _roughly(
-    course: Course, axes: Axes, p: int, fast: float, hard: float, jerk: float, most: Floats, to: int
-) -> bool:
-    """Whether a piece keeps all limits even if the highest speed, acceleration and jerk of a phase come together."""
-    n, step = len(axes.jerk), course.way[p + 1] - course.way[p]
-    square, inverse = fast * fast, 1.0 / course.ease[p]
-    curl = square / step
-    high, high_a, high_j = square / course.cap2[p], 0.0, 0.0
-    for i in range(n):
-        here, there = course.second[p * n + i], course.second[p * n + n + i]
-        turn = max(abs(course.first[p * n + i]), abs(course.first[p * n + n + i]))
-        if turn == 0.0 and here == there == 0.0:
-            continue  # it stands still
-        twist, bend = abs(there - here), max(abs(here), abs(there))
-        turn += 0.125 * twist * step
-        high_a = max(high_a, (turn * hard + bend * square) * inverse / axes.pull[i])
-        high_j = max(
-            high_j, (turn * jerk + fast * (3.0 * bend * hard + twist * curl)) * inverse / axes.jerk[i]
-        )
-    if high > 1.0 or high_a > 1.0 or high_j > 1.0:
+def _plainly(axes: Axes, nodes: Nodes, phases: Floats, k: int) -> bool:
+    """Whether limits are kept from a node to the next even if the highest speed, acceleration and jerk come together.
+
+    q'' and q''' are no larger than on the cells of both nodes.
+    """
+    at, n, count, s = PAIR * k * Phase.SIZE, len(axes.jerk), len(nodes.way), nodes.shape
+    behind = at + Phase.SIZE
+    time = max(phases[at + Phase.TIME], phases[behind + Phase.TIME])
+    pull, pull2 = phases[at + Phase.PULL], phases[behind + Phase.PULL]
+    jerk2, time2, speed2 = (
+        phases[behind + Phase.JERK],
+        phases[behind + Phase.TIME],
+        phases[behind + Phase.SPEED],
+    )
+    jerk = max(abs(phases[at + Phase.JERK]), abs(jerk2))
+    fast = max(phases[at + Phase.SPEED], speed2, speed2 + time2 * (pull2 + 0.5 * time2 * jerk2))
+    fast += 0.125 * time * time * jerk
+    hard = max(abs(pull), abs(pull2), abs(pull2 + time2 * jerk2))
+    square, step = fast * fast, nodes.way[k + 1] - nodes.way[k]
+    if square > min(nodes.cap2[k], nodes.cap2[k + 1]):
         return False
-    most[to], most[to + 1] = max(most[to], high), max(most[to + 1], high_a)
-    most[to + 2] = max(most[to + 2], high_j)
+    for i in range(n):
+        here = i * Shape.SIZE * count + k
+        there = here + 1
+        if s[here + Shape.MOVES * count] + s[there + Shape.MOVES * count] == 0.0:
+            continue
+        third = max(
+            abs(s[here + Shape.THIRD * count]) + s[here + Shape.THIRD_RANGE * count],
+            abs(s[there + Shape.THIRD * count]) + s[there + Shape.THIRD_RANGE * count],
+        )
+        bend = max(
+            abs(s[here + Shape.SECOND * count]) + s[here + Shape.SECOND_RANGE * count],
+            abs(s[there + Shape.SECOND * count]) + s[there + Shape.SECOND_RANGE * count],
+        )  # half more than q''
+        turn = max(abs(s[here + Shape.FIRST * count]), abs(s[there + Shape.FIRST * count]))
+        turn = 2.0 * turn + 0.125 * step * step * third
+        if turn * jerk + fast * (2.0 * bend * hard + third * square) > 1.0:
+            return False
+        if (turn * hard + 2.0 / 3.0 * bend * square) * axes.jerk[i] > axes.pull[i]:
+            return False
     return True
+
+
+def _phase(course: Course, axes: Axes, phases: Floats, k: int, most: Floats, p: int) -> int:
+    """The parts that are used on a phase, which begins on the piece p or behind it; gives the piece of its end."""
+    m, at = len(course.cap2), k * Phase.SIZE
+    time, way = phases[at + Phase.TIME], phases[at + Phase.WAY]
+    if time <= 0.0:
+        return p
+    there, now = way + gone(phases, at, time), 0.0
+    while p < m - 1 and course.way[p + 1] <= way:
+        p += 1
+    while True:
+        last = p >= m - 1 or course.way[p + 1] >= there
+        until = time if last else reached(phases, at, now, course.way[p + 1])
+        if not _keeps(course, axes, phases, at, p, now, until):
+            _piece(course, axes, phases, at, p, now, until, most, 3 * k)
+        if last:
+            return p
+        p, now = p + 1, until
 
 
 def gone(phases: Floats, at: int, time: float) -> float:
@@ -214,12 +239,11 @@ def _piece(
     to: int,
 ) -> None:
     """Raise the bounds by what a piece needs in a part of a phase."""
-    top = 1.0 / course.cap2[p]
     whole = 1 << HALVINGS
     done, parts = 0, whole  # small parts of the time
     while done < whole:
         begin, end = now + (until - now) * (done / whole), now + (until - now) * ((done + parts) / whole)
-        used = _used(course, axes, phases, at, p, begin, end, top)
+        used = _used(course, axes, phases, at, p, begin, end)
         above = max(used[0] - used[3], used[1] - used[4], used[2] - used[5])
         if parts > 1 and above > CLOSE_BY and max(used[0], used[1], used[2]) > KEPT:
             parts //= 2
@@ -232,11 +256,47 @@ def _piece(
             parts *= 2
 
 
+def _keeps(course: Course, axes: Axes, phases: Floats, at: int, p: int, begin: float, end: float) -> bool:
+    """Whether the bounds that `_used` finds are no higher than the limits."""
+    n, time, ease = len(axes.jerk), end - begin, course.ease[p]
+    start, jerk = phases[at + Phase.PULL], phases[at + Phase.JERK]
+    pull, speed = start + begin * jerk, phases[at + Phase.SPEED] + begin * (start + 0.5 * begin * jerk)
+    way = phases[at + Phase.WAY] + gone(phases, at, begin) - course.way[p]
+    pull2, speed2 = pull + time * jerk, speed + time * (pull + 0.5 * time * jerk)
+    way2 = way + time * (speed + time * (0.5 * pull + time * jerk / 6.0))
+    hard, hardest, eighth = abs(jerk), max(abs(pull), abs(pull2)), 0.125 * time * time
+    fast = max(speed, speed2) + eighth * hard
+    if fast * fast > course.cap2[p]:
+        return False
+    square, square2, pulls = speed * speed, speed2 * speed2, hardest * hardest
+    # what the largest q'' and q''' count for between the ends
+    bent_a, twist_a = eighth * (4.0 * fast * hard + 3.0 * pulls), eighth * 6.0 * fast * fast * hardest
+    bent_j, twist_j = eighth * 10.0 * hardest * hard, eighth * fast * (10.0 * fast * hard + 15.0 * pulls)
+    for i in range(n):
+        first, second, third = course.first[p * n + i], course.second[p * n + i], course.third[p * n + i]
+        if first == 0.0 and second == 0.0 and third == 0.0:
+            continue  # it stands still
+        half = 0.5 * third
+        bend, bend2 = second + third * way, second + third * way2
+        turn, turn2 = first + way * (second + half * way), first + way2 * (second + half * way2)
+        bent, twist = max(abs(bend), abs(bend2)), abs(third)
+        used = max(abs(turn * pull + bend * square), abs(turn2 * pull2 + bend2 * square2))
+        if used + bent_a * bent + twist_a * twist > ease * axes.pull[i]:
+            return False
+        used = max(
+            abs(turn * jerk + speed * (3.0 * bend * pull + third * square)),
+            abs(turn2 * jerk + speed2 * (3.0 * bend2 * pull2 + third * square2)),
+        )
+        if used + bent_j * bent + twist_j * twist > ease * axes.jerk[i]:
+            return False
+    return True
+
+
 def _used(
-    course: Course, axes: Axes, phases: Floats, at: int, p: int, begin: float, end: float, top: float
+    course: Course, axes: Axes, phases: Floats, at: int, p: int, begin: float, end: float
 ) -> tuple[float, float, float, float, float, float]:
     """Bounds of the parts used of x, acceleration and jerk, and how much of them is used at the ends."""
-    n, time = len(axes.jerk), end - begin
+    n, time, top = len(axes.jerk), end - begin, 1.0 / course.cap2[p]
     jerk = phases[at + Phase.JERK]
     pull = phases[at + Phase.PULL] + begin * jerk
     speed = phases[at + Phase.SPEED] + begin * (phases[at + Phase.PULL] + 0.5 * begin * jerk)
@@ -247,11 +307,9 @@ def _used(
     most_pull, eighth = max(abs(pull), abs(pull2)), 0.125 * time * time
     fast = max(speed, speed2) + eighth * hard
     high, high_a = max(speed, speed2) ** 2 * top, 0.0
-    length, ease = course.way[p + 1] - course.way[p], course.ease[p]
-    high_j = bound_a = bound_j = 0.0
+    ease, high_j, bound_a, bound_j = course.ease[p], 0.0, 0.0, 0.0
     for i in range(n):
-        first, second = course.first[p * n + i], course.second[p * n + i]
-        third = (course.second[p * n + n + i] - second) / length
+        first, second, third = course.first[p * n + i], course.second[p * n + i], course.third[p * n + i]
         if first == 0.0 and second == 0.0 and third == 0.0:
             continue  # it stands still
         bend, bend2 = second + third * way, second + third * way2

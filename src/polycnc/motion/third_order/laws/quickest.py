@@ -6,9 +6,20 @@ from array import array
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.typing import TYPE_CHECKING
-from polycnc.motion.third_order.laws.barrier import BANDS
 from polycnc.motion.third_order.laws.compiled import kernels
-from polycnc.motion.third_order.laws.courses import Course, Ends, Known, Nodes, Phase, Shape, Stencil
+from polycnc.motion.third_order.laws.courses import (
+    BATCH,
+    Course,
+    Ends,
+    Force,
+    Known,
+    Nodes,
+    Phase,
+    Shape,
+    Stencil,
+    Work,
+)
+from polycnc.motion.third_order.laws.newton import BANDS
 from polycnc.motion.third_order.laws.phases import PAIR
 
 if TYPE_CHECKING:
@@ -27,7 +38,8 @@ class NoLawError(ValueError):
 
 def course_of(way: Floats, first: Floats, second: Floats, cap2: Floats, ease: Floats) -> Course:
     """A bent path with room for its estimate."""
-    return Course(way, first, second, cap2, ease, numbers(len(cap2)), numbers(len(cap2) + 1))
+    m, n = len(cap2), len(first) // len(way)
+    return Course(way, first, second, cap2, ease, numbers(m * n), numbers(m), numbers(m + 1))
 
 
 class Found(NamedTuple):
@@ -37,7 +49,23 @@ class Found(NamedTuple):
     nodes: Known
 
 
-def quickest(course: Course, axes: Axes, ends: array[float], known: Known = NONE) -> Found | None:
+class Room:
+    """Arrays in which laws are found, one after another: new memory costs as much as several steps of a law."""
+
+    def __init__(self) -> None:
+        self._arrays: dict[str, array[float]] = {}
+
+    def numbers(self, use: str, count: int) -> array[float]:
+        """At least so many numbers for a use; they are what the law before has left."""
+        found = self._arrays.get(use)
+        if found is None or len(found) < count:
+            found = self._arrays[use] = numbers(count)
+        return found
+
+
+def quickest(
+    course: Course, axes: Axes, ends: array[float], known: Known = NONE, room: Room | None = None
+) -> Found | None:
     """The quickest law along a path.
 
     Args:
@@ -45,17 +73,21 @@ def quickest(course: Course, axes: Axes, ends: array[float], known: Known = NONE
         axes: Limits.
         ends: Speed and acceleration at both ends, see `Ends`.
         known: The first nodes, where the law goes on with another one; the first of them lies at the start.
+        room: Where it is found; room of its own without.
 
     Returns:
         None where there is none within the limits from a motion, or to one.
     """
-    room = 3 * len(course.cap2) + 2
-    places, squares, gaps = numbers(room), numbers(room), numbers(room)
-    way = numbers(PER_PLACE * room + BESIDES)
-    count = kernels().place_nodes(course, axes, ends, places, squares, gaps, way)
+    given, n = room or Room(), len(axes.jerk)
+    count = 3 * len(course.cap2) + 2
+    places, squares, gaps, seconds = (
+        given.numbers(use, count) for use in ("places", "squares", "gaps", "seconds")
+    )
+    way = given.numbers("ways", PER_PLACE * count + BESIDES)
+    count = kernels().place_nodes(course, axes, ends, places, squares, gaps, seconds, way)
     if count > len(way):
-        way = numbers(count)
-        count = kernels().place_nodes(course, axes, ends, places, squares, gaps, way)
+        way = given.numbers("ways", count)
+        count = kernels().place_nodes(course, axes, ends, places, squares, gaps, seconds, way)
     if _rests_at_once(ends[Ends.START_SPEED], ends[Ends.START_PULL], way[1] - way[0]) or _rests_at_once(
         ends[Ends.END_SPEED], -ends[Ends.END_PULL], way[count - 1] - way[count - 2]
     ):
@@ -68,13 +100,16 @@ def quickest(course: Course, axes: Axes, ends: array[float], known: Known = NONE
         numbers(count),
         numbers(count),
         numbers(count),
-        numbers(count * len(axes.jerk) * Shape.SIZE),
-        numbers(count * Stencil.SIZE),
+        given.numbers("shape", count * n * Shape.SIZE),
+        given.numbers("stencil", count * Stencil.SIZE),
     )
-    phases, most = numbers(PAIR * (count - 1) * Phase.SIZE), numbers(3 * PAIR * (count - 1))
-    rounds = kernels().find_law(
-        course, axes, ends, places, squares, nodes, known, numbers(BANDS * (count + 2)), phases, most
+    phases, most = numbers(PAIR * (count - 1) * Phase.SIZE), given.numbers("most", 3 * PAIR * (count - 1))
+    work = Work(
+        given.numbers("moves", n),
+        given.numbers("bands", BANDS * count),
+        given.numbers("forces", Force.SIZE * BATCH),
     )
+    rounds = kernels().find_law(course, axes, ends, places, squares, nodes, known, work, phases, most)
     if rounds < 0:
         return None
     return Found(phases, Known(nodes.way, nodes.x, nodes.cap2, nodes.room))

@@ -5,10 +5,11 @@ from __future__ import annotations
 from math import sqrt
 
 from polycnc.kernels.layout import Floats
-from polycnc.motion.third_order.laws.barrier import begin, improve, lay_stencils
-from polycnc.motion.third_order.laws.courses import Axes, Course, Ends, Known, Nodes, Phase
+from polycnc.motion.third_order.laws.courses import Axes, Course, Ends, Known, Nodes, Phase, Work
 from polycnc.motion.third_order.laws.grid import cut, estimate, gather, spread
+from polycnc.motion.third_order.laws.newton import begin, improve
 from polycnc.motion.third_order.laws.phases import PAIR, examine, lay_phases, leads_on
+from polycnc.motion.third_order.laws.stencils import lay_stencils
 
 #: Weights of the barriers in each pass, and in those of repairs, which shall not use up what is left.
 WEIGHTS, REPAIRING = (0.1, 0.06, 0.04, 0.04), 0.06
@@ -31,7 +32,14 @@ MOST = 1.5
 
 
 def place_nodes(
-    course: Course, axes: Axes, ends: Floats, places: Floats, squares: Floats, gaps: Floats, nodes: Floats
+    course: Course,
+    axes: Axes,
+    ends: Floats,
+    places: Floats,
+    squares: Floats,
+    gaps: Floats,
+    seconds: Floats,
+    nodes: Floats,
 ) -> int:
     """Estimate a law and spread nodes over the path; see `cut` and `spread`. Gives their number; minus it without room.
 
@@ -42,12 +50,13 @@ def place_nodes(
         places: For 3·m + 2 numbers: the way at places of the estimate; the last number is their count.
         squares: For as many: the square of the speed there.
         gaps: For as many: the distance of nodes there.
+        seconds: For as many: the time from there to the next one.
         nodes: For the way at the nodes.
     """
-    estimate(course, axes, ends)
+    estimate(course, axes, ends, len(course.cap2))
     count = cut(course, axes, places, squares, gaps)
     places[len(places) - 1] = float(count)
-    return spread(axes, count, places, squares, gaps, nodes)
+    return spread(axes, count, places, squares, gaps, seconds, nodes)
 
 
 def find_law(
@@ -58,7 +67,7 @@ def find_law(
     squares: Floats,
     nodes: Nodes,
     known: Known,
-    bands: Floats,
+    work: Work,
     phases: Floats,
     most: Floats,
 ) -> int:
@@ -76,28 +85,28 @@ def find_law(
         squares: As there.
         nodes: k nodes with their ways.
         known: The first of them, where another law leads so far, or none.
-        bands: For `BANDS` numbers a node.
+        work: Room.
         phases: The law: `PAIR` phases between two nodes.
         most: For three numbers a phase, see `examine`.
     """
     last = len(nodes.way) - 1
-    gather(course, axes, nodes)
+    gather(course, axes, nodes, work.moves)
     begin(places, squares, int(places[len(places) - 1]), nodes, axes, ends, SHARE)
     for k in range(1, len(known.way)):
         nodes.x[k], nodes.cap2[k], nodes.room[k] = known.x[k], known.cap2[k], known.room[k]
     lay_stencils(nodes, ends)
     for weight in WEIGHTS:
-        improve(nodes, axes, weight, bands, 0, last)
+        improve(nodes, axes, work, weight, 0, last)
     few = last < FEW
     if few:
         for weight in FINE:
-            improve(nodes, axes, weight, bands, 0, last)
+            improve(nodes, axes, work, weight, 0, last)
     lay_phases(nodes, phases, 0, last)
-    examine(course, axes, phases, most, 0, PAIR * last)
+    examine(course, axes, nodes, phases, most, 0, last)
     rounds = 0
-    while rounds < ROUNDS and _repair(course, axes, nodes, bands, phases, most, rounds, few):
+    while rounds < ROUNDS and _repair(course, axes, nodes, work, phases, most, rounds, few):
         rounds += 1
-    if rounds == ROUNDS and _worst(most) > KEPT:
+    if rounds == ROUNDS and _worst(most, PAIR * last) > KEPT:
         if ends[Ends.START_SPEED] > 0.0 or ends[Ends.END_SPEED] > 0.0:
             return -1
         _stretch(phases, most)
@@ -106,10 +115,10 @@ def find_law(
     return rounds
 
 
-def _worst(most: Floats) -> float:
-    """The largest part of any limit that is used anywhere."""
+def _worst(most: Floats, count: int) -> float:
+    """The largest part of any limit that is used on so many phases."""
     high = 0.0
-    for k in range(len(most)):
+    for k in range(3 * count):
         high = max(high, most[k])
     return high
 
@@ -126,7 +135,7 @@ def _repair(
     course: Course,
     axes: Axes,
     nodes: Nodes,
-    bands: Floats,
+    work: Work,
     phases: Floats,
     most: Floats,
     rounds: int,
@@ -150,11 +159,11 @@ def _repair(
             k += 1
         k = end = min(end + 1 + around, last)
         for _ in range(PASSES + rounds // LATER):
-            improve(nodes, axes, FINEST if few else REPAIRING, bands, first, end)
+            improve(nodes, axes, work, FINEST if few else REPAIRING, first, end)
         # the acceleration of a node depends on two on either side
         first, end = max(first - 2, 0), min(end + 2, last)
         lay_phases(nodes, phases, first, end)
-        examine(course, axes, phases, most, PAIR * first, PAIR * end)
+        examine(course, axes, nodes, phases, most, first, end)
     return any_
 
 
@@ -186,7 +195,7 @@ def _stretch(phases: Floats, most: Floats) -> None:
         phases[k * Phase.SIZE + Phase.SPEED] /= slower
         phases[k * Phase.SIZE + Phase.PULL] /= slower**2
         phases[k * Phase.SIZE + Phase.JERK] /= slower**3
-    for k in range(len(most) // 3):
+    for k in range(len(phases) // Phase.SIZE):
         most[3 * k] /= slower**2
         most[3 * k + 1] /= slower**2
         most[3 * k + 2] /= slower**3

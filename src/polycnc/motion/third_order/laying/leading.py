@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from array import array
-from bisect import bisect_left
+from bisect import bisect_left, bisect_right
 from collections import deque
 from math import inf, sqrt
 
 from polycnc.deferred.named_tuples import NamedTuple
-from polycnc.deferred.typing import TYPE_CHECKING
+from polycnc.deferred.typing import TYPE_CHECKING, cast
 from polycnc.motion.compiled import run_kernel
 from polycnc.motion.kernels.columns import CURVE_WIDTH, SHARES, Rows, State
 from polycnc.motion.third_order.laws.compiled import kernels
@@ -73,7 +73,8 @@ class LawRuns:
         self.windows: deque[LedWindow] = deque()
         self.room = RunRoom(n)
         self.reached = 0
-        self._rows: deque[int] = deque()
+        #: The row of each stretch that is handed on, but for those of rows that have ended in a window.
+        self._rows = array("q")
         self._planner: RunPlanner | None = None
         #: The first row of a run, for which the next chunk may come before it is known what it is.
         self._row: tuple[Rows, array[float]] | None = None
@@ -139,17 +140,14 @@ class LawRuns:
         self._hand_on(limits, left=0).finish()
         self._planner = None
         self.room.clear()
-        self._rows.clear()
+        del self._rows[:]
 
     def _hand_on(self, limits: Limits, *, left: int) -> RunPlanner:
         """Hand all stretches on but so many, which the next row may meet."""
         if self._planner is None:
             self._planner = RunPlanner(axes_of(limits), self._note)
         taken = self.room.cut_off(left)
-        new = dict.fromkeys(taken.row)
-        if self._rows:
-            new.pop(self._rows[-1], None)
-        self._rows.extend(new)
+        self._rows.extend(cast("array[int]", taken.row))
         self._planner.take(taken)
         return self._planner
 
@@ -157,8 +155,7 @@ class LawRuns:
         """A window is settled."""
         part = window.part
         ended, ways = part.rows[:], part.row_way[:]
-        for _ in ended:
-            self._rows.popleft()
+        del self._rows[: bisect_right(self._rows, ended[-1]) if ended else 0]
         planned = ended[-1] + 1 if ended else 0
         if not ways or ways[-1] < part.way[-1] - NEAR:  # a row goes on behind the window
             planned = self._rows[0]
