@@ -33,6 +33,10 @@ DOUBTFUL: dict[str, tuple[str, str, dict[str, object]]] = {
     "a stop that is switched off": ("meldas-m", "G64 G1 X10. F6000\nM1\nX20. Y1.\nM30\n", {}),
     "a wait of the program": ("syntec-mill", "%@MACRO\nG64 G1 X10. F6000;\nWAIT();\nG1 X20. Y1.;\nM30;\n", {}),
     "a function that outlasts its block": ("fanuc-m", "G1 X1. F6000 M8\nX2. M9\nX3. M8\nG4 P100\nM30\n", {}),
+    "a function in a block that waits for its tool": ("syntec-mill", "T2 M6\nG1 X1. F1000. M8\nM30\n", {}),
+    "a function beside BRISK behind SOFT": (
+        "sinumerik-840d", "SOFT\nG1 X20 F8000\nBRISK\nX21 M8\nM30\n", {},
+    ),
     "a stroke behind a clamp": (
         "fanuc-0i-tf", "G98 G0 X40. Z0 C0\nG83 Z-10. R-2. F1000. M68\nG80\nM30\n",
         {"machine": "lathe-c", "parameters": CLAMPS},
