@@ -37,6 +37,10 @@ DOUBTFUL: dict[str, tuple[str, str, dict[str, object]]] = {
     "a function beside BRISK behind SOFT": (
         "sinumerik-840d", "SOFT\nG1 X20 F8000\nBRISK\nX21 M8\nM30\n", {},
     ),
+    "an arc at constant surface speed under SOFT": (
+        "sinumerik-840d", "G18 DIAMON SOFT G0 X46.392\nG96 S120 M3\nG3 X75.7 Z-14.9 CR=16.7 F0.5\nG1 X80\nM30\n",
+        {"machine": "lathe2"},
+    ),
     "a stroke behind a clamp": (
         "fanuc-0i-tf", "G98 G0 X40. Z0 C0\nG83 Z-10. R-2. F1000. M68\nG80\nM30\n",
         {"machine": "lathe-c", "parameters": CLAMPS},
