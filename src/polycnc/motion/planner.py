@@ -69,6 +69,7 @@ class Planner:
             limits, the state before them, and whether they are accelerated after the interpolation.
         on_wait: Called when a row must wait, with row number, share (a field of `Times`), context number and seconds;
             before its pieces become final, but for what runs beside motion and outlasts it.
+        is_turning: Pieces that become final are of a turn at the pole.
     """
 
     def __init__(
@@ -115,6 +116,7 @@ class Planner:
         self._waits.rapid_stops, self._waits.spindle_wait = settings.rapid_stops, settings.spindle_wait
         self._waits.step, self._beside = self._step, Beside(self._lag_of, self._settle_parallel)
         self._final_row = 0  # rows before it are planned
+        self.is_turning = False
         self._rests: set[int] = set()
         self._come_to_rest: dict[int, float] = {}  # by row: averages of a run that a function outlasts
         # The row that has waited last for a function beside the block in front, seconds.
@@ -402,9 +404,9 @@ class Planner:
         self._pieces[: len(records)] = records
         self._state.run.pieces, self._state.run.stop = count, 1.0
         way, row_way = 2 * slot + 1, 2 * (number - self._first_row) + 1
-        before = self._slots[way], self._rows[row_way]
+        before, self.is_turning = (self._slots[way], self._rows[row_way]), True
         self._look_ahead(number)
-        self._slots[way], self._rows[row_way] = before
+        (self._slots[way], self._rows[row_way]), self.is_turning = before, False
         last = (count - 1) * self._width + PieceRecord.VECTORS + (PLACES + 1) * self._axes
         self._state.position[:] = records[last : last + self._axes]
 
