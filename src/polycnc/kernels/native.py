@@ -14,7 +14,7 @@ from polycnc.deferred.paths import package_path
 from polycnc.kernels.c_types import SharedObject
 
 #: Where this variable of the environment says `python`, kernels run as they are written.
-CHOICE = "POLYCNC_KERNELS"
+CHOICE, PLAIN = "POLYCNC_KERNELS", "python"
 _SUFFIX = {"win32": ".dll", "darwin": ".dylib"}.get(sys.platform, ".so")
 FILE = package_path("kernels", f"compiled{_SUFFIX}")
 
@@ -38,4 +38,4 @@ def load(file: str) -> SharedObject | None:
 
 def is_wanted() -> bool:
     """Whether nobody chose plain kernels."""
-    return os.environ.get(CHOICE) != "python"
+    return os.environ.get(CHOICE) != PLAIN
