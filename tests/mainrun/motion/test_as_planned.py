@@ -41,6 +41,11 @@ DOUBTFUL: dict[str, tuple[str, str, dict[str, object]]] = {
         "sinumerik-840d", "G18 DIAMON SOFT G0 X46.392\nG96 S120 M3\nG3 X75.7 Z-14.9 CR=16.7 F0.5\nG1 X80\nM30\n",
         {"machine": "lathe2"},
     ),
+    "an arc at constant surface speed behind a corner": (
+        "sinumerik-840d",
+        "G18 DIAMON BRISK G64 G95\nG96 S120 M3\nG0 X133.1 Z-26.9\nG2 X119.7 Z-24.2 CR=7.2 F0.2\nM30\n",
+        {"machine": "lathe2"},
+    ),
     "a stroke behind a clamp": (
         "fanuc-0i-tf", "G98 G0 X40. Z0 C0\nG83 Z-10. R-2. F1000. M68\nG80\nM30\n",
         {"machine": "lathe-c", "parameters": CLAMPS},
